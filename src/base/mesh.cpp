@@ -1,0 +1,63 @@
+#include "base/mesh.h"
+
+#include <cmath>
+
+namespace parvis {
+
+Bounds Mesh::bounds() const {
+  Bounds bounds;
+  for (const glm::vec3& position : positions) bounds.add(position);
+  return bounds;
+}
+
+void append(Mesh& mesh, const Mesh& other, const glm::mat4& mesh_from_other) {
+  const glm::mat3 normal_matrix = glm::transpose(glm::inverse(glm::mat3(mesh_from_other)));
+  const bool mirrors = glm::determinant(glm::mat3(mesh_from_other)) < 0.0f;
+  const std::uint32_t first = std::uint32_t(mesh.positions.size());
+  for (const glm::vec3& p : other.positions) mesh.positions.push_back(mesh_from_other * glm::vec4(p, 1.0f));
+  for (const glm::vec3& n : other.normals) mesh.normals.push_back(glm::normalize(normal_matrix * n));
+  mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
+  for (std::size_t i = 0; i + 2 < other.indices.size(); i += 3) {
+    const std::size_t second = mirrors ? 2 : 1;  // a mirrored triangle turns its back: turn it round
+    mesh.indices.push_back(first + other.indices[i]);
+    mesh.indices.push_back(first + other.indices[i + second]);
+    mesh.indices.push_back(first + other.indices[i + 3 - second]);
+  }
+}
+
+void fill_normals(Mesh& mesh) {
+  mesh.normals.resize(mesh.positions.size(), glm::vec3(0.0f));
+  std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0f));
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+    const glm::vec3 area =
+        glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    sums[a] += area, sums[b] += area, sums[c] += area;
+  }
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    if (glm::dot(mesh.normals[i], mesh.normals[i]) > 0.25f) continue;
+    const float length = glm::length(sums[i]);
+    mesh.normals[i] = length > 0.0f ? sums[i] / length : glm::vec3(0.0f, 0.0f, 1.0f);
+  }
+}
+
+Status check(const Mesh& mesh, const std::string& name) {
+  const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count || mesh.uvs.size() != count)
+    return error("{}: {} positions, {} normals and {} texture coordinates; expected as many of each", name, count,
+                 mesh.normals.size(), mesh.uvs.size());
+  const auto finite = [](glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  for (std::size_t i = 0; i < count; ++i)
+    if (!finite(mesh.positions[i]) || !finite(mesh.normals[i]) ||
+        !finite(glm::vec3(mesh.uvs[i], 0.0f)))
+      return error("{}: vertex {} is not a finite number; export the model again without NaN or infinity", name, i);
+  if (mesh.indices.size() % 3 != 0)
+    return error("{}: {} indices do not make whole triangles", name, mesh.indices.size());
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.indices[i] >= count)
+      return error("{}: index {} of triangle {} is out of range; there are {} vertices", name, mesh.indices[i], i / 3,
+                   count);
+  return Done{};
+}
+
+}  // namespace parvis

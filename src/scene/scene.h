@@ -1,0 +1,86 @@
+// The place as plain data: what the script reader builds, simulation moves, and both the GPU scene and the ray tracer
+// read. Rooms that do not know each other meet here.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/camera.h"
+#include "base/image.h"
+#include "scene/model.h"
+#include "scene/road_graph.h"
+
+namespace parvis::scene {
+
+/// A placed model. Several objects may share one model: they are drawn together.
+struct Object {
+  std::string name;
+  std::shared_ptr<const Model> model;
+  glm::mat4 world_from_model{1.0f};
+  std::vector<glm::mat4> pose;  ///< model_from_node of each node; empty: the model's rest pose
+  bool is_dynamic = false;      ///< moves: has no part in baked things, throws its own shadow
+  bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
+};
+
+struct Sun {
+  glm::vec3 direction_to_sun{0.45f, -0.55f, 0.70f};  ///< unit length after loading
+  glm::vec3 irradiance{3.0f, 2.75f, 2.35f};          ///< on a plane that faces it, W/m2 in each channel
+};
+
+struct Sky {
+  ImageF picture;           ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
+  float intensity = 1.0f;   ///< multiplies the picture
+  float heading = 0.0f;     ///< radians, turns the picture about the zenith, clockwise from above
+};
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+  std::string follows;            ///< name of an object to stay with, or empty
+  glm::vec3 offset_m{0.0f};       ///< from the followed object: forward, left, up
+};
+
+/// How mirror-like parts of moving objects see their surroundings. Each name is a method; `script_name` spells it.
+enum class ReflectionMethod : std::uint8_t {
+  none,
+  rerendered_cube_map,
+  time_sliced_cube_map,
+  shared_cube_map,
+  box_projected_probe
+};
+inline constexpr std::array reflection_method_names{"none", "rerendered_cube_map", "time_sliced_cube_map",
+                                                    "shared_cube_map", "box_projected_probe"};
+
+struct Reflection {
+  ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
+  int resolution = 128;               ///< pixels along a face's edge
+  bool uses_level_of_detail = true;   ///< resolution by size on screen; far objects share one map
+};
+
+/// Traffic to be put on the road graph.
+struct TrafficDemand {
+  int vehicles = 0;
+  std::uint64_t seed = 1;
+  std::vector<std::shared_ptr<const Model>> models;  ///< x forward, wheels as nodes whose names hold "wheel"
+};
+
+struct Scene {
+  std::vector<Object> objects;
+  std::vector<NamedCamera> cameras;
+  Sun sun;
+  Sky sky;
+  float exposure = 1.0f;         ///< multiplies radiance before the tone curve
+  float haze_per_m = 0.0f;       ///< extinction of the air
+  Reflection reflection;
+  RoadGraph roads;
+  TrafficDemand traffic;
+  glm::dvec3 origin{0.0};        ///< georeferenced coordinates of the world's origin, zero where there are none
+
+  const NamedCamera* find_camera(const std::string& name) const;
+  std::size_t static_triangle_count() const;
+};
+
+}  // namespace parvis::scene

@@ -1,0 +1,3 @@
+// The GLSL side of glsl.h: what shared files need to compile as shaders.
+#define GLSL_FUNCTION
+#define GLSL_OUT(type) out type

@@ -1,0 +1,12 @@
+// From exposed radiance to display light in 0..1, before sRGB encoding. Hable's filmic curve (2010) has a toe and a
+// shoulder; it is scaled so that `white` comes out as 1.
+
+GLSL_FUNCTION vec3 hable(vec3 x) {
+  return (x * (0.22f * x + vec3(0.03f)) + vec3(0.002f)) / (x * (0.22f * x + vec3(0.3f)) + vec3(0.06f)) -
+         vec3(0.0333333f);
+}
+
+GLSL_FUNCTION vec3 tone_mapped(vec3 exposed) {
+  const float white = 8.0f;
+  return clamp(hable(max(exposed, vec3(0.0f))) / hable(vec3(white)), vec3(0.0f), vec3(1.0f));
+}
