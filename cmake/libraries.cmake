@@ -12,3 +12,7 @@ find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+
+# Debian's OpenImageIO names OpenCV's headers, which its own do not need and its package does not bring.
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+target_link_libraries(OpenImageIO::OpenImageIO INTERFACE Imath::Imath)

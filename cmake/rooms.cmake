@@ -22,6 +22,10 @@ function(parvis_room name)
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(TRANSFORM ROOM_USES PREPEND parvis_)
 
+  if(NOT sources)
+    add_library(parvis_${name} INTERFACE)
+    return()
+  endif()
   add_library(parvis_${name} STATIC ${sources})
   target_link_libraries(parvis_${name} PUBLIC parvis_options ${ROOM_USES} ${ROOM_LIBRARIES})
 

@@ -18,7 +18,7 @@ std::vector<glm::mat4> model_from_nodes(const std::vector<ModelNode>& nodes) {
   pose.reserve(nodes.size());
   for (const ModelNode& node : nodes) {
     const glm::mat4 local = local_transform(node);
-    pose.push_back(node.parent == none ? local : pose[std::size_t(node.parent)] * local);
+    pose.push_back(node.parent == no_index ? local : pose[std::size_t(node.parent)] * local);
   }
   return pose;
 }

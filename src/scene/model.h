@@ -14,7 +14,7 @@
 
 namespace parvis::scene {
 
-inline constexpr int none = -1;
+inline constexpr int no_index = -1;
 
 /// An RGBA picture with how it is sampled: always trilinear and anisotropic.
 struct Texture {
@@ -31,7 +31,7 @@ enum class Alpha : std::uint8_t {
 };
 
 /// The metallic-roughness surface of glTF 2.0, with a clear coat and translucent leaves. The index of a texture is
-/// into Model::textures, or `none`.
+/// into Model::textures, or `no_index`.
 struct Material {
   std::string name;
   glm::vec3 base_colour{0.8f};  ///< linear; multiplies the texture
@@ -42,10 +42,10 @@ struct Material {
   float clear_coat_roughness = 0.03f;
   float translucency = 0.0f;          ///< 0..1: diffuse light that comes through from the other side (leaves)
   glm::vec3 emission{0.0f};           ///< radiance, multiplies the emission texture
-  int base_colour_texture = none;
-  int normal_texture = none;     ///< tangent space, +y toward -v (OpenGL convention of glTF)
-  int surface_texture = none;    ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
-  int emission_texture = none;
+  int base_colour_texture = no_index;
+  int normal_texture = no_index;     ///< tangent space, +y toward -v (OpenGL convention of glTF)
+  int surface_texture = no_index;    ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
+  int emission_texture = no_index;
   float normal_scale = 1.0f;
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;
@@ -64,7 +64,7 @@ struct Part {
 
 struct ModelNode {
   std::string name;
-  int parent = none;  ///< always less than the node's own index
+  int parent = no_index;  ///< always less than the node's own index
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< w, x, y, z
   glm::vec3 scale{1.0f};
