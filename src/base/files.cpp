@@ -18,8 +18,8 @@ Status write_atomically(const fs::path& file, const std::function<Status(const f
   std::error_code code;
   if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
   if (code)
-    return error("{}: the folder cannot be made ({}); choose one that can be written", file.parent_path().string(),
-                 code.message());
+    return error("{}: the folder cannot be made ({}); choose one that can be written",
+                 file.parent_path().string(), code.message());
   const fs::path temporary = file.parent_path() / (".partial-" + file.filename().string());
   Status status = write(temporary);
   if (status) {
@@ -35,7 +35,8 @@ Status write_file(const fs::path& file, std::string_view text) {
     std::ofstream stream(temporary, std::ios::binary);
     stream.write(text.data(), std::streamsize(text.size()));
     stream.close();
-    if (!stream) return error("{}: cannot be written; is the folder writable and the disk not full?", file.string());
+    if (!stream)
+      return error("{}: cannot be written; is the folder writable and the disk not full?", file.string());
     return Done{};
   });
 }
@@ -66,8 +67,9 @@ Result<fs::path> Roots::find(const std::string& name, const FileLocation& where)
     if (fs::exists(path, code)) return path;
   }
   if (leads_out)
-    return error_at(where, "\"{}\" leads out of the scene's folder; keep files below it or name their root with --data",
-                    name);
+    return error_at(
+        where, "\"{}\" leads out of the scene's folder; keep files below it or name their root with --data",
+        name);
   return error_at(where, "there is no file \"{}\" in the scene's folder ({}) or a --data folder", name,
                   scene_folder().string());
 }

@@ -17,7 +17,8 @@ Status check_size(const OIIO::ImageSpec& spec, const std::string& name) {
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     return error("{}: not a flat picture ({} x {} x {})", name, spec.width, spec.height, spec.depth);
   if (spec.width > max_picture_side || spec.height > max_picture_side)
-    return error("{}: {} x {} pixels; at most {} a side are read", name, spec.width, spec.height, max_picture_side);
+    return error("{}: {} x {} pixels; at most {} a side are read", name, spec.width, spec.height,
+                 max_picture_side);
   return Done{};
 }
 
@@ -41,9 +42,9 @@ Result<BasicImage<T>> read(OIIO::ImageInput* input, const std::string& name, int
   const OIIO::ImageSpec& spec = input->spec();
   if (Status status = check_size(spec, name); !status) return status.errors();
   std::vector<T> pixels(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value == OIIO::TypeDesc::UINT8
-                                                      ? OIIO::TypeDesc::UINT8
-                                                      : OIIO::TypeDesc::FLOAT,
+  if (!input->read_image(0, 0, 0, spec.nchannels,
+                         OIIO::BaseTypeFromC<T>::value == OIIO::TypeDesc::UINT8 ? OIIO::TypeDesc::UINT8
+                                                                                : OIIO::TypeDesc::FLOAT,
                          pixels.data()))
     return error("{}: the picture is damaged or cut short ({})", name, input->geterror());
   return with_channels(pixels, spec.width, spec.height, spec.nchannels, channels, opaque);
@@ -104,8 +105,12 @@ Result<ImageF> read_image_float(const fs::path& file) {
   return image;
 }
 
-Status write_image(const fs::path& file, const Image8& image) { return write(file, image, OIIO::TypeDesc::UINT8); }
+Status write_image(const fs::path& file, const Image8& image) {
+  return write(file, image, OIIO::TypeDesc::UINT8);
+}
 
-Status write_image(const fs::path& file, const ImageF& image) { return write(file, image, OIIO::TypeDesc::FLOAT); }
+Status write_image(const fs::path& file, const ImageF& image) {
+  return write(file, image, OIIO::TypeDesc::FLOAT);
+}
 
 }  // namespace parvis

@@ -44,19 +44,21 @@ void fill_normals(Mesh& mesh) {
 Status check(const Mesh& mesh, const std::string& name) {
   const std::size_t count = mesh.positions.size();
   if (mesh.normals.size() != count || mesh.uvs.size() != count)
-    return error("{}: {} positions, {} normals and {} texture coordinates; expected as many of each", name, count,
-                 mesh.normals.size(), mesh.uvs.size());
-  const auto finite = [](glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    return error("{}: {} positions, {} normals and {} texture coordinates; expected as many of each", name,
+                 count, mesh.normals.size(), mesh.uvs.size());
+  const auto finite = [](glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
   for (std::size_t i = 0; i < count; ++i)
-    if (!finite(mesh.positions[i]) || !finite(mesh.normals[i]) ||
-        !finite(glm::vec3(mesh.uvs[i], 0.0f)))
-      return error("{}: vertex {} is not a finite number; export the model again without NaN or infinity", name, i);
+    if (!finite(mesh.positions[i]) || !finite(mesh.normals[i]) || !finite(glm::vec3(mesh.uvs[i], 0.0f)))
+      return error("{}: vertex {} is not a finite number; export the model again without NaN or infinity",
+                   name, i);
   if (mesh.indices.size() % 3 != 0)
     return error("{}: {} indices do not make whole triangles", name, mesh.indices.size());
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= count)
-      return error("{}: index {} of triangle {} is out of range; there are {} vertices", name, mesh.indices[i], i / 3,
-                   count);
+      return error("{}: index {} of triangle {} is out of range; there are {} vertices", name,
+                   mesh.indices[i], i / 3, count);
   return Done{};
 }
 

@@ -18,7 +18,10 @@ double seconds(Clock::duration duration) { return std::chrono::duration<double>(
 }  // namespace
 
 Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), start_(Clock::now()), last_print_(start_),
+    : what_(std::move(what)),
+      total_(total),
+      start_(Clock::now()),
+      last_print_(start_),
       is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
@@ -37,9 +40,11 @@ void Progress::advance(std::size_t steps) {
 void Progress::print(std::size_t done) {
   const double share = total_ > 0 ? double(done) / double(total_) : 1.0;
   const double left_s = share > 0.0 ? seconds(last_print_ - start_) * (1.0 - share) / share : 0.0;
-  const std::string state = fmt::format("{} {}/{} ({:.0f} %), about {:.0f} s left", what_, done, total_, 100.0 * share, left_s);
+  const std::string state =
+      fmt::format("{} {}/{} ({:.0f} %), about {:.0f} s left", what_, done, total_, 100.0 * share, left_s);
   if (is_terminal_)
-    fmt::print(stderr, "\r\033[K[{:-<{}}] {}", std::string(std::size_t(share * bar_width), '#'), bar_width, state);
+    fmt::print(stderr, "\r\033[K[{:-<{}}] {}", std::string(std::size_t(share * bar_width), '#'), bar_width,
+               state);
   else
     fmt::print(stderr, "{}\n", state);
   std::fflush(stderr);

@@ -1,4 +1,5 @@
-// Value-or-errors: what a function returns when user data may be bad. Nothing is thrown across a module's door.
+// Value-or-errors: what a function returns when user data may be bad. Nothing is thrown across a module's
+// door.
 #pragma once
 
 #include <fmt/format.h>
@@ -43,16 +44,28 @@ class [[nodiscard]] Result {
   bool ok() const { return std::holds_alternative<T>(state_); }
   explicit operator bool() const { return ok(); }
 
-  T& value() & { assert(ok()); return std::get<T>(state_); }
-  const T& value() const& { assert(ok()); return std::get<T>(state_); }
-  T&& value() && { assert(ok()); return std::get<T>(std::move(state_)); }
+  T& value() & {
+    assert(ok());
+    return std::get<T>(state_);
+  }
+  const T& value() const& {
+    assert(ok());
+    return std::get<T>(state_);
+  }
+  T&& value() && {
+    assert(ok());
+    return std::get<T>(std::move(state_));
+  }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  const Errors& errors() const { assert(!ok()); return std::get<Errors>(state_); }
+  const Errors& errors() const {
+    assert(!ok());
+    return std::get<Errors>(state_);
+  }
 
  private:
   std::variant<T, Errors> state_;

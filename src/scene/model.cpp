@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace parvis::scene {
@@ -45,7 +44,8 @@ glm::vec4 sample(const AnimationChannel& channel, float time_s) {
     return (2.0f * t3 - 3.0f * t2 + 1.0f) * value(key) + (t3 - 2.0f * t2 + t) * out +
            (3.0f * t2 - 2.0f * t3) * value(key + 1) + (t3 - t2) * in;
   }
-  if (channel.property != AnimationChannel::Property::rotation) return glm::mix(value(key), value(key + 1), t);
+  if (channel.property != AnimationChannel::Property::rotation)
+    return glm::mix(value(key), value(key + 1), t);
   const glm::quat turned = glm::slerp(quaternion(value(key)), quaternion(value(key + 1)), t);
   return {turned.x, turned.y, turned.z, turned.w};
 }
@@ -68,9 +68,15 @@ std::vector<glm::mat4> pose_at(const Model& model, const Animation& animation, f
     ModelNode& node = nodes[std::size_t(channel.node)];
     const glm::vec4 value = sample(channel, time);
     switch (channel.property) {
-      case Property::translation: node.translation = glm::vec3(value); break;
-      case Property::rotation: node.rotation = glm::normalize(quaternion(value)); break;
-      case Property::scale: node.scale = glm::vec3(value); break;
+      case Property::translation:
+        node.translation = glm::vec3(value);
+        break;
+      case Property::rotation:
+        node.rotation = glm::normalize(quaternion(value));
+        break;
+      case Property::scale:
+        node.scale = glm::vec3(value);
+        break;
     }
   }
   return model_from_nodes(nodes);

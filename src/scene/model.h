@@ -1,5 +1,5 @@
-// What a model file gives: parts (a mesh and a material each) under a tree of nodes, with pictures and animations.
-// Plain data in flat arrays; the GPU scene and the ray tracer both read it.
+// What a model file gives: parts (a mesh and a material each) under a tree of nodes, with pictures and
+// animations. Plain data in flat arrays; the GPU scene and the ray tracer both read it.
 #pragma once
 
 #include <cstdint>
@@ -30,27 +30,28 @@ enum class Alpha : std::uint8_t {
   blend    ///< drawn after the opaque parts, from back to front: contact shadows, panes
 };
 
-/// The metallic-roughness surface of glTF 2.0, with a clear coat and translucent leaves. The index of a texture is
-/// into Model::textures, or `no_index`.
+/// The metallic-roughness surface of glTF 2.0, with a clear coat and translucent leaves. The index of a
+/// texture is into Model::textures, or `no_index`.
 struct Material {
   std::string name;
   glm::vec3 base_colour{0.8f};  ///< linear; multiplies the texture
   float alpha = 1.0f;           ///< multiplies the texture's alpha
   float metallic = 0.0f;
   float roughness = 0.8f;
-  float clear_coat = 0.0f;            ///< 0..1: a layer with F0 0.04 over the base
+  float clear_coat = 0.0f;  ///< 0..1: a layer with F0 0.04 over the base
   float clear_coat_roughness = 0.03f;
-  float translucency = 0.0f;          ///< 0..1: diffuse light that comes through from the other side (leaves)
-  glm::vec3 emission{0.0f};           ///< radiance, multiplies the emission texture
+  float translucency = 0.0f;  ///< 0..1: diffuse light that comes through from the other side (leaves)
+  glm::vec3 emission{0.0f};   ///< radiance, multiplies the emission texture
   int base_colour_texture = no_index;
-  int normal_texture = no_index;     ///< tangent space, +y toward -v (OpenGL convention of glTF)
-  int surface_texture = no_index;    ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
+  int normal_texture = no_index;   ///< tangent space, +y toward -v (OpenGL convention of glTF)
+  int surface_texture = no_index;  ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
   int emission_texture = no_index;
   float normal_scale = 1.0f;
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;
   bool is_double_sided = false;
-  bool is_mirror_like = false;  ///< paint, glass, chrome of movable things: takes the scene's reflection method
+  bool is_mirror_like =
+      false;  ///< paint, glass, chrome of movable things: takes the scene's reflection method
 };
 
 /// Triangles of one material that hang on one node.
@@ -77,8 +78,9 @@ struct AnimationChannel {
   int node = 0;
   Property property = Property::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times_s;       ///< ascending
-  std::vector<glm::vec4> values;    ///< xyz or quaternion xyzw; three a key (in-tangent, value, out-tangent) if cubic
+  std::vector<float> times_s;  ///< ascending
+  std::vector<glm::vec4>
+      values;  ///< xyz or quaternion xyzw; three a key (in-tangent, value, out-tangent) if cubic
 };
 
 struct Animation {

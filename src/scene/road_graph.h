@@ -1,4 +1,5 @@
-// Where vehicles may drive: lanes as polylines, joined at their ends. Generated, scripted, or taken from a city model.
+// Where vehicles may drive: lanes as polylines, joined at their ends. Generated, scripted, or taken from a
+// city model.
 #pragma once
 
 #include <glm/glm.hpp>

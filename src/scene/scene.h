@@ -1,5 +1,5 @@
-// The place as plain data: what the script reader builds, simulation moves, and both the GPU scene and the ray tracer
-// read. Rooms that do not know each other meet here.
+// The place as plain data: what the script reader builds, simulation moves, and both the GPU scene and the
+// ray tracer read. Rooms that do not know each other meet here.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct Object {
   std::string name;
   std::shared_ptr<const Model> model;
   glm::mat4 world_from_model{1.0f};
-  std::vector<glm::mat4> pose;  ///< model_from_node of each node; empty: the model's rest pose
-  bool is_dynamic = false;      ///< moves: has no part in baked things, throws its own shadow
+  std::vector<glm::mat4> pose;    ///< model_from_node of each node; empty: the model's rest pose
+  bool is_dynamic = false;        ///< moves: has no part in baked things, throws its own shadow
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
 };
 
@@ -31,19 +31,20 @@ struct Sun {
 };
 
 struct Sky {
-  ImageF picture;           ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
-  float intensity = 1.0f;   ///< multiplies the picture
-  float heading = 0.0f;     ///< radians, turns the picture about the zenith, clockwise from above
+  ImageF picture;  ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
+  float intensity = 1.0f;  ///< multiplies the picture
+  float heading = 0.0f;    ///< radians, turns the picture about the zenith, clockwise from above
 };
 
 struct NamedCamera {
   std::string name;
   Camera camera;
-  std::string follows;            ///< name of an object to stay with, or empty
-  glm::vec3 offset_m{0.0f};       ///< from the followed object: forward, left, up
+  std::string follows;       ///< name of an object to stay with, or empty
+  glm::vec3 offset_m{0.0f};  ///< from the followed object: forward, left, up
 };
 
-/// How mirror-like parts of moving objects see their surroundings. Each name is a method; `script_name` spells it.
+/// How mirror-like parts of moving objects see their surroundings. Each name is a method; `script_name`
+/// spells it.
 enum class ReflectionMethod : std::uint8_t {
   none,
   rerendered_cube_map,
@@ -56,8 +57,8 @@ inline constexpr std::array reflection_method_names{"none", "rerendered_cube_map
 
 struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
-  int resolution = 128;               ///< pixels along a face's edge
-  bool uses_level_of_detail = true;   ///< resolution by size on screen; far objects share one map
+  int resolution = 128;              ///< pixels along a face's edge
+  bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
 };
 
 /// Traffic to be put on the road graph.
@@ -72,12 +73,12 @@ struct Scene {
   std::vector<NamedCamera> cameras;
   Sun sun;
   Sky sky;
-  float exposure = 1.0f;         ///< multiplies radiance before the tone curve
-  float haze_per_m = 0.0f;       ///< extinction of the air
+  float exposure = 1.0f;    ///< multiplies radiance before the tone curve
+  float haze_per_m = 0.0f;  ///< extinction of the air
   Reflection reflection;
   RoadGraph roads;
   TrafficDemand traffic;
-  glm::dvec3 origin{0.0};        ///< georeferenced coordinates of the world's origin, zero where there are none
+  glm::dvec3 origin{0.0};  ///< georeferenced coordinates of the world's origin, zero where there are none
 
   const NamedCamera* find_camera(const std::string& name) const;
   std::size_t static_triangle_count() const;

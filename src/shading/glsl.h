@@ -1,6 +1,6 @@
-// Lets GLSL that is mathematics compile as C++ over glm, so that the ray tracer and the unit tests run the very shader
-// code. Such a file has literals with 'f', no swizzles, no implicit conversions, no `in`/`out` but through the macros.
-// Include it, then the .glsl file inside namespace parvis::shading.
+// Lets GLSL that is mathematics compile as C++ over glm, so that the ray tracer and the unit tests run the
+// very shader code. Such a file has literals with 'f', no swizzles, no implicit conversions, no `in`/`out`
+// but through the macros. Include it, then the .glsl file inside namespace parvis::shading.
 #pragma once
 
 #include <cmath>
@@ -8,12 +8,14 @@
 
 namespace parvis::shading {
 
+using glm::abs, glm::clamp, glm::cross, glm::dot, glm::exp, glm::exp2, glm::floor, glm::fract, glm::length,
+    glm::log2;
 using glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4;
-using glm::abs, glm::clamp, glm::cross, glm::dot, glm::exp, glm::exp2, glm::floor, glm::fract, glm::length, glm::log2;
-using glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::reflect, glm::sign, glm::sin, glm::cos, glm::sqrt;
+using glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::reflect, glm::sign, glm::sin, glm::cos,
+    glm::sqrt;
 using glm::smoothstep, glm::step, glm::atan, glm::acos, glm::asin, glm::transpose, glm::inversesqrt;
 
 }  // namespace parvis::shading
 
-#define GLSL_FUNCTION inline    ///< before every shared function; empty in GLSL
-#define GLSL_OUT(type) type&    ///< an output parameter; `out type` in GLSL
+#define GLSL_FUNCTION inline  ///< before every shared function; empty in GLSL
+#define GLSL_OUT(type) type&  ///< an output parameter; `out type` in GLSL

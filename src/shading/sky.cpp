@@ -12,7 +12,8 @@ namespace {
 constexpr float pi_f = 3.14159265f;
 constexpr int level_count = 7;
 constexpr int samples_a_pixel = 64;
-/// Brighter than this many times the picture's mean is the sun's disc and glare: the scene's own sun stands for it.
+/// Brighter than this many times the picture's mean is the sun's disc and glare: the scene's own sun stands
+/// for it.
 constexpr float sun_threshold = 12.0f;
 
 vec3 direction_of(const ImageF& picture, float x, float y, float heading) {
@@ -22,7 +23,8 @@ vec3 direction_of(const ImageF& picture, float x, float y, float heading) {
 }
 
 vec3 pixel(const ImageF& picture, int x, int y) {
-  const float* p = picture.at((x % picture.width + picture.width) % picture.width, std::clamp(y, 0, picture.height - 1));
+  const float* p =
+      picture.at((x % picture.width + picture.width) % picture.width, std::clamp(y, 0, picture.height - 1));
   return {p[0], p[1], p[2]};
 }
 
@@ -39,8 +41,9 @@ ImageF plain_blue_sky() {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const float height = std::clamp(1.0f - 2.0f * (float(y) + 0.5f) / float(picture.height), 0.0f, 1.0f);
-      const vec3 colour = y < picture.height / 2 ? mix(vec3(0.85f, 0.92f, 1.0f), vec3(0.22f, 0.42f, 0.85f), std::sqrt(height))
-                                                 : vec3(0.22f, 0.21f, 0.2f);
+      const vec3 colour = y < picture.height / 2
+                              ? mix(vec3(0.85f, 0.92f, 1.0f), vec3(0.22f, 0.42f, 0.85f), std::sqrt(height))
+                              : vec3(0.22f, 0.21f, 0.2f);
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = colour[c];
     }
   return picture;
@@ -73,14 +76,16 @@ ImageF halved(const ImageF& picture) {
   return half;
 }
 
-/// Blurs `source` by the GGX lobe of `roughness` about each direction (Karis 2013, n = v = r), at the size of `size_of`.
+/// Blurs `source` by the GGX lobe of `roughness` about each direction (Karis 2013, n = v = r), at the size of
+/// `size_of`.
 ImageF prefiltered(const ImageF& source, const ImageF& size_of, float roughness) {
   const float alpha = roughness * roughness;
   ImageF result(size_of.width, size_of.height, 3);
   parallel_for(std::size_t(result.height), [&](std::size_t row) {
     for (int x = 0; x < result.width; ++x) {
       const vec3 n = direction_of(result, float(x) + 0.5f, float(row) + 0.5f, 0.0f);
-      const vec3 t = normalize(cross(std::abs(n.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), n)), b = cross(n, t);
+      const vec3 t = normalize(cross(std::abs(n.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), n)),
+                 b = cross(n, t);
       vec3 sum(0.0f);
       float weights = 0.0f;
       for (int i = 0; i < samples_a_pixel; ++i) {
@@ -102,7 +107,7 @@ ImageF prefiltered(const ImageF& source, const ImageF& size_of, float roughness)
 }
 
 std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading) {
-  constexpr std::array<float, 9> cosine_lobe{pi_f, 2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
+  constexpr std::array<float, 9> cosine_lobe{pi_f,       2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
                                              0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
   std::array<vec3, 9> sh{};
   for (int y = 0; y < picture.height; ++y) {
@@ -112,9 +117,14 @@ std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading
     for (int x = 0; x < picture.width; ++x) {
       const vec3 d = direction_of(picture, float(x) + 0.5f, float(y) + 0.5f, heading);
       const vec3 light = solid_angle * pixel(picture, x, y);
-      const std::array<float, 9> basis{0.282095f, 0.488603f * d.y, 0.488603f * d.z, 0.488603f * d.x,
-                                       1.092548f * d.x * d.y, 1.092548f * d.y * d.z,
-                                       0.315392f * (3.0f * d.z * d.z - 1.0f), 1.092548f * d.x * d.z,
+      const std::array<float, 9> basis{0.282095f,
+                                       0.488603f * d.y,
+                                       0.488603f * d.z,
+                                       0.488603f * d.x,
+                                       1.092548f * d.x * d.y,
+                                       1.092548f * d.y * d.z,
+                                       0.315392f * (3.0f * d.z * d.z - 1.0f),
+                                       1.092548f * d.x * d.z,
                                        0.546274f * (d.x * d.x - d.y * d.y)};
       for (std::size_t i = 0; i < 9; ++i) sh[i] += basis[i] * light;
     }
