@@ -8,8 +8,8 @@
 
 namespace parvis {
 
-/// The path of `relative` below $PARVIS_DATA, or below `../shared/data` beside the checkout `source_folder`; nothing
-/// where it is absent: then the test says that it is skipped.
+/// The path of `relative` below $PARVIS_DATA, or below `../shared/data` beside the checkout `source_folder`;
+/// nothing where it is absent: then the test says that it is skipped.
 inline std::optional<std::filesystem::path> shared_data(const std::string& relative,
                                                         const std::filesystem::path& source_folder) {
   const char* given = std::getenv("PARVIS_DATA");
