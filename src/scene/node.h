@@ -1,0 +1,56 @@
+// A node of a checked script: its attributes have values of their schema's types, its references name nodes
+// that exist, its files lie where a scene may read.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/schema.h"
+
+namespace parvis::scene {
+
+struct NodeAttribute {
+  const AttributeSchema* schema = nullptr;
+  AttributeValue value;
+  std::string text;  ///< as written
+  FileLocation where;
+};
+
+/// The getters take the name of an attribute of the node's schema and assert that it has that type; where the
+/// script does not give it they return its default.
+struct Node {
+  const NodeSchema* schema = nullptr;
+  FileLocation where;
+  std::vector<NodeAttribute> attributes;  ///< in the order written, repeats included
+  std::vector<Node> children;             ///< of an include: the nodes of the included file
+
+  /// The script gives the attribute.
+  bool gives(const std::string& name) const { return find(name) != nullptr; }
+  /// Where the attribute's value stands; the node's own place if the script does not give it.
+  const FileLocation& where_of(const std::string& name) const;
+
+  std::string text(const std::string& name) const;  ///< text, choice; empty where there is no default
+  double number(const std::string& name) const;
+  float angle(const std::string& name) const;  ///< radians
+  long integer(const std::string& name) const;
+  bool flag(const std::string& name) const;
+  glm::vec3 vec3(const std::string& name) const;  ///< vec3, colour
+  /// path, points; those of a repeated attribute follow each other.
+  std::vector<glm::vec3> points(const std::string& name) const;
+  /// The canonical path; empty where the script does not give it.
+  std::filesystem::path file(const std::string& name) const;
+
+ private:
+  const NodeAttribute* find(const std::string& name) const;
+  template <class T>
+  std::optional<T> value(const std::string& name) const;
+};
+
+/// What the node and its children say, without names and places: equal texts build equal models.
+std::string signature(const Node& node);
+
+}  // namespace parvis::scene

@@ -1,0 +1,44 @@
+#include "scene/node_registry.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "scene/nodes.h"
+
+namespace parvis::scene {
+
+void NodeRegistry::add(NodeSchema schema, BuildNode build) {
+  assert(!find(schema.type) && "a node type is added twice");
+  types_.push_back({std::move(schema), std::move(build)});
+}
+
+const NodeType* NodeRegistry::find(const std::string& type) const {
+  const auto found =
+      std::find_if(types_.begin(), types_.end(), [&](const auto& t) { return t.schema.type == type; });
+  return found == types_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> NodeRegistry::type_names() const {
+  std::vector<std::string> names;
+  for (const NodeType& type : types_) names.push_back(type.schema.type);
+  return names;
+}
+
+std::vector<std::string> NodeRegistry::children_of(const std::string& parent) const {
+  std::vector<std::string> names;
+  for (const NodeType& type : types_) {
+    const std::vector<std::string>& parents = type.schema.stands_in;
+    if (std::find(parents.begin(), parents.end(), parent) != parents.end()) names.push_back(type.schema.type);
+  }
+  return names;
+}
+
+NodeRegistry core_nodes() {
+  NodeRegistry registry;
+  add_grouping_nodes(registry);
+  add_light_nodes(registry);
+  add_camera_nodes(registry);
+  return registry;
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,44 @@
+// The node types that scripts may use. Each room adds its own; those of the scene room are in core_nodes().
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/node.h"
+#include "scene/schema.h"
+
+namespace parvis::scene {
+
+class SceneBuilder;
+
+/// Adds what the node stands for to the scene. Bad data goes to builder.fail() or builder.warn().
+using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
+
+struct NodeType {
+  NodeSchema schema;
+  BuildNode build;  ///< empty for nodes that their parent reads itself (material)
+};
+
+/// Nodes point into the registry that checked them: it must outlive them.
+class NodeRegistry {
+ public:
+  /// Types are added once, with defaults that are values of their attribute's type.
+  void add(NodeSchema schema, BuildNode build = {});
+
+  const NodeType* find(const std::string& type) const;
+  /// In the order added: those of a family stand together.
+  const std::deque<NodeType>& types() const { return types_; }
+  std::vector<std::string> type_names() const;
+  /// The types of nodes that may stand in one of `parent`.
+  std::vector<std::string> children_of(const std::string& parent) const;
+
+ private:
+  std::deque<NodeType> types_;
+};
+
+/// The node types of this room.
+NodeRegistry core_nodes();
+
+}  // namespace parvis::scene

@@ -1,0 +1,14 @@
+// The families of node types of this room; each has a file nodes_FAMILY.cpp.
+#pragma once
+
+namespace parvis::scene {
+
+class NodeRegistry;
+
+void add_grouping_nodes(NodeRegistry& registry);  ///< include, group
+void add_model_nodes(NodeRegistry& registry);     ///< model, material, wheels, city_model
+void add_light_nodes(NodeRegistry& registry);     ///< sun, sky, air, exposure, reflection
+void add_camera_nodes(NodeRegistry& registry);    ///< camera
+void add_road_nodes(NodeRegistry& registry);      ///< road, traffic
+
+}  // namespace parvis::scene

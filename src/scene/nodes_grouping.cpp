@@ -1,0 +1,41 @@
+// include, group: nodes that hold others.
+#include "scene/node_registry.h"
+#include "scene/nodes.h"
+#include "scene/placement.h"
+#include "scene/scene_builder.h"
+
+namespace parvis::scene {
+namespace {
+
+NodeSchema include_schema() {
+  return {.type = "include",
+          .help = "The nodes of another script, as if they were written here.",
+          .attributes =
+              {{.name = "file", .type = AttributeType::file, .help = "a scene script", .is_required = true}},
+          .example = "include(file=\"evening_light.xp\")"};
+}
+
+NodeSchema group_schema() {
+  NodeSchema schema{.type = "group",
+                    .help = "Nodes that are placed together.",
+                    .attributes = placement_attributes(),
+                    .example =
+                        "group(position=\"120 40 0\", heading_deg=30) {\n"
+                        "  camera(name=\"corner\", position=\"0 0 1.6\", target=\"10 0 2\")\n"
+                        "}"};
+  schema.attributes.insert(schema.attributes.begin(),
+                           {.name = "name", .help = "by which other nodes refer to it"});
+  return schema;
+}
+
+}  // namespace
+
+void add_grouping_nodes(NodeRegistry& registry) {
+  registry.add(include_schema(),
+               [](const Node& node, SceneBuilder& builder) { builder.build(node.children); });
+  registry.add(group_schema(), [](const Node& node, SceneBuilder& builder) {
+    builder.build(node.children, placement(node));
+  });
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,33 @@
+#include "scene/scene_loader.h"
+
+#include "base/files.h"
+#include "scene/script_checker.h"
+
+namespace parvis::scene {
+namespace {
+
+Result<std::vector<Node>> checked_nodes(const std::filesystem::path& script, const NodeRegistry& registry,
+                                        std::span<const std::filesystem::path> data_folders) {
+  const Roots roots(script.parent_path(), {data_folders.begin(), data_folders.end()});
+  return check_script(script, registry, roots);
+}
+
+}  // namespace
+
+Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRegistry& registry,
+                               std::span<const std::filesystem::path> data_folders) {
+  const Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
+  if (!nodes) return nodes.errors();
+  SceneBuilder builder(registry);
+  builder.build(*nodes);
+  return std::move(builder).finish();
+}
+
+Status check_scene(const std::filesystem::path& script, const NodeRegistry& registry,
+                   std::span<const std::filesystem::path> data_folders) {
+  const Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
+  if (!nodes) return nodes.errors();
+  return Done{};
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,73 @@
+// What a node type is to the script's reader: its attributes with types, units, limits and defaults. Errors,
+// `parvis check` and docs/scene-reference.md all come from here.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/files.h"
+#include "base/result.h"
+
+namespace parvis::scene {
+
+enum class AttributeType : unsigned char {
+  text,
+  number,
+  integer,
+  flag,      ///< 1/0, true/false, yes/no, on/off
+  angle,     ///< written in degrees (the name ends in _deg), given in radians
+  vec3,      ///< "x y z"
+  colour,    ///< "#RRGGBB" (sRGB), or three linear numbers; given linear
+  choice,    ///< one of `choices`
+  path,      ///< "x y z, x y z, ..." or "x y, x y, ..." (z = 0): at least two points
+  points,    ///< the same, at least one point
+  file,      ///< a file below the scene's folder or a --data folder; given as its canonical path
+  reference  ///< the name of another node
+};
+
+struct AttributeSchema {
+  std::string name = {};
+  AttributeType type = AttributeType::text;
+  std::string help = {};      ///< one line
+  std::string fallback = {};  ///< as a script would write it; empty: the value is absent unless given
+  std::string unit = {};      ///< "m", "pixels", ...; empty where there is none
+  double minimum = -1e9;
+  double maximum = 1e9;
+  std::vector<std::string> choices = {};
+  bool is_required = false;
+  bool is_repeatable = false;
+};
+
+/// The parent of nodes that stand in no other.
+inline const std::string top_level = "scene";
+
+struct NodeSchema {
+  std::string type = {};
+  std::string help = {};  ///< one line or two
+  std::vector<AttributeSchema> attributes = {};
+  std::vector<std::string> stands_in{top_level, "group"};  ///< types of the nodes that may hold it
+  std::string example = {};                                ///< a script that uses it
+  bool is_unique = false;                                  ///< stands at most once in a scene
+
+  const AttributeSchema* find(const std::string& name) const;
+};
+
+/// number and angle: double; integer: long; flag: bool; vec3, colour: vec3; path, points: vector of vec3;
+/// file: path; text, choice, reference: string.
+using AttributeValue =
+    std::variant<std::string, double, long, bool, glm::vec3, std::vector<glm::vec3>, std::filesystem::path>;
+
+/// The value that `text` writes. Errors at `where` say what the attribute expects.
+Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
+                                   const FileLocation& where);
+
+/// What the attribute expects, in words: `a number in m from 0 to 10`.
+std::string expectation(const AttributeSchema& schema);
+
+/// Numbers parted by white space or commas; nothing where something else stands among them or one is not
+/// finite.
+std::vector<double> parse_numbers(std::string_view text);
+
+}  // namespace parvis::scene

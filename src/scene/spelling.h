@@ -1,0 +1,17 @@
+// "Did you mean": the known name nearest to a misspelt one.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace parvis::scene {
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b` (Damerau 1964,
+/// restricted), without regard to case.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// `; did you mean "NAME"?` for the known name that is near enough to `word`, else nothing.
+std::string did_you_mean(std::string_view word, std::span<const std::string> known);
+
+}  // namespace parvis::scene
