@@ -36,8 +36,13 @@ struct Arm {
 };
 
 Arm make_arm(std::size_t index, const Street& street, const Road& road, bool is_start) {
-  Arm arm{index, is_start,           is_start ? street.start_node : street.end_node,
-          {},    half_width_m(road), road.is_one_way};
+  Arm arm;
+  arm.street = index;
+  arm.is_start = is_start;
+  arm.node = is_start ? street.start_node : street.end_node;
+  arm.half_width_m = half_width_m(road);
+  arm.is_one_way = road.is_one_way;
+
   // The direction that matters is the one just outside the crossing.
   const float length = street.path.length();
   const float look_m = std::min(arm.half_width_m + kerb_radius_m, 0.5f * length);
