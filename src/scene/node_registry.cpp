@@ -9,7 +9,12 @@ namespace parvis::scene {
 
 void NodeRegistry::add(NodeSchema schema, BuildNode build) {
   assert(!find(schema.type) && "a node type is added twice");
-  types_.push_back({std::move(schema), std::move(build)});
+  types_.push_back({std::move(schema), std::move(build), {}});
+}
+
+void NodeRegistry::add_change(NodeSchema schema, ChangeModel change) {
+  assert(!find(schema.type) && "a node type is added twice");
+  types_.push_back({std::move(schema), {}, std::move(change)});
 }
 
 const NodeType* NodeRegistry::find(const std::string& type) const {
@@ -36,6 +41,10 @@ std::vector<std::string> NodeRegistry::children_of(const std::string& parent) co
 NodeRegistry core_nodes() {
   NodeRegistry registry;
   add_grouping_nodes(registry);
+  add_model_nodes(registry);
+  add_material_nodes(registry);
+  add_wheel_nodes(registry);
+  add_road_nodes(registry);
   add_light_nodes(registry);
   add_camera_nodes(registry);
   return registry;

@@ -12,20 +12,27 @@
 namespace parvis::scene {
 
 class SceneBuilder;
+struct Model;
 
 /// Adds what the node stands for to the scene. Bad data goes to builder.fail() or builder.warn().
 using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
 
+/// Changes the model that the node's parent has read.
+using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuilder& builder)>;
+
+/// Either builds something, or stands in a `model` and changes it.
 struct NodeType {
   NodeSchema schema;
-  BuildNode build;  ///< empty for nodes that their parent reads itself (material)
+  BuildNode build;
+  ChangeModel change;
 };
 
 /// Nodes point into the registry that checked them: it must outlive them.
 class NodeRegistry {
  public:
   /// Types are added once, with defaults that are values of their attribute's type.
-  void add(NodeSchema schema, BuildNode build = {});
+  void add(NodeSchema schema, BuildNode build);
+  void add_change(NodeSchema schema, ChangeModel change);
 
   const NodeType* find(const std::string& type) const;
   /// In the order added: those of a family stand together.

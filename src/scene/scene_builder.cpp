@@ -9,6 +9,13 @@ void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent
   world_from_parent_ = outer;
 }
 
+std::shared_ptr<const Model> SceneBuilder::shared_model(
+    const std::string& key, const std::function<std::shared_ptr<const Model>()>& make) {
+  const auto known = models_.find(key);
+  if (known != models_.end()) return known->second;
+  return models_[key] = make();
+}
+
 void SceneBuilder::fail(const Errors& errors, const FileLocation& where) {
   for (const Error& error : errors)
     errors_.push_back(error.where.file.empty() ? Error{error.message, where}
@@ -16,6 +23,11 @@ void SceneBuilder::fail(const Errors& errors, const FileLocation& where) {
 }
 
 Result<LoadedScene> SceneBuilder::finish() && {
+  Result<RoadGraph> graph = build_road_graph(roads);
+  if (graph)
+    scene.roads = std::move(*graph);
+  else
+    errors_.insert(errors_.end(), graph.errors().begin(), graph.errors().end());
   if (!errors_.empty()) return std::move(errors_);
   return LoadedScene{std::move(scene), std::move(warnings_)};
 }

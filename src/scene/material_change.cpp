@@ -1,0 +1,165 @@
+#include "scene/material_change.h"
+
+#include <algorithm>
+#include <map>
+
+#include "scene/name_pattern.h"
+
+namespace parvis::scene {
+namespace {
+
+template <class T>
+void override_with(T& value, const std::optional<T>& change) {
+  if (change) value = *change;
+}
+
+Material changed(Material material, const MaterialChange& change, const std::string& name) {
+  material.name = name;
+  if (change.colour) {
+    material.base_colour = *change.colour;
+    material.base_colour_texture = no_index;
+  }
+  if (change.roughness || change.metallic) material.surface_texture = no_index;
+  override_with(material.roughness, change.roughness);
+  override_with(material.metallic, change.metallic);
+  override_with(material.clear_coat, change.clear_coat);
+  if (change.alpha) {
+    material.alpha = *change.alpha;
+    material.alpha_mode = material.alpha < 1.0f ? Alpha::blend : Alpha::opaque;
+  }
+  if (change.emission) {
+    material.emission = *change.emission;
+    material.emission_texture = no_index;
+  }
+  override_with(material.is_mirror_like, change.is_mirror_like);
+  return material;
+}
+
+/// The triangles of `mesh` for which `takes[i]` is `taken`, with only the vertices they need.
+Mesh extracted(const Mesh& mesh, const std::vector<bool>& takes, bool taken) {
+  constexpr std::uint32_t unused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
+  Mesh result;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (takes[i / 3] != taken) continue;
+    const std::uint32_t old = mesh.indices[i];
+    if (new_index[old] == unused) {
+      new_index[old] = std::uint32_t(result.positions.size());
+      result.positions.push_back(mesh.positions[old]);
+      result.normals.push_back(mesh.normals[old]);
+      result.uvs.push_back(mesh.uvs[old]);
+    }
+    result.indices.push_back(new_index[old]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const MaterialPreset> material_presets() {
+  static const std::vector<MaterialPreset> presets{
+      {"paint",
+       "car paint under clear lacquer; keeps the picture's colours",
+       {.roughness = 0.45f, .metallic = 0.0f, .clear_coat = 1.0f, .is_mirror_like = true}},
+      {"metallic_paint",
+       "car paint with flakes under clear lacquer; keeps the picture's colours",
+       {.roughness = 0.35f, .metallic = 0.6f, .clear_coat = 1.0f, .is_mirror_like = true}},
+      {"glass",
+       "a dark, tinted pane that mirrors",
+       {.colour = glm::vec3(0.012f, 0.014f, 0.015f),
+        .roughness = 0.02f,
+        .metallic = 0.0f,
+        .clear_coat = 0.0f,
+        .is_mirror_like = true}},
+      {"clear_glass",
+       "a pane that one sees through",
+       {.colour = glm::vec3(0.02f),
+        .roughness = 0.02f,
+        .metallic = 0.0f,
+        .clear_coat = 0.0f,
+        .alpha = 0.25f,
+        .is_mirror_like = true}},
+      {"lamp",
+       "the picture's colours behind clear glass",
+       {.roughness = 0.3f, .metallic = 0.0f, .clear_coat = 1.0f, .is_mirror_like = true}},
+      {"chrome",
+       "polished metal",
+       {.colour = glm::vec3(0.80f, 0.81f, 0.83f),
+        .roughness = 0.04f,
+        .metallic = 1.0f,
+        .clear_coat = 0.0f,
+        .is_mirror_like = true}},
+      {"steel",
+       "brushed metal",
+       {.colour = glm::vec3(0.56f, 0.57f, 0.58f), .roughness = 0.35f, .metallic = 1.0f, .clear_coat = 0.0f}},
+      {"plastic",
+       "dull plastic; keeps the picture's colours",
+       {.roughness = 0.55f, .metallic = 0.0f, .clear_coat = 0.0f, .is_mirror_like = false}},
+      {"rubber",
+       "tyres and seals",
+       {.colour = glm::vec3(0.045f),
+        .roughness = 0.9f,
+        .metallic = 0.0f,
+        .clear_coat = 0.0f,
+        .is_mirror_like = false}}};
+  return presets;
+}
+
+MaterialChange merged(const MaterialChange& under, const MaterialChange& over) {
+  const auto either = [](const auto& first, const auto& second) { return first ? first : second; };
+  return {either(over.colour, under.colour),
+          either(over.roughness, under.roughness),
+          either(over.metallic, under.metallic),
+          either(over.clear_coat, under.clear_coat),
+          either(over.alpha, under.alpha),
+          either(over.emission, under.emission),
+          either(over.is_mirror_like, under.is_mirror_like)};
+}
+
+std::vector<std::size_t> matching_parts(const Model& model, std::string_view target) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    const Part& part = model.parts[i];
+    if (matches(target, part.object) || matches(target, model.nodes[std::size_t(part.node)].name) ||
+        matches(target, model.materials[std::size_t(part.material)].name))
+      found.push_back(i);
+  }
+  return found;
+}
+
+std::size_t change_material(Model& model, std::span<const std::size_t> parts,
+                            std::span<const MaterialMask> masks, const MaterialChange& change,
+                            const std::string& name) {
+  std::map<int, int> new_material;  // for each material that is met: its changed copy
+  const auto changed_material = [&](int old) {
+    const auto [entry, is_new] = new_material.emplace(old, int(model.materials.size()));
+    if (is_new) model.materials.push_back(changed(model.materials[std::size_t(old)], change, name));
+    return entry->second;
+  };
+
+  std::size_t changed_triangles = 0;
+  for (const std::size_t index : parts) {
+    const Part& part = model.parts[index];
+    std::vector<bool> is_taken(part.mesh.triangle_count());
+    for (std::size_t triangle = 0; triangle < is_taken.size(); ++triangle)
+      is_taken[triangle] =
+          masks.empty() || std::any_of(masks.begin(), masks.end(), [&](const MaterialMask& mask) {
+            return lies_in(mask, model, part, triangle);
+          });
+    const std::size_t count = std::size_t(std::count(is_taken.begin(), is_taken.end(), true));
+    changed_triangles += count;
+    if (count == 0) continue;
+
+    const int material = changed_material(part.material);
+    if (count < is_taken.size()) {
+      Part rest = part;
+      rest.mesh = extracted(part.mesh, is_taken, false);
+      model.parts[index].mesh = extracted(model.parts[index].mesh, is_taken, true);
+      model.parts.push_back(std::move(rest));
+    }
+    model.parts[index].material = material;
+  }
+  return changed_triangles;
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,18 @@
+// The one door from scripts to model files.
+#pragma once
+
+#include <filesystem>
+
+#include "base/result.h"
+#include "scene/model.h"
+
+namespace parvis::scene {
+
+/// How the file's axes are to be read: `file` leaves it to the format (glTF: y up; OBJ: y up; else z up).
+enum class UpAxis : unsigned char { file, y, z };
+
+/// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to
+/// `warnings`.
+Result<Model> model_from_file(const std::filesystem::path& file, UpAxis up, Errors& warnings);
+
+}  // namespace parvis::scene

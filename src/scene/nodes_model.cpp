@@ -1,0 +1,96 @@
+// model: a model file, placed.
+#include "scene/model_node.h"
+#include "scene/model_source.h"
+#include "scene/node_registry.h"
+#include "scene/nodes.h"
+#include "scene/placement.h"
+#include "scene/scene_builder.h"
+
+namespace parvis::scene {
+namespace {
+
+NodeSchema model_schema() {
+  NodeSchema schema{
+      .type = "model",
+      .help = "A model file (glTF, OBJ and others), placed. Its children change its materials or add wheels.",
+      .attributes =
+          {{.name = "name", .help = "by which other nodes refer to it"},
+           {.name = "file", .type = AttributeType::file, .help = "the model file", .is_required = true},
+           {.name = "up",
+            .type = AttributeType::choice,
+            .help = "the file's upward axis; \"file\": what its format says",
+            .fallback = "file",
+            .choices = {"file", "y", "z"}},
+           {.name = "dynamic",
+            .type = AttributeType::flag,
+            .help = "it may move: stands in nothing that is computed once",
+            .fallback = "0"},
+           {.name = "reflective",
+            .type = AttributeType::flag,
+            .help = "its paint, glass and chrome take the scene's reflection method",
+            .fallback = "0"},
+           {.name = "positions",
+            .type = AttributeType::points,
+            .help = "many copies, one at each point (relative to position=)",
+            .unit = "m",
+            .is_repeatable = true}},
+      .stands_in = {top_level, "group", "traffic"},
+      .example =
+          "model(name=\"taxi\", file=\"cars/van.glb\", position=\"3 4 0\", heading_deg=90, dynamic=1, "
+          "reflective=1) {\n"
+          "  material(target=\"body\", preset=\"paint\")\n"
+          "}"};
+  const std::vector<AttributeSchema> placement = placement_attributes();
+  schema.attributes.insert(schema.attributes.begin() + 2, placement.begin(), placement.end());
+  return schema;
+}
+
+std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder) {
+  const std::filesystem::path file = node.file("file");
+  const UpAxis up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
+  return builder.shared_model(file.string() + "?up=" + node.text("up"),
+                              [&]() -> std::shared_ptr<const Model> {
+                                Errors warnings;
+                                Result<Model> model = model_from_file(file, up, warnings);
+                                for (const Error& warning : warnings) builder.warn(warning);
+                                if (model) return std::make_shared<const Model>(std::move(*model));
+                                builder.fail(model.errors(), node.where_of("file"));
+                                return nullptr;
+                              });
+}
+
+void build_model(const Node& node, SceneBuilder& builder) {
+  Object object;
+  object.model = model_of(node, builder);
+  if (!object.model) return;
+  object.is_dynamic = node.flag("dynamic");
+  object.takes_reflection = node.flag("reflective");
+  const std::string name = node.gives("name") ? node.text("name") : node.file("file").stem().string();
+  std::vector<glm::vec3> positions = node.points("positions");
+  if (positions.empty()) positions.emplace_back(0.0f);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    object.name = i == 0 ? name : fmt::format("{} {}", name, i + 1);
+    glm::mat4 moved(1.0f);
+    moved[3] = glm::vec4(positions[i], 1.0f);
+    object.world_from_model = builder.world_from_parent() * moved * placement(node);
+    builder.scene.objects.push_back(object);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
+  const std::shared_ptr<const Model> as_read = read_model_file(node, builder);
+  if (!as_read || node.children.empty()) return as_read;
+  std::string key = node.file("file").string() + "?up=" + node.text("up");
+  for (const Node& child : node.children) key += signature(child);
+  return builder.shared_model(key, [&] {
+    Model model = *as_read;
+    for (const Node& child : node.children) builder.change(model, child);
+    return std::make_shared<const Model>(std::move(model));
+  });
+}
+
+void add_model_nodes(NodeRegistry& registry) { registry.add(model_schema(), build_model); }
+
+}  // namespace parvis::scene
