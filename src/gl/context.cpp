@@ -35,17 +35,26 @@ std::vector<EGLDisplay> candidate_displays() {
 EGLContext create_context(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-  const std::array<EGLint, 5> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+  const std::array<EGLint, 5> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
+                                                EGL_NONE};
   EGLConfig config = nullptr;
   EGLint configs = 0;
   if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &configs) || configs == 0)
     config = nullptr;  // EGL_KHR_no_config_context: none is needed without a surface
-  const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+  const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                         4,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         5,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
 #ifdef NDEBUG
-                                         EGL_NONE, EGL_NONE, EGL_NONE};
+                                         EGL_NONE,
+                                         EGL_NONE,
+                                         EGL_NONE};
 #else
-                                         EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE};
+                                         EGL_CONTEXT_OPENGL_DEBUG,
+                                         EGL_TRUE,
+                                         EGL_NONE};
 #endif
   EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
   if (context == EGL_NO_CONTEXT) return EGL_NO_CONTEXT;
@@ -55,8 +64,10 @@ EGLContext create_context(EGLDisplay display) {
 }
 
 #ifndef NDEBUG
-void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void*) {
-  if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH) fmt::print(stderr, "OpenGL: {}\n", message);
+void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
+                       const void*) {
+  if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH)
+    fmt::print(stderr, "OpenGL: {}\n", message);
 }
 #endif
 
@@ -71,7 +82,8 @@ Result<Context> Context::create_headless() {
     return made;
   }
   return error(
-      "no OpenGL 4.5 context without a window: neither a GPU's EGL device nor Mesa's software renderer gave one; "
+      "no OpenGL 4.5 context without a window: neither a GPU's EGL device nor Mesa's software renderer gave "
+      "one; "
       "install a driver of OpenGL 4.5 or later, or libgl1-mesa-dri");
 }
 
@@ -87,8 +99,10 @@ Context::~Context() {
 Status check_current() {
   const int version = epoxy_gl_version();
   if (!epoxy_is_desktop_gl() || version < 45)
-    return error("the driver offers OpenGL {}.{}; Parvis needs 4.5 or later: update it, or use Mesa's software renderer",
-                 version / 10, version % 10);
+    return error(
+        "the driver offers OpenGL {}.{}; Parvis needs 4.5 or later: update it, or use Mesa's software "
+        "renderer",
+        version / 10, version % 10);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 #ifndef NDEBUG
   glEnable(GL_DEBUG_OUTPUT);

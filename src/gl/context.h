@@ -1,4 +1,5 @@
-// An OpenGL 4.5 core context without a window: on an EGL device where there is a GPU, else on Mesa's surfaceless platform.
+// An OpenGL 4.5 core context without a window: on an EGL device where there is a GPU, else on Mesa's
+// surfaceless platform.
 #pragma once
 
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace parvis::gl {
 
-/// Owns the EGL context that is current on the thread that made it. Where a window library made a context current,
-/// `check_current` is all that is needed.
+/// Owns the EGL context that is current on the thread that made it. Where a window library made a context
+/// current, `check_current` is all that is needed.
 class Context {
  public:
   /// Fails, and says what was found, where there is no driver or one below OpenGL 4.5.
@@ -24,8 +25,8 @@ class Context {
   void* context_;
 };
 
-/// Is the current context an OpenGL of 4.5 or later? Also turns on what every pass takes for granted (seamless cube
-/// maps) and, in debug builds, reports the driver's complaints.
+/// Is the current context an OpenGL of 4.5 or later? Also turns on what every pass takes for granted
+/// (seamless cube maps) and, in debug builds, reports the driver's complaints.
 Status check_current();
 
 /// "renderer, version" of the current context, as benches name the machine.

@@ -1,4 +1,5 @@
-// Move-only owners of OpenGL's objects, named after them. They hold a name and delete it; calls stay OpenGL's own (DSA).
+// Move-only owners of OpenGL's objects, named after them. They hold a name and delete it; calls stay OpenGL's
+// own (DSA).
 #pragma once
 
 #include <epoxy/gl.h>
@@ -36,23 +37,43 @@ class Owned {
 };
 
 struct BufferTraits {
-  static GLuint create() { GLuint n = 0; glCreateBuffers(1, &n); return n; }
+  static GLuint create() {
+    GLuint n = 0;
+    glCreateBuffers(1, &n);
+    return n;
+  }
   static void destroy(GLuint n) { glDeleteBuffers(1, &n); }
 };
 struct TextureTraits {
-  static GLuint create(GLenum target) { GLuint n = 0; glCreateTextures(target, 1, &n); return n; }
+  static GLuint create(GLenum target) {
+    GLuint n = 0;
+    glCreateTextures(target, 1, &n);
+    return n;
+  }
   static void destroy(GLuint n) { glDeleteTextures(1, &n); }
 };
 struct FramebufferTraits {
-  static GLuint create() { GLuint n = 0; glCreateFramebuffers(1, &n); return n; }
+  static GLuint create() {
+    GLuint n = 0;
+    glCreateFramebuffers(1, &n);
+    return n;
+  }
   static void destroy(GLuint n) { glDeleteFramebuffers(1, &n); }
 };
 struct VertexArrayTraits {
-  static GLuint create() { GLuint n = 0; glCreateVertexArrays(1, &n); return n; }
+  static GLuint create() {
+    GLuint n = 0;
+    glCreateVertexArrays(1, &n);
+    return n;
+  }
   static void destroy(GLuint n) { glDeleteVertexArrays(1, &n); }
 };
 struct SamplerTraits {
-  static GLuint create() { GLuint n = 0; glCreateSamplers(1, &n); return n; }
+  static GLuint create() {
+    GLuint n = 0;
+    glCreateSamplers(1, &n);
+    return n;
+  }
   static void destroy(GLuint n) { glDeleteSamplers(1, &n); }
 };
 

@@ -58,9 +58,10 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
-    if (std::regex_search(line, match, place) && match[1].length() < 4 && std::size_t(std::stoi(match[1])) < files.size())
-      line = fmt::format("{}{}:{}{}", match.prefix().str(), files[std::size_t(std::stoi(match[1]))], match[2].str(),
-                         match.suffix().str());
+    if (std::regex_search(line, match, place) && match[1].length() < 4 &&
+        std::size_t(std::stoi(match[1])) < files.size())
+      line = fmt::format("{}{}:{}{}", match.prefix().str(), files[std::size_t(std::stoi(match[1]))],
+                         match[2].str(), match.suffix().str());
     result += line + "\n";
   }
   return result;
@@ -93,7 +94,8 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
   return std::move(assembly.text);
 }
 
-Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect) {
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines,
+                              Dialect dialect) {
   std::vector<std::string> files;
   const Result<std::string> text = shader_text(path, defines, dialect, files);
   if (!text) return text.errors();
@@ -113,7 +115,8 @@ Result<Program> Program::create(const std::string& vertex_path, const std::strin
                                 const Defines& defines) {
   const Result<GLuint> vertex = compile_shader(GL_VERTEX_SHADER, vertex_path, defines, Dialect::desktop_450);
   if (!vertex) return vertex.errors();
-  const Result<GLuint> fragment = compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450);
+  const Result<GLuint> fragment =
+      compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450);
   if (!fragment) {
     glDeleteShader(*vertex);
     return fragment.errors();
@@ -136,8 +139,12 @@ Program::~Program() {
   if (name_) glDeleteProgram(name_);
 }
 
-void Program::set(const char* uniform, int value) const { glProgramUniform1i(name_, location(uniform), value); }
-void Program::set(const char* uniform, float value) const { glProgramUniform1f(name_, location(uniform), value); }
+void Program::set(const char* uniform, int value) const {
+  glProgramUniform1i(name_, location(uniform), value);
+}
+void Program::set(const char* uniform, float value) const {
+  glProgramUniform1f(name_, location(uniform), value);
+}
 void Program::set(const char* uniform, glm::vec2 value) const {
   glProgramUniform2fv(name_, location(uniform), 1, glm::value_ptr(value));
 }
@@ -154,7 +161,8 @@ void Program::set(const char* uniform, std::span<const glm::vec3> values) const 
   glProgramUniform3fv(name_, location(uniform), GLsizei(values.size()), glm::value_ptr(values.front()));
 }
 void Program::set(const char* uniform, std::span<const glm::mat4> values) const {
-  glProgramUniformMatrix4fv(name_, location(uniform), GLsizei(values.size()), GL_FALSE, glm::value_ptr(values.front()));
+  glProgramUniformMatrix4fv(name_, location(uniform), GLsizei(values.size()), GL_FALSE,
+                            glm::value_ptr(values.front()));
 }
 
 }  // namespace parvis::gl

@@ -1,5 +1,5 @@
-// Shader programs out of the embedded files: #include once each, defines for permutations, and errors that name the real
-// file and line. The same files compile as desktop GLSL and as GLSL ES 3.00.
+// Shader programs out of the embedded files: #include once each, defines for permutations, and errors that
+// name the real file and line. The same files compile as desktop GLSL and as GLSL ES 3.00.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -19,8 +19,9 @@ enum class Dialect { desktop_450, es_300 };
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-/// The text of a shader ready to compile: version, preamble, defines, and `path` with its includes in place. An include
-/// that names no file and a `path` that is none are errors. `files` receives the names that #line numbers stand for.
+/// The text of a shader ready to compile: version, preamble, defines, and `path` with its includes in place.
+/// An include that names no file and a `path` that is none are errors. `files` receives the names that #line
+/// numbers stand for.
 Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
                                 std::vector<std::string>& files);
 

@@ -1,0 +1,3 @@
+#include "render/cutout.glsl"
+
+void main() { discard_holes(); }

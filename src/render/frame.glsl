@@ -1,0 +1,13 @@
+// What is the same for all that one view draws. Filled by render/frame_block.h.
+layout(std140) uniform Frame {
+  mat4 clip_from_world;
+  vec4 viewer_position;  // w: clip depth of nothing
+  vec4 frame_to_sun;     // w: haze a metre
+  vec4 frame_sun_irradiance;
+  vec4 frame_haze;       // rgb; w: heading of the sky
+  vec4 frame_sky_sh[9];
+  mat4 frame_uvz_from_world[3];
+  vec4 frame_texel_m;
+  vec4 frame_texel_uv;
+  vec4 frame_size;       // pixels; z: levels of the sky
+};

@@ -1,0 +1,177 @@
+#include "render/gpu_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <glm/gtc/type_precision.hpp>
+
+namespace parvis::render {
+namespace {
+
+struct Vertex {
+  glm::vec3 position, normal;
+  glm::vec2 uv;
+};
+
+/// The uniform block of render/material.glsl, std140.
+struct MaterialBlock {
+  glm::vec4 base_colour;                  // rgb, alpha
+  glm::vec4 emission;                     // rgb, normal scale
+  glm::vec4 metallic_roughness_coat;      // metallic, roughness, coat, coat roughness
+  glm::vec4 texture_rows[2];              // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
+};
+
+constexpr float anisotropy = 16.0f;
+
+MaterialBlock block_of(const scene::Material& material) {
+  const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
+  return {glm::vec4(material.base_colour, material.alpha),
+          glm::vec4(material.emission, material.normal_scale),
+          {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
+          {glm::vec4(rows[0], material.translucency),
+           glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)}};
+}
+
+Pass pass_of(scene::Alpha alpha) {
+  switch (alpha) {
+    case scene::Alpha::opaque: return Pass::opaque;
+    case scene::Alpha::cutout: return Pass::cutout;
+    case scene::Alpha::blend: return Pass::blend;
+  }
+  return Pass::opaque;
+}
+
+gl::Texture upload(const scene::Texture& source) {
+  const Image8& image = source.image;
+  const int levels = int(std::bit_width(unsigned(std::max(image.width, image.height))));
+  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, levels);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                      image.pixels.data());
+  glGenerateTextureMipmap(texture.name());
+  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, anisotropy);
+  const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wrap);
+  return texture;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const scene::Scene& scene) {
+  white_ = plain_texture({255, 255, 255, 255});
+  flat_normal_ = plain_texture({128, 128, 255, 255});
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &block_stride_);
+  block_stride_ = (GLint(sizeof(MaterialBlock)) + block_stride_ - 1) / block_stride_ * block_stride_;
+
+  std::vector<const scene::Model*> models;
+  for (const scene::Object& object : scene.objects)
+    if (first_part_.try_emplace(object.model.get(), 0).second) models.push_back(object.model.get());
+  upload_geometry(models);
+  material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
+  material_bytes_ = {};
+  make_items(scene);
+}
+
+GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
+  textures_.push_back(gl::texture_2d(GL_RGBA8, 1, 1));
+  glTextureSubImage2D(textures_.back().name(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &colour);
+  return textures_.back().name();
+}
+
+void GpuScene::upload_geometry(const std::vector<const scene::Model*>& models) {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  for (const scene::Model* model : models) {
+    first_part_[model] = int(parts_.size());
+    const int first_material = int(materials_.size());
+    upload_model_materials(*model);
+    for (const scene::Part& part : model->parts) {
+      const Mesh& mesh = part.mesh;
+      parts_.push_back({std::uint32_t(indices.size()), std::uint32_t(mesh.indices.size()), std::int32_t(vertices.size()),
+                        first_material + part.material, part.node, mesh.bounds(), part.casts_shadow});
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
+      indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+  }
+  vertices_ = gl::immutable_buffer(std::span<const Vertex>(vertices));
+  indices_ = gl::immutable_buffer(std::span<const std::uint32_t>(indices));
+}
+
+void GpuScene::upload_model_materials(const scene::Model& model) {
+  const std::size_t first_texture = textures_.size();
+  for (const scene::Texture& texture : model.textures) textures_.push_back(upload(texture));
+  const auto texture_or = [&](int index, GLuint plain) {
+    return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
+  };
+  for (const scene::Material& material : model.materials) {
+    materials_.push_back({texture_or(material.base_colour_texture, white_),
+                          texture_or(material.normal_texture, flat_normal_), texture_or(material.surface_texture, white_),
+                          texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
+                          material.is_double_sided, material.is_mirror_like});
+    const MaterialBlock block = block_of(material);
+    const std::size_t offset = material_bytes_.size();
+    material_bytes_.resize(offset + std::size_t(block_stride_));
+    std::memcpy(material_bytes_.data() + offset, &block, sizeof(block));
+  }
+}
+
+void GpuScene::make_items(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    first_item_.push_back(std::uint32_t(items_.size()));
+    is_moving_.push_back(object.is_dynamic);
+    rest_poses_.push_back(scene::rest_pose(*object.model));
+    const int first = first_part_[object.model.get()];
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
+      const int part = first + int(p);
+      const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
+      items_.push_back({{{}, std::uint32_t(o)}, {}, part, int(o), object.takes_reflection && material.is_mirror_like});
+    }
+  }
+  first_item_.push_back(std::uint32_t(items_.size()));
+  object_bounds_.resize(scene.objects.size());
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) place(scene, o);
+}
+
+void GpuScene::place(const scene::Scene& scene, std::size_t o) {
+  const scene::Object& object = scene.objects[o];
+  const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
+  Bounds bounds;
+  for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
+    Item& item = items_[i];
+    const PartRange& part = parts_[std::size_t(item.part)];
+    const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+    const glm::mat4 rows = glm::transpose(world_from_mesh);
+    for (int r = 0; r < 3; ++r) item.record.rows[r] = rows[r];
+    item.bounds = transformed(world_from_mesh, part.bounds);
+    bounds.add(item.bounds);
+  }
+  object_bounds_[o] = bounds;
+}
+
+void GpuScene::update(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o)
+    if (is_moving_[o]) place(scene, o);
+}
+
+Bounds GpuScene::fixed_bounds() const {
+  Bounds bounds;
+  for (std::size_t o = 0; o < object_bounds_.size(); ++o)
+    if (!is_moving_[o]) bounds.add(object_bounds_[o]);
+  return bounds;
+}
+
+void GpuScene::bind_material(int index) const {
+  const GpuMaterial& material = materials_[std::size_t(index)];
+  const GLuint textures[]{material.base_colour, material.normal, material.surface, material.emission};
+  glBindTextures(0, 4, textures);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, material_blocks_.name(), GLintptr(index) * block_stride_,
+                    GLsizeiptr(sizeof(MaterialBlock)));
+  if (material.is_double_sided)
+    glDisable(GL_CULL_FACE);
+  else
+    glEnable(GL_CULL_FACE);
+}
+
+}  // namespace parvis::render

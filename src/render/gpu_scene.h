@@ -1,0 +1,88 @@
+// The scene's models on the GPU: one vertex and one index buffer, a texture for each picture, a block for each material;
+// and its items: every part of every object, with bounds and transform, in flat arrays.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "base/bounds.h"
+#include "gl/objects.h"
+#include "render/view.h"
+#include "scene/scene.h"
+
+namespace parvis::render {
+
+/// A part of a model in the shared buffers.
+struct PartRange {
+  std::uint32_t first_index, index_count;
+  std::int32_t base_vertex;
+  int material;  ///< of the GPU scene
+  int node;
+  Bounds bounds;  ///< in the node's frame
+  bool casts_shadow;
+};
+
+struct GpuMaterial {
+  GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
+  Pass pass;
+  bool is_double_sided, is_mirror_like;
+};
+
+/// One part of one object. `record` is what the vertex shader reads for it.
+struct Item {
+  struct Record {
+    glm::vec4 rows[3];          ///< of world_from_mesh
+    std::uint32_t object;
+  };
+  Record record;
+  Bounds bounds;  ///< in the world
+  int part;
+  int object;
+  bool is_mirror;  ///< takes the scene's reflection method
+};
+
+class GpuScene {
+ public:
+  explicit GpuScene(const scene::Scene& scene);
+
+  /// Takes over transforms: of all objects, or of those that move.
+  void update(const scene::Scene& scene);
+
+  const std::vector<PartRange>& parts() const { return parts_; }
+  const std::vector<GpuMaterial>& materials() const { return materials_; }
+  const std::vector<Item>& items() const { return items_; }
+  /// Of all parts of an object, in the world.
+  const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
+  Bounds fixed_bounds() const;
+  bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
+
+  /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
+  void bind_material(int material) const;
+  GLuint vertex_buffer() const { return vertices_.name(); }
+  GLuint index_buffer() const { return indices_.name(); }
+
+ private:
+  void upload_geometry(const std::vector<const scene::Model*>& models);
+  void upload_model_materials(const scene::Model& model);
+  void make_items(const scene::Scene& scene);
+  void place(const scene::Scene& scene, std::size_t item);
+  GLuint plain_texture(glm::u8vec4 colour);
+
+  std::unordered_map<const scene::Model*, int> first_part_;  ///< of each model, in parts_
+  std::vector<PartRange> parts_;
+  std::vector<GpuMaterial> materials_;
+  std::vector<gl::Texture> textures_;
+  gl::Buffer vertices_, indices_, material_blocks_;
+  std::vector<std::byte> material_bytes_;
+  GLint block_stride_ = 256;
+  GLuint white_ = 0, flat_normal_ = 0;
+
+  std::vector<Item> items_;
+  std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
+  std::vector<Bounds> object_bounds_;
+  std::vector<std::uint8_t> is_moving_;
+  std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
+};
+
+}  // namespace parvis::render

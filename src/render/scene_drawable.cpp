@@ -1,0 +1,168 @@
+#include "render/scene_drawable.h"
+
+#include <algorithm>
+
+namespace parvis::render {
+namespace {
+
+gl::VertexArray make_vertex_array(const GpuScene& gpu) {
+  gl::VertexArray array = gl::VertexArray::create();
+  const GLuint name = array.name();
+  const auto attribute = [&](GLuint index, GLint size, GLuint offset, GLuint binding) {
+    glEnableVertexArrayAttrib(name, index);
+    glVertexArrayAttribFormat(name, index, size, GL_FLOAT, GL_FALSE, offset);
+    glVertexArrayAttribBinding(name, index, binding);
+  };
+  glVertexArrayVertexBuffer(name, 0, gpu.vertex_buffer(), 0, 32);
+  glVertexArrayElementBuffer(name, gpu.index_buffer());
+  attribute(0, 3, 0, 0);   // position
+  attribute(1, 3, 12, 0);  // normal
+  attribute(2, 2, 24, 0);  // uv
+  for (GLuint row = 0; row < 3; ++row) attribute(3 + row, 4, 16 * row, 1);
+  glEnableVertexArrayAttrib(name, 6);
+  glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object
+  glVertexArrayAttribBinding(name, 6, 1);
+  glVertexArrayBindingDivisor(name, 1, 1);
+  return array;
+}
+
+bool shows(Subjects subjects, bool is_moving) {
+  return subjects == Subjects::all || (subjects == Subjects::moving) == is_moving;
+}
+
+}  // namespace
+
+Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
+  Programs programs;
+  const auto make = [](const char* vertex, const char* fragment, gl::Program& program) -> Status {
+    Result<gl::Program> made = gl::Program::create(vertex, fragment);
+    if (!made) return made.errors();
+    program = *std::move(made);
+    assign_bindings(program);
+    return Done{};
+  };
+  for (const Status& status : {make("render/surface.vert", "render/surface.frag", programs.surface),
+                               make("render/depth.vert", "render/depth.frag", programs.depth),
+                               make("render/depth.vert", "render/picking.frag", programs.picking)})
+    if (!status) return status.errors();
+  return SceneDrawable(scene, std::move(programs));
+}
+
+SceneDrawable::SceneDrawable(const scene::Scene& scene, Programs programs)
+    : gpu_(scene), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
+  for (const scene::Object& object : scene.objects) {
+    if (object.is_dynamic) continue;
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    for (const scene::Part& part : object.model->parts)
+      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
+        occlusion_.add_occluder(part.mesh, object.world_from_model * pose[std::size_t(part.node)]);
+  }
+}
+
+Status SceneDrawable::set_reflection(ReflectionSource* source) {
+  reflection_ = nullptr;
+  if (!source) return Done{};
+  Result<gl::Program> program = gl::Program::create("render/surface.vert", source->fragment_shader());
+  if (!program) return program.errors();
+  programs_.mirror = *std::move(program);
+  assign_bindings(programs_.mirror);
+  reflection_ = source;
+  return Done{};
+}
+
+/// Elsewhere than in the main view reflections end: mirrors show the sky.
+bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
+  return item.is_mirror && reflection_ && view.kind == ViewKind::main;
+}
+
+/// Pass, then mirrors by object, then material, then part: neighbours in this order share a draw.
+std::uint64_t SceneDrawable::sort_key(const Item& item, const View& view) const {
+  const PartRange& part = gpu_.parts()[std::size_t(item.part)];
+  const Pass pass = gpu_.materials()[std::size_t(part.material)].pass;
+  return (std::uint64_t(pass) << 62) | (std::uint64_t(is_mirror_in(view, item) ? item.object + 1 : 0) << 42) |
+         (std::uint64_t(part.material) << 22) | std::uint64_t(item.part);
+}
+
+void SceneDrawable::gather(const View& view, ViewList& list) {
+  const Frustum frustum(view.clip_from_world);
+  if (view.culls_hidden) occlusion_.draw(view.clip_from_world);
+  list.order.clear();
+  list.statistics = {};
+  const std::vector<Item>& items = gpu_.items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item& item = items[i];
+    if (item.object == view.excluded_object || !shows(view.subjects, gpu_.is_moving(item.object))) continue;
+    if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
+    if (!frustum.may_see(item.bounds)) continue;
+    ++list.statistics.items_in_frustum;
+    if (view.culls_hidden && occlusion_.hides(item.bounds)) {
+      ++list.statistics.items_hidden;
+      continue;
+    }
+    list.order.emplace_back(sort_key(item, view), int(i));
+  }
+  std::sort(list.order.begin(), list.order.end());
+}
+
+void SceneDrawable::batch(const View& view, ViewList& list) const {
+  list.records.clear();
+  list.commands.clear();
+  for (std::vector<Batch>& batches : list.batches) batches.clear();
+  for (const auto& [key, index] : list.order) {
+    const Item& item = gpu_.items()[std::size_t(index)];
+    const PartRange& part = gpu_.parts()[std::size_t(item.part)];
+    const int mirror_object = is_mirror_in(view, item) ? item.object : -1;
+    std::vector<Batch>& batches = list.batches[key >> 62];
+    if (batches.empty() || batches.back().material != part.material || batches.back().mirror_object != mirror_object)
+      batches.push_back({part.material, mirror_object, std::uint32_t(list.commands.size()), 0});
+    if (batches.back().command_count > 0 && list.commands.back().first_index == part.first_index) {
+      ++list.commands.back().instances;
+    } else {
+      list.commands.push_back(
+          {part.index_count, 1, part.first_index, part.base_vertex, std::uint32_t(list.records.size())});
+      ++batches.back().command_count;
+    }
+    list.records.push_back(item.record);
+    list.statistics.triangles += part.index_count / 3;
+  }
+  list.statistics.draws = int(list.commands.size());
+}
+
+void SceneDrawable::prepare(const View& view) {
+  ViewList& list = view.kind == ViewKind::main ? main_list_ : other_list_;
+  gather(view, list);
+  batch(view, list);
+  list.first_record = list.record_store.append(std::span<const Item::Record>(list.records), 64);
+  list.first_command = list.command_store.append(std::span<const Command>(list.commands), 4);
+  if (view.kind != ViewKind::main) return;
+  visible_objects_.clear();
+  for (const auto& [key, index] : list.order) visible_objects_.push_back(gpu_.items()[std::size_t(index)].object);
+  std::sort(visible_objects_.begin(), visible_objects_.end());
+  visible_objects_.erase(std::unique(visible_objects_.begin(), visible_objects_.end()), visible_objects_.end());
+}
+
+void SceneDrawable::draw(const View& view, Pass pass) {
+  const ViewList& list = list_of(view);
+  if (list.batches[std::size_t(pass)].empty()) return;
+  glVertexArrayVertexBuffer(vertex_array_.name(), 1, list.record_store.name(), list.first_record, sizeof(Item::Record));
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
+  const gl::Program& plain = view.kind == ViewKind::shadow    ? programs_.depth
+                             : view.kind == ViewKind::picking ? programs_.picking
+                                                              : programs_.surface;
+  plain.use();
+  bool mirrors = false;  // within a pass, mirrors come last
+  for (const Batch& batch : list.batches[std::size_t(pass)]) {
+    if (batch.mirror_object >= 0) {
+      if (!mirrors) programs_.mirror.use();
+      mirrors = true;
+      reflection_->bind(programs_.mirror, batch.mirror_object);
+    }
+    gpu_.bind_material(batch.material);
+    const std::size_t offset = std::size_t(list.first_command) + sizeof(Command) * batch.first_command;
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                                GLsizei(batch.command_count), 0);
+  }
+}
+
+}  // namespace parvis::render

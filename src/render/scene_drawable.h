@@ -1,0 +1,94 @@
+// Draws the scene's items: culled for each view, gathered by material, many items a call.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "gl/program.h"
+#include "render/bindings.h"
+#include "render/frustum.h"
+#include "render/gpu_scene.h"
+#include "render/occlusion.h"
+#include "render/stream_buffer.h"
+#include "render/view.h"
+
+namespace parvis::render {
+
+/// How mirror-like parts of moving objects see their surroundings. A room above supplies the method.
+class ReflectionSource {
+ public:
+  virtual ~ReflectionSource() = default;
+  /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
+  virtual std::string fragment_shader() const = 0;
+  /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of `program`.
+  virtual void bind(const gl::Program& program, int object) = 0;
+};
+
+/// What one view drew.
+struct DrawStatistics {
+  int items_in_frustum = 0;
+  int items_hidden = 0;  ///< in the frustum, behind occluders
+  int draws = 0;
+  std::size_t triangles = 0;
+};
+
+class SceneDrawable final : public Drawable {
+ public:
+  static Result<SceneDrawable> create(const scene::Scene& scene);
+
+  void update(const scene::Scene& scene) { gpu_.update(scene); }
+  /// null: all reflect the sky alone.
+  Status set_reflection(ReflectionSource* source);
+
+  void prepare(const View& view) override;
+  void draw(const View& view, Pass pass) override;
+
+  /// Objects that the main view shows: what reflections are worth making for.
+  const std::vector<int>& visible_objects() const { return visible_objects_; }
+  const DrawStatistics& main_statistics() const { return main_list_.statistics; }
+  const GpuScene& gpu() const { return gpu_; }
+
+ private:
+  struct Command {  // DrawElementsIndirectCommand
+    std::uint32_t count, instances, first_index;
+    std::int32_t base_vertex;
+    std::uint32_t base_instance;
+  };
+  struct Batch {
+    int material;
+    int mirror_object;  ///< -1: none
+    std::uint32_t first_command, command_count;
+  };
+  struct Programs {
+    gl::Program surface, mirror, depth, picking;
+  };
+
+  /// What one view draws. The main view's list is kept while others are prepared and drawn.
+  struct ViewList {
+    std::vector<std::pair<std::uint64_t, int>> order;  ///< sort key, item
+    std::vector<Item::Record> records;
+    std::vector<Command> commands;
+    std::array<std::vector<Batch>, pass_count> batches;
+    StreamBuffer record_store{1 << 18}, command_store{1 << 16};
+    GLintptr first_record = 0, first_command = 0;
+    DrawStatistics statistics;
+  };
+
+  SceneDrawable(const scene::Scene& scene, Programs programs);
+  bool is_mirror_in(const View& view, const Item& item) const;
+  std::uint64_t sort_key(const Item& item, const View& view) const;
+  void gather(const View& view, ViewList& list);
+  void batch(const View& view, ViewList& list) const;
+  const ViewList& list_of(const View& view) const { return view.kind == ViewKind::main ? main_list_ : other_list_; }
+
+  GpuScene gpu_;
+  OcclusionCuller occlusion_;
+  Programs programs_;
+  ReflectionSource* reflection_ = nullptr;
+  gl::VertexArray vertex_array_;
+  ViewList main_list_, other_list_;
+  std::vector<int> visible_objects_;
+};
+
+}  // namespace parvis::render

@@ -1,0 +1,75 @@
+// The fragment shader of all surfaces. A file that includes it defines
+//   vec3 reflected_radiance(vec3 position, vec3 direction, float roughness)
+// the radiance that arrives at `position` from the mirror direction, blurred for the roughness.
+#include "render/frame.glsl"
+#include "render/material.glsl"
+#include "render/sun_lookup.glsl"
+#include "shading/surface.glsl"
+#include "shading/lighting.glsl"
+
+in vec3 position;
+in vec3 vertex_normal;
+in vec2 uv;
+out vec4 radiance;
+
+vec3 reflected_radiance(vec3 at, vec3 direction, float roughness);
+
+// The normal map turns the normal within the frame of the triangle's texture gradients: +x along u, +y against v.
+vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
+  vec3 px = dFdx(position), py = dFdy(position);
+  vec2 tx = dFdx(texture_uv), ty = dFdy(texture_uv);
+  float determinant = tx.x * ty.y - tx.y * ty.x;
+  vec3 along_u = (px * ty.y - py * tx.y) * sign(determinant);
+  vec3 along_v = (py * tx.x - px * ty.x) * sign(determinant);
+  vec3 tangent = along_u - normal * dot(normal, along_u);
+  float size = dot(tangent, tangent);
+  if (size < 1e-20f || determinant == 0.0f) return normal;
+  tangent *= inversesqrt(size);
+  vec3 bitangent = cross(normal, tangent);
+  bitangent *= dot(bitangent, along_v) > 0.0f ? -1.0f : 1.0f;
+  vec3 n = texture(normal_texture, texture_uv).xyz * 2.0f - 1.0f;
+  return normalize((tangent * n.x + bitangent * n.y) * material_emission.a + normal * max(n.z, 0.01f));
+}
+
+void main() {
+  vec2 texture_uv = texture_coordinates(uv);
+  vec4 base = texture(base_colour_texture, texture_uv);
+  base = vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
+  bool is_cutout = material_texture_v.w > 0.5f;
+#ifdef COVERAGE_BY_DISCARD
+  if (is_cutout && base.a < 0.5f) discard;
+#else
+  // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away.
+  if (is_cutout) base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
+#endif
+
+  vec3 to_viewer = viewer_position.xyz - position;
+  float distance_m = length(to_viewer);
+  to_viewer /= distance_m;
+  vec3 normal = normalize(gl_FrontFacing ? vertex_normal : -vertex_normal);
+  vec4 detail = texture(surface_texture, texture_uv);
+
+  Surface s;
+  s.normal = mapped_normal(normal, texture_uv);
+  s.base_colour = base.rgb;
+  s.metallic = material_layers.x * detail.b;
+  s.roughness = material_layers.y * detail.g;
+  s.clear_coat = material_layers.z;
+  s.clear_coat_roughness = material_layers.w;
+  s.translucency = material_texture_u.w;
+  s.occlusion = detail.r;
+  s.emission = material_emission.rgb * texture(emission_texture, texture_uv).rgb;
+
+  SceneLight light;
+  light.to_sun = frame_to_sun.xyz;
+  light.sun_irradiance = frame_sun_irradiance.rgb;
+  for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
+  light.haze_radiance = frame_haze.rgb;
+  light.haze_per_m = frame_to_sun.w;
+
+  vec3 mirrored = reflect(-to_viewer, s.normal);
+  vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);
+  vec3 coat_reflection = s.clear_coat > 0.0f ? reflected_radiance(position, mirrored, s.clear_coat_roughness) : vec3(0.0f);
+  vec3 light_out = lit_radiance(s, light, to_viewer, visible_sun(position, normal), 1.0f, base_reflection, coat_reflection);
+  radiance = vec4(through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance), base.a);
+}

@@ -1,0 +1,61 @@
+// Views and drawables: any drawable draws into any view, and no room loops over the scene itself.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "base/camera.h"
+
+namespace parvis::render {
+
+enum class ViewKind : std::uint8_t {
+  main,       ///< what a person sees
+  cube_face,  ///< surroundings of a reflector
+  shadow,     ///< depth from the sun
+  picking     ///< which object each pixel shows
+};
+
+/// Which of the scene's objects a view shows.
+enum class Subjects : std::uint8_t { all, fixed, moving };
+
+/// One picture to be drawn: from where, through what, onto which target.
+struct View {
+  ViewKind kind = ViewKind::main;
+  glm::mat4 clip_from_world{1.0f};
+  glm::vec3 position_in_world{0.0f};  ///< of the eye; for shadows, a point far toward the sun
+  GLuint framebuffer = 0;
+  int width = 0, height = 0;
+  int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
+  Subjects subjects = Subjects::all;
+  bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
+};
+
+inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int height) {
+  View view;
+  view.clip_from_world =
+      camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
+  view.position_in_world = camera.position_in_world();
+  view.framebuffer = framebuffer;
+  view.width = width;
+  view.height = height;
+  return view;
+}
+
+/// In the order in which a view draws them. Shadow and picking views have no blend pass.
+enum class Pass : std::uint8_t { opaque, cutout, blend };
+inline constexpr int pass_count = 3;
+
+/// What a room puts into pictures. The renderer asks every drawable in every view.
+class Drawable {
+ public:
+  virtual ~Drawable() = default;
+  /// Once for each view, before its passes: cull, choose levels of detail, upload. Other views are prepared and drawn
+  /// between the main view's preparation and its drawing.
+  virtual void prepare(const View& view) = 0;
+  /// Draws one pass; the target is bound, the uniform block of render/frame.glsl is filled.
+  virtual void draw(const View& view, Pass pass) = 0;
+};
+
+}  // namespace parvis::render

@@ -1,0 +1,22 @@
+// C++ face of shadow.glsl and shadow_filter.glsl: the renderer's shadow maps, copied, for the ray tracer.
+#pragma once
+
+#include <array>
+
+#include "base/image.h"
+#include "shading/glsl.h"
+
+namespace parvis::shading {
+#include "shading/shadow.glsl"
+
+/// The depth of each map as OpenGL gives it back: row 0 is v = 0. Maps of zero size throw no shadow.
+struct SunShadow {
+  ShadowMaps maps{};
+  glm::vec3 texel_uv{0.0f};
+  std::array<ImageF, 3> depth;
+};
+
+/// 1 where a point is in full sun, 0 in shadow; `normal` is the geometric one, on the viewer's side.
+float sun_visibility(const SunShadow& shadow, glm::vec3 position, glm::vec3 normal, glm::vec3 to_sun);
+
+}  // namespace parvis::shading
