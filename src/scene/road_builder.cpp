@@ -54,9 +54,10 @@ Arm make_arm(std::size_t index, const Street& street, const Road& road, bool is_
 
 /// How far from the node two arms' kerbs, rounded, stay clear of one another.
 float clear_m(const Arm& arm, const Arm& other) {
-  const float angle = std::acos(std::clamp(glm::dot(arm.outward, other.outward), -1.0f, 1.0f));
+  const float cosine = std::clamp(glm::dot(arm.outward, other.outward), -1.0f, 1.0f);
+  const float half_angle_tangent = std::sqrt((1.0f - cosine) / std::max(1.0f + cosine, 1e-6f));
   const float width = std::max(arm.half_width_m, other.half_width_m);
-  return (width + kerb_radius_m) / std::max(std::tan(0.5f * angle), 1e-3f);
+  return (width + kerb_radius_m) / std::max(half_angle_tangent, 1e-3f);
 }
 
 /// How much of a dead end the loop takes in which a car turns round; nothing where a one-way road ends.

@@ -1,0 +1,144 @@
+#include "traffic/lane_network.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/bounds.h"
+#include "base/parallel.h"
+
+namespace parvis::traffic {
+
+namespace {
+
+constexpr float sweep_step_m = 1.0f;
+constexpr float sweep_margin_m = 0.12f;  // on each side of the largest vehicle
+constexpr float slowest = 1.5f;          // m/s: however tight the bend
+constexpr float bridge_clearance_m = 3.0f;
+
+/// The places of a vehicle that passes along a lane.
+struct Sweep {
+  Bounds bounds;
+  std::vector<Footprint> footprints;
+  std::vector<float> heights_m;
+};
+
+/// Lanes from which one can drive on for ever: the others are taken away until none is left to take.
+void keep_lanes_that_lead_on(std::vector<DrivingLane>& lanes) {
+  bool has_changed = true;
+  while (has_changed) {
+    has_changed = false;
+    for (DrivingLane& lane : lanes) {
+      std::erase_if(lane.next, [&](int next) { return !lanes[std::size_t(next)].is_usable; });
+      if (lane.is_usable && lane.next.empty()) lane.is_usable = false, has_changed = true;
+    }
+  }
+}
+
+/// Speed at each metre: by the curvature over a car's length, then so that braking reaches it in time.
+std::vector<float> safe_speeds(const scene::MeasuredPath& path, float limit, float braking) {
+  constexpr float reach_m = 1.5f;
+  const std::size_t count = std::size_t(std::ceil(path.length())) + 1;
+  std::vector<float> speeds(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float along = std::min(float(i), path.length());
+    const glm::vec3 before = path.direction_at(std::max(along - reach_m, 0.0f));
+    const glm::vec3 after = path.direction_at(std::min(along + reach_m, path.length()));
+    const float turn = std::acos(std::clamp(glm::dot(before, after), -1.0f, 1.0f));
+    const float bend = std::sqrt(lateral_acceleration * 2.0f * reach_m / std::max(turn, 1e-3f));
+    speeds[i] = std::clamp(bend, std::min(slowest, limit), limit);
+  }
+  for (std::size_t i = count - 1; i-- > 0;)
+    speeds[i] = std::min(speeds[i], std::sqrt(speeds[i + 1] * speeds[i + 1] + 2.0f * braking));
+  return speeds;
+}
+
+/// A vehicle as long, as wide and with as large overhangs as any.
+VehicleShape largest(const std::vector<VehicleShape>& shapes) {
+  VehicleShape result = shapes.front();
+  for (const VehicleShape& shape : shapes) {
+    result.half_width_m = std::max(result.half_width_m, shape.half_width_m);
+    if (shape.length_m() <= result.length_m()) continue;
+    const float width = result.half_width_m;
+    result = shape, result.half_width_m = width;
+  }
+  result.half_width_m += sweep_margin_m;
+  return result;
+}
+
+/// A turning lane's vehicle reaches back and forth over the lane's ends; on a street it stays within them.
+Sweep sweep_along(const scene::MeasuredPath& path, bool is_turn, const VehicleShape& shape) {
+  const float half = 0.5f * shape.length_m();
+  const float from = is_turn ? -half : std::min(half, 0.5f * path.length());
+  const float to = path.length() - from;
+  const int steps = std::max(1, int(std::ceil((to - from) / sweep_step_m)));
+  Sweep sweep;
+  for (int i = 0; i <= steps; ++i) {
+    const float centre = glm::mix(from, to, float(i) / float(steps));
+    const glm::vec3 rear = path.at(centre - half - shape.rear_m + shape.rear_axle_m);
+    const glm::vec3 front = path.at(centre + half - shape.front_overhang_m());
+    sweep.footprints.push_back(shape.footprint(rear, front));
+    sweep.heights_m.push_back(rear.z);
+    const float radius = half + shape.half_width_m;
+    const glm::vec3 middle(sweep.footprints.back().centre, rear.z);
+    sweep.bounds.add(middle - glm::vec3(radius));
+    sweep.bounds.add(middle + glm::vec3(radius));
+  }
+  return sweep;
+}
+
+bool touch(const Sweep& a, const Sweep& b) {
+  if (glm::any(glm::greaterThan(a.bounds.min, b.bounds.max)) ||
+      glm::any(glm::greaterThan(b.bounds.min, a.bounds.max)))
+    return false;
+  for (std::size_t i = 0; i < a.footprints.size(); ++i)
+    for (std::size_t j = 0; j < b.footprints.size(); ++j)
+      if (std::abs(a.heights_m[i] - b.heights_m[j]) < bridge_clearance_m &&
+          overlap(a.footprints[i], b.footprints[j]))
+        return true;
+  return false;
+}
+
+bool contains(const std::vector<int>& list, std::size_t value) {
+  return std::ranges::find(list, int(value)) != list.end();
+}
+
+void find_conflicts(std::vector<DrivingLane>& lanes, const scene::RoadGraph& roads,
+                    const VehicleShape& shape) {
+  std::vector<Sweep> sweeps(lanes.size());
+  parallel_for(lanes.size(), [&](std::size_t i) {
+    if (lanes[i].is_usable) sweeps[i] = sweep_along(lanes[i].path, roads.lanes[i].crossing >= 0, shape);
+  });
+  parallel_for(lanes.size(), [&](std::size_t i) {
+    for (std::size_t j = 0; j < lanes.size(); ++j) {
+      const bool follow_one_another = contains(lanes[i].next, j) || contains(lanes[j].next, i);
+      if (i != j && !follow_one_another && touch(sweeps[i], sweeps[j])) lanes[i].conflicts.push_back(int(j));
+    }
+  });
+  for (DrivingLane& lane : lanes) lane.is_shared = !lane.conflicts.empty();
+}
+
+}  // namespace
+
+float DrivingLane::safe_speed_at(float distance_m) const {
+  const float last = float(safe_speeds.size() - 1);
+  const float place = std::clamp(distance_m, 0.0f, last);
+  const std::size_t i = std::min(std::size_t(place), safe_speeds.size() - 2);
+  return glm::mix(safe_speeds[i], safe_speeds[i + 1], place - float(i));
+}
+
+std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
+                                       float comfortable_braking) {
+  std::vector<DrivingLane> lanes(roads.lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const scene::Lane& lane = roads.lanes[i];
+    lanes[i].path = scene::MeasuredPath(scene::without_repeats(lane.points));
+    lanes[i].next = lane.next;
+    lanes[i].is_usable = true;
+    lanes[i].safe_speeds = safe_speeds(lanes[i].path, lane.speed_limit, comfortable_braking);
+  }
+  keep_lanes_that_lead_on(lanes);
+  if (!shapes.empty()) find_conflicts(lanes, roads, largest(shapes));
+  return lanes;
+}
+
+}  // namespace parvis::traffic

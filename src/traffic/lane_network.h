@@ -1,0 +1,33 @@
+// The road graph made ready for driving: lanes that lead somewhere, how fast each place may be taken, and
+// which lanes cannot be used at the same time.
+#pragma once
+
+#include <vector>
+
+#include "scene/path.h"
+#include "scene/road_graph.h"
+#include "traffic/vehicle_shape.h"
+
+namespace parvis::traffic {
+
+struct DrivingLane {
+  scene::MeasuredPath path;
+  std::vector<int> next;   ///< only lanes that lead on
+  bool is_usable = false;  ///< a vehicle that enters it can drive on for ever
+  bool is_shared =
+      false;  ///< crosses, leaves or joins another lane's way: to be asked for before it is entered
+  std::vector<int> conflicts;      ///< lanes whose way overlaps with this one's
+  std::vector<float> safe_speeds;  ///< m/s at every metre from the start: limit, bends, and braking for them
+
+  float safe_speed_at(float distance_m) const;
+};
+
+/// Lateral acceleration that passengers find comfortable, m/s2: sets the speed in bends.
+inline constexpr float lateral_acceleration = 2.2f;
+
+/// Lanes with the indices of `roads`. `shapes` are the vehicles to come: two lanes conflict where the largest
+/// of them would touch one another.
+std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
+                                       float comfortable_braking);
+
+}  // namespace parvis::traffic
