@@ -26,7 +26,7 @@ struct Node {
   const NodeSchema* schema = nullptr;
   FileLocation where;
   std::vector<NodeAttribute> attributes;  ///< in the order written, repeats included
-  std::vector<Node> children;             ///< of an include: the nodes of the included file
+  std::vector<Node> children;             ///< included files put their nodes in place
 
   /// The script gives the attribute.
   bool gives(const std::string& name) const { return find(name) != nullptr; }

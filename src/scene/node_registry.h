@@ -20,12 +20,15 @@ using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
 /// Changes the model that the node's parent has read.
 using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuilder& builder)>;
 
-/// Either builds something, or stands in a `model` and changes it.
+/// Either builds something, or stands in a `model` and changes it; include does neither.
 struct NodeType {
   NodeSchema schema;
   BuildNode build;
   ChangeModel change;
 };
+
+/// The checker puts the nodes of a file in the place of this node.
+inline const std::string include_type = "include";
 
 /// Nodes point into the registry that checked them: it must outlive them.
 class NodeRegistry {

@@ -8,10 +8,11 @@ namespace parvis::scene {
 namespace {
 
 NodeSchema include_schema() {
-  return {.type = "include",
+  return {.type = include_type,
           .help = "The nodes of another script, as if they were written here.",
           .attributes =
               {{.name = "file", .type = AttributeType::file, .help = "a scene script", .is_required = true}},
+          .stands_in = {top_level, "group", "traffic", "model"},
           .example = "include(file=\"evening_light.xp\")"};
 }
 

@@ -65,16 +65,27 @@ void build_road(const Node& node, SceneBuilder& builder) {
   builder.roads.push_back(std::move(road));
 }
 
+/// As the room `traffic` calls its objects.
+std::vector<std::string> names_of_vehicles(const Node& node) {
+  std::vector<std::string> names;
+  for (long i = 1; i <= node.integer("vehicles"); ++i) names.push_back(fmt::format("vehicle {}", i));
+  return names;
+}
+
 NodeSchema traffic_schema() {
   return {.type = "traffic",
           .help =
               "Vehicles on the roads of the scene. Its models are the kinds of vehicles: x forward, y left, "
               "the road "
-              "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\".",
+              "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
+              "vehicles are "
+              "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
           .attributes = {{.name = "vehicles",
                           .type = AttributeType::integer,
                           .help = "how many",
-                          .minimum = 0, .maximum = 10'000, .is_required = true},
+                          .minimum = 0,
+                          .maximum = 10'000,
+                          .is_required = true},
                          {.name = "seed",
                           .type = AttributeType::integer,
                           .help = "the same seed gives the same traffic",
@@ -84,7 +95,8 @@ NodeSchema traffic_schema() {
               "traffic(vehicles=30, seed=7) {\n"
               "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
               "}",
-          .is_unique = true};
+          .is_unique = true,
+          .names_made = names_of_vehicles};
 }
 
 void build_traffic(const Node& node, SceneBuilder& builder) {

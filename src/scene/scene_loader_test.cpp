@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "base/test_folder.h"
 #include "scene/script_checker.h"
 
@@ -135,6 +136,61 @@ TEST_F(SceneLoader, IncludesStandInTheFrameOfTheirPlace) {
   folder_.write("parts/lamp.xp", "camera(name=\"lamp\", position=\"0 0 4\")");
   const Scene scene = scene_of("group(position=\"5 0 0\") { include(file=\"parts/lamp.xp\") }");
   expect_near(scene.find_camera("lamp")->camera.position_in_world(), {5, 0, 4});
+}
+
+TEST_F(SceneLoader, IncludesStandWhereTheirNodesMay) {
+  folder_.write("lamp.xp", "camera(name=\"lamp\")");
+  EXPECT_TRUE(holds(errors_of("traffic(vehicles=0) { include(file=\"lamp.xp\") }"),
+                    "lamp.xp:1:1: camera does not stand in traffic, which takes include, model"));
+  EXPECT_TRUE(holds(errors_of("include(file=\"lamp.xp\") { sun() }"), "include takes no children"));
+}
+
+TEST_F(SceneLoader, RoadsBecomeLanes) {
+  const Scene scene = scene_of(
+      "group(position=\"100 0 0\") { road(path=\"0 0, 50 0\", path=\"70 0, 100 0\", lanes=2, speed_km_h=36) "
+      "}\n"
+      "traffic(vehicles=3, seed=9)\ncamera(name=chase, follows=\"vehicle 3\", offset=\"-5 0 2\")");
+  ASSERT_FALSE(scene.roads.empty());
+  for (const Lane& lane : scene.roads.lanes) {
+    EXPECT_FLOAT_EQ(lane.speed_limit, 10.0f);
+    for (const glm::vec3& point : lane.points) EXPECT_GT(point.x, 80.0f);
+  }
+  EXPECT_EQ(scene.traffic.vehicles, 3);
+  EXPECT_EQ(scene.traffic.seed, 9u);
+  EXPECT_EQ(scene.find_camera("chase")->follows, "vehicle 3");
+  EXPECT_TRUE(holds(errors_of("traffic(vehicles=3)\ncamera(name=chase, follows=\"vehicle 4\")"),
+                    "did you mean \"vehicle"));
+}
+
+TEST_F(SceneLoader, BadRoadsAreToldAtTheirPath) {
+  EXPECT_TRUE(holds(errors_of("\nroad(path=\"1 1, 1 1\")"), "scene.xp:2:11:"));
+  EXPECT_TRUE(holds(errors_of("road(path=\"1 1\")"), "two or more points"));
+  EXPECT_TRUE(holds(errors_of("road(path=\"1 1, 2 x\")"), "two or more points"));
+}
+
+TEST_F(SceneLoader, RandomEditsOfAScriptNeverCrash) {
+  const std::string valid =
+      "group(name=\"g\", position=\"1 2 3\", heading_deg=30) { # c\n camera(name=\"a\", target=\"10 20 3\")\n"
+      "  road(path=\"0 0, 50 0, 70 20\", lanes=2)\n}\nsun(irradiance=\"#AABBCC\")\nair(haze_per_m=0.001)\n"
+      "traffic(vehicles=12)\ncamera(name=b, follows=\"vehicle 1\")\ninclude(file=\"part.xp\")\n";
+  folder_.write("part.xp", "exposure(value=2)\nreflection(method=none)");
+  const std::string bytes = "(){}=,\"\\#/ \n.-01e9axz\xff";
+  Random random(11);
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = valid;
+    for (int edit = random.index(4); edit >= 0; --edit) {
+      const std::size_t at = std::size_t(random.index(int(text.size())));
+      const char byte = bytes[std::size_t(random.index(int(bytes.size())))];
+      if (random.chance(0.6f))
+        text[at] = byte;
+      else if (random.chance(0.5f))
+        text.insert(at, 1, byte);
+      else
+        text.erase(at, std::size_t(1 + random.index(8)));
+    }
+    const auto loaded = load(text);
+    EXPECT_TRUE(loaded || !loaded.errors().empty());
+  }
 }
 
 TEST_F(SceneLoader, ErrorsInIncludedFilesNameThem) {

@@ -43,6 +43,8 @@ struct AttributeSchema {
 /// The parent of nodes that stand in no other.
 inline const std::string top_level = "scene";
 
+struct Node;
+
 struct NodeSchema {
   std::string type = {};
   std::string help = {};  ///< one line or two
@@ -50,6 +52,8 @@ struct NodeSchema {
   std::vector<std::string> stands_in{top_level, "group"};  ///< types of the nodes that may hold it
   std::string example = {};                                ///< a script that uses it
   bool is_unique = false;                                  ///< stands at most once in a scene
+  /// Names of the things that the node makes when the scene runs: others may refer to them.
+  std::vector<std::string> (*names_made)(const Node& node) = nullptr;
 
   const AttributeSchema* find(const std::string& name) const;
 };

@@ -31,8 +31,8 @@ class Checker {
   void check_place(const ScriptNode& written, const NodeSchema& schema, const std::string& file,
                    const std::string& parent);
   void check_unique(const std::string& type, const FileLocation& where);
-  void include(Node& node, const std::string& parent);
-  void note_name(const NodeAttribute& name);
+  std::vector<Node> included(const Node& include, const std::string& parent);
+  void note_name(const std::string& name, const FileLocation& where);
   void resolve_references(const std::vector<Node>& nodes);
 
   void fail(Error error) {
@@ -92,11 +92,13 @@ std::vector<Node> Checker::nodes(const std::vector<ScriptNode>& written, const s
     check_place(child, type->schema, file, parent);
     if (type->schema.is_unique) check_unique(child.type, where);
     Node checked = node(child, *type, file);
-    if (type->schema.type == "include")
-      include(checked, parent);
-    else
-      checked.children = nodes(child.children, file, child.type);
-    result.push_back(std::move(checked));
+    checked.children = nodes(child.children, file, child.type);
+    if (child.type == include_type) {
+      std::vector<Node> included_nodes = included(checked, parent);
+      std::move(included_nodes.begin(), included_nodes.end(), std::back_inserter(result));
+    } else {
+      result.push_back(std::move(checked));
+    }
   }
   return result;
 }
@@ -136,6 +138,8 @@ Node Checker::node(const ScriptNode& written, const NodeType& type, const std::s
       fail(error_at(node.where, "{} needs {}=: {}, {}", type.schema.type, schema.name, schema.help,
                     expectation(schema)));
   }
+  if (type.schema.names_made)
+    for (const std::string& name : type.schema.names_made(node)) note_name(name, node.where);
   return node;
 }
 
@@ -155,34 +159,36 @@ void Checker::attribute(Node& node, const ScriptAttribute& written, const std::s
   Result<AttributeValue> value = parse_value(*schema, written.value, roots_, at_value);
   if (!value) return fail(value.errors());
   node.attributes.push_back({schema, std::move(*value), written.value, at_value});
-  if (schema->name == "name") note_name(node.attributes.back());
+  if (schema->name == "name") note_name(written.value, at_value);
 }
 
-void Checker::note_name(const NodeAttribute& name) {
-  if (name.text.empty()) return fail(error_at(name.where, "the name is empty; leave name= out or give one"));
-  const auto [earlier, is_new] = names_.emplace(name.text, name.where);
+void Checker::note_name(const std::string& name, const FileLocation& where) {
+  if (name.empty()) return fail(error_at(where, "the name is empty; leave name= out or give one"));
+  const auto [earlier, is_new] = names_.emplace(name, where);
   if (!is_new)
-    fail(error_at(name.where, "the name \"{}\" is taken: {}:{} has it already; names are unique in a scene",
-                  name.text, earlier->second.file, earlier->second.line));
+    fail(error_at(where, "the name \"{}\" is taken: {}:{} has it already; names are unique in a scene", name,
+                  earlier->second.file, earlier->second.line));
 }
 
-void Checker::include(Node& node, const std::string& parent) {
-  if (!node.gives("file")) return;
-  const fs::path script = node.file("file");
-  const FileLocation& where = node.where_of("file");
+/// The nodes of the file that `include` names: they stand in its place.
+std::vector<Node> Checker::included(const Node& include, const std::string& parent) {
+  if (!include.gives("file")) return {};
+  const fs::path script = include.file("file");
+  const FileLocation& where = include.where_of("file");
   const auto open = std::find(open_files_.begin(), open_files_.end(), script);
   if (open != open_files_.end()) {
     std::string chain;
     for (auto each = open; each != open_files_.end(); ++each) chain += each->filename().string() + " -> ";
-    return fail(
-        error_at(where, "files include each other in a circle: {}{}", chain, script.filename().string()));
+    fail(error_at(where, "files include each other in a circle: {}{}", chain, script.filename().string()));
+  } else if (open_files_.size() >= max_include_depth) {
+    fail(error_at(where, "includes are nested more than {} deep", max_include_depth));
+  } else if (++include_count_ > max_included_files) {
+    if (include_count_ == max_included_files + 1)
+      fail(error_at(where, "the scene includes more than {} files", max_included_files));
+  } else {
+    return file(script, parent, where);
   }
-  if (open_files_.size() >= max_include_depth)
-    return fail(error_at(where, "includes are nested more than {} deep", max_include_depth));
-  if (++include_count_ == max_included_files + 1)
-    fail(error_at(where, "the scene includes more than {} files", max_included_files));
-  if (include_count_ > max_included_files) return;
-  node.children = file(script, parent, where);
+  return {};
 }
 
 /// After all files are read: a node may refer to one that comes later.
