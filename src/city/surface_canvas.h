@@ -1,0 +1,84 @@
+// A sheet on which materials are painted in metres: colour, relief, gloss and openness together, so that the
+// pictures of a material (colour, normal, surface) always agree.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "scene/model.h"
+
+namespace parvis::city {
+
+/// One point of a surface.
+struct Texel {
+  glm::vec3 colour{0.5f};  ///< linear
+  float height_m = 0.0f;   ///< above the sheet
+  float roughness = 0.85f;
+  float metallic = 0.0f;
+  float openness = 1.0f;  ///< ambient occlusion, 1 = open
+  float alpha = 1.0f;
+};
+
+/// In metres; x to the right, y up from the foot of the sheet.
+struct Rect {
+  float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
+
+  float width() const { return x1 - x0; }
+  float height() const { return y1 - y0; }
+  Rect inset(float by) const { return {x0 + by, y0 + by, x1 - by, y1 - by}; }
+};
+
+/// The three pictures of glTF's metallic-roughness surface.
+struct SurfacePictures {
+  Image8 colour, normal, surface;
+};
+
+class SurfaceCanvas {
+ public:
+  /// Every pixel starts as `ground`. Painting wraps round all four edges: the sheet tiles.
+  SurfaceCanvas(int width_px, int height_px, float width_m, float height_m, const Texel& ground = {});
+
+  float width_m() const { return width_m_; }
+  float height_m() const { return height_m_; }
+
+  /// Calls paint(x_m, y_m, texel) for the pixels whose centre lies in `rect`; x_m and y_m are not wrapped.
+  template <class Paint>
+  void paint(const Rect& rect, Paint&& paint);
+  template <class Paint>
+  void paint_all(Paint&& body) {
+    paint(Rect{0.0f, 0.0f, width_m_, height_m_}, body);
+  }
+
+  /// Covers a rectangle with a material; pixels at its edges are mixed by their covered share.
+  void fill(const Rect& rect, const Texel& material);
+  /// Darkens the ambient light in a rectangle by `amount` at its top, fading to nothing at its foot.
+  void shade_below(const Rect& rect, float amount);
+  /// The same from the left edge to the right (or back, for a negative amount).
+  void shade_beside(const Rect& rect, float amount);
+
+  /// Colour (sRGB, with alpha), normals from the relief, and occlusion-roughness-metallic. `normal_shrink`
+  /// and `surface_shrink` divide the size of those pictures.
+  SurfacePictures pictures(int normal_shrink, int surface_shrink) const;
+
+ private:
+  Texel& texel(int x, int y);
+  const Texel& texel(int x, int y) const;
+  ImageF relief_normals() const;
+
+  int width_px_, height_px_;
+  float width_m_, height_m_;
+  std::vector<Texel> texels_;
+};
+
+template <class Paint>
+void SurfaceCanvas::paint(const Rect& rect, Paint&& paint) {
+  const float x_m = width_m_ / float(width_px_), y_m = height_m_ / float(height_px_);
+  const int left = int(glm::ceil(rect.x0 / x_m - 0.5f)), right = int(glm::ceil(rect.x1 / x_m - 0.5f));
+  const int foot = int(glm::ceil(rect.y0 / y_m - 0.5f)), top = int(glm::ceil(rect.y1 / y_m - 0.5f));
+  for (int y = foot; y < top; ++y)
+    for (int x = left; x < right; ++x) paint((float(x) + 0.5f) * x_m, (float(y) + 0.5f) * y_m, texel(x, y));
+}
+
+}  // namespace parvis::city
