@@ -7,7 +7,8 @@ namespace parvis::scene {
 namespace {
 
 constexpr std::uint32_t segments = 48;
-constexpr float spoke_fill = 0.55f;  ///< share of the circle that spokes take at the rim's middle radius
+constexpr float spoke_flare =
+    0.22f;  ///< half a spoke's width at the lip, as a share of the distance between spokes
 
 /// A point of a profile that turns about the y axis.
 struct ProfilePoint {
@@ -94,8 +95,8 @@ Mesh rim(const WheelShape& shape) {
   add_turned(mesh, cap);
   const float step = glm::two_pi<float>() / float(shape.spokes);
   for (int i = 0; i < shape.spokes; ++i)
-    add_spoke(mesh, step * float(i), 0.9f * hub, 0.93f * r, 0.45f * spoke_fill * step * hub,
-              0.25f * spoke_fill * step * r, face_y, back_y);
+    add_spoke(mesh, step * float(i), 0.9f * hub, 0.93f * r, 0.45f * step * hub, spoke_flare * step * r,
+              face_y, back_y);
   return finished(std::move(mesh));
 }
 
