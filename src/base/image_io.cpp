@@ -87,10 +87,13 @@ Result<Image8> read_image8(const fs::path& file) {
 }
 
 Result<Image8> read_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
-  OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
   const bool is_png = bytes.size() > 4 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G';
-  const OIIO::ImageSpec configuration = plain_colours();
-  auto input = OIIO::ImageInput::open(is_png ? "memory.png" : "memory.jpg", &configuration, &reader);
+  const std::string file_name = is_png ? "memory.png" : "memory.jpg";
+  OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  OIIO::ImageSpec configuration = plain_colours();
+  configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
+  auto input = OIIO::ImageInput::open(file_name, &configuration, proxy);
   if (!input) return cannot_open(name);
   return read<std::uint8_t>(input.get(), name, 4, 255);
 }

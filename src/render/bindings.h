@@ -1,4 +1,5 @@
-// Which texture unit and block each name in the shaders of this room stands for. (GLSL ES 3.00 cannot say so itself.)
+// Which texture unit and block each name in the shaders of this room stands for. (GLSL ES 3.00 cannot say so
+// itself.)
 #pragma once
 
 #include "gl/program.h"
@@ -9,14 +10,17 @@ inline constexpr GLuint sky_unit = 4;
 inline constexpr GLuint first_shadow_unit = 5;
 inline constexpr GLuint first_reflection_unit = 8;  ///< for the rooms above
 
-/// To be called once for each program that includes frame.glsl, material.glsl, sky_lookup.glsl or sun_lookup.glsl.
+/// To be called once for each program that includes frame.glsl, material.glsl, sky_lookup.glsl or
+/// sun_lookup.glsl.
 inline void assign_bindings(const gl::Program& program) {
-  constexpr const char* samplers[]{"base_colour_texture", "normal_texture",  "surface_texture", "emission_texture",
-                                   "sky_texture",         "far_shadow_map", "near_shadow_map", "moving_shadow_map"};
+  constexpr const char* samplers[]{"base_colour_texture", "normal_texture",   "surface_texture",
+                                   "emission_texture",    "sky_texture",      "far_shadow_map",
+                                   "near_shadow_map",     "moving_shadow_map"};
   for (int unit = 0; unit < 8; ++unit) program.set(samplers[unit], unit);
   constexpr const char* blocks[]{"Frame", "Material"};
   for (GLuint binding = 0; binding < 2; ++binding)
-    if (const GLuint index = glGetUniformBlockIndex(program.name(), blocks[binding]); index != GL_INVALID_INDEX)
+    if (const GLuint index = glGetUniformBlockIndex(program.name(), blocks[binding]);
+        index != GL_INVALID_INDEX)
       glUniformBlockBinding(program.name(), index, binding);
 }
 

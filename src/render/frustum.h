@@ -17,7 +17,8 @@ class Frustum {
                rows[3] - rows[1], rows[3] + rows[2], rows[3] - rows[2]};
   }
 
-  /// False only where the whole box lies outside one plane: a few boxes near corners pass that could not be seen.
+  /// False only where the whole box lies outside one plane: a few boxes near corners pass that could not be
+  /// seen.
   bool may_see(const Bounds& box) const {
     const glm::vec3 centre = box.centre(), half = 0.5f * box.size();
     for (const glm::vec4& plane : planes_) {

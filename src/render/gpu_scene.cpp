@@ -15,10 +15,10 @@ struct Vertex {
 
 /// The uniform block of render/material.glsl, std140.
 struct MaterialBlock {
-  glm::vec4 base_colour;                  // rgb, alpha
-  glm::vec4 emission;                     // rgb, normal scale
-  glm::vec4 metallic_roughness_coat;      // metallic, roughness, coat, coat roughness
-  glm::vec4 texture_rows[2];              // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
+  glm::vec4 base_colour;              // rgb, alpha
+  glm::vec4 emission;                 // rgb, normal scale
+  glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
+  glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
 };
 
 constexpr float anisotropy = 16.0f;
@@ -34,9 +34,12 @@ MaterialBlock block_of(const scene::Material& material) {
 
 Pass pass_of(scene::Alpha alpha) {
   switch (alpha) {
-    case scene::Alpha::opaque: return Pass::opaque;
-    case scene::Alpha::cutout: return Pass::cutout;
-    case scene::Alpha::blend: return Pass::blend;
+    case scene::Alpha::opaque:
+      return Pass::opaque;
+    case scene::Alpha::cutout:
+      return Pass::cutout;
+    case scene::Alpha::blend:
+      return Pass::blend;
   }
   return Pass::opaque;
 }
@@ -44,7 +47,8 @@ Pass pass_of(scene::Alpha alpha) {
 gl::Texture upload(const scene::Texture& source) {
   const Image8& image = source.image;
   const int levels = int(std::bit_width(unsigned(std::max(image.width, image.height))));
-  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, levels);
+  gl::Texture texture =
+      gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, levels);
   glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                       image.pixels.data());
   glGenerateTextureMipmap(texture.name());
@@ -87,8 +91,9 @@ void GpuScene::upload_geometry(const std::vector<const scene::Model*>& models) {
     upload_model_materials(*model);
     for (const scene::Part& part : model->parts) {
       const Mesh& mesh = part.mesh;
-      parts_.push_back({std::uint32_t(indices.size()), std::uint32_t(mesh.indices.size()), std::int32_t(vertices.size()),
-                        first_material + part.material, part.node, mesh.bounds(), part.casts_shadow});
+      parts_.push_back({std::uint32_t(indices.size()), std::uint32_t(mesh.indices.size()),
+                        std::int32_t(vertices.size()), first_material + part.material, part.node,
+                        mesh.bounds(), part.casts_shadow});
       for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
       indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -105,10 +110,10 @@ void GpuScene::upload_model_materials(const scene::Model& model) {
     return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
   };
   for (const scene::Material& material : model.materials) {
-    materials_.push_back({texture_or(material.base_colour_texture, white_),
-                          texture_or(material.normal_texture, flat_normal_), texture_or(material.surface_texture, white_),
-                          texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
-                          material.is_double_sided, material.is_mirror_like});
+    materials_.push_back(
+        {texture_or(material.base_colour_texture, white_), texture_or(material.normal_texture, flat_normal_),
+         texture_or(material.surface_texture, white_), texture_or(material.emission_texture, white_),
+         pass_of(material.alpha_mode), material.is_double_sided, material.is_mirror_like});
     const MaterialBlock block = block_of(material);
     const std::size_t offset = material_bytes_.size();
     material_bytes_.resize(offset + std::size_t(block_stride_));
@@ -126,7 +131,8 @@ void GpuScene::make_items(const scene::Scene& scene) {
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
       const int part = first + int(p);
       const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
-      items_.push_back({{{}, std::uint32_t(o)}, {}, part, int(o), object.takes_reflection && material.is_mirror_like});
+      items_.push_back(
+          {{{}, std::uint32_t(o)}, {}, part, int(o), object.takes_reflection && material.is_mirror_like});
     }
   }
   first_item_.push_back(std::uint32_t(items_.size()));

@@ -1,5 +1,5 @@
-// The scene's models on the GPU: one vertex and one index buffer, a texture for each picture, a block for each material;
-// and its items: every part of every object, with bounds and transform, in flat arrays.
+// The scene's models on the GPU: one vertex and one index buffer, a texture for each picture, a block for
+// each material; and its items: every part of every object, with bounds and transform, in flat arrays.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct GpuMaterial {
 /// One part of one object. `record` is what the vertex shader reads for it.
 struct Item {
   struct Record {
-    glm::vec4 rows[3];          ///< of world_from_mesh
+    glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;
   };
   Record record;

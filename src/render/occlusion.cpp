@@ -21,7 +21,8 @@ int clip_to_near(const std::array<glm::vec4, 3>& in, std::array<glm::vec4, 4>& o
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::vec4 &a = in[i], &b = in[(i + 1) % 3];
     if (a.w > near_w) out[std::size_t(count++)] = a;
-    if ((a.w > near_w) != (b.w > near_w)) out[std::size_t(count++)] = glm::mix(a, b, (near_w - a.w) / (b.w - a.w));
+    if ((a.w > near_w) != (b.w > near_w))
+      out[std::size_t(count++)] = glm::mix(a, b, (near_w - a.w) / (b.w - a.w));
   }
   return count;
 }
@@ -29,8 +30,8 @@ int clip_to_near(const std::array<glm::vec4, 3>& in, std::array<glm::vec4, 4>& o
 /// x, y in pixels and 1/w.
 glm::vec3 on_screen(const glm::vec4& clip) {
   const float inverse_w = 1.0f / clip.w;
-  return {(0.5f + 0.5f * clip.x * inverse_w) * float(width), (0.5f + 0.5f * clip.y * inverse_w) * float(height),
-          inverse_w};
+  return {(0.5f + 0.5f * clip.x * inverse_w) * float(width),
+          (0.5f + 0.5f * clip.y * inverse_w) * float(height), inverse_w};
 }
 
 float at(const glm::vec3& plane, float x, float y) { return plane.x * x + plane.y * y + plane.z; }
@@ -98,17 +99,24 @@ void OcclusionCuller::rasterise(const ScreenTriangle& t, int first_row, int end_
 void OcclusionCuller::take_farthest_of_neighbours() {
   row_minima_.resize(pixel_count);
   farthest_.resize(pixel_count);
-  parallel_for(std::size_t(height), [&](std::size_t y) {
-    const float* in = inverse_w_.data() + y * std::size_t(width);
-    float* out = row_minima_.data() + y * std::size_t(width);
-    for (int x = 0; x < width; ++x) out[x] = std::min({in[std::max(x - 1, 0)], in[x], in[std::min(x + 1, width - 1)]});
-  }, 32);
-  parallel_for(std::size_t(height), [&](std::size_t y) {
-    const std::size_t above = std::min(y + 1, std::size_t(height) - 1), below = y > 0 ? y - 1 : 0;
-    const auto minima = [&](std::size_t r) { return row_minima_.data() + r * std::size_t(width); };
-    float* out = farthest_.data() + y * std::size_t(width);
-    for (int x = 0; x < width; ++x) out[x] = std::min({minima(below)[x], minima(y)[x], minima(above)[x]});
-  }, 32);
+  parallel_for(
+      std::size_t(height),
+      [&](std::size_t y) {
+        const float* in = inverse_w_.data() + y * std::size_t(width);
+        float* out = row_minima_.data() + y * std::size_t(width);
+        for (int x = 0; x < width; ++x)
+          out[x] = std::min({in[std::max(x - 1, 0)], in[x], in[std::min(x + 1, width - 1)]});
+      },
+      32);
+  parallel_for(
+      std::size_t(height),
+      [&](std::size_t y) {
+        const std::size_t above = std::min(y + 1, std::size_t(height) - 1), below = y > 0 ? y - 1 : 0;
+        const auto minima = [&](std::size_t r) { return row_minima_.data() + r * std::size_t(width); };
+        float* out = farthest_.data() + y * std::size_t(width);
+        for (int x = 0; x < width; ++x) out[x] = std::min({minima(below)[x], minima(y)[x], minima(above)[x]});
+      },
+      32);
 }
 
 void OcclusionCuller::draw(const glm::mat4& clip_from_world) {

@@ -1,7 +1,7 @@
-// Occlusion culling on the processor, without readback: large triangles of the fixed scene are rasterised at a low
-// resolution, and a box is hidden where all its pixels lie behind them (after Greene 1993, Hierarchical Z-Buffer
-// Visibility, and Collin 2011, Culling the Battlefield). It never hides what can be seen through a gap of a pixel or more
-// of its own resolution: depth is the farthest of a pixel and its eight neighbours.
+// Occlusion culling on the processor, without readback: large triangles of the fixed scene are rasterised at
+// a low resolution, and a box is hidden where all its pixels lie behind them (after Greene 1993, Hierarchical
+// Z-Buffer Visibility, and Collin 2011, Culling the Battlefield). It never hides what can be seen through a
+// gap of a pixel or more of its own resolution: depth is the farthest of a pixel and its eight neighbours.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class OcclusionCuller {
   std::size_t occluder_count() const { return corners_.size() / 3; }
 
  private:
-  /// A triangle on the screen: edge functions and 1/w, all linear in the pixel's position, as (x, y, constant).
+  /// A triangle on the screen: edge functions and 1/w, all linear in the pixel's position, as (x, y,
+  /// constant).
   struct ScreenTriangle {
     glm::vec3 edges[3];
     glm::vec3 inverse_w;
@@ -34,7 +35,8 @@ class OcclusionCuller {
     int min_x, max_x, min_y, max_y;
   };
 
-  void project(const glm::mat4& clip_from_world, std::size_t triangle, std::vector<ScreenTriangle>& out) const;
+  void project(const glm::mat4& clip_from_world, std::size_t triangle,
+               std::vector<ScreenTriangle>& out) const;
   void rasterise(const ScreenTriangle& triangle, int first_row, int end_row);
   void take_farthest_of_neighbours();
 

@@ -44,9 +44,14 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene) {
 }
 
 Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, Programs programs)
-    : sky_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)), sun_(scene.sun),
-      haze_per_m_(scene.haze_per_m), scene_(std::move(drawable)), programs_(std::move(programs)),
-      shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()), drawables_{&scene_}, frame_blocks_(1 << 18),
+    : sky_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
+      sun_(scene.sun),
+      haze_per_m_(scene.haze_per_m),
+      scene_(std::move(drawable)),
+      programs_(std::move(programs)),
+      shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()),
+      drawables_{&scene_},
+      frame_blocks_(1 << 18),
       no_attributes_(gl::VertexArray::create()) {
   upload_sky();
 }
@@ -160,8 +165,9 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height) {
 
 void Renderer::draw_main_view() {
   draw_prepared(main_view_);
-  glBlitNamedFramebuffer(target_.multisampled.name(), target_.resolved.name(), 0, 0, target_.width, target_.height, 0,
-                         0, target_.width, target_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(target_.multisampled.name(), target_.resolved.name(), 0, 0, target_.width,
+                         target_.height, 0, 0, target_.width, target_.height, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
 }
 
 std::vector<std::uint32_t> Renderer::pick(const Camera& camera, int width, int height, bool culls_hidden) {
@@ -175,7 +181,10 @@ std::vector<std::uint32_t> Renderer::pick(const Camera& camera, int width, int h
   view.culls_hidden = culls_hidden;
   draw_view(view);
 
-  struct { int width, height, channels; std::vector<std::uint32_t> pixels; } picture{width, height, 1, {}};
+  struct {
+    int width, height, channels;
+    std::vector<std::uint32_t> pixels;
+  } picture{width, height, 1, {}};
   picture.pixels.resize(std::size_t(width) * std::size_t(height));
   glGetTextureImage(objects.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, GLsizei(4 * picture.pixels.size()),
                     picture.pixels.data());
@@ -206,8 +215,8 @@ Image8 Renderer::read_picture(float exposure) {
 
 ImageF Renderer::read_radiance() const {
   ImageF radiance(target_.width, target_.height, 4);
-  glGetTextureImage(target_.radiance.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(radiance.pixels.size() * sizeof(float)),
-                    radiance.pixels.data());
+  glGetTextureImage(target_.radiance.name(), 0, GL_RGBA, GL_FLOAT,
+                    GLsizei(radiance.pixels.size() * sizeof(float)), radiance.pixels.data());
   flip_rows(radiance);
   return radiance;
 }

@@ -1,5 +1,5 @@
-// Draws the scene: shadows, the main view at four samples a pixel, the sky, tone mapping; and small views for those rooms
-// that ask for them. Everything that draws is a Drawable.
+// Draws the scene: shadows, the main view at four samples a pixel, the sky, tone mapping; and small views for
+// those rooms that ask for them. Everything that draws is a Drawable.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ namespace parvis::render {
 
 class Renderer {
  public:
-  /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene; fails only if a shader does.
+  /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene; fails only if a shader
+  /// does.
   static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene);
   Renderer(const Renderer&) = delete;
 
@@ -32,8 +33,8 @@ class Renderer {
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
   void draw_view(const View& view);
-  /// Object indices of a view (a scene's object and 1; 0: none), as a picture from the top left. A readback: for tools
-  /// and tests, not for frames.
+  /// Object indices of a view (a scene's object and 1; 0: none), as a picture from the top left. A readback:
+  /// for tools and tests, not for frames.
   std::vector<std::uint32_t> pick(const Camera& camera, int width, int height, bool culls_hidden);
 
   /// Tone-maps the main view into a framebuffer of its size.

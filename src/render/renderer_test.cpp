@@ -19,7 +19,8 @@ TEST(Renderer, Draws) {
   ASSERT_TRUE(context) << to_string(context.errors());
   auto model = std::make_shared<scene::Model>();
   model->materials.push_back({});
-  model->parts.push_back({"ground", quad({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}), 0, 0, true});
+  model->parts.push_back(
+      {"ground", quad({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}), 0, 0, true});
   model->parts.push_back({"wall", quad({-2, 0, 0}, {2, 0, 0}, {2, 0, 3}, {-2, 0, 3}), 0, 0, true});
   scene::Scene scene;
   scene.objects.push_back({"place", model, glm::mat4(1.0f), {}, false, false});

@@ -113,7 +113,8 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
     const PartRange& part = gpu_.parts()[std::size_t(item.part)];
     const int mirror_object = is_mirror_in(view, item) ? item.object : -1;
     std::vector<Batch>& batches = list.batches[key >> 62];
-    if (batches.empty() || batches.back().material != part.material || batches.back().mirror_object != mirror_object)
+    if (batches.empty() || batches.back().material != part.material ||
+        batches.back().mirror_object != mirror_object)
       batches.push_back({part.material, mirror_object, std::uint32_t(list.commands.size()), 0});
     if (batches.back().command_count > 0 && list.commands.back().first_index == part.first_index) {
       ++list.commands.back().instances;
@@ -136,15 +137,18 @@ void SceneDrawable::prepare(const View& view) {
   list.first_command = list.command_store.append(std::span<const Command>(list.commands), 4);
   if (view.kind != ViewKind::main) return;
   visible_objects_.clear();
-  for (const auto& [key, index] : list.order) visible_objects_.push_back(gpu_.items()[std::size_t(index)].object);
+  for (const auto& [key, index] : list.order)
+    visible_objects_.push_back(gpu_.items()[std::size_t(index)].object);
   std::sort(visible_objects_.begin(), visible_objects_.end());
-  visible_objects_.erase(std::unique(visible_objects_.begin(), visible_objects_.end()), visible_objects_.end());
+  visible_objects_.erase(std::unique(visible_objects_.begin(), visible_objects_.end()),
+                         visible_objects_.end());
 }
 
 void SceneDrawable::draw(const View& view, Pass pass) {
   const ViewList& list = list_of(view);
   if (list.batches[std::size_t(pass)].empty()) return;
-  glVertexArrayVertexBuffer(vertex_array_.name(), 1, list.record_store.name(), list.first_record, sizeof(Item::Record));
+  glVertexArrayVertexBuffer(vertex_array_.name(), 1, list.record_store.name(), list.first_record,
+                            sizeof(Item::Record));
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
   const gl::Program& plain = view.kind == ViewKind::shadow    ? programs_.depth

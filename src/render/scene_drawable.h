@@ -21,7 +21,8 @@ class ReflectionSource {
   virtual ~ReflectionSource() = default;
   /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
   virtual std::string fragment_shader() const = 0;
-  /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of `program`.
+  /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
+  /// `program`.
   virtual void bind(const gl::Program& program, int object) = 0;
 };
 
@@ -80,7 +81,9 @@ class SceneDrawable final : public Drawable {
   std::uint64_t sort_key(const Item& item, const View& view) const;
   void gather(const View& view, ViewList& list);
   void batch(const View& view, ViewList& list) const;
-  const ViewList& list_of(const View& view) const { return view.kind == ViewKind::main ? main_list_ : other_list_; }
+  const ViewList& list_of(const View& view) const {
+    return view.kind == ViewKind::main ? main_list_ : other_list_;
+  }
 
   GpuScene gpu_;
   OcclusionCuller occlusion_;

@@ -1,5 +1,5 @@
-// A buffer for what changes with every view: data is appended, and when the store is full the driver gives a fresh one, so
-// that nothing waits for what the GPU still reads.
+// A buffer for what changes with every view: data is appended, and when the store is full the driver gives a
+// fresh one, so that nothing waits for what the GPU still reads.
 #pragma once
 
 #include <span>

@@ -23,8 +23,10 @@ glm::mat3 sun_frame(glm::vec3 to_sun) {
 }  // namespace
 
 SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
-    : to_sun_(glm::normalize(to_sun)), sun_from_world_(sun_frame(to_sun_)),
-      fixed_in_sun_(transformed(glm::mat4(sun_from_world_), fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed)),
+    : to_sun_(glm::normalize(to_sun)),
+      sun_from_world_(sun_frame(to_sun_)),
+      fixed_in_sun_(transformed(glm::mat4(sun_from_world_),
+                                fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed)),
       fixed_centre_(fixed.empty() ? glm::vec3(0) : fixed.centre()) {
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     Map& target = targets_[i];
@@ -51,7 +53,8 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   glm::mat4 clip_from_sun(1.0f);
   clip_from_sun[0][0] = clip_from_sun[1][1] = 1.0f / half_width_m;
   clip_from_sun[2][2] = -2.0f / (top - bottom);
-  clip_from_sun[3] = {-middle.x / half_width_m, -middle.y / half_width_m, (top + bottom) / (top - bottom), 1.0f};
+  clip_from_sun[3] = {-middle.x / half_width_m, -middle.y / half_width_m, (top + bottom) / (top - bottom),
+                      1.0f};
 
   View view;
   view.kind = ViewKind::shadow;
@@ -81,7 +84,8 @@ void SunShadowMaps::update(glm::vec3 position, const std::function<void(const Vi
 }
 
 void SunShadowMaps::bind() const {
-  for (std::size_t i = 0; i < targets_.size(); ++i) glBindTextureUnit(first_shadow_unit + GLuint(i), targets_[i].depth.name());
+  for (std::size_t i = 0; i < targets_.size(); ++i)
+    glBindTextureUnit(first_shadow_unit + GLuint(i), targets_[i].depth.name());
 }
 
 glm::vec3 SunShadowMaps::texel_uv() const {

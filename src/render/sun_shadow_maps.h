@@ -1,5 +1,5 @@
-// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once), the fixed place near the viewer
-// (drawn again when the viewer has gone some way), and what moves (every frame).
+// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once), the fixed place near
+// the viewer (drawn again when the viewer has gone some way), and what moves (every frame).
 #pragma once
 
 #include <array>

@@ -34,8 +34,7 @@ struct View {
 
 inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int height) {
   View view;
-  view.clip_from_world =
-      camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
+  view.clip_from_world = camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
   view.position_in_world = camera.position_in_world();
   view.framebuffer = framebuffer;
   view.width = width;
@@ -51,8 +50,8 @@ inline constexpr int pass_count = 3;
 class Drawable {
  public:
   virtual ~Drawable() = default;
-  /// Once for each view, before its passes: cull, choose levels of detail, upload. Other views are prepared and drawn
-  /// between the main view's preparation and its drawing.
+  /// Once for each view, before its passes: cull, choose levels of detail, upload. Other views are prepared
+  /// and drawn between the main view's preparation and its drawing.
   virtual void prepare(const View& view) = 0;
   /// Draws one pass; the target is bound, the uniform block of render/frame.glsl is filled.
   virtual void draw(const View& view, Pass pass) = 0;
