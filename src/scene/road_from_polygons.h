@@ -1,0 +1,21 @@
+// Roads from the surfaces that city models draw them as: the middle lines of what vehicles may use.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/road_builder.h"
+#include "scene/road_polygon.h"
+
+namespace parvis::scene {
+
+/// Centre lines, with widths and heights, of the drivable ones among `polygons` (footpaths, cycle paths,
+/// steps, parking spaces, railways are not): their union is drawn as cells of half a metre, thinned to a
+/// graph and smoothed. Roads meet exactly at junctions, so that build_road_graph joins them. What is too
+/// narrow for a car is left out, so are pieces that end after a few metres. Nothing drivable gives no roads.
+std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons);
+
+/// Whether vehicles use a road surface with this description ("rijbaan lokale weg", "voetpad", ...).
+bool is_drivable(const std::string& function);
+
+}  // namespace parvis::scene
