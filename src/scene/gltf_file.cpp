@@ -12,7 +12,8 @@ using Json = GltfFile::Json;
 namespace {
 
 constexpr std::uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr std::size_t most_elements = 20'000'000;  // no model of a city needs more; a hostile count must not allocate
+constexpr std::size_t most_elements =
+    20'000'000;  // no model of a city needs more; a hostile count must not allocate
 
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
@@ -29,16 +30,24 @@ std::uint32_t word(const std::string& bytes, std::size_t at) {
 std::size_t size_of(const Json& object, const char* name, std::size_t otherwise = 0) {
   const auto found = object.find(name);
   if (found == object.end()) return otherwise;
-  if (!found->is_number_unsigned()) fail("\"{}\" is {}; expected a whole number that is not negative", name, found->dump());
+  if (!found->is_number_unsigned())
+    fail("\"{}\" is {}; expected a whole number that is not negative", name, found->dump());
   return found->get<std::size_t>();
 }
 
 std::size_t component_bytes(std::size_t type) {
   switch (type) {
-    case 5120: case 5121: return 1;
-    case 5122: case 5123: return 2;
-    case 5125: case 5126: return 4;
-    default: fail("component type {} is none of glTF's", type);
+    case 5120:
+    case 5121:
+      return 1;
+    case 5122:
+    case 5123:
+      return 2;
+    case 5125:
+    case 5126:
+      return 4;
+    default:
+      fail("component type {} is none of glTF's", type);
   }
 }
 
@@ -59,22 +68,33 @@ T load(const std::uint8_t* bytes) {
 
 double component(const std::uint8_t* bytes, std::size_t type) {
   switch (type) {
-    case 5120: return load<std::int8_t>(bytes);
-    case 5121: return *bytes;
-    case 5122: return load<std::int16_t>(bytes);
-    case 5123: return load<std::uint16_t>(bytes);
-    case 5125: return load<std::uint32_t>(bytes);
-    default: return double(load<float>(bytes));
+    case 5120:
+      return load<std::int8_t>(bytes);
+    case 5121:
+      return *bytes;
+    case 5122:
+      return load<std::int16_t>(bytes);
+    case 5123:
+      return load<std::uint16_t>(bytes);
+    case 5125:
+      return load<std::uint32_t>(bytes);
+    default:
+      return double(load<float>(bytes));
   }
 }
 
 double normalised(double value, std::size_t type) {
   switch (type) {
-    case 5120: return std::max(value / 127.0, -1.0);
-    case 5121: return value / 255.0;
-    case 5122: return std::max(value / 32767.0, -1.0);
-    case 5123: return value / 65535.0;
-    default: return value;
+    case 5120:
+      return std::max(value / 127.0, -1.0);
+    case 5121:
+      return value / 255.0;
+    case 5122:
+      return std::max(value / 32767.0, -1.0);
+    case 5123:
+      return value / 65535.0;
+    default:
+      return value;
   }
 }
 
@@ -84,13 +104,20 @@ std::vector<std::uint8_t> base64_decoded(std::string_view text) {
   int bits = 0;
   for (const char c : text) {
     int value = -1;
-    if (c >= 'A' && c <= 'Z') value = c - 'A';
-    else if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-    else if (c >= '0' && c <= '9') value = c - '0' + 52;
-    else if (c == '+' || c == '-') value = 62;
-    else if (c == '/' || c == '_') value = 63;
-    else if (c == '=') break;
-    else fail("a data URI holds a character that is not base64");
+    if (c >= 'A' && c <= 'Z')
+      value = c - 'A';
+    else if (c >= 'a' && c <= 'z')
+      value = c - 'a' + 26;
+    else if (c >= '0' && c <= '9')
+      value = c - '0' + 52;
+    else if (c == '+' || c == '-')
+      value = 62;
+    else if (c == '/' || c == '_')
+      value = 63;
+    else if (c == '=')
+      break;
+    else
+      fail("a data URI holds a character that is not base64");
     group = (group << 6) | std::uint32_t(value);
     if ((bits += 6) >= 8) bytes.push_back(std::uint8_t(group >> (bits -= 8)));
   }
@@ -134,8 +161,9 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
   if (version.empty() || version[0] != '2') fail("glTF version \"{}\"; only version 2 is read", version);
   if (const auto required = json_.find("extensionsRequired"); required != json_.end() && required->is_array())
     for (const Json& name : *required)
-      if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" && name != "KHR_mesh_quantization" &&
-          name != "KHR_materials_emissive_strength" && name != "KHR_materials_transmission" && name != "KHR_materials_unlit")
+      if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" &&
+          name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength" &&
+          name != "KHR_materials_transmission" && name != "KHR_materials_unlit")
         fail("it requires the extension {}, which is not supported; export it without", name.dump());
   read_buffers();
 }
@@ -164,10 +192,12 @@ void GltfFile::read_buffers() {
   const Json& descriptions = list("buffers");
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     const Json& description = descriptions[i];
-    buffers_.push_back(description.contains("uri") ? resource(description["uri"].get<std::string>()) : binary_chunk_);
+    buffers_.push_back(description.contains("uri") ? resource(description["uri"].get<std::string>())
+                                                   : binary_chunk_);
     const std::size_t claimed = size_of(description, "byteLength");
     if (claimed > buffers_.back().size())
-      fail("buffer {} claims {} bytes and there are {}; the file is cut short", i, claimed, buffers_.back().size());
+      fail("buffer {} claims {} bytes and there are {}; the file is cut short", i, claimed,
+           buffers_.back().size());
   }
 }
 
@@ -209,8 +239,8 @@ std::span<const std::uint8_t> GltfFile::buffer_view(int view) const {
   const std::vector<std::uint8_t>& bytes = buffers_[std::size_t(buffer)];
   const std::size_t offset = size_of(description, "byteOffset"), length = size_of(description, "byteLength");
   if (offset > bytes.size() || length > bytes.size() - offset)
-    fail("buffer view {} reaches from byte {} over {} bytes, beyond the {} of buffer {}", view, offset, length, bytes.size(),
-         buffer);
+    fail("buffer view {} reaches from byte {} over {} bytes, beyond the {} of buffer {}", view, offset,
+         length, bytes.size(), buffer);
   return std::span(bytes).subspan(offset, length);
 }
 
@@ -230,10 +260,12 @@ GltfFile::Access GltfFile::access(int accessor, int components) const {
   const std::span<const std::uint8_t> bytes = buffer_view(view);
   access.stride = size_of(list("bufferViews")[std::size_t(view)], "byteStride", element);
   const std::size_t offset = size_of(description, "byteOffset");
-  const bool fits = access.stride >= element && access.stride <= 65536 && offset <= bytes.size() &&
-                    (access.count == 0 || offset + (access.count - 1) * access.stride + element <= bytes.size());
+  const bool fits =
+      access.stride >= element && access.stride <= 65536 && offset <= bytes.size() &&
+      (access.count == 0 || offset + (access.count - 1) * access.stride + element <= bytes.size());
   if (!fits)
-    fail("accessor {} claims {} elements of {} bytes, more than its buffer view has", accessor, access.count, element);
+    fail("accessor {} claims {} elements of {} bytes, more than its buffer view has", accessor, access.count,
+         element);
   access.first = bytes.data() + offset;
   return access;
 }
@@ -256,18 +288,22 @@ void GltfFile::read_elements(int accessor, int components, const Store& store) c
   const Json& sparse = description["sparse"];
   const std::size_t count = size_of(sparse, "count");
   const Json &indices = sparse.at("indices"), &values = sparse.at("values");
-  const int index_view = index(indices, "bufferView", "bufferViews"), value_view = index(values, "bufferView", "bufferViews");
+  const int index_view = index(indices, "bufferView", "bufferViews"),
+            value_view = index(values, "bufferView", "bufferViews");
   if (index_view < 0 || value_view < 0) fail("accessor {}: sparse without buffer views", accessor);
   const std::size_t index_type = size_of(indices, "componentType"), index_bytes = component_bytes(index_type);
   const std::size_t element = component_bytes(dense.type) * dense.components;
-  const std::span<const std::uint8_t> all_indices = buffer_view(index_view), all_values = buffer_view(value_view);
-  const std::size_t index_offset = size_of(indices, "byteOffset"), value_offset = size_of(values, "byteOffset");
+  const std::span<const std::uint8_t> all_indices = buffer_view(index_view),
+                                      all_values = buffer_view(value_view);
+  const std::size_t index_offset = size_of(indices, "byteOffset"),
+                    value_offset = size_of(values, "byteOffset");
   if (count > dense.count || index_offset + count * index_bytes > all_indices.size() ||
       value_offset + count * element > all_values.size())
     fail("accessor {}: its sparse part claims {} elements, more than there are", accessor, count);
   for (std::size_t i = 0; i < count; ++i) {
     const double target = component(all_indices.data() + index_offset + i * index_bytes, index_type);
-    if (!(target >= 0.0 && target < double(dense.count))) fail("accessor {}: sparse index {} is out of range", accessor, target);
+    if (!(target >= 0.0 && target < double(dense.count)))
+      fail("accessor {}: sparse index {} is out of range", accessor, target);
     read_at(all_values.data() + value_offset + i * element, std::size_t(target));
   }
 }
@@ -280,7 +316,8 @@ std::vector<float> GltfFile::floats(int accessor, int components) const {
 
 std::vector<std::uint32_t> GltfFile::integers(int accessor) const {
   std::vector<std::uint32_t> values(access(accessor, 1).count, 0);
-  read_elements(accessor, 1, [&](std::size_t i, double value) { values[i] = value >= 0.0 ? std::uint32_t(value) : ~0u; });
+  read_elements(accessor, 1,
+                [&](std::size_t i, double value) { values[i] = value >= 0.0 ? std::uint32_t(value) : ~0u; });
   return values;
 }
 

@@ -1,4 +1,5 @@
-// A glTF 2.0 file as bytes: its JSON and its buffers, with every accessor checked against them before it is read.
+// A glTF 2.0 file as bytes: its JSON and its buffers, with every accessor checked against them before it is
+// read.
 #pragma once
 
 #include <filesystem>

@@ -31,7 +31,8 @@ template <int N>
 glm::vec<N, float> vector(const Json& object, const char* name, glm::vec<N, float> otherwise) {
   const auto found = object.find(name);
   if (found == object.end()) return otherwise;
-  if (!found->is_array() || found->size() != std::size_t(N)) fail("\"{}\" is {}; expected {} numbers", name, found->dump(), N);
+  if (!found->is_array() || found->size() != std::size_t(N))
+    fail("\"{}\" is {}; expected {} numbers", name, found->dump(), N);
   for (int i = 0; i < N; ++i) otherwise[i] = (*found)[std::size_t(i)].get<float>();
   return otherwise;
 }
@@ -42,7 +43,9 @@ const Json& member(const Json& object, const char* name) {
   return found != object.end() && found->is_object() ? *found : nothing;
 }
 
-const Json& extension(const Json& object, const char* name) { return member(member(object, "extensions"), name); }
+const Json& extension(const Json& object, const char* name) {
+  return member(member(object, "extensions"), name);
+}
 
 /// Reads one file into one model.
 class Reader {
@@ -60,7 +63,8 @@ class Reader {
   }
 
  private:
-  // --- materials -----------------------------------------------------------------------------------------------------
+  // --- materials
+  // -----------------------------------------------------------------------------------------------------
 
   /// The model's texture for a textureInfo: one for each pair of glTF texture and colour space.
   int texture(const Json& info, bool is_srgb, Material& material) {
@@ -162,7 +166,8 @@ class Reader {
     }
   }
 
-  // --- nodes and meshes ----------------------------------------------------------------------------------------------
+  // --- nodes and meshes
+  // ----------------------------------------------------------------------------------------------
 
   void read_nodes() {
     model_.nodes.front().name = "y_up";
@@ -175,7 +180,8 @@ class Reader {
       return;
     }
     const int scene = std::max(file_.index(file_.json(), "scene", "scenes"), 0);
-    for (const Json& root : scenes[std::size_t(scene)].value("nodes", Json::array())) read_tree(node_index(root));
+    for (const Json& root : scenes[std::size_t(scene)].value("nodes", Json::array()))
+      read_tree(node_index(root));
   }
 
   bool is_child(std::size_t node) const {
@@ -204,7 +210,8 @@ class Reader {
       const Json& source = file_.list("nodes")[gltf_node];
       model_.nodes.push_back(read_node(source, parent));
       if (const int mesh = file_.index(source, "mesh", "meshes"); mesh >= 0) read_mesh(mesh, node, source);
-      for (const Json& child : source.value("children", Json::array())) open.emplace_back(node_index(child), node);
+      for (const Json& child : source.value("children", Json::array()))
+        open.emplace_back(node_index(child), node);
     }
   }
 
@@ -215,7 +222,8 @@ class Reader {
     if (source.contains("matrix")) {
       glm::mat4 matrix(1.0f);
       const Json& values = source["matrix"];
-      if (!values.is_array() || values.size() != 16) fail("a node's matrix has {} numbers; expected 16", values.size());
+      if (!values.is_array() || values.size() != 16)
+        fail("a node's matrix has {} numbers; expected 16", values.size());
       for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[std::size_t(i)].get<float>();
       glm::vec3 skew;
       glm::vec4 perspective;
@@ -229,7 +237,8 @@ class Reader {
       if (length > 0.0f) node.rotation = glm::quat(q.w, q.x, q.y, q.z) / length;
     }
     for (int i = 0; i < 3; ++i)
-      if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) || !std::isfinite(node.rotation[i]))
+      if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) ||
+          !std::isfinite(node.rotation[i]))
         fail("the transform of node \"{}\" is not finite", node.name);
     return node;
   }
@@ -280,7 +289,8 @@ class Reader {
     mesh.indices = triangle_list(order, mode);
     const bool has_normals = !mesh.normals.empty();
     if (!has_normals) mesh.normals.assign(count, glm::vec3(0.0f));
-    if (const Status status = check(mesh, "mesh \"" + name + "\""); !status) fail("{}", status.errors().front().message);
+    if (const Status status = check(mesh, "mesh \"" + name + "\""); !status)
+      fail("{}", status.errors().front().message);
     fill_normals(mesh);
     for (glm::vec3& normal : mesh.normals) normal = glm::normalize(normal);
     return mesh;
@@ -298,14 +308,16 @@ class Reader {
     return list;
   }
 
-  // --- animations ----------------------------------------------------------------------------------------------------
+  // --- animations
+  // ----------------------------------------------------------------------------------------------------
 
   void read_animations() {
     for (const Json& source : file_.list("animations")) {
       Animation animation;
       animation.name = source.value("name", "");
       const Json samplers = source.value("samplers", Json::array());
-      for (const Json& channel : source.value("channels", Json::array())) read_channel(channel, samplers, animation);
+      for (const Json& channel : source.value("channels", Json::array()))
+        read_channel(channel, samplers, animation);
       if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
     }
   }
@@ -321,15 +333,20 @@ class Reader {
 
     AnimationChannel channel;
     channel.node = node_of_gltf_[std::size_t(gltf_node)];
-    if (path == "translation") channel.property = Property::translation;
-    else if (path == "rotation") channel.property = Property::rotation;
-    else if (path == "scale") channel.property = Property::scale;
-    else fail("an animation moves \"{}\"; expected translation, rotation, scale or weights", path);
+    if (path == "translation")
+      channel.property = Property::translation;
+    else if (path == "rotation")
+      channel.property = Property::rotation;
+    else if (path == "scale")
+      channel.property = Property::scale;
+    else
+      fail("an animation moves \"{}\"; expected translation, rotation, scale or weights", path);
     const std::string interpolation = sampler.value("interpolation", "LINEAR");
     channel.interpolation = interpolation == "STEP"          ? Interpolation::step
                             : interpolation == "CUBICSPLINE" ? Interpolation::cubic
                                                              : Interpolation::linear;
-    const int input = file_.index(sampler, "input", "accessors"), output = file_.index(sampler, "output", "accessors");
+    const int input = file_.index(sampler, "input", "accessors"),
+              output = file_.index(sampler, "output", "accessors");
     if (input < 0 || output < 0) fail("an animation sampler lacks its input or output");
     channel.times_s = file_.floats(input, 1);
     const int components = channel.property == Property::rotation ? 4 : 3;
@@ -338,7 +355,8 @@ class Reader {
     for (std::size_t i = 0; i < values.size(); ++i)
       channel.values[i / std::size_t(components)][int(i % std::size_t(components))] = values[i];
 
-    const std::size_t wanted = channel.times_s.size() * (channel.interpolation == Interpolation::cubic ? 3 : 1);
+    const std::size_t wanted =
+        channel.times_s.size() * (channel.interpolation == Interpolation::cubic ? 3 : 1);
     const bool ascends = std::is_sorted(channel.times_s.begin(), channel.times_s.end());
     const auto finite = [](float value) { return std::isfinite(value); };
     if (channel.times_s.empty() || channel.values.size() != wanted || !ascends ||

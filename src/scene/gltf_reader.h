@@ -1,5 +1,5 @@
-// glTF 2.0 (.gltf, .glb) to a Model: meshes, nodes, materials with KHR_texture_transform, _clearcoat, _emissive_strength
-// and _transmission, animations. Skins and morph targets are not read yet.
+// glTF 2.0 (.gltf, .glb) to a Model: meshes, nodes, materials with KHR_texture_transform, _clearcoat,
+// _emissive_strength and _transmission, animations. Skins and morph targets are not read yet.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace parvis::scene {
 
-/// Metres, turned from y up to z up by node 0. A picture that is missing or damaged is named in `warnings` and replaced by
-/// a visible checker. Everything else that is wrong is an error.
+/// Metres, turned from y up to z up by node 0. A picture that is missing or damaged is named in `warnings`
+/// and replaced by a visible checker. Everything else that is wrong is an error.
 Result<Model> read_gltf(const std::filesystem::path& file, Errors& warnings);
 
 }  // namespace parvis::scene

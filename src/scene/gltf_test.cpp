@@ -38,7 +38,8 @@ Model small_model() {
   triangle.uvs = {{0, 0}, {1, 0}, {0, 1}};
   triangle.indices = {0, 1, 2};
   model.parts = {{"body", triangle, 0, 0, true}, {"leaves", triangle, 1, 1, false}};
-  AnimationChannel spin{1, AnimationChannel::Property::rotation, AnimationChannel::Interpolation::linear, {0, 1}, {}};
+  AnimationChannel spin{
+      1, AnimationChannel::Property::rotation, AnimationChannel::Interpolation::linear, {0, 1}, {}};
   spin.values = {{0, 0, 0, 1}, {0, 0, 1, 0}};
   model.animations.push_back({"spin", {spin}, 1.0f});
   return model;
@@ -75,7 +76,9 @@ TEST(Gltf, WhatIsWrittenReadsTheSame) {
   EXPECT_EQ(paint.clear_coat, 0.9f);
   EXPECT_TRUE(paint.is_mirror_like);
   for (int column = 0; column < 3; ++column)
-    EXPECT_LT(glm::distance(paint.texture_from_mesh_uv[column], model.materials[0].texture_from_mesh_uv[column]), 1e-5f);
+    EXPECT_LT(
+        glm::distance(paint.texture_from_mesh_uv[column], model.materials[0].texture_from_mesh_uv[column]),
+        1e-5f);
   EXPECT_EQ(leaf.alpha_mode, Alpha::cutout);
   EXPECT_EQ(leaf.translucency, 0.5f);
   EXPECT_TRUE(leaf.is_double_sided);
@@ -86,7 +89,8 @@ TEST(Gltf, WhatIsWrittenReadsTheSame) {
 
 TEST(Gltf, MatrixNodesTurnAsTheirMatrixSays) {
   const TestFolder folder;
-  // a quarter turn about y in glTF's frame, as a matrix; a triangle along +x then points along -z, which is +y here
+  // a quarter turn about y in glTF's frame, as a matrix; a triangle along +x then points along -z, which is
+  // +y here
   ASSERT_TRUE(write_file(folder.path() / "m.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
     "nodes":[{"mesh":0,"matrix":[0,0,-1,0, 0,1,0,0, 1,0,0,0, 0,0,0,1]}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -128,7 +132,8 @@ TEST(Gltf, HostileFilesAreRefusedByName) {
   const std::string good = good_glb();
   expect_refused("", "cut short");
   expect_refused("glTX" + good.substr(4), "first bytes");
-  for (const std::size_t length : {11u, 19u, 40u, unsigned(good.size() - 4)}) expect_refused(good.substr(0, length), "cut short");
+  for (const std::size_t length : {11u, 19u, 40u, unsigned(good.size() - 4)})
+    expect_refused(good.substr(0, length), "cut short");
   expect_refused(replaced(good, "\"count\":3", "\"count\":9"), "more than its buffer view has");
   expect_refused(replaced(good, "\"material\":0", "\"material\":7"), "out of range");
   expect_refused(replaced(good, "\"version\":\"2.0\"", "\"version\":\"1.0\""), "version");

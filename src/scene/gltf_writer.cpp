@@ -60,7 +60,8 @@ bool uses_alpha(const Image8& image) {
 
 /// Colour without alpha is stored as JPEG; data and alpha as PNG, which loses nothing.
 std::string picture_name(const fs::path& file, const Texture& texture, std::size_t index) {
-  const std::string name = texture.name.empty() ? fmt::format("{}", index) : fs::path(texture.name).stem().string();
+  const std::string name =
+      texture.name.empty() ? fmt::format("{}", index) : fs::path(texture.name).stem().string();
   const bool as_jpeg = texture.is_srgb && !uses_alpha(texture.image);
   return fmt::format("{}_{}.{}", file.stem().string(), name, as_jpeg ? "jpg" : "png");
 }
@@ -77,7 +78,8 @@ Status write_pictures(const fs::path& file, const Model& model, const std::vecto
   std::mutex mutex;
   parallel_for(names.size(), [&](std::size_t i) {
     const Image8& image = model.textures[i].image;
-    const Status status = write_image(file.parent_path() / names[i], uses_alpha(image) ? image : without_alpha(image));
+    const Status status =
+        write_image(file.parent_path() / names[i], uses_alpha(image) ? image : without_alpha(image));
     if (status) return;
     const std::scoped_lock lock(mutex);
     errors.insert(errors.end(), status.errors().begin(), status.errors().end());
@@ -128,8 +130,9 @@ Json material_json(const Material& material, Json& used) {
   }
   if (material.clear_coat > 0.0f) {
     use(used, "KHR_materials_clearcoat");
-    json["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clear_coat},
-                                                     {"clearcoatRoughnessFactor", material.clear_coat_roughness}};
+    json["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", material.clear_coat},
+        {"clearcoatRoughnessFactor", material.clear_coat_roughness}};
   }
   if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
   if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";
@@ -205,9 +208,11 @@ Json animations_json(const Model& model, Binary& binary) {
                                   : channel.interpolation == Interpolation::cubic ? "CUBICSPLINE"
                                                                                   : "LINEAR";
       json["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
-      const char* path = is_rotation ? "rotation" : channel.property == Property::scale ? "scale" : "translation";
-      json["channels"].push_back(
-          {{"sampler", json["samplers"].size() - 1}, {"target", {{"node", channel.node + 1}, {"path", path}}}});
+      const char* path = is_rotation                           ? "rotation"
+                         : channel.property == Property::scale ? "scale"
+                                                               : "translation";
+      json["channels"].push_back({{"sampler", json["samplers"].size() - 1},
+                                  {"target", {{"node", channel.node + 1}, {"path", path}}}});
     }
     animations.push_back(json);
   }
@@ -238,13 +243,14 @@ std::string container(const Json& json, std::vector<std::uint8_t> binary) {
 
 Status write_gltf(const fs::path& file, const Model& model) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < model.textures.size(); ++i) names.push_back(picture_name(file, model.textures[i], i));
+  for (std::size_t i = 0; i < model.textures.size(); ++i)
+    names.push_back(picture_name(file, model.textures[i], i));
   if (Status status = write_pictures(file, model, names); !status) return status;
 
-  Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+  Json json{
+      {"asset", {{"version", "2.0"}, {"generator", "Parvis"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
   Json used = Json::array();
-  for (const Material& material : model.materials)
-    json["materials"].push_back(material_json(material, used));
+  for (const Material& material : model.materials) json["materials"].push_back(material_json(material, used));
   for (std::size_t i = 0; i < names.size(); ++i) {
     json["images"].push_back({{"uri", names[i]}});
     json["textures"].push_back({{"source", i}, {"sampler", model.textures[i].repeats ? 0 : 1}});
@@ -252,7 +258,8 @@ Status write_gltf(const fs::path& file, const Model& model) {
   constexpr int linear = 9729, trilinear = 9987, repeat = 10497, clamp = 33071;
   if (!names.empty())
     for (const int wrap : {repeat, clamp})
-      json["samplers"].push_back({{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+      json["samplers"].push_back(
+          {{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
 
   Binary binary;
   std::vector<int> mesh_of_node;

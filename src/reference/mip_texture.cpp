@@ -1,0 +1,71 @@
+#include "reference/mip_texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/colour.h"
+
+namespace parvis::reference {
+namespace {
+
+const std::array<float, 256>& linear_of_byte() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(float(i) / 255.0f);
+    return values;
+  }();
+  return table;
+}
+
+std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
+
+}  // namespace
+
+MipTexture::MipTexture(const scene::Texture& texture)
+    : levels_{texture.image}, is_srgb_(texture.is_srgb), repeats_(texture.repeats) {
+  while (levels_.back().width > 1 || levels_.back().height > 1) {
+    const Image8& fine = levels_.back();
+    Image8 coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), 4);
+    for (int y = 0; y < coarse.height; ++y)
+      for (int x = 0; x < coarse.width; ++x) {
+        const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
+        const int x0 = std::min(2 * x, fine.width - 1), y0 = std::min(2 * y, fine.height - 1);
+        const glm::vec4 mean =
+            0.25f * (texel(fine, x0, y0) + texel(fine, x1, y0) + texel(fine, x0, y1) + texel(fine, x1, y1));
+        for (int c = 0; c < 4; ++c)
+          coarse.at(x, y)[c] = byte(is_srgb_ && c < 3 ? srgb_from_linear(mean[c]) : mean[c]);
+      }
+    levels_.push_back(std::move(coarse));
+  }
+}
+
+glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
+  const std::uint8_t* p = level.at(x, y);
+  const auto decoded = [&](std::uint8_t value) { return is_srgb_ ? linear_of_byte()[value] : float(value) / 255.0f; };
+  return {decoded(p[0]), decoded(p[1]), decoded(p[2]), float(p[3]) / 255.0f};
+}
+
+glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
+  const auto wrapped = [&](int i, int size) {
+    return repeats_ ? (i % size + size) % size : std::clamp(i, 0, size - 1);
+  };
+  if (repeats_) uv -= glm::floor(uv);  // far coordinates keep their precision
+  const float x = uv.x * float(level.width) - 0.5f, y = uv.y * float(level.height) - 0.5f;
+  const float fx = std::floor(x), fy = std::floor(y);
+  const int x0 = wrapped(int(fx), level.width), x1 = wrapped(int(fx) + 1, level.width);
+  const int y0 = wrapped(int(fy), level.height), y1 = wrapped(int(fy) + 1, level.height);
+  return glm::mix(glm::mix(texel(level, x0, y0), texel(level, x1, y0), x - fx),
+                  glm::mix(texel(level, x0, y1), texel(level, x1, y1), x - fx), y - fy);
+}
+
+glm::vec4 MipTexture::sample(glm::vec2 uv, float texels) const {
+  uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
+  const float level = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(levels_.size() - 1));
+  const std::size_t fine = std::size_t(level), coarse = std::min(fine + 1, levels_.size() - 1);
+  const float t = level - float(fine);
+  const glm::vec4 first = bilinear(levels_[fine], uv);
+  return t > 0.0f ? glm::mix(first, bilinear(levels_[coarse], uv), t) : first;
+}
+
+}  // namespace parvis::reference

@@ -1,0 +1,28 @@
+// Textures as the GPU samples them: mipmaps averaged in linear light, trilinear lookups.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/model.h"
+
+namespace parvis::reference {
+
+class MipTexture {
+ public:
+  explicit MipTexture(const scene::Texture& texture);
+
+  /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in texels of
+  /// the finest level.
+  glm::vec4 sample(glm::vec2 uv, float texels) const;
+  glm::vec2 size() const { return {float(levels_.front().width), float(levels_.front().height)}; }
+
+ private:
+  glm::vec4 texel(const Image8& level, int x, int y) const;
+  glm::vec4 bilinear(const Image8& level, glm::vec2 uv) const;
+
+  std::vector<Image8> levels_;
+  bool is_srgb_, repeats_;
+};
+
+}  // namespace parvis::reference

@@ -1,0 +1,65 @@
+// The scene as rays see it: an Embree hierarchy for each part, placed once for each object. Holes of cutout parts and the
+// backs of single-sided ones are passed through, as the renderer draws them.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "reference/mip_texture.h"
+#include "scene/scene.h"
+
+namespace parvis::reference {
+
+struct Ray {
+  glm::vec3 origin, direction;  ///< unit direction
+  float least_m = 1e-4f, most_m = 1e30f;
+};
+
+/// A part of an object in the world.
+struct PlacedPart {
+  const scene::Part* part;
+  const scene::Material* material;
+  const std::vector<MipTexture>* textures;  ///< of its model
+  glm::mat4 world_from_mesh;
+  glm::mat3 world_from_normal;
+  int object;
+  bool is_mirror;
+};
+
+struct Hit {
+  const PlacedPart* place;
+  std::uint32_t triangle;
+  float u, v;  ///< barycentric weights of the second and third corner
+  float distance_m;
+};
+
+class RayScene {
+ public:
+  explicit RayScene(const scene::Scene& scene);
+  RayScene(const RayScene&) = delete;
+  ~RayScene();
+
+  std::optional<Hit> nearest_hit(const Ray& ray) const;
+  /// Is there anything that throws a shadow along the ray?
+  bool is_blocked(const Ray& ray) const;
+  std::size_t triangle_count() const { return triangle_count_; }
+
+ private:
+  RTCScene part_scene(const PlacedPart& place);
+
+  RTCDevice device_;
+  RTCScene top_;
+  std::vector<std::unique_ptr<PlacedPart>> places_;
+  std::unordered_map<const scene::Part*, RTCScene> part_scenes_;
+  std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
+  std::size_t triangle_count_ = 0;
+};
+
+/// Texture coordinates of a hit, transformed as the material says.
+glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v);
+
+}  // namespace parvis::reference
