@@ -54,6 +54,45 @@ Mesh extracted(const Mesh& mesh, const std::vector<bool>& takes, bool taken) {
   return result;
 }
 
+std::vector<bool> triangles_in(std::span<const MaterialMask> masks, const Model& model, const Part& part) {
+  std::vector<bool> is_taken(part.mesh.triangle_count());
+  for (std::size_t triangle = 0; triangle < is_taken.size(); ++triangle)
+    is_taken[triangle] =
+        masks.empty() || std::any_of(masks.begin(), masks.end(), [&](const MaterialMask& mask) {
+          return lies_in(mask, model, part, triangle);
+        });
+  return is_taken;
+}
+
+/// The materials inside and outside of the masks.
+struct Sides {
+  int inside, outside;
+};
+
+Sides add_sides(Model& model, int old, std::span<const MaterialMask> masks, const MaterialChange& change,
+                const std::string& name) {
+  const Material before = model.materials[std::size_t(old)];
+  Material inside = changed(before, change, name);
+  Sides sides{int(model.materials.size()), old};
+  const bool picture_is_pure =
+      before.base_colour_texture != no_index && before.base_colour == glm::vec3(1.0f);
+  if (!change.colour || masks.empty() || !picture_is_pure) {
+    model.materials.push_back(std::move(inside));
+    return sides;
+  }
+  Texture picture = model.textures[std::size_t(before.base_colour_texture)];
+  picture.image = painted(picture.image, masks, *change.colour);
+  picture.name += " with " + name;
+  Material outside = before;
+  outside.base_colour_texture = inside.base_colour_texture = int(model.textures.size());
+  inside.base_colour = glm::vec3(1.0f);
+  model.textures.push_back(std::move(picture));
+  model.materials.push_back(std::move(inside));
+  sides.outside = int(model.materials.size());
+  model.materials.push_back(std::move(outside));
+  return sides;
+}
+
 }  // namespace
 
 std::span<const MaterialPreset> material_presets() {
@@ -130,34 +169,25 @@ std::vector<std::size_t> matching_parts(const Model& model, std::string_view tar
 std::size_t change_material(Model& model, std::span<const std::size_t> parts,
                             std::span<const MaterialMask> masks, const MaterialChange& change,
                             const std::string& name) {
-  std::map<int, int> new_material;  // for each material that is met: its changed copy
-  const auto changed_material = [&](int old) {
-    const auto [entry, is_new] = new_material.emplace(old, int(model.materials.size()));
-    if (is_new) model.materials.push_back(changed(model.materials[std::size_t(old)], change, name));
-    return entry->second;
-  };
-
+  std::map<int, Sides> sides_of;  // for each material that is met
   std::size_t changed_triangles = 0;
   for (const std::size_t index : parts) {
-    const Part& part = model.parts[index];
-    std::vector<bool> is_taken(part.mesh.triangle_count());
-    for (std::size_t triangle = 0; triangle < is_taken.size(); ++triangle)
-      is_taken[triangle] =
-          masks.empty() || std::any_of(masks.begin(), masks.end(), [&](const MaterialMask& mask) {
-            return lies_in(mask, model, part, triangle);
-          });
+    const std::vector<bool> is_taken = triangles_in(masks, model, model.parts[index]);
     const std::size_t count = std::size_t(std::count(is_taken.begin(), is_taken.end(), true));
     changed_triangles += count;
     if (count == 0) continue;
 
-    const int material = changed_material(part.material);
+    const int old = model.parts[index].material;
+    if (!sides_of.count(old)) sides_of[old] = add_sides(model, old, masks, change, name);
+    const Sides sides = sides_of[old];
     if (count < is_taken.size()) {
-      Part rest = part;
-      rest.mesh = extracted(part.mesh, is_taken, false);
+      Part rest = model.parts[index];
+      rest.mesh = extracted(rest.mesh, is_taken, false);
+      rest.material = sides.outside;
       model.parts[index].mesh = extracted(model.parts[index].mesh, is_taken, true);
       model.parts.push_back(std::move(rest));
     }
-    model.parts[index].material = material;
+    model.parts[index].material = sides.inside;
   }
   return changed_triangles;
 }

@@ -14,7 +14,7 @@ namespace parvis::scene {
 
 /// What is overridden; the rest stays as the model's file has it.
 struct MaterialChange {
-  std::optional<glm::vec3> colour = {};  ///< linear; in place of the picture
+  std::optional<glm::vec3> colour = {};  ///< linear; in place of the picture's
   std::optional<float> roughness = {}, metallic = {}, clear_coat = {}, alpha = {};
   std::optional<glm::vec3> emission = {};
   std::optional<bool> is_mirror_like = {};
@@ -36,7 +36,9 @@ MaterialChange merged(const MaterialChange& under, const MaterialChange& over);
 std::vector<std::size_t> matching_parts(const Model& model, std::string_view target);
 
 /// Changes the material of the triangles of `parts` that lie in one of `masks` (of all, if there is none). A
-/// part of which only some triangles do is split in two. Returns the number of triangles changed.
+/// part of which only some triangles do is split in two. Returns the number of triangles changed. Triangles
+/// rarely end where a colour does. So that no spikes of glass stand in the paint, a colour that is given with
+/// masks is painted into a copy of the picture, texel by texel, and both sides of the split use that copy.
 std::size_t change_material(Model& model, std::span<const std::size_t> parts,
                             std::span<const MaterialMask> masks, const MaterialChange& change,
                             const std::string& name);

@@ -81,6 +81,8 @@ TEST(MaterialChange, ToleranceIsTheLargestDifferenceOfAChannel) {
   Model model = palette_model();
   EXPECT_EQ(change(model, {mask("colour #8A8080 0.03")}, {}), 0u);
   EXPECT_EQ(change(model, {mask("colour #8A8080 0.05")}, {}), 2u);
+  EXPECT_EQ(change(model, {mask("grey")}, {}), 2u);
+  EXPECT_EQ(change(model, {mask("grey 1 box 0 0 1 0.5")}, {}), 4u);
 }
 
 TEST(MaterialChange, KeepsThePictureUnlessAColourIsGiven) {
@@ -92,6 +94,19 @@ TEST(MaterialChange, KeepsThePictureUnlessAColourIsGiven) {
   EXPECT_EQ(plain.base_colour_texture, no_index);
   EXPECT_EQ(plain.clear_coat, 1.0f);
   EXPECT_EQ(model.parts.size(), 1u);
+}
+
+TEST(MaterialChange, AMaskedColourIsPaintedTexelByTexel) {
+  Model model = palette_model();
+  change(model, {mask("colour #00FF00 0.05")}, {.colour = glm::vec3(0.0f), .roughness = 0.1f});
+  for (const Part& part : model.parts) {
+    const Material& material = model.materials[std::size_t(part.material)];
+    const Image8& picture = model.textures[std::size_t(material.base_colour_texture)].image;
+    EXPECT_EQ(picture.at(1, 0)[1], 0);    // the green texel is black on both sides of the split
+    EXPECT_EQ(picture.at(0, 0)[0], 255);  // the red one as before
+  }
+  EXPECT_EQ(model.textures[0].image.at(1, 0)[1], 255);  // objects that were not meant keep their picture
+  EXPECT_FLOAT_EQ(area_of(model, "changed"), 1.0f);
 }
 
 TEST(MaterialChange, WithoutAPictureTheMaterialsColourCounts) {
@@ -119,7 +134,7 @@ TEST(MaterialChange, TargetsObjectsNodesAndMaterialsByPattern) {
 TEST(MaterialMask, RefusesWhatItCannotRead) {
   for (const char* text :
        {"", "  ", "box", "box 0 0 1", "box 1 0 0 1", "box 0 0 1 x", "colour", "colour red", "colour #12345",
-        "colour #GG0000", "sphere 1 2 3", "object 3", "box 0 0 1 1 box 0 0 1 1"})
+        "colour #GG0000", "sphere 1 2 3", "grey 0.1 0.2", "grey grey", "object 3", "box 0 0 1 1 box 0 0 1 1"})
     EXPECT_FALSE(parse_mask(text, {})) << text;
 }
 

@@ -9,7 +9,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float usual_tolerance = 0.1f;
+constexpr float usual_tolerance = 0.1f, usual_grey = 0.05f;
 
 /// The part of `uv` that a repeating picture shows; 1 stays 1, the picture's far edge.
 glm::vec2 wrapped(glm::vec2 uv) {
@@ -18,11 +18,14 @@ glm::vec2 wrapped(glm::vec2 uv) {
   return uv;
 }
 
-glm::vec3 texel(const Image8& image, glm::vec2 uv) {
-  const int x = std::min(int(uv.x * float(image.width)), image.width - 1);
-  const int y = std::min(int(uv.y * float(image.height)), image.height - 1);
+glm::vec3 texel(const Image8& image, int x, int y) {
   const std::uint8_t* pixel = image.at(x, y);
   return glm::vec3(pixel[0], pixel[1], pixel[2]) / 255.0f;
+}
+
+glm::vec3 texel(const Image8& image, glm::vec2 uv) {
+  return texel(image, std::min(int(uv.x * float(image.width)), image.width - 1),
+               std::min(int(uv.y * float(image.height)), image.height - 1));
 }
 
 /// sRGB colour of a material at a point of its picture.
@@ -44,9 +47,18 @@ bool is_inside(const MaterialMask::Box& box, glm::vec2 uv) {
   return uv.x >= box.min.x && uv.x <= box.max.x && uv.y >= box.min.y && uv.y <= box.max.y;
 }
 
+bool is_grey(float tolerance, glm::vec3 srgb) {
+  return std::max({srgb.x, srgb.y, srgb.z}) - std::min({srgb.x, srgb.y, srgb.z}) <= tolerance;
+}
+
 bool is_near(const MaterialMask::Colour& colour, glm::vec3 srgb) {
   const glm::vec3 difference = glm::abs(colour.srgb - srgb);
   return std::max({difference.x, difference.y, difference.z}) <= colour.tolerance;
+}
+
+bool holds_at(const MaterialMask& mask, glm::vec2 uv, glm::vec3 srgb) {
+  return (!mask.box || is_inside(*mask.box, uv)) && (!mask.colour || is_near(*mask.colour, srgb)) &&
+         (!mask.grey || is_grey(*mask.grey, srgb));
 }
 
 /// Takes the numbers at the head of `words`, `count` at most.
@@ -73,7 +85,7 @@ Result<MaterialMask> parse_mask(std::string_view text, const FileLocation& where
   const Error mismatch =
       error_at(where,
                "mask=\"{}\": expected \"object\", \"box u0 v0 u1 v1\" (0..1, v down from the top) "
-               "or \"colour #RRGGBB tolerance\" (0..1), or a box and a colour",
+               "\"colour #RRGGBB tolerance\" (0..1), \"grey tolerance\", or several of them",
                text.substr(0, 60));
   MaterialMask mask;
   std::istringstream words{std::string(text)};
@@ -92,6 +104,9 @@ Result<MaterialMask> parse_mask(std::string_view text, const FileLocation& where
       if (!rgb || !word.starts_with('#')) return mismatch;
       const float allowed = tolerance.empty() ? usual_tolerance : float(tolerance[0]);
       mask.colour = {srgb_from_linear(std::get<glm::vec3>(*rgb)), allowed};
+    } else if (word == "grey" && !mask.grey) {
+      const std::vector<double> tolerance = take_numbers(words, 1);
+      mask.grey = tolerance.empty() ? usual_grey : float(tolerance[0]);
     } else {
       return mismatch;
     }
@@ -101,11 +116,25 @@ Result<MaterialMask> parse_mask(std::string_view text, const FileLocation& where
 }
 
 bool lies_in(const MaterialMask& mask, const Model& model, const Part& part, std::size_t triangle) {
-  if (!mask.box && !mask.colour) return true;
   const Material& material = model.materials[std::size_t(part.material)];
   const glm::vec2 uv = centroid_uv(part, material, triangle);
-  if (mask.box && !is_inside(*mask.box, uv)) return false;
-  return !mask.colour || is_near(*mask.colour, colour_at(model, material, uv));
+  return holds_at(mask, uv, colour_at(model, material, uv));
+}
+
+Image8 painted(const Image8& picture, std::span<const MaterialMask> masks, glm::vec3 colour) {
+  const glm::vec3 srgb = 255.0f * srgb_from_linear(glm::clamp(colour, 0.0f, 1.0f)) + 0.5f;
+  const glm::vec2 size(picture.width, picture.height);
+  Image8 result = picture;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) / size;
+      const glm::vec3 old = texel(picture, x, y);
+      const bool is_taken = std::any_of(masks.begin(), masks.end(),
+                                        [&](const MaterialMask& mask) { return holds_at(mask, uv, old); });
+      for (int channel = 0; is_taken && channel < 3; ++channel)
+        result.at(x, y)[channel] = std::uint8_t(srgb[channel]);
+    }
+  return result;
 }
 
 }  // namespace parvis::scene

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,7 @@ struct MaterialMask {
   };
   std::optional<Box> box;
   std::optional<Colour> colour;
+  std::optional<float> grey;  ///< largest difference between the channels of a colour that is still grey
 };
 
 /// Reads "object" (all triangles), "box u0 v0 u1 v1", "colour #RRGGBB [tolerance]", or a box and a colour
@@ -31,5 +33,8 @@ Result<MaterialMask> parse_mask(std::string_view text, const FileLocation& where
 
 /// The triangle's centroid lies in the mask: in texture space, and by the colour that its material has there.
 bool lies_in(const MaterialMask& mask, const Model& model, const Part& part, std::size_t triangle);
+
+/// A copy of `picture` (sRGB) in which the texels that lie in one of `masks` have the linear colour `colour`.
+Image8 painted(const Image8& picture, std::span<const MaterialMask> masks, glm::vec3 colour);
 
 }  // namespace parvis::scene

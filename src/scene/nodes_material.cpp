@@ -32,8 +32,9 @@ NodeSchema material_schema() {
             .fallback = "*"},
            {.name = "mask",
             .help = "\"box u0 v0 u1 v1\" of the picture (0..1, v down from the top), \"colour #RRGGBB "
-                    "tolerance\" (of the picture at the triangle's middle), or both in one; repeated: any "
-                    "of them",
+                    "tolerance\" or \"grey "
+                    "tolerance\" (of the picture at the triangle's middle; 0..1), or several in one; "
+                    "repeated: any of them",
             .fallback = "object",
             .is_repeatable = true},
            preset,
@@ -58,7 +59,8 @@ NodeSchema material_schema() {
       .example =
           "model(file=\"car.obj\", reflective=1) {\n"
           "  material(preset=\"paint\")\n"
-          "  material(mask=\"box 0.2 0.5 0.4 0.8\", mask=\"colour #404040 0.05\", preset=\"glass\")\n"
+          "  material(mask=\"box 0.2 0.5 0.4 0.8\", mask=\"box 0.6 0.5 0.8 0.8 grey 0.05\", "
+          "preset=\"glass\")\n"
           "}"};
 }
 
