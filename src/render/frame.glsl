@@ -1,7 +1,7 @@
-// What is the same for all that one view draws. Filled by render/frame_block.h.
+// What is the same for all that one view draws. Filled by render/renderer.cpp.
 layout(std140) uniform Frame {
   mat4 clip_from_world;
-  vec4 viewer_position;  // w: clip depth of nothing
+  vec4 viewer_position;
   vec4 frame_to_sun;     // w: haze a metre
   vec4 frame_sun_irradiance;
   vec4 frame_haze;       // rgb; w: heading of the sky
@@ -10,4 +10,6 @@ layout(std140) uniform Frame {
   vec4 frame_texel_m;
   vec4 frame_texel_uv;
   vec4 frame_size;       // pixels; z: levels of the sky
+  vec4 frame_visibility_origin;  // of the sky visibility grid; w: lift
+  vec4 frame_visibility_size;
 };

@@ -1,17 +1,23 @@
 // Draws the scene: shadows, the main view at four samples a pixel, the sky, tone mapping; and small views for
 // those rooms that ask for them. Everything that draws is a Drawable.
+//
+// A frame: begin_frame (what moved; shadows), prepare_main_view (culling), then a room makes reflections for
+// visible_objects through draw_view, then draw_main_view and display.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "base/image.h"
 #include "gl/context.h"
+#include "render/picture_target.h"
 #include "render/scene_drawable.h"
+#include "render/sky_textures.h"
 #include "render/sun_shadow_maps.h"
-#include "shading/sky.h"
 
 namespace parvis::render {
+
+/// Which object each pixel shows: its index in the scene and 1; 0 where there is none. Top row first.
+using ObjectPicture = BasicImage<std::uint32_t>;
 
 class Renderer {
  public:
@@ -24,7 +30,7 @@ class Renderer {
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
   Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
 
-  /// Takes over what moved, and draws the shadow maps for a viewer.
+  /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera);
   /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for.
   void prepare_main_view(const Camera& camera, int width, int height);
@@ -33,51 +39,40 @@ class Renderer {
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
   void draw_view(const View& view);
-  /// Object indices of a view (a scene's object and 1; 0: none), as a picture from the top left. A readback:
-  /// for tools and tests, not for frames.
-  std::vector<std::uint32_t> pick(const Camera& camera, int width, int height, bool culls_hidden);
+  /// A readback: for tools and tests, not for frames.
+  ObjectPicture pick(const Camera& camera, int width, int height, bool culls_hidden);
 
-  /// Tone-maps the main view into a framebuffer of its size.
-  void display(GLuint framebuffer, float exposure);
-  Image8 read_picture(float exposure);
-  ImageF read_radiance() const;
+  /// Tone-maps the main view into a framebuffer of its size (0: the window's).
+  void display(GLuint framebuffer, float exposure) const { target_.display(framebuffer, exposure); }
+  Image8 read_picture(float exposure) const { return target_.read_picture(exposure); }
+  ImageF read_radiance() const { return target_.read_radiance(); }
 
-  GLuint radiance_texture() const { return target_.radiance.name(); }
-  int width() const { return target_.width; }
-  int height() const { return target_.height; }
+  GLuint radiance_texture() const { return target_.radiance_texture(); }
+  int width() const { return target_.width(); }
+  int height() const { return target_.height(); }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }
   const GpuScene& gpu() const { return scene_.gpu(); }
-  const shading::SkyLight& sky() const { return sky_; }
+
+  // The light that the ray tracer needs to agree with the picture.
+  const shading::SkyLight& sky() const { return sky_.light(); }
+  const shading::SkyVisibility& sky_visibility() const { return sky_.visibility(); }
   shading::SunShadow sun_shadow() const { return shadows_.read_back(); }
 
  private:
-  struct Target {
-    int width = 0, height = 0;
-    gl::Texture samples, sample_depth, radiance, picture;
-    gl::Framebuffer multisampled, resolved, displayed;
-  };
-  struct Programs {
-    gl::Program sky, display;
-  };
-
-  Renderer(const scene::Scene& scene, SceneDrawable drawable, Programs programs);
-  void upload_sky();
-  void resize(int width, int height);
+  Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target);
   void begin_view(const View& view);
   void draw_prepared(const View& view);
   void bind_frame(const View& view);
 
-  shading::SkyLight sky_;
+  SkyTextures sky_;
   scene::Sun sun_;
-  float haze_per_m_;
+  float haze_per_m_ = 0.0f;
+  float exposure_ = 1.0f;
   SceneDrawable scene_;
-  Programs programs_;
   SunShadowMaps shadows_;
   std::vector<Drawable*> drawables_;
   StreamBuffer frame_blocks_;
-  gl::Texture sky_texture_;
-  gl::VertexArray no_attributes_;
-  Target target_;
+  PictureTarget target_;
   View main_view_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/fixed_parts.h"
+
 namespace parvis::render {
 namespace {
 
@@ -50,13 +52,9 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
 
 SceneDrawable::SceneDrawable(const scene::Scene& scene, Programs programs)
     : gpu_(scene), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
-  for (const scene::Object& object : scene.objects) {
-    if (object.is_dynamic) continue;
-    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
-    for (const scene::Part& part : object.model->parts)
-      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
-        occlusion_.add_occluder(part.mesh, object.world_from_model * pose[std::size_t(part.node)]);
-  }
+  for_each_fixed_opaque_part(scene, [this](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+    occlusion_.add_occluder(mesh, world_from_mesh);
+  });
 }
 
 Status SceneDrawable::set_reflection(ReflectionSource* source) {

@@ -23,11 +23,8 @@ glm::mat3 sun_frame(glm::vec3 to_sun) {
 }  // namespace
 
 SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
-    : to_sun_(glm::normalize(to_sun)),
-      sun_from_world_(sun_frame(to_sun_)),
-      fixed_in_sun_(transformed(glm::mat4(sun_from_world_),
-                                fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed)),
-      fixed_centre_(fixed.empty() ? glm::vec3(0) : fixed.centre()) {
+    : fixed_(fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed) {
+  turn_to(to_sun);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     Map& target = targets_[i];
     target.size = sizes[i];
@@ -38,6 +35,14 @@ SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
     glNamedFramebufferTexture(target.framebuffer.name(), GL_DEPTH_ATTACHMENT, target.depth.name(), 0);
     glNamedFramebufferDrawBuffer(target.framebuffer.name(), GL_NONE);
   }
+}
+
+void SunShadowMaps::turn_to(glm::vec3 to_sun) {
+  to_sun_ = glm::normalize(to_sun);
+  sun_from_world_ = sun_frame(to_sun_);
+  fixed_in_sun_ = transformed(glm::mat4(sun_from_world_), fixed_);
+  far_is_drawn_ = false;
+  near_centre_ = glm::vec3(1e30f);
 }
 
 View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
@@ -70,10 +75,12 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   return view;
 }
 
-void SunShadowMaps::update(glm::vec3 position, const std::function<void(const View&)>& draw) {
+void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun,
+                           const std::function<void(const View&)>& draw) {
+  if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
   if (!far_is_drawn_) {
     const glm::vec3 size = fixed_in_sun_.size();
-    draw(aim(shading::shadow_far_map, fixed_centre_, 0.51f * std::max(size.x, size.y)));
+    draw(aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y)));
     far_is_drawn_ = true;
   }
   if (glm::distance(position, near_centre_) > near_stay_m) {

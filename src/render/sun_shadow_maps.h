@@ -18,8 +18,9 @@ class SunShadowMaps {
   /// `fixed` bounds all that does not move, in the world.
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
-  /// Calls `draw` for each map that must be drawn for a viewer at `position`.
-  void update(glm::vec3 position, const std::function<void(const View&)>& draw);
+  /// Calls `draw` for each map that must be drawn for a viewer at `position`; for all of them when the sun
+  /// has moved.
+  void update(glm::vec3 position, glm::vec3 to_sun, const std::function<void(const View&)>& draw);
 
   /// Units 5 to 7.
   void bind() const;
@@ -34,12 +35,13 @@ class SunShadowMaps {
     gl::Framebuffer framebuffer;
     int size;
   };
+  void turn_to(glm::vec3 to_sun);
   View aim(int map, glm::vec3 centre, float half_width_m);
 
+  Bounds fixed_;
   glm::vec3 to_sun_;
   glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
   Bounds fixed_in_sun_;
-  glm::vec3 fixed_centre_;
   std::array<Map, 3> targets_;
   shading::ShadowMaps maps_{};
   bool far_is_drawn_ = false;

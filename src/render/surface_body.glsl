@@ -1,16 +1,22 @@
 // The fragment shader of all surfaces. A file that includes it defines
 //   vec3 reflected_radiance(vec3 position, vec3 direction, float roughness)
-// the radiance that arrives at `position` from the mirror direction, blurred for the roughness.
+// the radiance that arrives at `position` from the mirror direction, blurred for the roughness. It may use
+// `surface_sky_cell`, what the place sees of the sky.
 #include "render/frame.glsl"
 #include "render/material.glsl"
+#include "render/sky_lookup.glsl"
 #include "render/sun_lookup.glsl"
 #include "shading/surface.glsl"
 #include "shading/lighting.glsl"
+
+const float greatest_radiance = 30000.0f;  // the target holds half floats
 
 in vec3 position;
 in vec3 vertex_normal;
 in vec2 uv;
 out vec4 radiance;
+
+vec4 surface_sky_cell;
 
 vec3 reflected_radiance(vec3 at, vec3 direction, float roughness);
 
@@ -67,9 +73,12 @@ void main() {
   light.haze_radiance = frame_haze.rgb;
   light.haze_per_m = frame_to_sun.w;
 
+  surface_sky_cell = sky_visibility_cell(position, normal);
   vec3 mirrored = reflect(-to_viewer, s.normal);
   vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);
   vec3 coat_reflection = s.clear_coat > 0.0f ? reflected_radiance(position, mirrored, s.clear_coat_roughness) : vec3(0.0f);
-  vec3 light_out = lit_radiance(s, light, to_viewer, visible_sun(position, normal), 1.0f, base_reflection, coat_reflection);
-  radiance = vec4(through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance), base.a);
+  vec3 light_out = lit_radiance(s, light, to_viewer, visible_sun(position, normal),
+                                sky_share_of_normal(surface_sky_cell, s.normal), base_reflection, coat_reflection);
+  light_out = through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance);
+  radiance = vec4(min(light_out, vec3(greatest_radiance)), base.a);
 }

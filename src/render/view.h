@@ -23,7 +23,7 @@ enum class Subjects : std::uint8_t { all, fixed, moving };
 /// One picture to be drawn: from where, through what, onto which target.
 struct View {
   ViewKind kind = ViewKind::main;
-  glm::mat4 clip_from_world{1.0f};
+  glm::mat4 clip_from_world{1.0f};    ///< depth -1 near, 1 far; the renderer turns it round
   glm::vec3 position_in_world{0.0f};  ///< of the eye; for shadows, a point far toward the sun
   GLuint framebuffer = 0;
   int width = 0, height = 0;

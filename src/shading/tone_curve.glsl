@@ -6,6 +6,11 @@ GLSL_FUNCTION vec3 hable(vec3 x) {
          vec3(0.0333333f);
 }
 
+// Weight of a sample among those of its pixel: bright ones count for about as much as they display.
+GLSL_FUNCTION float sample_weight(vec3 exposed) {
+  return 1.0f / (1.0f + dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f)));
+}
+
 GLSL_FUNCTION vec3 tone_mapped(vec3 exposed) {
   const float white = 8.0f;
   return clamp(hable(max(exposed, vec3(0.0f))) / hable(vec3(white)), vec3(0.0f), vec3(1.0f));

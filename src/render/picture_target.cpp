@@ -1,0 +1,84 @@
+#include "render/picture_target.h"
+
+namespace parvis::render {
+namespace {
+
+constexpr int samples_a_pixel = 4;
+
+gl::Texture multisampled_texture(GLenum format, int width, int height) {
+  gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D_MULTISAMPLE));
+  glTextureStorage2DMultisample(texture.name(), samples_a_pixel, format, width, height, GL_TRUE);
+  return texture;
+}
+
+gl::Framebuffer framebuffer_of(const gl::Texture& colour) {
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, colour.name(), 0);
+  return framebuffer;
+}
+
+}  // namespace
+
+Result<PictureTarget> PictureTarget::create() {
+  Result<gl::Program> resolve = gl::Program::create("render/whole_screen.vert", "render/resolve.frag");
+  if (!resolve) return resolve.errors();
+  Result<gl::Program> display = gl::Program::create("render/whole_screen.vert", "render/display.frag");
+  if (!display) return display.errors();
+  return PictureTarget(*std::move(resolve), *std::move(display));
+}
+
+PictureTarget::PictureTarget(gl::Program resolve, gl::Program display)
+    : resolve_(std::move(resolve)), display_(std::move(display)), no_attributes_(gl::VertexArray::create()) {}
+
+void PictureTarget::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  samples_ = multisampled_texture(GL_RGBA16F, width, height);
+  sample_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, width, height);
+  radiance_ = gl::texture_2d(GL_RGBA16F, width, height);
+  picture_ = gl::texture_2d(GL_RGBA8, width, height);
+  multisampled_ = framebuffer_of(samples_);
+  glNamedFramebufferTexture(multisampled_.name(), GL_DEPTH_ATTACHMENT, sample_depth_.name(), 0);
+  resolved_ = framebuffer_of(radiance_);
+  displayed_ = framebuffer_of(picture_);
+}
+
+void PictureTarget::draw_screen(const gl::Program& program, GLuint framebuffer, GLuint texture) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width_, height_);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  program.use();
+  glBindTextureUnit(0, texture);
+  glBindVertexArray(no_attributes_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void PictureTarget::resolve(float exposure) {
+  resolve_.set("exposure", exposure);
+  draw_screen(resolve_, resolved_.name(), samples_.name());
+}
+
+void PictureTarget::display(GLuint framebuffer, float exposure) const {
+  display_.set("exposure", exposure);
+  draw_screen(display_, framebuffer, radiance_.name());
+}
+
+Image8 PictureTarget::read_picture(float exposure) const {
+  display(displayed_.name(), exposure);
+  Image8 picture(width_, height_, 4);
+  glGetTextureImage(picture_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(picture.pixels.size()),
+                    picture.pixels.data());
+  flip_rows(picture);
+  return picture;
+}
+
+ImageF PictureTarget::read_radiance() const {
+  ImageF radiance(width_, height_, 4);
+  glGetTextureImage(radiance_.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(radiance.pixels.size() * sizeof(float)),
+                    radiance.pixels.data());
+  flip_rows(radiance);
+  return radiance;
+}
+
+}  // namespace parvis::render

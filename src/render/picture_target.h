@@ -1,0 +1,53 @@
+// Where the main view is drawn: four samples a pixel, brought together to linear radiance, then to a picture.
+#pragma once
+
+#include <algorithm>
+
+#include "base/image.h"
+#include "base/result.h"
+#include "gl/program.h"
+
+namespace parvis::render {
+
+class PictureTarget {
+ public:
+  static Result<PictureTarget> create();
+
+  void resize(int width, int height);
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// To draw into: RGBA16F and depth, multisampled.
+  GLuint framebuffer() const { return multisampled_.name(); }
+  /// Brings the samples together, weighed for a picture of this exposure.
+  void resolve(float exposure);
+  /// What `resolve` made: linear radiance, one value a pixel.
+  GLuint radiance_texture() const { return radiance_.name(); }
+  /// Tone-maps into a framebuffer of the same size.
+  void display(GLuint framebuffer, float exposure) const;
+
+  // Readbacks wait for the GPU: for stills and tests. Films read through render/picture_reader.h.
+  Image8 read_picture(float exposure) const;
+  ImageF read_radiance() const;
+
+ private:
+  PictureTarget(gl::Program resolve, gl::Program display);
+  void draw_screen(const gl::Program& program, GLuint framebuffer, GLuint texture) const;
+
+  int width_ = 0, height_ = 0;
+  gl::Program resolve_, display_;
+  gl::VertexArray no_attributes_;
+  gl::Texture samples_, sample_depth_, radiance_, picture_;
+  gl::Framebuffer multisampled_, resolved_, displayed_;
+};
+
+/// Turns what OpenGL reads back (bottom row first) upright.
+template <class Image>
+void flip_rows(Image& image) {
+  const std::ptrdiff_t row = std::ptrdiff_t(image.width) * image.channels;
+  for (int y = 0; y < image.height / 2; ++y)
+    std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
+                     image.pixels.begin() + (image.height - 1 - y) * row);
+}
+
+}  // namespace parvis::render

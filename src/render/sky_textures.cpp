@@ -1,0 +1,78 @@
+#include "render/sky_textures.h"
+
+#include "render/bindings.h"
+#include "render/fixed_parts.h"
+
+namespace parvis::render {
+namespace {
+
+shading::SkyVisibility visibility_in(const scene::Scene& scene) {
+  Bounds bounds;
+  for_each_fixed_opaque_part(scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+    bounds.add(transformed(world_from_mesh, mesh.bounds()));
+  });
+  shading::HeightField heights(bounds);
+  for_each_fixed_opaque_part(
+      scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
+  return shading::make_sky_visibility(heights);
+}
+
+gl::Texture upload(const shading::SkyLight& sky) {
+  const ImageF& sharpest = sky.levels.front();
+  gl::Texture texture = gl::texture_2d(GL_RGB16F, sharpest.width, sharpest.height, int(sky.levels.size()));
+  for (std::size_t level = 0; level < sky.levels.size(); ++level) {
+    const ImageF& image = sky.levels[level];
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                        image.pixels.data());
+  }
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+  return texture;
+}
+
+gl::Texture upload(const shading::SkyVisibility& visibility) {
+  const glm::ivec3 cells = visibility.cells;
+  gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_3D));
+  glTextureStorage3D(texture.name(), 1, GL_RGBA8, cells.x, cells.y, cells.z);
+  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, cells.x, cells.y, cells.z, GL_RGBA, GL_UNSIGNED_BYTE,
+                      visibility.values.data());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture.name(), axis, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
+Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
+  Result<gl::Program> program = gl::Program::create("render/whole_screen.vert", "render/sky.frag");
+  if (!program) return program.errors();
+  assign_bindings(*program);
+  return SkyTextures(scene, *std::move(program));
+}
+
+SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
+    : light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
+      visibility_(visibility_in(scene)),
+      program_(std::move(program)),
+      picture_(upload(light_)),
+      cells_(upload(visibility_)),
+      no_attributes_(gl::VertexArray::create()) {
+  program_.set("screen_depth", 0.0f);  // depth is reversed: the farthest
+}
+
+void SkyTextures::bind() const {
+  glBindTextureUnit(sky_unit, picture_.name());
+  glBindTextureUnit(sky_visibility_unit, cells_.name());
+}
+
+void SkyTextures::draw(const View& view) const {
+  program_.use();
+  program_.set("world_from_clip", glm::inverse(view.clip_from_world));
+  glBindVertexArray(no_attributes_.name());
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+}  // namespace parvis::render

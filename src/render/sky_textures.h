@@ -1,0 +1,35 @@
+// The sky on the GPU: its picture with the blurred levels as mipmaps, how much of it each place sees, and the
+// pass that draws it behind all else.
+#pragma once
+
+#include "gl/program.h"
+#include "render/view.h"
+#include "scene/scene.h"
+#include "shading/sky.h"
+#include "shading/sky_visibility.h"
+
+namespace parvis::render {
+
+class SkyTextures {
+ public:
+  static Result<SkyTextures> create(const scene::Scene& scene);
+
+  /// Texture units `sky_unit` and `sky_visibility_unit`.
+  void bind() const;
+  /// Fills what the depth buffer says is empty.
+  void draw(const View& view) const;
+
+  const shading::SkyLight& light() const { return light_; }
+  const shading::SkyVisibility& visibility() const { return visibility_; }
+
+ private:
+  SkyTextures(const scene::Scene& scene, gl::Program program);
+
+  shading::SkyLight light_;
+  shading::SkyVisibility visibility_;
+  gl::Program program_;
+  gl::Texture picture_, cells_;
+  gl::VertexArray no_attributes_;
+};
+
+}  // namespace parvis::render

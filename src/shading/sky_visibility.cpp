@@ -1,0 +1,210 @@
+#include "shading/sky_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace parvis::shading {
+namespace {
+
+constexpr int most_squares_a_side = 2048;
+constexpr glm::vec3 cell_size_m{4.0f, 4.0f, 3.0f};
+constexpr float most_cells = 2e6f;
+constexpr int directions = 12;
+constexpr std::array<float, 10> distances_m{1.5f, 3.0f, 5.0f, 7.5f, 11.0f, 16.0f, 23.0f, 33.0f, 48.0f, 75.0f};
+constexpr float pi_f = 3.14159265f;
+
+/// Walls throw some of the light back that they keep off: an albedo of city walls, themselves lit by the open
+/// share.
+constexpr float wall_albedo = 0.35f;
+
+/// Integrals of the sky's visibility over the upper hemisphere: of 1 and of the direction.
+struct OpenSky {
+  float solid_angle = 0.0f;
+  vec3 direction{0.0f};
+
+  /// A sector about azimuth `u` is open above the elevation whose tangent is `horizon`.
+  void add_sector(glm::vec2 u, float horizon) {
+    constexpr float width = 2.0f * pi_f / float(directions);
+    const float elevation = std::atan(std::max(horizon, 0.0f));
+    const float s = std::sin(elevation), c = std::cos(elevation);
+    solid_angle += width * (1.0f - s);
+    direction += width * vec3(0.5f * (0.5f * pi_f - elevation - s * c) * u, 0.5f * c * c);
+  }
+
+  /// The stored cell: hidden directions show walls and those below the horizon show ground, both lit by the
+  /// same sky.
+  vec4 cell() const {
+    const float open = solid_angle / (2.0f * pi_f);
+    const float wall = wall_albedo * open;
+    const vec3 up(0.0f, 0.0f, pi_f);
+    const float mean =
+        (solid_angle + wall * (2.0f * pi_f - solid_angle) + open * 2.0f * pi_f) / (4.0f * pi_f);
+    const vec3 along = (direction + wall * (up - direction) - open * up) / (2.0f * pi_f);
+    return vec4(along + vec3(0.5f), mean);
+  }
+};
+
+struct Grid {
+  glm::ivec3 cells;
+  vec3 origin, cell_m;
+  std::vector<vec4> values;
+  std::vector<std::uint8_t> is_air;
+
+  std::size_t index(int x, int y, int z) const {
+    return (std::size_t(z) * std::size_t(cells.y) + std::size_t(y)) * std::size_t(cells.x) + std::size_t(x);
+  }
+};
+
+Grid empty_grid(const Bounds& bounds) {
+  Grid grid;
+  // A cell of margin all round and above the roofs.
+  grid.cell_m = cell_size_m;
+  grid.origin = bounds.min - vec3(grid.cell_m.x, grid.cell_m.y, 0.0f);
+  const vec3 size = bounds.max + grid.cell_m - grid.origin;
+  const float wanted = (size.x / grid.cell_m.x) * (size.y / grid.cell_m.y) * (size.z / grid.cell_m.z);
+  if (wanted > most_cells) grid.cell_m *= std::cbrt(wanted / most_cells);
+  grid.cells = glm::max(glm::ivec3(glm::ceil(size / grid.cell_m)), glm::ivec3(1));
+  const std::size_t count = grid.index(0, 0, grid.cells.z);
+  grid.values.assign(count, vec4(0.0f));
+  grid.is_air.assign(count, 0);
+  return grid;
+}
+
+void fill_column(Grid& grid, const HeightField& heights, int x, int y) {
+  const glm::vec2 centre = glm::vec2(grid.origin) + (glm::vec2(x, y) + 0.5f) * glm::vec2(grid.cell_m);
+  std::array<glm::vec2, directions> azimuths;
+  std::array<std::array<float, distances_m.size()>, directions> surroundings;
+  for (std::size_t d = 0; d < directions; ++d) {
+    const float angle = 2.0f * pi_f * (float(d) + 0.5f) / float(directions);
+    azimuths[d] = {std::cos(angle), std::sin(angle)};
+    for (std::size_t i = 0; i < distances_m.size(); ++i)
+      surroundings[d][i] = heights.height_m(centre + distances_m[i] * azimuths[d]);
+  }
+  const float floor_m = heights.height_m(centre);
+  for (int z = 0; z < grid.cells.z; ++z) {
+    const float eye_m = grid.origin.z + (float(z) + 0.5f) * grid.cell_m.z;
+    OpenSky sky;
+    for (std::size_t d = 0; d < directions; ++d) {
+      float horizon = 0.0f;
+      for (std::size_t i = 0; i < distances_m.size(); ++i)
+        horizon = std::max(horizon, (surroundings[d][i] - eye_m) / distances_m[i]);
+      sky.add_sector(azimuths[d], horizon);
+    }
+    const std::size_t cell = grid.index(x, y, z);
+    grid.values[cell] = sky.cell();
+    grid.is_air[cell] = eye_m > floor_m;
+  }
+}
+
+/// Cells within buildings take the mean of the air beside them: filtering then does not darken the walls'
+/// outsides.
+void fill_solid_cells(Grid& grid) {
+  const std::vector<vec4> values = grid.values;
+  parallel_for(std::size_t(grid.cells.z), [&](std::size_t layer) {
+    const int z = int(layer);
+    for (int y = 0; y < grid.cells.y; ++y)
+      for (int x = 0; x < grid.cells.x; ++x) {
+        if (grid.is_air[grid.index(x, y, z)]) continue;
+        vec4 sum(0.0f);
+        float count = 0.0f;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            const std::size_t beside = grid.index(std::clamp(x + dx, 0, grid.cells.x - 1),
+                                                  std::clamp(y + dy, 0, grid.cells.y - 1), z);
+            if (grid.is_air[beside]) sum += values[beside], count += 1.0f;
+          }
+        if (count > 0.0f) grid.values[grid.index(x, y, z)] = sum / count;
+      }
+  });
+}
+
+}  // namespace
+
+HeightField::HeightField(const Bounds& bounds) : bounds_(bounds) {
+  if (bounds.empty()) return;
+  const vec3 size = bounds.size();
+  square_m_ = std::max(1.0f, std::max(size.x, size.y) / float(most_squares_a_side));
+  heights_ = ImageF(int(size.x / square_m_) + 1, int(size.y / square_m_) + 1, 1, bounds.min.z);
+}
+
+void HeightField::add(const Mesh& mesh, const glm::mat4& world_from_mesh) {
+  if (heights_.empty()) return;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    vec3 corners[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = world_from_mesh * vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
+    add_triangle(corners);
+  }
+}
+
+void HeightField::add_triangle(const vec3 (&corners)[3]) {
+  const auto square_of = [&](float metres, float origin, int count) {
+    return int(std::clamp((metres - origin) / square_m_, 0.0f, float(count - 1)));
+  };
+  const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [south, north] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  const glm::vec2 ab(corners[1] - corners[0]), ac(corners[2] - corners[0]);
+  const float twice_area = ab.x * ac.y - ac.x * ab.y;
+  if (std::abs(twice_area) < 1e-6f) return;  // upright: the roof above it counts
+  for (int y = square_of(south, bounds_.min.y, heights_.height);
+       y <= square_of(north, bounds_.min.y, heights_.height); ++y)
+    for (int x = square_of(west, bounds_.min.x, heights_.width);
+         x <= square_of(east, bounds_.min.x, heights_.width); ++x) {
+      const glm::vec2 p =
+          glm::vec2(bounds_.min) + square_m_ * (glm::vec2(x, y) + 0.5f) - glm::vec2(corners[0]);
+      const float b = (p.x * ac.y - ac.x * p.y) / twice_area, c = (ab.x * p.y - p.x * ab.y) / twice_area;
+      if (b < 0.0f || c < 0.0f || b + c > 1.0f) continue;
+      const float height =
+          corners[0].z + b * (corners[1].z - corners[0].z) + c * (corners[2].z - corners[0].z);
+      *heights_.at(x, y) = std::max(*heights_.at(x, y), height);
+    }
+}
+
+float HeightField::height_m(glm::vec2 position) const {
+  const glm::vec2 p = (position - glm::vec2(bounds_.min)) / square_m_;
+  if (p.x < 0.0f || p.y < 0.0f || p.x >= float(heights_.width) || p.y >= float(heights_.height))
+    return bounds_.min.z;
+  return *heights_.at(int(p.x), int(p.y));
+}
+
+SkyVisibility make_sky_visibility(const HeightField& heights) {
+  if (heights.bounds().empty()) return {};
+  Grid grid = empty_grid(heights.bounds());
+  parallel_for(std::size_t(grid.cells.y), [&](std::size_t y) {
+    for (int x = 0; x < grid.cells.x; ++x) fill_column(grid, heights, x, int(y));
+  });
+  fill_solid_cells(grid);
+
+  SkyVisibility result;
+  result.grid = {grid.origin, grid.cell_m * vec3(grid.cells), 0.5f * grid.cell_m.x};
+  result.cells = grid.cells;
+  result.values.resize(4 * grid.values.size());
+  for (std::size_t i = 0; i < grid.values.size(); ++i)
+    for (int c = 0; c < 4; ++c)
+      result.values[4 * i + std::size_t(c)] =
+          std::uint8_t(std::lround(255.0f * std::clamp(grid.values[i][c], 0.0f, 1.0f)));
+  return result;
+}
+
+vec4 SkyVisibility::at(vec3 coordinates) const {
+  const vec3 p = coordinates * vec3(cells) - vec3(0.5f);
+  const glm::ivec3 low(floor(p));
+  const vec3 share = p - vec3(low);
+  vec4 sum(0.0f);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step(corner & 1, (corner >> 1) & 1, corner >> 2);
+    const glm::ivec3 cell = glm::clamp(low + step, glm::ivec3(0), cells - 1);
+    const vec3 weights = glm::mix(vec3(1.0f) - share, share, vec3(step));
+    const std::size_t index =
+        4 * ((std::size_t(cell.z) * std::size_t(cells.y) + std::size_t(cell.y)) * std::size_t(cells.x) +
+             std::size_t(cell.x));
+    const vec4 value(values[index], values[index + 1], values[index + 2], values[index + 3]);
+    sum += weights.x * weights.y * weights.z / 255.0f * value;
+  }
+  return sum;
+}
+
+}  // namespace parvis::shading
