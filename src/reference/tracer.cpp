@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/random.h"
 #include "shading/lighting.h"
+#include "shading/tone_curve.h"
 
 namespace parvis::reference {
 namespace {
@@ -15,9 +16,9 @@ namespace {
 using glm::vec2, glm::vec3, glm::vec4;
 using shading::Surface;
 
-constexpr int mirror_bounces = 1;           // what is mirrored reflects the sky: cube maps show no more
-constexpr float sharp_roughness = 0.1f;     // below it one mirror ray stands for the lobe
-constexpr int lobe_samples = 4;             // rays for a rough base layer, for each sample of the pixel
+constexpr int mirror_bounces = 1;        // what is mirrored reflects the sky: cube maps show no more
+constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
+constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
 constexpr int most_blended_layers = 8;
 
 /// A ray with the width of what its pixel sees: `width_m` at its origin, growing by `spread` a metre.
@@ -70,7 +71,8 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   normal = glm::normalize(place.world_from_normal * normal);
   if (glm::dot(facet, direction) > 0.0f) normal = -normal;  // seen from behind
 
-  const float area_of_uv = std::abs((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x));
+  const float area_of_uv =
+      std::abs((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x));
   const float uv_per_m = std::sqrt(area_of_uv / std::max(glm::length(facet), 1e-12f));
   const auto sampled = [&](int texture, vec4 plain) {
     if (texture == scene::no_index) return plain;
@@ -78,7 +80,8 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
     return mips.sample(uv, width_m * uv_per_m * std::sqrt(mips.size().x * mips.size().y));
   };
   const vec4 white(1.0f);
-  const vec4 base = sampled(material.base_colour_texture, white), detail = sampled(material.surface_texture, white);
+  const vec4 base = sampled(material.base_colour_texture, white),
+             detail = sampled(material.surface_texture, white);
   const vec4 bump = sampled(material.normal_texture, vec4(0.5f, 0.5f, 1.0f, 1.0f));
 
   ShadingPoint point;
@@ -111,15 +114,17 @@ vec3 ggx_half_vector(vec3 normal, float roughness, Random& random) {
   const float alpha = roughness * roughness, u = random.uniform(), phi = 6.2831853f * random.uniform();
   const float cosine = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
   const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-  const vec3 t = glm::normalize(glm::cross(std::abs(normal.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), normal));
+  const vec3 t =
+      glm::normalize(glm::cross(std::abs(normal.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), normal));
   return sine * std::cos(phi) * t + sine * std::sin(phi) * glm::cross(normal, t) + cosine * normal;
 }
 
 /// Follows the rays of one pixel.
 class Tracer {
  public:
-  Tracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky, const TraceOptions& options)
-      : rays_(rays), sky_(sky), shadow_(options.shadow) {
+  Tracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+         const TraceOptions& options)
+      : rays_(rays), sky_(sky), shadow_(options.shadow), sky_visibility_(options.sky_visibility) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
     for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
@@ -140,7 +145,8 @@ class Tracer {
       const float alpha = blends ? point.alpha : 1.0f;
       if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
       const vec3 shaded = shade(point, *hit, cone, width_m, bounce, random, ray_count);
-      sum += left * alpha * shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
+      sum += left * alpha *
+             shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
       left *= 1.0f - alpha;
       if (left < 1e-3f) break;
       cone.ray.least_m = hit->distance_m * (1.0f + 1e-5f) + 1e-4f;
@@ -149,14 +155,16 @@ class Tracer {
   }
 
  private:
-  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce, Random& random,
-             std::uint64_t& ray_count) const {
+  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
+             Random& random, std::uint64_t& ray_count) const {
     const Surface& s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces;
+    const vec4 sky_cell = sky_cell_at(point);
     const auto sky_reflection = [&](float roughness) {
-      return sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
+      return shading::sky_share_of_direction(sky_cell, mirrored) *
+             sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
     };
     const auto traced = [&](vec3 direction) {
       const vec3 away = kept_above(direction, point.geometric_normal);
@@ -176,15 +184,25 @@ class Tracer {
       if (s.roughness > sharp_roughness) {
         base_reflection = vec3(0.0f);
         for (int i = 0; i < lobe_samples; ++i)
-          base_reflection += traced(glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, random)));
+          base_reflection +=
+              traced(glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, random)));
         base_reflection /= float(lobe_samples);
       }
     }
-    return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count), 1.0f, base_reflection, coat_reflection);
+    return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count),
+                        shading::sky_share_of_normal(sky_cell, s.normal), base_reflection, coat_reflection);
+  }
+
+  /// What the place sees of the sky.
+  vec4 sky_cell_at(const ShadingPoint& point) const {
+    if (!sky_visibility_) return vec4(0.5f, 0.5f, 0.5f, 1.0f);
+    return sky_visibility_->at(
+        shading::sky_visibility_coordinates(sky_visibility_->grid, point.position, point.geometric_normal));
   }
 
   float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
-    if (shadow_) return shading::sun_visibility(*shadow_, point.position, point.geometric_normal, light_.to_sun);
+    if (shadow_)
+      return shading::sun_visibility(*shadow_, point.position, point.geometric_normal, light_.to_sun);
     ++ray_count;
     return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : 1.0f;
   }
@@ -192,6 +210,7 @@ class Tracer {
   const RayScene& rays_;
   const shading::SkyLight& sky_;
   const shading::SunShadow* shadow_;
+  const shading::SkyVisibility* sky_visibility_;
   shading::SceneLight light_;
 };
 
@@ -216,6 +235,7 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
     for (int x = 0; x < width; ++x) {
       Random random(options.seed, row * std::size_t(width) + std::size_t(x));
       vec3 sum(0.0f);
+      float weights = 0.0f;
       int mirrors = 0;
       for (int i = 0; i < samples; ++i) {
         const float px = (float(x) + (float(i % side) + random.uniform()) / float(side)) / float(width);
@@ -223,10 +243,14 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
         const vec3 in_camera((2.0f * px - 1.0f) * tangent * aspect, (1.0f - 2.0f * py) * tangent, -1.0f);
         const vec3 direction = glm::normalize(glm::mat3(camera.world_from_camera) * in_camera);
         bool is_mirror = false;
-        sum += tracer.radiance({{eye, direction, camera.near_m}, 0.0f, spread}, 0, random, ray_count, &is_mirror);
+        const vec3 sample = tracer.radiance({{eye, direction, camera.near_m}, 0.0f, spread}, 0, random,
+                                            ray_count, &is_mirror);
+        const float weight = shading::sample_weight(scene.exposure * sample);
+        sum += weight * sample;
+        weights += weight;
         mirrors += is_mirror;
       }
-      for (int c = 0; c < 3; ++c) picture.radiance.at(x, int(row))[c] = sum[c] / float(samples);
+      for (int c = 0; c < 3; ++c) picture.radiance.at(x, int(row))[c] = sum[c] / weights;
       *picture.mirror_mask.at(x, int(row)) = std::uint8_t(255 * mirrors / samples);
     }
     all_rays += ray_count;

@@ -1,4 +1,5 @@
-// Ground truth: the scene traced with the renderer's own shading functions and shadow maps, with exact mirror reflections.
+// Ground truth: the scene traced with the renderer's own shading functions and shadow maps, with exact mirror
+// reflections.
 #pragma once
 
 #include "base/camera.h"
@@ -6,26 +7,28 @@
 #include "reference/ray_scene.h"
 #include "shading/shadow.h"
 #include "shading/sky.h"
+#include "shading/sky_visibility.h"
 
 namespace parvis::reference {
 
 struct TraceOptions {
-  int samples_a_pixel = 16;                    ///< rounded up to a square number
+  int samples_a_pixel = 16;  ///< rounded up to a square number
   std::uint64_t seed = 1;
-  const shading::SunShadow* shadow = nullptr;  ///< the renderer's maps; null: exact shadow rays
-  std::string progress = "tracing";            ///< what the progress bar says
+  const shading::SunShadow* shadow = nullptr;              ///< the renderer's maps; null: exact shadow rays
+  const shading::SkyVisibility* sky_visibility = nullptr;  ///< the renderer's; null: open everywhere
+  std::string progress = "tracing";                        ///< what the progress bar says
 };
 
 struct TracedPicture {
-  ImageF radiance;         ///< linear RGB, mean of the samples
+  ImageF radiance;         ///< linear RGB, mean of the samples by shading::sample_weight
   Image8 mirror_mask;      ///< a channel: share of the pixel's samples that fell on mirror-like parts, 0..255
   std::uint64_t rays = 0;  ///< of all kinds
   double seconds = 0.0;
 };
 
-/// Traces one picture. Mirror-like parts of objects that take reflections show what their mirror rays hit, shaded by the
-/// same recipe, there reflecting the sky; all other surfaces reflect the sky. The same options give the same picture for
-/// any number of threads.
+/// Traces one picture. Mirror-like parts of objects that take reflections show what their mirror rays hit,
+/// shaded by the same recipe, there reflecting the sky; all other surfaces reflect the sky. The same options
+/// give the same picture for any number of threads.
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options);
 
