@@ -11,10 +11,11 @@ namespace parvis::scene {
 
 namespace {
 
-constexpr float kerb_radius_m = 5.0f;   // of the corners between streets: a car turns right on 6.5 m
-constexpr float bend_radius_m = 7.0f;   // of the innermost lane's edge where a street bends
-constexpr float loop_radius_m = 4.5f;   // in which a car turns round at a dead end
-constexpr float longest_cut_m = 25.0f;  // back from a crossing, however acute the angle
+constexpr float kerb_radius_m = 5.0f;      // of the corners between streets: a car turns right on 6.5 m
+constexpr float bend_radius_m = 7.0f;      // of the innermost lane's edge where a street bends
+constexpr float loop_radius_m = 4.5f;      // in which a car turns round at a dead end
+constexpr float longest_cut_m = 60.0f;     // back from a crossing, however acute the angle
+constexpr float longest_corner_m = 12.0f;  // of it, for rounding the kerb
 constexpr float shortest_cut_m = 1.5f;
 constexpr float most_of_street = 0.8f;          // that its two crossings may take
 constexpr float straight_on = 0.785f;           // radians: turns up to 45 degrees are no turns
@@ -57,7 +58,8 @@ float clear_m(const Arm& arm, const Arm& other) {
   const float cosine = std::clamp(glm::dot(arm.outward, other.outward), -1.0f, 1.0f);
   const float half_angle_tangent = std::sqrt((1.0f - cosine) / std::max(1.0f + cosine, 1e-6f));
   const float width = std::max(arm.half_width_m, other.half_width_m);
-  return (width + kerb_radius_m) / std::max(half_angle_tangent, 1e-3f);
+  const float slope = 1.0f / std::max(half_angle_tangent, 1e-3f);
+  return width * slope + std::min(kerb_radius_m * slope, longest_corner_m);
 }
 
 /// How much of a dead end the loop takes in which a car turns round; nothing where a one-way road ends.

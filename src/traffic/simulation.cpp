@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace parvis::traffic {
 
@@ -48,7 +49,10 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
     float front_m;
   };
   float longest_m = 0.0f;
-  for (const VehicleShape& shape : shapes_) longest_m = std::max(longest_m, shape.length_m());
+  for (const VehicleShape& shape : shapes_) {
+    longest_m = std::max(longest_m, shape.length_m());
+    longest_reach_m_ = std::max(longest_reach_m_, shape.length_m() + 2.0f * shape.half_width_m + 1.0f);
+  }
   std::vector<Place> places;
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
     if (lanes_[lane].is_usable && !lanes_[lane].is_shared)
@@ -72,12 +76,19 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
   }
   occupancy_.reserve(vehicles_.size() * longest_route);
   asking_.reserve(vehicles_.size());
+  footprints_.resize(vehicles_.size());
+  from_west_.resize(vehicles_.size());
+  std::iota(from_west_.begin(), from_west_.end(), std::size_t(0));
   return count;
 }
 
 void Simulation::note_presences() {
   occupancy_.clear();
-  for (std::size_t i = 0; i < vehicles_.size(); ++i) vehicles_[i].note_presence(int(i), lanes_, occupancy_);
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    vehicles_[i].note_presence(int(i), lanes_, occupancy_);
+    footprints_[i] = vehicles_[i].footprint(0.0f, lanes_);
+  }
+  std::ranges::sort(from_west_, {}, [&](std::size_t i) { return footprints_[i].centre.x; });
 }
 
 /// A vehicle asks when it comes near the stop line and nobody stands before it there.
@@ -174,11 +185,30 @@ float Simulation::wanted_speed(const Vehicle& vehicle) const {
   return wanted;
 }
 
+/// Whether the vehicle would run into another, moved so far. The rules above foresee what happens in
+/// crossings that are as they should be; where streets lie across one another without order, drivers must
+/// still look where they go.
+bool Simulation::would_touch(std::size_t index, float distance_m) const {
+  const Footprint now = footprints_[index], then = vehicles_[index].footprint(-distance_m, lanes_);
+  const auto x_of = [&](std::size_t i) { return footprints_[i].centre.x; };
+  const float west = now.centre.x - longest_reach_m_, east = now.centre.x + longest_reach_m_;
+  for (auto i = std::ranges::lower_bound(from_west_, west, {}, x_of);
+       i != from_west_.end() && x_of(*i) < east; ++i) {
+    const Footprint& other = footprints_[*i];
+    const bool is_near = std::abs(other.centre.y - now.centre.y) < longest_reach_m_;
+    if (*i != index && is_near && overlap(then, other) && !overlap(now, other)) return true;
+  }
+  return false;
+}
+
 void Simulation::move(std::size_t index) {
   Vehicle& vehicle = vehicles_[index];
   const float old_speed = vehicle.speed;
   vehicle.speed = std::max(0.0f, old_speed + vehicle.acceleration * step_s);
-  vehicle.advance(0.5f * (old_speed + vehicle.speed) * step_s, lanes_, rights_);
+  float distance_m = 0.5f * (old_speed + vehicle.speed) * step_s;
+  if (distance_m > 0.0f && would_touch(index, distance_m)) vehicle.speed = distance_m = 0.0f;
+  vehicle.advance(distance_m, lanes_, rights_);
+  footprints_[index] = vehicle.footprint(0.0f, lanes_);
   vehicle.plan(lanes_);
   if (vehicle.lane() == vehicle.promised_lane) {
     promised_room_m_[std::size_t(vehicle.promised_lane)] -= vehicle.room_m();

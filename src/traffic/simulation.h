@@ -38,6 +38,7 @@ class Simulation {
   bool has_room(const Vehicle& vehicle, std::size_t index, int lane) const;
   Obstacle obstacle_ahead(std::size_t index) const;
   float wanted_speed(const Vehicle& vehicle) const;
+  bool would_touch(std::size_t index, float distance_m) const;
   void move(std::size_t index);
 
   Driver driver_;
@@ -49,6 +50,9 @@ class Simulation {
   std::vector<float> promised_room_m_;  ///< of each lane, to vehicles that are on their way to it
   std::vector<std::size_t> asking_;     ///< vehicles that ask for a right in this step
   std::vector<int> wanted_;             ///< lanes that one vehicle asks for
+  std::vector<Footprint> footprints_;   ///< of the vehicles, as far as they have moved in this step
+  std::vector<std::size_t> from_west_;  ///< vehicles in the order of x, at the step's beginning
+  float longest_reach_m_ = 0.0f;        ///< between the middles of two vehicles that touch
 };
 
 }  // namespace parvis::traffic

@@ -61,15 +61,11 @@ std::vector<scene::Road> grid(int count, float spacing_m, int lanes = 1) {
   return roads;
 }
 
-Footprint footprint(const Simulation& simulation, const Vehicle& vehicle) {
-  return vehicle.shape->footprint(vehicle.rear_axle(0.0f, simulation.lanes()),
-                                  vehicle.front_axle(0.0f, simulation.lanes()));
-}
-
 /// Pairs of vehicles that overlap at this moment.
 int overlaps(const Simulation& simulation) {
   std::vector<Footprint> footprints;
-  for (const Vehicle& vehicle : simulation.vehicles()) footprints.push_back(footprint(simulation, vehicle));
+  for (const Vehicle& vehicle : simulation.vehicles())
+    footprints.push_back(vehicle.footprint(0.0f, simulation.lanes()));
   int count = 0;
   for (std::size_t i = 0; i < footprints.size(); ++i)
     for (std::size_t j = i + 1; j < footprints.size(); ++j) count += overlap(footprints[i], footprints[j]);
@@ -88,7 +84,7 @@ void expect_orderly_traffic(const scene::Scene& scene) {
     ASSERT_EQ(overlaps(simulation), 0) << "after " << 0.1f * float(tenth) << " s";
     for (const Vehicle& v : simulation.vehicles()) {
       const glm::vec2 middle(v.point_behind(0.5f * v.length_m(), simulation.lanes()));
-      ASSERT_LT(glm::distance(footprint(simulation, v).centre, middle), 0.9f);
+      ASSERT_LT(glm::distance(v.footprint(0.0f, simulation.lanes()).centre, middle), 0.9f);
     }
   }
   for (std::size_t i = 0; i < travelled_at_start.size(); ++i)

@@ -63,6 +63,7 @@ glm::vec3 Vehicle::point_behind(float distance_m, std::span<const DrivingLane> l
   float along = front_m - distance_m;
   std::size_t i = current;
   while (along < 0.0f && i > 0) along += length_of(lanes, route[--i]);
+  for (; along > length_of(lanes, route[i]) && i + 1 < route.size(); ++i) along -= length_of(lanes, route[i]);
   return lanes[std::size_t(route[i])].path.at(along);
 }
 
@@ -72,6 +73,10 @@ glm::vec3 Vehicle::front_axle(float back_m, std::span<const DrivingLane> lanes) 
 
 glm::vec3 Vehicle::rear_axle(float back_m, std::span<const DrivingLane> lanes) const {
   return point_behind(back_m + shape->front_overhang_m() + shape->wheelbase_m(), lanes);
+}
+
+Footprint Vehicle::footprint(float back_m, std::span<const DrivingLane> lanes) const {
+  return shape->footprint(rear_axle(back_m, lanes), front_axle(back_m, lanes));
 }
 
 float Vehicle::steering(float back_m, std::span<const DrivingLane> lanes) const {

@@ -46,11 +46,12 @@ struct Vehicle {
   void advance(float distance_m, std::span<const DrivingLane> lanes, RightOfWay& rights);
   void note_presence(int index, std::span<const DrivingLane> lanes, Occupancy& occupancy) const;
 
-  /// The point of the route `distance_m` behind the front bumper.
+  /// The point of the route `distance_m` behind the front bumper (negative: before it).
   glm::vec3 point_behind(float distance_m, std::span<const DrivingLane> lanes) const;
   /// Where the axles stand if the vehicle were `back_m` behind its place.
   glm::vec3 front_axle(float back_m, std::span<const DrivingLane> lanes) const;
   glm::vec3 rear_axle(float back_m, std::span<const DrivingLane> lanes) const;
+  Footprint footprint(float back_m, std::span<const DrivingLane> lanes) const;
   /// Angle from the body to the way at the front axle, positive to the left.
   float steering(float back_m, std::span<const DrivingLane> lanes) const;
 };
