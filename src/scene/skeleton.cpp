@@ -148,22 +148,24 @@ SkeletonBranch reversed(SkeletonBranch branch) {
 
 /// Branches that meet at a node of two become one.
 void join_through_nodes(Skeleton& skeleton) {
+  std::vector<std::vector<std::size_t>> ends_at(skeleton.nodes.size());
+  for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
+    ends_at[std::size_t(skeleton.branches[i].start)].push_back(i);
+    ends_at[std::size_t(skeleton.branches[i].end)].push_back(i);
+  }
   for (int node = 0; node < int(skeleton.nodes.size()); ++node) {
-    std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
-      if (skeleton.branches[i].start == node) ends.push_back(i);
-      if (skeleton.branches[i].end == node) ends.push_back(i);
-    }
+    const std::vector<std::size_t>& ends = ends_at[std::size_t(node)];
     if (ends.size() != 2 || ends[0] == ends[1]) continue;
-    SkeletonBranch first = skeleton.branches[ends[0]], second = skeleton.branches[ends[1]];
+    SkeletonBranch &first = skeleton.branches[ends[0]], &second = skeleton.branches[ends[1]];
     if (first.end != node) first = reversed(std::move(first));
     if (second.start != node) second = reversed(std::move(second));
     first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
     first.radii_m.insert(first.radii_m.end(), second.radii_m.begin() + 1, second.radii_m.end());
     first.end = second.end;
-    skeleton.branches[ends[0]] = std::move(first);
-    skeleton.branches.erase(skeleton.branches.begin() + std::ptrdiff_t(ends[1]));
+    std::ranges::replace(ends_at[std::size_t(second.end)], ends[1], ends[0]);
+    second.points.clear();
   }
+  std::erase_if(skeleton.branches, [](const SkeletonBranch& branch) { return branch.points.empty(); });
 }
 
 /// A free end that hardly reaches out of the junction's own circle is a corner of the outline, not a street.
@@ -174,22 +176,22 @@ bool remove_spurs(Skeleton& skeleton) {
                end_is_free = degree[std::size_t(branch.end)] == 1;
     if (start_is_free == end_is_free) return false;
     const float radius = skeleton.nodes[std::size_t(start_is_free ? branch.end : branch.start)].radius_m;
-    return branch.length_m() < 2.0f * radius + 2.0f;
+    return branch.length_m() < 1.5f * radius + 2.0f;
   };
   return std::erase_if(skeleton.branches, is_spur) > 0;
 }
 
 /// Junctions joined by a branch that lies within their circles become one, in the middle.
 bool merge_close_junctions(Skeleton& skeleton) {
+  const std::vector<int> degree = degrees(skeleton);
   for (std::size_t i = 0; i < skeleton.branches.size(); ++i) {
     const SkeletonBranch& branch = skeleton.branches[i];
     const int kept = branch.start, gone = branch.end;
     SkeletonNode &a = skeleton.nodes[std::size_t(kept)], &b = skeleton.nodes[std::size_t(gone)];
-    const std::vector<int> degree = degrees(skeleton);
     const bool is_between_junctions = degree[std::size_t(kept)] > 2 && degree[std::size_t(gone)] > 2;
-    const bool is_small_ring = kept == gone && branch.length_m() < 8.0f * a.radius_m;
+    const bool is_small_ring = kept == gone && branch.length_m() < 4.0f * a.radius_m;
     if (!is_small_ring &&
-        (kept == gone || !is_between_junctions || branch.length_m() > a.radius_m + b.radius_m))
+        (kept == gone || !is_between_junctions || branch.length_m() > std::max(a.radius_m, b.radius_m)))
       continue;
     a.position = 0.5f * (a.position + b.position);
     a.radius_m = std::max(a.radius_m, b.radius_m);
