@@ -44,6 +44,7 @@ std::vector<glm::vec3> parse_points(const AttributeSchema& schema, std::string t
   std::vector<glm::vec3> points;
   for (const std::string_view piece : split(trimmed(text), ',')) {
     const std::vector<double> numbers = parse_numbers(piece);
+    if (points.size() == max_points) return {};
     const bool is_point = numbers.size() == 2 || numbers.size() == 3;
     if (!is_point ||
         !std::all_of(numbers.begin(), numbers.end(), [&](double x) { return is_within(schema, x); }))
@@ -112,7 +113,7 @@ std::vector<double> parse_numbers(std::string_view text) {
   while (true) {
     while (at != end && is_separator(*at)) ++at;
     if (at == end) return numbers;
-    if (*at == '+') ++at;
+    if (*at == '+' && at + 1 != end && at[1] != '-') ++at;
     double number = 0.0;
     const auto [stop, code] = std::from_chars(at, end, number);
     if (code != std::errc() || !std::isfinite(number) || (stop != end && !is_separator(*stop))) return {};
@@ -149,9 +150,9 @@ std::string expectation(const AttributeSchema& schema) {
     case AttributeType::choice:
       return fmt::format("one of {}", fmt::join(schema.choices, ", "));
     case AttributeType::path:
-      return "two or more points \"x y z, x y z, ...\" (z may be left out)" + limits();
+      return "two or more points \"x y z, x y z, ...\" (z may be left out), at most 100000" + limits();
     case AttributeType::points:
-      return "points \"x y z, x y z, ...\" (z may be left out)" + limits();
+      return "points \"x y z, x y z, ...\" (z may be left out), at most 100000" + limits();
     case AttributeType::file:
       return "the name of a file";
     case AttributeType::reference:

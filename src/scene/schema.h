@@ -27,6 +27,9 @@ enum class AttributeType : unsigned char {
   reference  ///< the name of another node
 };
 
+/// Limit of one path or points attribute.
+inline constexpr std::size_t max_points = 100'000;
+
 struct AttributeSchema {
   std::string name = {};
   AttributeType type = AttributeType::text;
