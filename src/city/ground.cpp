@@ -144,18 +144,24 @@ void add_road(CityMesh& mesh, const StreetPlan& plan, const Road& road) {
   stretch(city_half_m);
 }
 
-/// The ground between the four kerbs of a crossing.
+/// The ground between the four kerbs of a crossing, as a fan round its middle: the kerbs' rounds reach into
+/// it.
 void add_crossing(CityMesh& mesh, const Road& north_road, const Road& east_road) {
-  const float half_x = 0.5f * north_road.profile.carriageway_m,
-              half_y = 0.5f * east_road.profile.carriageway_m;
+  const glm::vec2 half = 0.5f * glm::vec2(north_road.profile.carriageway_m, east_road.profile.carriageway_m);
   const glm::vec2 centre(north_road.offset_m, east_road.offset_m);
-  std::vector<glm::vec2> outline;
-  constexpr std::array<glm::vec2, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  for (int i = 0; i < 4; ++i) {  // each corner belongs to a block outside; its kerb runs the other way round
-    const glm::vec2 corner = centre + corners[std::size_t(i)] * glm::vec2(half_x, half_y);
-    const auto arc = kerb_arc(corner, side_direction(i + 2), side_direction(i + 3));
-    outline.insert(outline.end(), {arc[2], arc[1], arc[0]});
+  std::vector<glm::vec2> outline{centre};
+  constexpr std::array<glm::vec2, 4> quadrants{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+  for (std::size_t i = 0; i < quadrants.size(); ++i) {
+    const glm::vec2 quadrant = quadrants[i], corner = centre + quadrant * half;
+    const glm::vec2 east_kerb = corner + glm::vec2(quadrant.x * corner_radius_m, 0);
+    const glm::vec2 north_kerb = corner + glm::vec2(0, quadrant.y * corner_radius_m);
+    const glm::vec2 round = corner + corner_radius_m * (quadrant - glm::normalize(quadrant));
+    if (i % 2 == 0)
+      outline.insert(outline.end(), {east_kerb, round, north_kerb});
+    else
+      outline.insert(outline.end(), {north_kerb, round, east_kerb});
   }
+  outline.push_back(outline[1]);
   add_flat(mesh, CityMaterial::asphalt, outline, 0.0f, asphalt_sheet_m);
 }
 

@@ -11,11 +11,12 @@
 namespace parvis::city {
 namespace {
 
-constexpr std::size_t lamp_triangles = 16, bollard_triangles = 10;
+constexpr std::size_t lamp_triangles = 24, bollard_triangles = 10;
 
 /// A straight tapered tube with `sides` flat sides.
-void add_tube(CityMesh& mesh, glm::vec3 foot, int sides, float foot_radius, float top_radius, float height) {
-  const glm::vec2 v = trim_strip(Trim::metal);
+void add_tube(CityMesh& mesh, Trim surface, glm::vec3 foot, int sides, float foot_radius, float top_radius,
+              float height) {
+  const glm::vec2 v = trim_strip(surface);
   const auto rim = [&](int i, float radius, float z) {
     const float angle = 6.2831853f * (float(i) + 0.5f) / float(sides);
     return foot + glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z);
@@ -26,12 +27,13 @@ void add_tube(CityMesh& mesh, glm::vec3 foot, int sides, float foot_radius, floa
 }
 
 void add_lamp(CityMesh& mesh, glm::vec3 foot) {
-  add_tube(mesh, foot, 4, 0.09f, 0.05f, 4.2f);
-  add_tube(mesh, foot + glm::vec3(0, 0, 4.2f), 4, 0.12f, 0.3f, 0.62f);
+  add_tube(mesh, Trim::metal, foot, 4, 0.09f, 0.05f, 4.2f);
+  add_tube(mesh, Trim::slab, foot + glm::vec3(0, 0, 4.2f), 4, 0.1f, 0.22f, 0.5f);
+  add_tube(mesh, Trim::metal, foot + glm::vec3(0, 0, 4.7f), 4, 0.26f, 0.03f, 0.3f);
 }
 
 void add_bollard(CityMesh& mesh, glm::vec3 foot) {
-  add_tube(mesh, foot, 4, 0.09f, 0.07f, 0.95f);
+  add_tube(mesh, Trim::metal, foot, 4, 0.09f, 0.07f, 0.95f);
   const glm::vec2 v = trim_strip(Trim::metal);
   const float r = 0.05f, z = 0.95f;
   mesh.quad(CityMaterial::trim, foot + glm::vec3(-r, -r, z), foot + glm::vec3(r, -r, z),
@@ -86,7 +88,7 @@ void add_street_furniture(CityMesh& mesh, std::size_t triangles) {
   assert(triangles % 2 == 0);
   // As many lamps as leave a number that bollards can fill.
   std::size_t lamps = triangles / lamp_triangles;
-  while (lamps > 0 && (lamps > 16 || (triangles - lamps * lamp_triangles) % bollard_triangles != 0)) --lamps;
+  while (lamps > 0 && (lamps > 12 || (triangles - lamps * lamp_triangles) % bollard_triangles != 0)) --lamps;
   const std::size_t bollards = (triangles - lamps * lamp_triangles) / bollard_triangles;
   for (std::size_t i = 0; i < lamps; ++i) add_lamp(mesh, lamp_place(i));
   for (std::size_t i = 0; i < bollards; ++i) add_bollard(mesh, bollard_place(i));

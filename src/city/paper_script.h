@@ -1,0 +1,17 @@
+// The script of the paper's city: light, models, roads, traffic and good places to look from.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+namespace parvis::city {
+
+inline constexpr float sun_azimuth_deg = 232.0f, sun_elevation_deg = 42.0f;
+/// Unit vector to the sun of the script.
+glm::vec3 to_sun();
+
+/// `vehicle_files` are the models of the traffic.
+std::string paper_script(std::span<const std::string> vehicle_files, std::uint64_t seed);
+
+}  // namespace parvis::city
