@@ -12,7 +12,7 @@ constexpr int rows = 9;
 constexpr float fixed_row =
     3.4f;  // above it grid lines follow the net; below they spread over what the arches leave
 constexpr int rows_below = 7;  // cells between the lower edge and there
-constexpr float columns_apart = 0.34f, rows_apart = 0.5f, least_gap = 0.012f;
+constexpr float columns_apart = 0.4f, rows_apart = 0.6f, least_gap = 0.012f;
 
 std::vector<glm::vec3> section_points(const BodySection& s) {
   const float rise = s.shoulder - s.sill;
@@ -168,18 +168,18 @@ class BodyMesher {
     const CarSurface surface = surface_at(u, v);
     const Point a = point(u_[i], left[j]), b = point(u_[i + 1], right[j]);
     const Point c = point(u_[i + 1], right[j + 1]), d = point(u_[i], left[j + 1]);
-    triangle(surface, a, c, b), triangle(surface, a, d, c);
+    triangle(surface, a, b, c), triangle(surface, a, c, d);
   }
 
   /// From the lower edge (an arch's too) straight in to the middle: floor and wheel houses, black.
   void add_underside(std::size_t i, float v0, float v1) {
     const Point a = point(u_[i], v0), b = point(u_[i + 1], v1);
     const glm::vec3 c(b.position.x, 0.0f, b.position.z), d(a.position.x, 0.0f, a.position.z);
-    const glm::vec3 across = glm::cross(b.position - a.position, c - a.position);
+    const glm::vec3 across = glm::cross(c - a.position, b.position - a.position);
     if (glm::length(across) < 1e-7f) return;
     const glm::vec3 normal = glm::normalize(across);
-    triangle(CarSurface::black, {a.position, normal, a.uv}, {b.position, normal, b.uv}, {c, normal, b.uv});
-    triangle(CarSurface::black, {a.position, normal, a.uv}, {c, normal, b.uv}, {d, normal, a.uv});
+    triangle(CarSurface::black, {a.position, normal, a.uv}, {c, normal, b.uv}, {b.position, normal, b.uv});
+    triangle(CarSurface::black, {a.position, normal, a.uv}, {d, normal, a.uv}, {c, normal, b.uv});
   }
 
   using Key = std::pair<CarSurface, std::array<float, 6>>;

@@ -19,6 +19,7 @@
 namespace parvis::city {
 namespace {
 namespace fs = std::filesystem;
+using scene::write_gltf;
 
 constexpr int sky_width_px = 2048;
 

@@ -54,7 +54,7 @@ glm::vec3 SplineSurface::blend(float u, float v, bool along_u, bool along_v) con
 glm::vec3 SplineSurface::position(float u, float v) const { return blend(u, v, false, false); }
 
 glm::vec3 SplineSurface::normal(float u, float v) const {
-  const glm::vec3 across = glm::cross(blend(u, v, false, true), blend(u, v, true, false));
+  const glm::vec3 across = glm::cross(blend(u, v, true, false), blend(u, v, false, true));
   if (glm::length(across) > 1e-6f) return glm::normalize(across);
   // Where both midlines meet the net is folded flat: look a little inward.
   const float inward = 0.02f;
