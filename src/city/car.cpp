@@ -48,7 +48,7 @@ Image8 shadow_picture() {
 Image8 plate_picture(std::string_view text) {
   SurfaceCanvas canvas(256, 56, 0.52f, 0.11f, matt(glm::vec3(0.62f), 0.0f, 0.4f));
   canvas.fill({0.0f, 0.0f, 0.045f, 0.11f}, matt(glm::vec3(0.01f, 0.05f, 0.4f), 0.0f, 0.4f));
-  const float height = 0.07f, width = lettering_width(text, height);
+  const float height = 0.058f, width = lettering_width(text, height);
   paint_lettering(canvas, text, 0.045f + 0.5f * (0.475f - width), 0.02f, height,
                   matt(glm::vec3(0.01f), 0.0f, 0.4f));
   return canvas.pictures(1, 1).colour;
@@ -84,7 +84,7 @@ void add_part(scene::Model& model, const char* object, Mesh mesh, int material_i
 
 /// An ellipsoid: the housing of a mirror.
 Mesh ellipsoid(glm::vec3 centre, glm::vec3 radii) {
-  constexpr std::uint32_t around = 16, up = 10;
+  constexpr std::uint32_t around = 14, up = 8;
   Mesh mesh;
   for (std::uint32_t j = 0; j <= up; ++j)
     for (std::uint32_t i = 0; i <= around; ++i) {
@@ -134,6 +134,7 @@ void add_wheels(scene::Model& model, const CarShape& shape) {
   scene::WheelShape form;
   form.radius_m = shape.wheel_radius, form.width_m = shape.wheel_width,
   form.rim_radius_m = 0.66f * shape.wheel_radius;
+  form.segments = 28;
   const scene::Model wheel = scene::make_wheel(form);
   struct Place {
     const char* name;
@@ -150,7 +151,7 @@ void add_wheels(scene::Model& model, const CarShape& shape) {
     for (const scene::Part& part : wheel.parts) {
       Mesh mesh;
       append(mesh, part.mesh, turned);
-      add_part(model, part.object.c_str(), std::move(mesh), part.object == "tyre" ? rubber : alloy,
+      add_part(model, part.object.c_str(), std::move(mesh), part.object == "rim" ? alloy : rubber,
                int(model.nodes.size()) - 1);
     }
   }

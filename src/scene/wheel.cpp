@@ -6,7 +6,6 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::uint32_t segments = 48;
 constexpr float spoke_flare =
     0.22f;  ///< half a spoke's width at the lip, as a share of the distance between spokes
 
@@ -21,7 +20,7 @@ glm::vec3 on_circle(ProfilePoint point, float angle) {
 
 /// The surface of a profile that turns about y. Drawn with y to the right and the radius upward, the outside
 /// lies to the left of someone who walks along the profile.
-void add_turned(Mesh& mesh, std::span<const ProfilePoint> profile) {
+void add_turned(Mesh& mesh, std::span<const ProfilePoint> profile, std::uint32_t segments) {
   const std::uint32_t first = std::uint32_t(mesh.positions.size());
   for (const ProfilePoint& point : profile)
     for (std::uint32_t i = 0; i < segments; ++i)
@@ -78,7 +77,7 @@ Mesh tyre(const WheelShape& shape) {
                                   {rim + shoulder, half},
                                   {rim, 0.80f * half}};
   Mesh mesh;
-  add_turned(mesh, profile);
+  add_turned(mesh, profile, std::uint32_t(shape.segments));
   return finished(std::move(mesh));
 }
 
@@ -91,8 +90,8 @@ Mesh rim(const WheelShape& shape) {
   const ProfilePoint cap[] = {
       {hub, back_y}, {hub, face_y}, {0.8f * hub, face_y + 0.06f * half}, {0.0f, face_y + 0.1f * half}};
   Mesh mesh;
-  add_turned(mesh, barrel);
-  add_turned(mesh, cap);
+  add_turned(mesh, barrel, std::uint32_t(shape.segments));
+  add_turned(mesh, cap, std::uint32_t(shape.segments));
   const float step = glm::two_pi<float>() / float(shape.spokes);
   for (int i = 0; i < shape.spokes; ++i)
     add_spoke(mesh, step * float(i), 0.9f * hub, 0.93f * r, 0.45f * step * hub, spoke_flare * step * r,
@@ -106,8 +105,8 @@ Mesh disc(const WheelShape& shape) {
   const ProfilePoint front[] = {{0.92f * shape.rim_radius_m, 0.1f * half}, {0.0f, 0.1f * half}};
   const ProfilePoint back[] = {{0.0f, -0.5f * half}, {shape.rim_radius_m, -0.80f * half}};
   Mesh mesh;
-  add_turned(mesh, front);
-  add_turned(mesh, back);
+  add_turned(mesh, front, std::uint32_t(shape.segments));
+  add_turned(mesh, back, std::uint32_t(shape.segments));
   return finished(std::move(mesh));
 }
 

@@ -10,6 +10,7 @@ struct WheelShape {
   float width_m = 0.20f;
   float rim_radius_m = 0.21f;
   int spokes = 5;
+  int segments = 48;  ///< of a circle
 };
 
 /// About the origin; turns about y; the outer side looks to +y (left). One part "tyre", one "rim".
