@@ -52,17 +52,17 @@ std::vector<glm::ivec2> region_around(const Mask& mask, glm::ivec2 start, Mask& 
 
 }  // namespace
 
-std::vector<glm::ivec2> cells_inside(const Mask& raster, std::span<const std::vector<glm::vec3>> rings) {
+std::vector<glm::ivec2> cells_inside(const GroundGrid& grid, std::span<const std::vector<glm::vec3>> rings) {
   std::vector<glm::ivec2> cells;
-  float low = raster.origin.y + raster.cell_m * float(raster.height), high = raster.origin.y;
+  float low = grid.origin.y + grid.cell_m * float(grid.height), high = grid.origin.y;
   for (const std::vector<glm::vec3>& ring : rings)
     for (const glm::vec3& p : ring) low = std::min(low, p.y), high = std::max(high, p.y);
-  const int first = std::max(0, raster.cell_at({0.0f, low}).y);
-  const int last = std::min(raster.height - 1, raster.cell_at({0.0f, high}).y);
+  const int first = std::max(0, grid.cell_at({0.0f, low}).y);
+  const int last = std::min(grid.height - 1, grid.cell_at({0.0f, high}).y);
 
   std::vector<float> crossings;  // of the row's middle line with the rings
   for (int y = first; y <= last; ++y) {
-    const float row = raster.centre_of({0, y}).y;
+    const float row = grid.centre_of({0, y}).y;
     crossings.clear();
     for (const std::vector<glm::vec3>& ring : rings)
       for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -71,9 +71,9 @@ std::vector<glm::ivec2> cells_inside(const Mask& raster, std::span<const std::ve
       }
     std::ranges::sort(crossings);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const int from = int(std::ceil((crossings[i] - raster.origin.x) / raster.cell_m - 0.5f));
-      const int to = int(std::floor((crossings[i + 1] - raster.origin.x) / raster.cell_m - 0.5f));
-      for (int x = std::max(from, 0); x <= std::min(to, raster.width - 1); ++x) cells.emplace_back(x, y);
+      const int from = int(std::ceil((crossings[i] - grid.origin.x) / grid.cell_m - 0.5f));
+      const int to = int(std::floor((crossings[i + 1] - grid.origin.x) / grid.cell_m - 0.5f));
+      for (int x = std::max(from, 0); x <= std::min(to, grid.width - 1); ++x) cells.emplace_back(x, y);
     }
   }
   return cells;

@@ -7,33 +7,35 @@
 
 namespace parvis::scene {
 
-/// A grid of square cells in plan. Cell (x, y) covers origin + cell_m * [x, x + 1) x [y, y + 1).
-template <class T>
-struct GroundRaster {
+/// Square cells in plan. Cell (x, y) covers origin + cell_m * [x, x + 1) x [y, y + 1).
+struct GroundGrid {
   int width = 0, height = 0;
   float cell_m = 1.0f;
   glm::vec2 origin{0.0f};
-  std::vector<T> cells;
-
-  GroundRaster() = default;
-  GroundRaster(int w, int h, float cell, glm::vec2 start, T fill)
-      : width(w), height(h), cell_m(cell), origin(start), cells(std::size_t(w) * std::size_t(h), fill) {}
-  /// Another raster of the same cells.
-  template <class U>
-  GroundRaster(const GroundRaster<U>& like, T fill)
-      : GroundRaster(like.width, like.height, like.cell_m, like.origin, fill) {}
 
   bool contains(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
-  T& at(int x, int y) { return cells[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
-  const T& at(int x, int y) const { return cells[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
   glm::vec2 centre_of(glm::ivec2 cell) const { return origin + cell_m * (glm::vec2(cell) + 0.5f); }
   glm::ivec2 cell_at(glm::vec2 point) const { return glm::ivec2(glm::floor((point - origin) / cell_m)); }
 };
 
+/// A grid with a value in each cell.
+template <class T>
+struct GroundRaster : GroundGrid {
+  std::vector<T> cells;
+
+  GroundRaster() = default;
+  GroundRaster(const GroundGrid& grid, T fill)
+      : GroundGrid(grid), cells(std::size_t(grid.width) * std::size_t(grid.height), fill) {}
+  GroundRaster(int w, int h, float cell, glm::vec2 start, T fill) : GroundRaster({w, h, cell, start}, fill) {}
+
+  T& at(int x, int y) { return cells[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+  const T& at(int x, int y) const { return cells[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+};
+
 using Mask = GroundRaster<unsigned char>;
 
-/// The cells of `raster` whose centres lie inside the rings (even-odd rule, so inner rings are holes).
-std::vector<glm::ivec2> cells_inside(const Mask& raster, std::span<const std::vector<glm::vec3>> rings);
+/// The cells of `grid` whose centres lie inside the rings (even-odd rule, so inner rings are holes).
+std::vector<glm::ivec2> cells_inside(const GroundGrid& grid, std::span<const std::vector<glm::vec3>> rings);
 
 /// For each cell, metres to the centre of the nearest cell whose mask equals `target`; very far where there
 /// is none. Exact (Felzenszwalb and Huttenlocher 2012: Distance transforms of sampled functions).

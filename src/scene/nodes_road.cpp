@@ -1,4 +1,4 @@
-// road, traffic: where vehicles drive, and which.
+// road, paving, traffic: where vehicles drive, and which.
 #include "scene/model_assembly.h"
 #include "scene/model_node.h"
 #include "scene/node_registry.h"
@@ -112,10 +112,23 @@ void build_traffic(const Node& node, SceneBuilder& builder) {
   }
 }
 
+NodeSchema paving_schema() {
+  return {.type = "paving",
+          .help =
+              "Shows the scene's roads: asphalt with markings, laid on the ground that is there (so paths "
+              "need no "
+              "exact heights: within 2.5 m is enough). Not for models that bring their own streets.",
+          .example = "paving()",
+          .is_unique = true};
+}
+
+void build_paving(const Node&, SceneBuilder& builder) { builder.has_paving = true; }
+
 }  // namespace
 
 void add_road_nodes(NodeRegistry& registry) {
   registry.add(road_schema(), build_road);
+  registry.add(paving_schema(), build_paving);
   registry.add(traffic_schema(), build_traffic);
 }
 

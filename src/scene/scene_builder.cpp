@@ -1,5 +1,7 @@
 #include "scene/scene_builder.h"
 
+#include "scene/paving.h"
+
 namespace parvis::scene {
 
 void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes) {
@@ -29,6 +31,7 @@ Result<LoadedScene> SceneBuilder::finish() && {
   else
     errors_.insert(errors_.end(), graph.errors().begin(), graph.errors().end());
   if (!errors_.empty()) return std::move(errors_);
+  if (has_paving) pave(scene);
   return LoadedScene{std::move(scene), std::move(warnings_)};
 }
 

@@ -27,6 +27,7 @@ class SceneBuilder {
 
   Scene scene;
   std::vector<Road> roads;  ///< in the world; finish() makes lanes of them
+  bool has_paving = false;  ///< finish() lays carriageways on the ground
 
   /// Builds nodes that stand in a frame inside the present one.
   void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f));
