@@ -10,6 +10,8 @@
 namespace parvis::city {
 namespace {
 
+constexpr float corner_knee_inset_m = 1.1f;  // of a corner house's mansard, behind its walls
+
 int whole(float length_m, float module_m) { return std::max(1, int(std::lround(length_m / module_m))); }
 
 std::vector<Face> street_faces(const Plot& plot) {
@@ -32,9 +34,11 @@ void wall_quad(CityMesh& mesh, CityMaterial material, const Frame& f, float x0, 
             foot, top);
 }
 
-void add_facade(CityMesh& mesh, const Building& b, const Face& face) {
-  const glm::vec2 strip = ground_floor_strip(b.has_shops ? 0 : 1);
-  const float first = float(b.module_offset) / float(shop_modules);
+void add_facade(CityMesh& mesh, const Building& b, int face_index) {
+  const Face& face = b.faces[std::size_t(face_index)];
+  const int shops = (b.shop_strip + face_index) % shop_strips;  // no two sides of a corner are alike
+  const glm::vec2 strip = ground_floor_strip(b.has_shops ? shops : house_strip);
+  const float first = float(b.module_offset + 2 * face_index) / float(shop_modules);
   const float modules = float(whole(face.width_m, shop_module_m)) / float(shop_modules);
   wall_quad(mesh, CityMaterial::ground_floor, face.frame, 0, face.width_m, 0, b.ground_m, {first, strip.x},
             {first + modules, strip.y});
@@ -125,7 +129,7 @@ void add_side(CityMesh& mesh, const Building& b, float x, bool faces_right, floa
 
 void add_row_house(CityMesh& mesh, const Building& b, float left_eaves_m, float right_eaves_m) {
   const Frame& f = b.plot.frame;
-  add_facade(mesh, b, b.faces[0]);
+  add_facade(mesh, b, 0);
   add_cornice(mesh, b, b.faces[0], 0.0f, 0.0f);
   add_row_roof(mesh, b);
   add_side(mesh, b, 0.0f, false, left_eaves_m);
@@ -144,12 +148,40 @@ std::array<glm::vec3, 5> corner_outline(const Building& b, float inset_m, float 
           f.point(out, d - out, z)};
 }
 
-/// A mansard round the corner under a low pyramid, and a gable over the cut corner.
+/// A gabled window in the roof over the cut corner.
+void add_corner_dormer(CityMesh& mesh, const Building& b) {
+  const Frame& f = b.faces[1].frame;
+  const float eaves = b.eaves_m() + b.cornice_m, low = eaves + 0.35f, high = low + 1.5f, peak = high + 0.5f;
+  const float middle = 0.5f * b.faces[1].width_m, x0 = middle - 0.8f, x1 = middle + 0.8f;
+  const auto depth_at = [&](float z) {  // of the roof's slope
+    return glm::mix(-b.overhang_m, corner_knee_inset_m, (z - eaves) / b.roof_rise_m);
+  };
+  const float y = depth_at(low), y_high = depth_at(high), y_peak = depth_at(peak);
+  const glm::vec2 v = trim_strip(Trim::dormer);
+  const float u = dormer_module_m / trim_sheet_m;
+  mesh.quad(CityMaterial::trim, f.point(x0, y, low), f.point(x1, y, low), f.point(x1, y, high),
+            f.point(x0, y, high), {0.0f, v.x}, {u, v.y});
+  const glm::vec2 stone = trim_strip(Trim::slab);
+  mesh.triangle(CityMaterial::trim, {f.point(x0, y, high), {0, stone.x}},
+                {f.point(x1, y, high), {u, stone.x}}, {f.point(middle, y, peak), {0.5f * u, stone.y}});
+  const CityMaterial zinc = CityMaterial::roof_zinc;
+  const auto corner = [&](float px, float py, float pz) {
+    return roof_corner(f.point(px, py, pz), py, pz - low);
+  };
+  mesh.triangle(zinc, corner(x0, y_high, high), corner(x0, y, low), corner(x0, y, high));
+  mesh.triangle(zinc, corner(x1, y, low), corner(x1, y_high, high), corner(x1, y, high));
+  mesh.quad(zinc, corner(x0, y, high), corner(middle, y, peak), corner(middle, y_peak, peak),
+            corner(x0, y_high, high));
+  mesh.quad(zinc, corner(middle, y, peak), corner(x1, y, high), corner(x1, y_high, high),
+            corner(middle, y_peak, peak));
+}
+
+/// A mansard round the corner under a low pyramid.
 void add_corner_roof(CityMesh& mesh, const Building& b) {
   const float eaves = b.eaves_m() + b.cornice_m, knee = eaves + b.roof_rise_m;
-  const auto low = corner_outline(b, -b.overhang_m, eaves), high = corner_outline(b, 1.1f, knee);
-  const Frame& f = b.plot.frame;
-  const glm::vec3 apex = f.point(0.5f * b.plot.width_m, 0.5f * b.plot.depth_m, knee + 1.4f);
+  const auto low = corner_outline(b, -b.overhang_m, eaves),
+             high = corner_outline(b, corner_knee_inset_m, knee);
+  const glm::vec3 apex = b.plot.frame.point(0.5f * b.plot.width_m, 0.5f * b.plot.depth_m, knee + 1.4f);
   for (std::size_t i = 0; i < 5; ++i) {
     const std::size_t j = (i + 1) % 5;
     const float w = glm::length(low[j] - low[i]), slope = b.roof_rise_m * 1.1f;
@@ -158,21 +190,13 @@ void add_corner_roof(CityMesh& mesh, const Building& b) {
     mesh.triangle(CityMaterial::roof_zinc, roof_corner(high[i], 0, 0), roof_corner(high[j], w, 0),
                   roof_corner(apex, 0.5f * w, 6.0f));
   }
-  const glm::vec3 peak = 0.5f * (low[1] + low[2]) + glm::vec3(0, 0, 0.85f * b.roof_rise_m);
-  const glm::vec3 rear = glm::mix(0.5f * (low[1] + low[2]), 0.5f * (high[1] + high[2]), 0.85f);
-  const glm::vec2 stone = trim_strip(Trim::slab);
-  mesh.triangle(CityMaterial::trim, {low[1], {0, stone.x}}, {low[2], {0.3f, stone.x}},
-                {peak, {0.15f, stone.y}});
-  mesh.triangle(CityMaterial::roof_zinc, roof_corner(low[2], 0, 0), roof_corner(rear, 0, 2),
-                roof_corner(peak, 2, 2));
-  mesh.triangle(CityMaterial::roof_zinc, roof_corner(rear, 0, 2), roof_corner(low[1], 0, 0),
-                roof_corner(peak, 2, 2));
+  add_corner_dormer(mesh, b);
 }
 
 void add_corner_house(CityMesh& mesh, const Building& b) {
   const Frame& f = b.plot.frame;
   const float w = b.plot.width_m, d = b.plot.depth_m, mitre = std::tan(0.125f * 3.14159265f);
-  for (const Face& face : b.faces) add_facade(mesh, b, face);
+  for (int face = 0; face < int(b.faces.size()); ++face) add_facade(mesh, b, face);
   add_cornice(mesh, b, b.faces[0], 0.0f, mitre);
   add_cornice(mesh, b, b.faces[1], mitre, mitre);
   add_cornice(mesh, b, b.faces[2], mitre, 0.0f);
@@ -213,6 +237,7 @@ Building plan_building(const Plot& plot, const Building* neighbour, float distan
   b.upper_floors = std::min(b.upper_floors, 5);
   b.ground_m = random.uniform(4.2f, 4.8f), b.floor_m = random.uniform(3.2f, 3.55f);
   b.has_shops = random.chance(plot.is_corner ? 0.95f : is_central ? 0.72f : 0.4f);
+  b.shop_strip = random.index(shop_strips);
   b.module_offset = random.index(shop_modules), b.bay_offset = random.index(facade_bays);
   b.roof = plot.is_corner ? Roof::mansard : choose_roof(random);
   b.cornice_m = random.uniform(0.4f, 0.65f), b.overhang_m = random.uniform(0.4f, 0.6f);

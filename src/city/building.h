@@ -24,6 +24,7 @@ struct Building {
   int upper_floors = 3;
   float ground_m = 4.5f, floor_m = 3.4f;
   bool has_shops = false;
+  int shop_strip = 0;     ///< which row of the sheet of shops
   int module_offset = 0;  ///< which shop comes first
   int bay_offset = 0;     ///< which bay of the sheet comes first
   Roof roof = Roof::gable;

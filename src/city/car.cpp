@@ -48,7 +48,7 @@ Image8 shadow_picture() {
 Image8 plate_picture(std::string_view text) {
   SurfaceCanvas canvas(256, 56, 0.52f, 0.11f, matt(glm::vec3(0.62f), 0.0f, 0.4f));
   canvas.fill({0.0f, 0.0f, 0.045f, 0.11f}, matt(glm::vec3(0.01f, 0.05f, 0.4f), 0.0f, 0.4f));
-  const float height = 0.058f, width = lettering_width(text, height);
+  const float height = 0.05f, width = lettering_width(text, height);
   paint_lettering(canvas, text, 0.045f + 0.5f * (0.475f - width), 0.02f, height,
                   matt(glm::vec3(0.01f), 0.0f, 0.4f));
   return canvas.pictures(1, 1).colour;
@@ -84,7 +84,7 @@ void add_part(scene::Model& model, const char* object, Mesh mesh, int material_i
 
 /// An ellipsoid: the housing of a mirror.
 Mesh ellipsoid(glm::vec3 centre, glm::vec3 radii) {
-  constexpr std::uint32_t around = 14, up = 8;
+  constexpr std::uint32_t around = 12, up = 8;
   Mesh mesh;
   for (std::uint32_t j = 0; j <= up; ++j)
     for (std::uint32_t i = 0; i <= around; ++i) {
@@ -171,7 +171,9 @@ scene::Model make_car(const CarShape& shape, const CarPaint& paint) {
     add_part(model, model.materials[i].name.c_str(), std::move(body[i]), int(i));
   for (const float side : {1.0f, -1.0f}) {
     const glm::vec3 place(shape.mirror.x, side * shape.mirror.y, shape.mirror.z);
+    const glm::vec3 arm = place - glm::vec3(0.0f, side * shape.mirror_radii.y, 0.45f * shape.mirror_radii.z);
     add_part(model, "mirror", ellipsoid(place, shape.mirror_radii), int(CarSurface::paint));
+    add_part(model, "mirror_arm", ellipsoid(arm, {0.05f, 0.09f, 0.025f}), int(CarSurface::black));
   }
   add_plates(model, shape, box);
   add_wheels(model, shape);

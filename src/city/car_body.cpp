@@ -11,7 +11,8 @@ namespace {
 constexpr int rows = 9;
 constexpr float fixed_row =
     3.4f;  // above it grid lines follow the net; below they spread over what the arches leave
-constexpr int rows_below = 6;  // cells between the lower edge and there
+constexpr int arch_pieces = 14;  // of the half circle over a wheel
+constexpr int rows_below = 6;    // cells between the lower edge and there
 constexpr float columns_apart = 0.5f, rows_apart = 0.7f, least_gap = 0.012f;
 
 std::vector<glm::vec3> section_points(const BodySection& s) {
@@ -83,8 +84,8 @@ class BodyMesher {
 
   void add_arch_lines(float axle, std::vector<float>& wanted) const {
     const float radius = shape_.arch_radius;
-    for (int i = 0; i <= 10; ++i)
-      wanted.push_back(u_at(axle + radius * 0.9999f * std::cos(3.14159265f * float(i) / 10.0f)));
+    for (int i = 0; i <= arch_pieces; ++i)
+      wanted.push_back(u_at(axle + radius * 0.9999f * std::cos(3.14159265f * float(i) / float(arch_pieces))));
     wanted.push_back(u_at(axle + radius + 0.006f)), wanted.push_back(u_at(axle - radius - 0.006f));
   }
 

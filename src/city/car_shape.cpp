@@ -46,15 +46,18 @@ CarShape saloon_shape() {
   car.regions = {{0.0f, 16.0f, 0.0f, 0.75f, black},   {0.0f, 1.15f, 1.15f, 2.1f, black},
                  {0.0f, 0.72f, 3.05f, 4.35f, chrome}, {0.0f, 0.66f, 3.15f, 4.25f, black},
                  {1.3f, 2.75f, 3.75f, 4.75f, black},  {1.36f, 2.66f, 3.85f, 4.65f, lamp},
-                 {13.55f, 14.9f, 3.45f, 4.75f, tail}, {13.55f, 14.9f, 3.95f, 4.2f, indicator}};
+                 {13.55f, 14.9f, 3.45f, 4.75f, tail}, {13.55f, 14.3f, 4.3f, 4.5f, indicator}};
   add_window(car.regions, 6.2f, 7.2f, 6.15f, 8.0f);
   add_window(car.regions, 10.15f, 11.1f, 6.15f, 8.0f);
   add_window(car.regions, 6.72f, 8.42f, 5.2f, 5.88f);
   add_window(car.regions, 8.5f, 10.35f, 5.2f, 5.88f);
   for (const float u : {6.85f, 8.46f, 10.2f}) add_gap(car.regions, u, 0.9f, 5.2f);
+  car.regions.push_back({0.9f, 6.15f, 5.05f, 5.065f, black});    // bonnet
+  car.regions.push_back({11.25f, 14.9f, 5.15f, 5.165f, black});  // boot
+  add_gap(car.regions, 14.92f, 2.9f, 5.165f);
   for (const float u : {8.25f, 9.95f}) car.regions.push_back({u - 0.2f, u, 4.25f, 4.4f, chrome});  // handles
   car.front_axle_x = 1.38f, car.rear_axle_x = -1.36f;
-  car.mirror = {0.62f, 0.97f, 0.98f};
+  car.mirror = {0.60f, 0.945f, 0.985f};
   car.plate_height = 0.36f;
   return car;
 }
@@ -90,10 +93,12 @@ CarShape hatchback_shape() {
   add_window(car.regions, 6.72f, 8.6f, 5.2f, 5.88f);
   add_window(car.regions, 8.68f, 11.2f, 5.2f, 5.88f);
   for (const float u : {6.85f, 8.64f, 10.3f}) add_gap(car.regions, u, 0.9f, 5.2f);
+  car.regions.push_back({0.9f, 6.15f, 5.05f, 5.065f, black});  // bonnet
+  add_gap(car.regions, 14.7f, 1.7f, 5.55f);                    // tailgate
   for (const float u : {8.45f, 10.1f}) car.regions.push_back({u - 0.2f, u, 4.25f, 4.4f, black});
   car.front_axle_x = 1.22f, car.rear_axle_x = -1.24f;
   car.wheel_radius = 0.31f, car.arch_radius = 0.37f, car.half_track = 0.745f;
-  car.mirror = {0.60f, 0.95f, 1.02f};
+  car.mirror = {0.58f, 0.93f, 1.02f};
   return car;
 }
 
@@ -130,7 +135,7 @@ CarShape van_shape() {
   for (const float u : {7.0f, 7.65f}) car.regions.push_back({u - 0.25f, u, 4.2f, 4.35f, black});
   car.front_axle_x = 1.62f, car.rear_axle_x = -1.42f;
   car.wheel_radius = 0.34f, car.arch_radius = 0.41f, car.half_track = 0.83f, car.wheel_width = 0.22f;
-  car.mirror = {1.28f, 1.08f, 1.22f}, car.mirror_radii = {0.09f, 0.12f, 0.15f};
+  car.mirror = {1.22f, 1.06f, 1.24f}, car.mirror_radii = {0.09f, 0.12f, 0.15f};
   car.plate_height = 0.5f;
   return car;
 }
@@ -165,7 +170,7 @@ CarShape bus_shape() {
   }
   car.front_axle_x = 3.1f, car.rear_axle_x = -2.7f;
   car.wheel_radius = 0.48f, car.arch_radius = 0.56f, car.half_track = 1.08f, car.wheel_width = 0.28f;
-  car.mirror = {5.7f, 1.42f, 2.3f}, car.mirror_radii = {0.07f, 0.1f, 0.2f};
+  car.mirror = {5.62f, 1.36f, 2.2f}, car.mirror_radii = {0.07f, 0.1f, 0.2f};
   car.plate_height = 0.55f;
   return car;
 }

@@ -19,7 +19,7 @@ inline constexpr float zebra_length_m = 5.5f;
 SurfacePictures zebra_pictures(float carriageway_m, std::uint32_t seed);
 
 inline constexpr float asphalt_sheet_m = 10.24f, paving_sheet_m = 7.2f, lawn_sheet_m = 10.24f,
-                       gravel_sheet_m = 5.12f, courtyard_sheet_m = 48.0f;
+                       gravel_sheet_m = 5.12f, courtyard_sheet_m = 96.0f;
 SurfacePictures asphalt_pictures(std::uint32_t seed);
 SurfacePictures paving_pictures(std::uint32_t seed);
 SurfacePictures lawn_pictures(std::uint32_t seed);

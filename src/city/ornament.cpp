@@ -249,11 +249,11 @@ std::vector<Ornament> possible_ornaments(const Building& b, int index, float dis
   if (b.roof != Roof::set_back && random.chance(0.8f))
     found.push_back({Kind::chimney, index, 0, random.chance(0.5f) ? 0.1f : b.plot.width_m - 0.8f, 0.7f, 0.0f,
                      random.uniform(-1.5f, 1.5f), 0, 1.5f - 0.6f * near + random.uniform(0, 1.5f)});
-  if (random.chance(0.5f)) {
+  if (random.chance(0.7f)) {
     const float width = std::min(b.plot.width_m, random.uniform(5.0f, 8.0f));
     found.push_back({Kind::wing, index, 0, random.chance(0.5f) ? 0.0f : b.plot.width_m - width, width,
                      std::min(b.eaves_m() - 0.8f, random.uniform(5.0f, 11.0f)), random.uniform(7.0f, 16.0f),
-                     0, 1.2f - 0.4f * near + random.uniform(0, 2.0f)});
+                     0, 1.9f - 0.3f * near + random.uniform(0, 1.5f)});
   }
   return found;
 }

@@ -12,10 +12,10 @@ namespace {
 
 std::string light() {
   return fmt::format(
-      "sun(azimuth_deg={}, elevation_deg={}, irradiance=\"3.6 3.25 2.7\")\n"
+      "sun(azimuth_deg={}, elevation_deg={}, irradiance=\"6.2 5.6 4.7\")\n"
       "sky(file=\"sky.hdr\")\n"
       "air(haze_per_m=0.00035)\n"
-      "exposure(value=1.9)\n"
+      "exposure(value=1.4)\n"
       "reflection(method=\"rerendered_cube_map\", resolution=128)\n\n",
       sun_azimuth_deg, sun_elevation_deg);
 }
@@ -60,8 +60,8 @@ std::string camera(const char* name, glm::vec3 eye, glm::vec3 target, int fov_de
 std::string cameras() {
   const glm::vec3 c(main_crossing(), 0.0f);
   const auto at = [&](float east, float north, float up) { return c + glm::vec3(east, north, up); };
-  return camera("street", at(7.3f, -22.0f, 1.6f), at(-1.0f, 40.0f, 1.6f), 65) +
-         camera("crossing", at(-10.5f, -9.5f, 1.6f), at(20.0f, 14.0f, 1.6f), 65) +
+  return camera("street", at(7.7f, -15.4f, 1.6f), at(-3.0f, 45.0f, 1.6f), 65) +
+         camera("crossing", at(9.3f, -13.5f, 1.6f), at(-18.0f, 15.0f, 1.6f), 65) +
          camera("avenue", at(-7.2f, 17.0f, 1.6f), at(2.0f, 80.0f, 1.6f), 60) +
          camera("park", at(14.0f, -70.0f, 1.75f), at(45.0f, -20.0f, 1.75f), 65) +
          camera("balcony", at(-8.0f, 25.0f, 12.0f), at(8.0f, -50.0f, 7.0f), 65) +

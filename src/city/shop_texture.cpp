@@ -13,17 +13,29 @@
 namespace parvis::city {
 namespace {
 
+constexpr int sheet_px = 2048;
+
 struct Shop {
   std::string_view name;
   glm::vec3 srgb;  ///< of its woodwork, 0..255
   bool has_light_letters;
 };
-constexpr std::array<Shop, shop_modules> shops{{
+constexpr std::array<Shop, shop_modules * shop_strips> shops{{
     {"BOULANGERIE", {112, 62, 40}, true},
     {"CAFE", {36, 64, 52}, true},
     {"LIBRAIRIE", {40, 56, 92}, true},
     {"FLEURS", {196, 186, 160}, false},
     {"PHARMACIE", {62, 66, 66}, true},
+    {"EPICERIE", {118, 40, 36}, true},
+    {"COIFFEUR", {186, 196, 192}, false},
+    {"BIJOUX", {30, 32, 36}, true},
+    {"CAFE DE LA PLACE", {128, 84, 44}, true},
+    {"OPTIQUE", {72, 94, 104}, true},
+    {"TABAC", {140, 44, 34}, true},
+    {"CHOCOLAT", {70, 44, 34}, true},
+    {"MODE", {204, 198, 186}, false},
+    {"VINS", {78, 32, 44}, true},
+    {"JOUETS", {58, 104, 96}, true},
 }};
 
 glm::vec3 linear8(glm::vec3 srgb) { return linear_from_srgb(srgb / 255.0f); }
@@ -50,40 +62,56 @@ void paint_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Ran
   canvas.shade_below({glass.x0, glass.y1 - 0.7f, glass.x1, glass.y1}, 0.75f);
 }
 
-void paint_shop_front(SurfaceCanvas& canvas, float x0, const Shop& shop, Random& random) {
-  const glm::vec3 wood = linear8(shop.srgb);
-  const Rect front{x0 + 0.34f, 0.06f, x0 + shop_module_m - 0.34f, 4.0f};
-  canvas.fill(front, matt(wood, 0.04f, 0.45f));
-  const bool door_is_left = random.chance(0.5f);
-  const float door_x = door_is_left ? front.x0 + 0.14f : front.x1 - 1.14f;
-  const Rect door{door_x, 0.12f, door_x + 1.0f, 3.2f};
-  const Rect window{door_is_left ? door.x1 + 0.16f : front.x0 + 0.14f, 0.75f,
-                    door_is_left ? front.x1 - 0.14f : door.x0 - 0.16f, 3.2f};
+struct ShopOpenings {
+  Rect door, window;
+};
+
+/// Glass with bars, the lower part of the door, and panels below the window.
+void paint_shop_openings(SurfaceCanvas& canvas, const ShopOpenings& openings, float foot, glm::vec3 wood,
+                         Random& random) {
+  const Rect& door = openings.door;
+  const Rect& window = openings.window;
   for (const Rect& opening : {door, window}) {
     canvas.fill(opening.inset(-0.05f), matt(wood * 1.25f, 0.06f, 0.4f));
     paint_display(canvas, opening, wood, random);
     canvas.shade_beside({opening.x0, opening.y0, opening.x0 + 0.12f, opening.y1}, 0.5f);
   }
+  const Texel bar = matt(wood, -0.04f, 0.4f);
   canvas.fill({door.x0, door.y0, door.x1, door.y0 + 0.85f}, matt(wood * 0.9f, -0.08f, 0.4f));
-  canvas.fill({door.x0, door.y0 + 2.15f, door.x1, door.y0 + 2.25f}, matt(wood, -0.04f, 0.4f));
-  for (int i = 1; i < 3; ++i) {
-    const float x = window.x0 + window.width() * float(i) / 3.0f;
-    canvas.fill({x - 0.03f, window.y0, x + 0.03f, window.y1}, matt(wood, -0.04f, 0.4f));
+  canvas.fill({door.x0, door.y0 + 2.15f, door.x1, door.y0 + 2.25f}, bar);
+  canvas.fill({window.x0, window.y1 - 0.6f, window.x1, window.y1 - 0.54f}, bar);
+  const float pane = window.width() / 3.0f;
+  for (int i = 0; i < 3; ++i) {
+    const float x = window.x0 + pane * float(i);
+    if (i > 0) canvas.fill({x - 0.03f, window.y0, x + 0.03f, window.y1}, bar);
+    canvas.fill({x + 0.08f, foot + 0.22f, x + pane - 0.08f, foot + 0.62f}, matt(wood * 0.8f, 0.02f, 0.45f));
   }
-  canvas.fill({window.x0, window.y1 - 0.6f, window.x1, window.y1 - 0.54f}, matt(wood, -0.04f, 0.4f));
-  for (float x = window.x0; x < window.x1 - 0.3f; x += window.width() / 3.0f)  // panels below the window
-    canvas.fill({x + 0.08f, 0.22f, x + window.width() / 3.0f - 0.08f, 0.62f},
-                matt(wood * 0.8f, 0.02f, 0.45f));
+}
 
-  const Rect fascia{front.x0 - 0.05f, 3.3f, front.x1 + 0.05f, 3.95f};
+void paint_fascia(SurfaceCanvas& canvas, const Rect& fascia, const Shop& shop, glm::vec3 wood) {
   canvas.shade_below({fascia.x0, fascia.y0 - 0.3f, fascia.x1, fascia.y0}, 0.6f);
   canvas.fill(fascia, matt(wood * 0.9f, 0.14f, 0.4f));
   const glm::vec3 ink =
       shop.has_light_letters ? linear_from_srgb8(0xE8, 0xD2, 0x9A) : linear_from_srgb8(0x3A, 0x4A, 0x38);
-  const float letter_m = 0.34f;
+  const float letter_m = 0.34f * std::min(1.0f, 3.7f / lettering_width(shop.name, 0.34f));
   const float start = 0.5f * (fascia.x0 + fascia.x1 - lettering_width(shop.name, letter_m));
-  paint_lettering(canvas, shop.name, start, fascia.y0 + 0.15f, letter_m, matt(ink, 0.02f, 0.4f));
-  canvas.fill({fascia.x0 - 0.06f, 3.95f, fascia.x1 + 0.06f, 4.05f}, matt(wood * 1.1f, 0.22f, 0.5f));
+  paint_lettering(canvas, shop.name, start, fascia.y0 + 0.5f * (fascia.height() - letter_m), letter_m,
+                  matt(ink, 0.02f, 0.4f));
+  canvas.fill({fascia.x0 - 0.06f, fascia.y1, fascia.x1 + 0.06f, fascia.y1 + 0.1f},
+              matt(wood * 1.1f, 0.22f, 0.5f));
+}
+
+void paint_shop_front(SurfaceCanvas& canvas, float x0, float foot, const Shop& shop, Random& random) {
+  const glm::vec3 wood = linear8(shop.srgb);
+  const Rect front{x0 + 0.34f, foot + 0.06f, x0 + shop_module_m - 0.34f, foot + 4.0f};
+  canvas.fill(front, matt(wood, 0.04f, 0.45f));
+  const bool door_is_left = random.chance(0.5f);
+  const float door_x = door_is_left ? front.x0 + 0.14f : front.x1 - 1.14f;
+  const Rect door{door_x, foot + 0.12f, door_x + 1.0f, foot + 3.2f};
+  const Rect window{door_is_left ? door.x1 + 0.16f : front.x0 + 0.14f, foot + 0.75f,
+                    door_is_left ? front.x1 - 0.14f : door.x0 - 0.16f, foot + 3.2f};
+  paint_shop_openings(canvas, {door, window}, foot, wood, random);
+  paint_fascia(canvas, {front.x0 - 0.05f, foot + 3.3f, front.x1 + 0.05f, foot + 3.95f}, shop, wood);
 }
 
 void paint_arched_door(SurfaceCanvas& canvas, const Rect& door, glm::vec3 wood, glm::vec3 trim) {
@@ -104,7 +132,7 @@ void paint_arched_door(SurfaceCanvas& canvas, const Rect& door, glm::vec3 wood, 
     } else {
       t = matt(wood, -0.2f, 0.35f);
       const glm::vec2 panel(std::abs(std::abs(x - middle) - 0.5f * radius) / (0.32f * radius),
-                            std::abs(std::fmod(y, 0.95f) - 0.5f) / 0.38f);
+                            std::abs(std::fmod(y - door.y0, 0.95f) - 0.5f) / 0.38f);
       const float edge = std::max(panel.x, panel.y);
       if (edge < 1.0f) t.colour *= edge > 0.85f ? 0.6f : 1.15f;
       if (std::abs(x - middle) < 0.012f) t.colour *= 0.3f;
@@ -158,25 +186,30 @@ void paint_ledge(SurfaceCanvas& canvas, float top, glm::vec3 trim) {
 }  // namespace
 
 glm::vec2 ground_floor_strip(int strip) {
-  const float half_pixel = 1.5f / 1024.0f;  // keeps the strips' colours apart in the first mipmaps
-  return {1.0f - 0.5f * float(strip) - half_pixel, 0.5f - 0.5f * float(strip) + half_pixel};
+  const float height = 1.0f / float(ground_floor_strips), half_pixel = 1.5f / float(sheet_px);
+  const float foot = 1.0f - height * float(strip);  // keeps the strips' colours apart in the first mipmaps
+  return {foot - half_pixel, foot - height + half_pixel};
 }
 
 SurfacePictures ground_floor_pictures(std::uint32_t seed) {
   Random random(seed);
-  SurfaceCanvas canvas(2048, 1024, shop_module_m * float(shop_modules), 2.0f * ground_floor_m);
+  SurfaceCanvas canvas(sheet_px, sheet_px, shop_module_m * float(shop_modules),
+                       ground_floor_m * float(ground_floor_strips));
   const glm::vec3 stone = linear_from_srgb8(0xC4, 0xB8, 0xA0);
   paint_wall(canvas, Wall::ashlar, stone, random.next());
-  for (int module = 0; module < shop_modules; ++module) {
-    const float x0 = shop_module_m * float(module);
-    paint_shop_front(canvas, x0, shops[std::size_t(module)], random);
-    paint_house_module(canvas, x0, ground_floor_m, module, stone * 1.05f, random);
+  for (int strip = 0; strip < ground_floor_strips; ++strip) {
+    const float foot = ground_floor_m * float(strip);
+    for (int module = 0; module < shop_modules; ++module) {
+      const float x0 = shop_module_m * float(module);
+      if (strip < shop_strips)
+        paint_shop_front(canvas, x0, foot, shops[std::size_t(strip * shop_modules + module)], random);
+      else
+        paint_house_module(canvas, x0, foot, module, stone * 1.05f, random);
+    }
+    paint_ledge(canvas, foot + ground_floor_m, stone);
+    paint_damp_foot(canvas, foot);
   }
-  for (int strip = 0; strip < 2; ++strip) {
-    paint_ledge(canvas, ground_floor_m * float(strip + 1), stone);
-    paint_damp_foot(canvas, ground_floor_m * float(strip));
-  }
-  return canvas.pictures(2, 2);
+  return canvas.pictures(4, 4);
 }
 
 }  // namespace parvis::city

@@ -80,8 +80,8 @@ float hills(float azimuth, std::uint32_t seed) {
 
 /// Fields and woods below, as seen from a few storeys up, paling with the distance.
 glm::vec3 ground_radiance(glm::vec3 direction, std::uint32_t seed) {
-  const float distance_km = 0.03f / std::max(-direction.z, 1e-3f);
-  const glm::vec2 p = 3.0f * distance_km * glm::vec2(direction);
+  const float distance_km = 0.2f / std::max(-direction.z, 1e-3f);
+  const glm::vec2 p = 2.5f * distance_km * glm::vec2(direction);
   const glm::ivec2 endless(1 << 20);
   const Cell field = nearest_cell(p, endless, seed);
   const glm::vec3 wood = linear_from_srgb8(0x55, 0x64, 0x3E), grass = linear_from_srgb8(0x86, 0x8C, 0x58);
@@ -89,7 +89,7 @@ glm::vec3 ground_radiance(glm::vec3 direction, std::uint32_t seed) {
   const glm::vec3 colour = field.identity < 0.5f ? glm::mix(wood, grass, 2.0f * field.identity)
                                                  : glm::mix(grass, soil, 2.0f * field.identity - 1.0f);
   const float detail = 0.75f + 0.5f * fractal_noise(4.0f * p, endless, 3, seed + 5);
-  return glm::mix(horizon_radiance, 0.9f * detail * colour, std::exp(-0.45f * distance_km));
+  return glm::mix(horizon_radiance, 0.9f * detail * colour, std::exp(-0.3f * distance_km));
 }
 
 glm::vec3 radiance_from(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {

@@ -125,7 +125,7 @@ void add_material(scene::Model& model, const std::string& name, SurfacePictures 
 
 void add_materials(scene::Model& model, int species, Random& random) {
   const glm::vec3 green =
-      species == 0 ? linear_from_srgb8(0x72, 0x92, 0x42) : linear_from_srgb8(0x64, 0x86, 0x3E);
+      species == 0 ? linear_from_srgb8(0x86, 0xA4, 0x4C) : linear_from_srgb8(0x76, 0x98, 0x46);
   add_material(model, "bark", bark_pictures(linear_from_srgb8(0x8C, 0x80, 0x70), random.next()), true);
   add_material(model, "leaves", leaf_pictures(green, random.next()), false);
   scene::Material& leaf = model.materials.back();

@@ -151,7 +151,7 @@ SurfacePictures roof_zinc_pictures(std::uint32_t seed) {
 }
 
 SurfacePictures blank_wall_pictures(std::uint32_t seed) {
-  SurfaceCanvas canvas(1024, 1024, blank_wall_sheet_m, blank_wall_sheet_m);
+  SurfaceCanvas canvas(512, 512, blank_wall_sheet_m, blank_wall_sheet_m);
   paint_wall(canvas, Wall::plaster, linear_from_srgb8(0xD2, 0xC4, 0xA8), seed);
   paint_streaks(canvas, {0.0f, 0.0f, blank_wall_sheet_m, blank_wall_sheet_m}, 0.35f, seed + 9);
   return canvas.pictures(2, 2);
