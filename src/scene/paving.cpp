@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
 #include "scene/ground_heights.h"
 #include "scene/path.h"
+#include "scene/tiling_noise.h"
 
 namespace parvis::scene {
 
@@ -23,15 +23,6 @@ constexpr int strips_across = 4;
 
 enum : int { asphalt, paint };
 
-/// Values 0..1 at the corners of a grid that repeats, smoothly in between.
-float repeating_noise(const std::vector<float>& corners, int count, glm::vec2 place) {
-  const glm::ivec2 cell(glm::floor(place));
-  const glm::vec2 f = place - glm::vec2(cell), s = f * f * (3.0f - 2.0f * f);
-  const auto corner = [&](int x, int y) { return corners[std::size_t(y % count * count + x % count)]; };
-  return glm::mix(glm::mix(corner(cell.x, cell.y), corner(cell.x + 1, cell.y), s.x),
-                  glm::mix(corner(cell.x, cell.y + 1), corner(cell.x + 1, cell.y + 1), s.x), s.y);
-}
-
 /// Asphalt: patches, stains and grains; it tiles.
 Texture asphalt_picture() {
   constexpr int side = 512;
@@ -39,12 +30,10 @@ Texture asphalt_picture() {
   Random random(3);
   std::vector<float> light(std::size_t(side) * side, 58.0f);
   for (const auto& [count, strength] : {std::pair{3, 9.0f}, {17, 6.0f}, {96, 7.0f}, {512, 16.0f}}) {
-    std::vector<float> corners(std::size_t(count) * std::size_t(count));
-    for (float& value : corners) value = random.uniform() - 0.5f;
+    const TilingNoise noise(count, random);
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
-        light[std::size_t(y * side + x)] +=
-            strength * repeating_noise(corners, count, glm::vec2(x, y) * float(count) / float(side));
+        light[std::size_t(y * side + x)] += strength * noise.at(glm::vec2(x, y) / float(side));
   }
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
