@@ -40,7 +40,7 @@ void append(Model& model, const Model& other, int parent) {
 
 void mount(Model& model, const Model& part, const Mount& mount) {
   const int node = int(model.nodes.size());
-  model.nodes.push_back({.name = mount.name, .parent = 0, .translation = mount.position});
+  model.nodes.push_back({.name = mount.name, .translation = mount.position});
   model.nodes.push_back(
       {.name = "", .parent = node, .rotation = mount.rotation, .scale = glm::vec3(mount.scale)});
   append(model, part, node + 1);

@@ -31,6 +31,7 @@ TEST(ModelAssembly, MountedModelsStandOnTheirNode) {
   const Model wheel = make_wheel({});
   Model car;
   car.materials = {{.name = "body"}};
+  car.nodes[0].rotation = glm::angleAxis(glm::half_pi<float>(), glm::vec3(1, 0, 0));  // as glTF files have it
   mount(car, wheel, {.name = "wheel_left", .position = {1, 2, 3}});
   mount(car, wheel, {.name = "wheel_right", .position = {1, -2, 3}, .rotation = {0, 0, 0, 1}, .scale = 2.0f});
   EXPECT_EQ(car.parts.size(), 2 * wheel.parts.size());

@@ -1,10 +1,11 @@
 // material: another surface for a part of a model.
-#include <algorithm>
+#include <set>
 
 #include "scene/material_change.h"
 #include "scene/node_registry.h"
 #include "scene/nodes.h"
 #include "scene/scene_builder.h"
+#include "scene/spelling.h"
 
 namespace parvis::scene {
 namespace {
@@ -64,15 +65,21 @@ NodeSchema material_schema() {
           "}"};
 }
 
-std::string names_of_parts(const Model& model) {
-  constexpr std::size_t shown = 12;
-  std::vector<std::string> names;
+std::vector<std::string> names_of_objects(const Model& model) {
+  std::set<std::string> names;
   for (const Part& part : model.parts)
-    if (!part.object.empty() && std::find(names.begin(), names.end(), part.object) == names.end())
-      names.push_back(part.object);
+    if (!part.object.empty()) names.insert(part.object);
+  return {names.begin(), names.end()};
+}
+
+Error no_such_object(const Node& node, const Model& model) {
+  constexpr std::size_t shown = 12;
+  std::vector<std::string> names = names_of_objects(model);
+  const std::string target = node.text("target"), meant = did_you_mean(target, names);
   const bool has_more = names.size() > shown;
   if (has_more) names.resize(shown);
-  return fmt::format("{}{}", fmt::join(names, ", "), has_more ? ", ..." : "");
+  return error_at(node.where_of("target"), "no object of the model is called \"{}\"{} It has {}{}", target,
+                  meant.empty() ? "." : meant, fmt::join(names, ", "), has_more ? ", ..." : "");
 }
 
 MaterialChange change_of(const Node& node) {
@@ -99,10 +106,7 @@ void change_material_of(const Node& node, Model& model, SceneBuilder& builder) {
     masks.push_back(*mask);
   }
   const std::vector<std::size_t> parts = matching_parts(model, node.text("target"));
-  if (parts.empty())
-    return builder.fail(error_at(node.where_of("target"),
-                                 "no object of the model is called \"{}\"; it has {}", node.text("target"),
-                                 names_of_parts(model)));
+  if (parts.empty()) return builder.fail(no_such_object(node, model));
   const std::string name = node.gives("preset") ? node.text("preset") : "changed";
   if (change_material(model, parts, masks, change_of(node), name) == 0)
     builder.warn(

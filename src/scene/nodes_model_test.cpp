@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+
+#include "base/test_data.h"
+#include "base/test_folder.h"
+#include "scene/gltf_writer.h"
+#include "scene/scene_loader.h"
+
+namespace parvis::scene {
+namespace {
+
+/// Two upright squares of 1 m, side by side along x, each an object of its own.
+Model two_squares() {
+  Model model;
+  model.materials = {{.name = "plain"}};
+  for (const char* object : {"body", "pane"}) {
+    const float x = model.parts.empty() ? 0.0f : 1.0f;
+    Part part;
+    part.object = object;
+    part.mesh.positions = {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 0, 1}, {x, 0, 1}};
+    part.mesh.normals.assign(4, glm::vec3(0, -1, 0));
+    part.mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    part.mesh.indices = {0, 1, 2, 0, 2, 3};
+    part.node = int(model.nodes.size());
+    model.nodes.push_back({.name = object, .parent = 0});
+    model.parts.push_back(std::move(part));
+  }
+  return model;
+}
+
+class ModelNodes : public ::testing::Test {
+ protected:
+  ModelNodes() { EXPECT_TRUE(write_gltf(folder_.path() / "two.glb", two_squares())); }
+
+  Result<LoadedScene> load(const std::string& script, const std::vector<std::filesystem::path>& data = {}) {
+    return load_scene(folder_.write("scene.xp", script), registry_, data);
+  }
+  Scene scene_of(const std::string& script) {
+    auto loaded = load(script);
+    EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.errors()));
+    return loaded ? std::move(loaded->scene) : Scene();
+  }
+  std::string errors_of(const std::string& script) {
+    const auto loaded = load(script);
+    EXPECT_FALSE(loaded) << script;
+    return loaded ? "" : to_string(loaded.errors());
+  }
+
+  TestFolder folder_;
+  NodeRegistry registry_ = core_nodes();
+};
+
+bool holds(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+const Material& material_of(const Model& model, const std::string& object) {
+  for (const Part& part : model.parts)
+    if (part.object == object) return model.materials[std::size_t(part.material)];
+  ADD_FAILURE() << "no object " << object;
+  return model.materials.front();
+}
+
+glm::vec3 placed(const Object& object, glm::vec3 point) {
+  return glm::vec3(object.world_from_model * glm::vec4(point, 1.0f));
+}
+
+TEST_F(ModelNodes, AreObjectsInTheirPlace) {
+  const Scene scene = scene_of(
+      "group(position=\"10 0 0\") { model(name=a, file=two.glb, position=\"0 5 0\", heading_deg=90, scale=2) "
+      "}");
+  ASSERT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.objects[0].name, "a");
+  EXPECT_FALSE(scene.objects[0].is_dynamic);
+  const glm::vec3 east_end = placed(scene.objects[0], {1, 0, 0});
+  EXPECT_LT(glm::length(east_end - glm::vec3(10, 3, 0)), 1e-4f);
+}
+
+TEST_F(ModelNodes, SayUpAndOthersShareModels) {
+  const Scene scene = scene_of(
+      "model(file=two.glb) model(file=two.glb, position=\"3 0 0\", reflective=1, dynamic=1)\n"
+      "model(file=two.glb, positions=\"0 0, 1 0, 2 0\") model(file=two.glb, up=z)\n"
+      "model(file=two.glb) { material(colour=\"1 0 0\") } model(file=two.glb) { material(colour=\"1 0 0\") "
+      "}");
+  ASSERT_EQ(scene.objects.size(), 8u);
+  EXPECT_EQ(scene.objects[0].model, scene.objects[1].model);
+  EXPECT_TRUE(scene.objects[1].takes_reflection && scene.objects[1].is_dynamic);
+  EXPECT_EQ(scene.objects[4].model, scene.objects[0].model);
+  EXPECT_NE(scene.objects[5].model, scene.objects[0].model);
+  EXPECT_EQ(scene.objects[6].model, scene.objects[7].model);
+  EXPECT_NE(scene.objects[6].model, scene.objects[0].model);
+}
+
+TEST_F(ModelNodes, MaterialsGoToTheirTarget) {
+  const Scene scene = scene_of(
+      "model(file=two.glb) { material(target=\"body\", preset=\"paint\", roughness=0.2)\n"
+      "material(target=\"pan*\", preset=\"glass\", colour=\"#FFFFFF\") }");
+  const Model& model = *scene.objects.at(0).model;
+  EXPECT_FLOAT_EQ(material_of(model, "body").clear_coat, 1.0f);
+  EXPECT_FLOAT_EQ(material_of(model, "body").roughness, 0.2f);
+  EXPECT_TRUE(material_of(model, "pane").is_mirror_like);
+  EXPECT_FLOAT_EQ(material_of(model, "pane").base_colour.x, 1.0f);
+}
+
+TEST_F(ModelNodes, BadTargetsMasksAndFilesAreTold) {
+  EXPECT_TRUE(
+      holds(errors_of("model(file=two.glb) {\n material(target=\"bdy\") }"),
+            "scene.xp:2:18: no object of the model is called \"bdy\"; did you mean \"body\"? It has "));
+  EXPECT_TRUE(
+      holds(errors_of("model(file=two.glb) {\n material(mask=\"box 1 2\") }"), "scene.xp:2:16: mask="));
+  EXPECT_TRUE(holds(errors_of("model(file=two.glb) { material(preset=glas) }"), "did you mean \"glass\"?"));
+  EXPECT_TRUE(holds(errors_of("material()"), "material does not stand by itself but in model"));
+  EXPECT_TRUE(holds(errors_of("model(file=absent.glb)"), "there is no file"));
+  folder_.write("broken.glb", "glTF and no more");
+  EXPECT_TRUE(holds(errors_of("\nmodel(file=broken.glb)"), "scene.xp:2:12: "));
+}
+
+TEST_F(ModelNodes, AMaskThatHoldsNothingIsAWarning) {
+  const auto loaded = load("model(file=two.glb) { material(mask=\"box 5 5 6 6\") }");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  ASSERT_EQ(loaded->warnings.size(), 1u);
+  EXPECT_TRUE(holds(loaded->warnings[0].message, "changes nothing"));
+}
+
+TEST_F(ModelNodes, WheelsStandAtTheirAxles) {
+  const Scene scene = scene_of(
+      "model(file=two.glb) { wheels(front_axle_x=2, rear_axle_x=-1, axle_z=0.4, track=1.6, radius=0.4) }");
+  const Model& model = *scene.objects.at(0).model;
+  int wheels = 0;
+  for (const ModelNode& node : model.nodes) wheels += holds(node.name, "wheel_") ? 1 : 0;
+  EXPECT_EQ(wheels, 4);
+  const Bounds box = bounds(model);
+  EXPECT_NEAR(box.min.z, 0.0f, 1e-4f);
+  EXPECT_NEAR(box.max.x, 2.4f, 1e-4f);
+  EXPECT_NEAR(box.min.x, -1.4f, 1e-4f);
+  EXPECT_TRUE(holds(errors_of("model(file=two.glb) { wheels(rim_radius=0.5) }"), "smaller than the tyre"));
+}
+
+TEST_F(ModelNodes, TrafficTakesItsKindsFromItsChildren) {
+  folder_.write("car.xp", "model(file=two.glb, heading_deg=-90)");
+  const Scene scene = scene_of("traffic(vehicles=2) { include(file=car.xp) model(file=two.glb, scale=3) }");
+  EXPECT_TRUE(scene.objects.empty());
+  ASSERT_EQ(scene.traffic.models.size(), 2u);
+  EXPECT_NEAR(bounds(*scene.traffic.models[0]).max.y, 2.0f, 1e-5f);
+  EXPECT_NEAR(bounds(*scene.traffic.models[1]).max.x, 6.0f, 1e-5f);
+}
+
+TEST_F(ModelNodes, RealCarsGetGlassByTheColourOfTheirPalette) {
+  const auto car = shared_data("gltf_kenney/vehicles/van.glb", PARVIS_SOURCE_DIR);
+  if (!car) GTEST_SKIP() << "skipped: shared data absent";
+  const std::vector<std::filesystem::path> data{car->parent_path().parent_path().parent_path()};
+  const std::filesystem::path scripts = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/cars";
+  for (const char* script : {"kenney_sedan.xp", "kenney_suv.xp", "kenney_van.xp"}) {
+    const auto loaded = load_scene(scripts / script, registry_, data);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    EXPECT_TRUE(loaded->warnings.empty()) << to_string(loaded->warnings);
+    const Object& object = loaded->scene.objects.at(0);
+    std::size_t panes = 0;
+    for (const Part& part : object.model->parts)
+      if (object.model->materials[std::size_t(part.material)].name == "glass")
+        panes += part.mesh.triangle_count();
+    EXPECT_GE(panes, 8u) << script;
+    const Bounds box = transformed(object.world_from_model, bounds(*object.model));
+    EXPECT_GT(box.size().x, box.size().y) << script << " does not look along x";
+    EXPECT_NEAR(box.min.z, 0.0f, 0.05f) << script;
+  }
+}
+
+}  // namespace
+}  // namespace parvis::scene
