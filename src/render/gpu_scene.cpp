@@ -157,8 +157,12 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
 }
 
 void GpuScene::update(const scene::Scene& scene) {
-  for (std::size_t o = 0; o < scene.objects.size(); ++o)
-    if (is_moving_[o]) place(scene, o);
+  moving_bounds_.clear();
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    if (!is_moving_[o]) continue;
+    place(scene, o);
+    moving_bounds_.push_back(object_bounds_[o]);
+  }
 }
 
 Bounds GpuScene::fixed_bounds() const {
@@ -174,10 +178,14 @@ void GpuScene::bind_material(int index) const {
   glBindTextures(0, 4, textures);
   glBindBufferRange(GL_UNIFORM_BUFFER, 1, material_blocks_.name(), GLintptr(index) * block_stride_,
                     GLsizeiptr(sizeof(MaterialBlock)));
-  if (material.is_double_sided)
-    glDisable(GL_CULL_FACE);
-  else
+  cull_faces(!material.is_double_sided);
+}
+
+void GpuScene::cull_faces(bool culls) {
+  if (culls)
     glEnable(GL_CULL_FACE);
+  else
+    glDisable(GL_CULL_FACE);
 }
 
 }  // namespace parvis::render

@@ -55,10 +55,13 @@ class GpuScene {
   /// Of all parts of an object, in the world.
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
   Bounds fixed_bounds() const;
+  /// Of each object that moves.
+  const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
   bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
 
   /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
   void bind_material(int material) const;
+  static void cull_faces(bool culls);
   GLuint vertex_buffer() const { return vertices_.name(); }
   GLuint index_buffer() const { return indices_.name(); }
 
@@ -82,6 +85,7 @@ class GpuScene {
   std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
   std::vector<Bounds> object_bounds_;
   std::vector<std::uint8_t> is_moving_;
+  std::vector<Bounds> moving_bounds_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
 };
 

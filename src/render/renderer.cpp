@@ -8,8 +8,8 @@ struct FrameBlock {
   glm::mat4 clip_from_world;
   glm::vec4 viewer_position, to_sun, sun_irradiance, haze;
   glm::vec4 sky_sh[9];
-  glm::mat4 uvz_from_world[3];
-  glm::vec4 texel_m, texel_uv, size, visibility_origin, visibility_size;
+  glm::mat4 uvz_from_world[2];
+  glm::vec4 shadow_texel, size, visibility_origin, visibility_size;
 };
 
 /// Depth 1 at the near plane and 0 far away: floats then resolve a centimetre at a kilometre, where depth
@@ -53,9 +53,9 @@ void Renderer::bind_frame(const View& view) {
   const shading::SkyLight& sky = sky_.light();
   block.haze = glm::vec4(sky.haze_radiance, sky.heading);
   for (std::size_t i = 0; i < 9; ++i) block.sky_sh[i] = glm::vec4(sky.irradiance_sh[i], 0.0f);
-  for (int i = 0; i < 3; ++i) block.uvz_from_world[i] = shadows_.maps().uvz_from_world[i];
-  block.texel_m = glm::vec4(shadows_.maps().texel_m, 0.0f);
-  block.texel_uv = glm::vec4(shadows_.texel_uv(), 0.0f);
+  const shading::ShadowMaps& maps = shadows_.maps();
+  for (int i = 0; i < 2; ++i) block.uvz_from_world[i] = maps.uvz_from_world[i];
+  block.shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
   block.size = {float(view.width), float(view.height), float(sky.levels.size()), 0.0f};
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
@@ -85,7 +85,7 @@ void Renderer::draw_prepared(const View& view) {
     constexpr GLuint nothing[4]{};
     glClearBufferuiv(GL_COLOR, 0, nothing);
   }
-  glClear(GL_DEPTH_BUFFER_BIT);
+  if (view.clears) glClear(GL_DEPTH_BUFFER_BIT);
   if (has_colour(view)) {
     sky_.bind();
     shadows_.bind();
@@ -118,7 +118,7 @@ void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
-  shadows_.update(camera.position_in_world(), scene.sun.direction_to_sun,
+  shadows_.update(camera.position_in_world(), scene.sun.direction_to_sun, scene_.gpu().moving_bounds(),
                   [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
 }

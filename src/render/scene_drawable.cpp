@@ -1,6 +1,7 @@
 #include "render/scene_drawable.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "render/fixed_parts.h"
 
@@ -45,6 +46,7 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
   };
   for (const Status& status : {make("render/surface.vert", "render/surface.frag", programs.surface),
                                make("render/depth.vert", "render/depth.frag", programs.depth),
+                               make("render/depth.vert", "render/solid_depth.frag", programs.solid_depth),
                                make("render/depth.vert", "render/picking.frag", programs.picking)})
     if (!status) return status.errors();
   return SceneDrawable(scene, std::move(programs));
@@ -73,11 +75,18 @@ bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
 }
 
-/// Pass, then mirrors by object, then material, then part: neighbours in this order share a draw.
+/// Pass; then what both faces show of, mirrors by object, material and part: neighbours in this order share a
+/// draw. What blends is ordered from back to front instead.
 std::uint64_t SceneDrawable::sort_key(const Item& item, const View& view) const {
   const PartRange& part = gpu_.parts()[std::size_t(item.part)];
-  const Pass pass = gpu_.materials()[std::size_t(part.material)].pass;
-  return (std::uint64_t(pass) << 62) | (std::uint64_t(is_mirror_in(view, item) ? item.object + 1 : 0) << 42) |
+  const GpuMaterial& material = gpu_.materials()[std::size_t(part.material)];
+  const std::uint64_t pass = std::uint64_t(material.pass) << 62;
+  if (material.pass == Pass::blend) {
+    const float distance_m = glm::distance(item.bounds.centre(), view.position_in_world);
+    return pass | (std::uint64_t(~std::bit_cast<std::uint32_t>(distance_m)) << 22) | std::uint64_t(item.part);
+  }
+  return pass | (std::uint64_t(material.is_double_sided) << 61) |
+         (std::uint64_t(is_mirror_in(view, item) ? item.object + 1 : 0) << 42) |
          (std::uint64_t(part.material) << 22) | std::uint64_t(item.part);
 }
 
@@ -142,6 +151,28 @@ void SceneDrawable::prepare(const View& view) {
                          visible_objects_.end());
 }
 
+void SceneDrawable::draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const {
+  const std::size_t offset = std::size_t(list.first_command) + sizeof(Command) * first;
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                              GLsizei(count), 0);
+}
+
+/// What has no holes needs no material to draw its depth: two calls at most.
+void SceneDrawable::draw_depth(const ViewList& list) const {
+  programs_.solid_depth.use();
+  const std::vector<Batch>& batches = list.batches[std::size_t(Pass::opaque)];
+  for (std::size_t i = 0, next; i < batches.size(); i = next) {
+    const bool is_double_sided = gpu_.materials()[std::size_t(batches[i].material)].is_double_sided;
+    std::uint32_t commands = 0;
+    for (next = i; next < batches.size(); ++next) {
+      if (gpu_.materials()[std::size_t(batches[next].material)].is_double_sided != is_double_sided) break;
+      commands += batches[next].command_count;
+    }
+    GpuScene::cull_faces(!is_double_sided);
+    draw_commands(list, batches[i].first_command, commands);
+  }
+}
+
 void SceneDrawable::draw(const View& view, Pass pass) {
   const ViewList& list = list_of(view);
   if (list.batches[std::size_t(pass)].empty()) return;
@@ -149,21 +180,20 @@ void SceneDrawable::draw(const View& view, Pass pass) {
                             sizeof(Item::Record));
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
+  if (view.kind == ViewKind::shadow && pass == Pass::opaque) return draw_depth(list);
+
   const gl::Program& plain = view.kind == ViewKind::shadow    ? programs_.depth
                              : view.kind == ViewKind::picking ? programs_.picking
                                                               : programs_.surface;
-  plain.use();
-  bool mirrors = false;  // within a pass, mirrors come last
+  const gl::Program* current = nullptr;
   for (const Batch& batch : list.batches[std::size_t(pass)]) {
-    if (batch.mirror_object >= 0) {
-      if (!mirrors) programs_.mirror.use();
-      mirrors = true;
-      reflection_->bind(programs_.mirror, batch.mirror_object);
-    }
+    const bool is_mirror = batch.mirror_object >= 0;
+    const gl::Program& program = is_mirror ? programs_.mirror : plain;
+    if (current != &program) program.use();
+    current = &program;
+    if (is_mirror) reflection_->bind(program, batch.mirror_object);
     gpu_.bind_material(batch.material);
-    const std::size_t offset = std::size_t(list.first_command) + sizeof(Command) * batch.first_command;
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
-                                GLsizei(batch.command_count), 0);
+    draw_commands(list, batch.first_command, batch.command_count);
   }
 }
 

@@ -62,7 +62,7 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    gl::Program surface, mirror, depth, picking;
+    gl::Program surface, mirror, depth, solid_depth, picking;
   };
 
   /// What one view draws. The main view's list is kept while others are prepared and drawn.
@@ -81,6 +81,8 @@ class SceneDrawable final : public Drawable {
   std::uint64_t sort_key(const Item& item, const View& view) const;
   void gather(const View& view, ViewList& list);
   void batch(const View& view, ViewList& list) const;
+  void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;
+  void draw_depth(const ViewList& list) const;
   const ViewList& list_of(const View& view) const {
     return view.kind == ViewKind::main ? main_list_ : other_list_;
   }

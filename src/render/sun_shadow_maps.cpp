@@ -8,33 +8,44 @@
 namespace parvis::render {
 namespace {
 
-constexpr std::array<int, 3> sizes{4096, 4096, 2048};
-constexpr float near_half_width_m = 90.0f;    // a texel is 4.4 cm: cornices and railings throw shadows
-constexpr float near_stay_m = 25.0f;          // how far the viewer goes before it is drawn again
-constexpr float moving_half_width_m = 80.0f;  // a texel is 8 cm
-constexpr float moving_height_m = 30.0f;      // vehicles stand no higher over the viewer's surroundings
+constexpr int map_size = 4096;
+constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings throw shadows
+constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
+constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
 
 glm::mat3 sun_frame(glm::vec3 to_sun) {
-  const glm::vec3 helper = std::abs(to_sun.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
-  const glm::vec3 right = glm::normalize(glm::cross(helper, to_sun));
+  const glm::vec3 aside = std::abs(to_sun.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const glm::vec3 right = glm::normalize(glm::cross(aside, to_sun));
   return glm::transpose(glm::mat3(right, glm::cross(to_sun, right), to_sun));
+}
+
+gl::Framebuffer depth_framebuffer() {
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferDrawBuffer(framebuffer.name(), GL_NONE);
+  return framebuffer;
 }
 
 }  // namespace
 
 SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
-    : fixed_(fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed) {
-  turn_to(to_sun);
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    Map& target = targets_[i];
-    target.size = sizes[i];
-    target.depth = gl::texture_2d(GL_DEPTH_COMPONENT32F, target.size, target.size);
-    glTextureParameteri(target.depth.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glTextureParameteri(target.depth.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    target.framebuffer = gl::Framebuffer::create();
-    glNamedFramebufferTexture(target.framebuffer.name(), GL_DEPTH_ATTACHMENT, target.depth.name(), 0);
-    glNamedFramebufferDrawBuffer(target.framebuffer.name(), GL_NONE);
+    : fixed_(fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed),
+      depth_(gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY))),
+      near_fixed_(gl::texture_2d(GL_DEPTH_COMPONENT32F, map_size, map_size)),
+      near_fixed_framebuffer_(depth_framebuffer()) {
+  glTextureStorage3D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, map_size, map_size, shading::shadow_map_count);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  for (std::size_t map = 0; map < framebuffers_.size(); ++map) {
+    framebuffers_[map] = depth_framebuffer();
+    glNamedFramebufferTextureLayer(framebuffers_[map].name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0,
+                                   GLint(map));
   }
+  glNamedFramebufferTexture(near_fixed_framebuffer_.name(), GL_DEPTH_ATTACHMENT, near_fixed_.name(), 0);
+  maps_.texel_uv = 1.0f / float(map_size);
+  turn_to(to_sun);
 }
 
 void SunShadowMaps::turn_to(glm::vec3 to_sun) {
@@ -45,9 +56,9 @@ void SunShadowMaps::turn_to(glm::vec3 to_sun) {
   near_centre_ = glm::vec3(1e30f);
 }
 
+/// Turns a map's light toward a square about `centre`.
 View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
-  const std::size_t index = std::size_t(map);
-  const float texel = 2.0f * half_width_m / float(targets_[index].size);
+  const float texel = 2.0f * half_width_m / float(map_size);
   glm::vec3 middle = sun_from_world_ * centre;
   middle.x = std::round(middle.x / texel) * texel;  // whole texels: edges do not crawl when the viewer moves
   middle.y = std::round(middle.y / texel) * texel;
@@ -65,17 +76,42 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   view.kind = ViewKind::shadow;
   view.clip_from_world = clip_from_sun * glm::mat4(sun_from_world_);
   view.position_in_world = centre + 1e5f * to_sun_;
-  view.framebuffer = targets_[index].framebuffer.name();
-  view.width = view.height = targets_[index].size;
-  view.subjects = map == shading::shadow_moving_map ? Subjects::moving : Subjects::fixed;
+  view.framebuffer = framebuffers_[std::size_t(map)].name();
+  view.width = view.height = map_size;
+  view.subjects = Subjects::fixed;
 
   const glm::mat4 uvz_from_clip(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1);
-  maps_.uvz_from_world[index] = uvz_from_clip * view.clip_from_world;
+  maps_.uvz_from_world[map] = uvz_from_clip * view.clip_from_world;
   maps_.texel_m[map] = texel;
   return view;
 }
 
-void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun,
+void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw) {
+  near_centre_ = position;
+  near_view_ = aim(shading::shadow_near_map, position, near_half_width_m);
+  View fixed_view = near_view_;
+  fixed_view.framebuffer = near_fixed_framebuffer_.name();
+  draw(fixed_view);
+  drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
+}
+
+void SunShadowMaps::put_back(const Square& square) {
+  glCopyImageSubData(near_fixed_.name(), GL_TEXTURE_2D, 0, square.corner.x, square.corner.y, 0, depth_.name(),
+                     GL_TEXTURE_2D_ARRAY, 0, square.corner.x, square.corner.y, shading::shadow_near_map,
+                     square.size.x, square.size.y, 1);
+}
+
+/// Where a box falls in the near map, with a texel of margin.
+SunShadowMaps::Square SunShadowMaps::square_of(const Bounds& box) const {
+  const Bounds uv = transformed(maps_.uvz_from_world[shading::shadow_near_map], box);
+  const auto texel = [](float share) { return int(std::clamp(share, 0.0f, 1.0f) * float(map_size)); };
+  const glm::ivec2 low(texel(uv.min.x) - 1, texel(uv.min.y) - 1);
+  const glm::ivec2 high(texel(uv.max.x) + 2, texel(uv.max.y) + 2);
+  const glm::ivec2 corner = glm::clamp(low, 0, map_size);
+  return {corner, glm::clamp(high, 0, map_size) - corner};
+}
+
+void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun, std::span<const Bounds> moving,
                            const std::function<void(const View&)>& draw) {
   if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
   if (!far_is_drawn_) {
@@ -83,31 +119,29 @@ void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun,
     draw(aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y)));
     far_is_drawn_ = true;
   }
-  if (glm::distance(position, near_centre_) > near_stay_m) {
-    near_centre_ = position;
-    draw(aim(shading::shadow_near_map, position, near_half_width_m));
-  }
-  draw(aim(shading::shadow_moving_map, position, moving_half_width_m));
+  if (glm::distance(position, near_centre_) > near_stay_m) draw_near_fixed(position, draw);
+
+  for (const Square& square : drawn_over_) put_back(square);
+  drawn_over_.clear();
+  for (const Bounds& box : moving)
+    if (const Square square = square_of(box); square.size.x > 2 && square.size.y > 2)
+      drawn_over_.push_back(square);
+  View moving_view = near_view_;
+  moving_view.subjects = Subjects::moving;
+  moving_view.clears = false;
+  draw(moving_view);
 }
 
-void SunShadowMaps::bind() const {
-  for (std::size_t i = 0; i < targets_.size(); ++i)
-    glBindTextureUnit(first_shadow_unit + GLuint(i), targets_[i].depth.name());
-}
-
-glm::vec3 SunShadowMaps::texel_uv() const {
-  return {1.0f / float(sizes[0]), 1.0f / float(sizes[1]), 1.0f / float(sizes[2])};
-}
+void SunShadowMaps::bind() const { glBindTextureUnit(shadow_unit, depth_.name()); }
 
 shading::SunShadow SunShadowMaps::read_back() const {
   shading::SunShadow shadow;
   shadow.maps = maps_;
-  shadow.texel_uv = texel_uv();
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    ImageF& depth = shadow.depth[i];
-    depth = ImageF(targets_[i].size, targets_[i].size, 1);
-    glGetTextureImage(targets_[i].depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                      GLsizei(depth.pixels.size() * sizeof(float)), depth.pixels.data());
+  for (std::size_t map = 0; map < shadow.depth.size(); ++map) {
+    ImageF& depth = shadow.depth[map];
+    depth = ImageF(map_size, map_size, 1);
+    glGetTextureSubImage(depth_.name(), 0, 0, 0, GLint(map), map_size, map_size, 1, GL_DEPTH_COMPONENT,
+                         GL_FLOAT, GLsizei(depth.pixels.size() * sizeof(float)), depth.pixels.data());
   }
   return shadow;
 }

@@ -1,9 +1,12 @@
-// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once), the fixed place near
-// the viewer (drawn again when the viewer has gone some way), and what moves (every frame).
+// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once) and what is near the
+// viewer, of which the fixed part is drawn when the viewer has gone some way, and kept: each frame only the
+// squares that moving things have left are put back, and the things drawn where they are now.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "base/bounds.h"
 #include "base/image.h"
@@ -19,31 +22,37 @@ class SunShadowMaps {
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
   /// Calls `draw` for each map that must be drawn for a viewer at `position`; for all of them when the sun
-  /// has moved.
-  void update(glm::vec3 position, glm::vec3 to_sun, const std::function<void(const View&)>& draw);
+  /// has moved. `moving` bounds each thing that moves.
+  void update(glm::vec3 position, glm::vec3 to_sun, std::span<const Bounds> moving,
+              const std::function<void(const View&)>& draw);
 
-  /// Units 5 to 7.
+  /// At `shadow_unit`.
   void bind() const;
   const shading::ShadowMaps& maps() const { return maps_; }
-  glm::vec3 texel_uv() const;
   /// A copy for the ray tracer.
   shading::SunShadow read_back() const;
 
  private:
-  struct Map {
-    gl::Texture depth;
-    gl::Framebuffer framebuffer;
-    int size;
+  struct Square {
+    glm::ivec2 corner, size;
   };
   void turn_to(glm::vec3 to_sun);
   View aim(int map, glm::vec3 centre, float half_width_m);
+  void draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw);
+  void put_back(const Square& square);
+  Square square_of(const Bounds& box) const;
 
   Bounds fixed_;
   glm::vec3 to_sun_;
   glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
   Bounds fixed_in_sun_;
-  std::array<Map, 3> targets_;
+  gl::Texture depth_;       ///< a layer for each map
+  gl::Texture near_fixed_;  ///< the near map without what moves
+  std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
+  gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};
+  View near_view_;
+  std::vector<Square> drawn_over_;  ///< of the near map, by what moved
   bool far_is_drawn_ = false;
   glm::vec3 near_centre_{1e30f};
 };

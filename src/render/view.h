@@ -29,6 +29,7 @@ struct View {
   int width = 0, height = 0;
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   Subjects subjects = Subjects::all;
+  bool clears = true;         ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 };
 

@@ -31,7 +31,7 @@ struct Lookup {
 }  // namespace
 
 float sun_visibility(const SunShadow& shadow, vec3 position, vec3 normal, vec3 to_sun) {
-  return Lookup{shadow}.sun_visibility(shadow.maps, shadow.texel_uv, position, normal, to_sun);
+  return Lookup{shadow}.sun_visibility(shadow.maps, position, normal, to_sun);
 }
 
 }  // namespace parvis::shading

@@ -1,14 +1,14 @@
-// Where a point of the world lies in the sun's shadow maps: the static place from far, the static place near the viewer,
-// and what moves. Depth is orthographic, 0 at the sun's side and 1 at the far side.
+// Where a point of the world lies in the sun's two shadow maps: the whole place, coarse, and what is near the viewer,
+// fine. They have the same size. Depth is orthographic, 0 at the sun's side and 1 at the far side.
 
-const int shadow_far_map = 0;      // all static things, over the whole scene
-const int shadow_near_map = 1;     // static things near the viewer, finer
-const int shadow_moving_map = 2;   // moving things near the viewer
-const int shadow_map_count = 3;
+const int shadow_far_map = 0;   // all that stands still, over the whole scene
+const int shadow_near_map = 1;  // what stands or moves near the viewer
+const int shadow_map_count = 2;
 
 struct ShadowMaps {
-  mat4 uvz_from_world[3];
-  vec3 texel_m;  // size of a texel of each map on a plane that faces the sun
+  mat4 uvz_from_world[2];
+  vec2 texel_m;    // size of a texel of each map on a plane that faces the sun
+  float texel_uv;  // and in texture coordinates
 };
 
 GLSL_FUNCTION bool is_inside_map(vec3 uvz, float margin) {

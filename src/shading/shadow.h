@@ -12,8 +12,7 @@ namespace parvis::shading {
 /// The depth of each map as OpenGL gives it back: row 0 is v = 0. Maps of zero size throw no shadow.
 struct SunShadow {
   ShadowMaps maps{};
-  glm::vec3 texel_uv{0.0f};
-  std::array<ImageF, 3> depth;
+  std::array<ImageF, shadow_map_count> depth;
 };
 
 /// 1 where a point is in full sun, 0 in shadow; `normal` is the geometric one, on the viewer's side.

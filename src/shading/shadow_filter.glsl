@@ -1,27 +1,30 @@
 // Is a point in the sun? Needs shading/shadow.glsl, and from the host
 //   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear over four texels.
 
-// 3x3 bilinear comparisons over 2 texels: an edge about as soft as the sun's penumbra under a cornice.
+// A tent over 3x3 texels out of four bilinear comparisons (Castano 2013, Shadow Mapping Summary): an edge about as soft
+// as the sun's penumbra under a cornice.
 GLSL_FUNCTION float filtered_shadow(int map, vec3 uvz, float texel_uv) {
-  float sum = 0.0f;
-  for (int y = -1; y <= 1; ++y)
-    for (int x = -1; x <= 1; ++x)
-      sum += shadow_compare(map, uvz + vec3(float(x) * texel_uv, float(y) * texel_uv, 0.0f));
-  return sum / 9.0f;
+  vec2 texels = vec2(uvz.x, uvz.y) / texel_uv + vec2(0.5f);
+  vec2 corner = floor(texels);
+  vec2 share = texels - corner;
+  vec2 low_weight = vec2(3.0f) - 2.0f * share;
+  vec2 high_weight = vec2(1.0f) + 2.0f * share;
+  vec2 low = (corner - vec2(1.5f) + (vec2(2.0f) - share) / low_weight) * texel_uv;
+  vec2 high = (corner + vec2(0.5f) + share / high_weight) * texel_uv;
+  return (low_weight.x * low_weight.y * shadow_compare(map, vec3(low.x, low.y, uvz.z)) +
+          high_weight.x * low_weight.y * shadow_compare(map, vec3(high.x, low.y, uvz.z)) +
+          low_weight.x * high_weight.y * shadow_compare(map, vec3(low.x, high.y, uvz.z)) +
+          high_weight.x * high_weight.y * shadow_compare(map, vec3(high.x, high.y, uvz.z))) /
+         16.0f;
 }
 
-// 1 in full sun, 0 in shadow. `texel_uv`: size of a texel of each map in texture coordinates.
-GLSL_FUNCTION float sun_visibility(ShadowMaps maps, vec3 texel_uv, vec3 position, vec3 geometric_normal, vec3 to_sun) {
+// 1 in full sun, 0 in shadow. One lookup serves both maps: processors that draw run both sides of a branch.
+GLSL_FUNCTION float sun_visibility(ShadowMaps maps, vec3 position, vec3 geometric_normal, vec3 to_sun) {
   vec3 near_uvz = shadow_coordinates(maps, shadow_near_map, position, geometric_normal, to_sun);
   vec3 far_uvz = shadow_coordinates(maps, shadow_far_map, position, geometric_normal, to_sun);
-  float visibility = 1.0f;
-  if (is_inside_map(near_uvz, 2.0f * texel_uv.y)) {
-    visibility = filtered_shadow(shadow_near_map, near_uvz, texel_uv.y);
-  } else if (is_inside_map(far_uvz, 2.0f * texel_uv.x)) {
-    visibility = filtered_shadow(shadow_far_map, far_uvz, texel_uv.x);
-  }
-  vec3 moving_uvz = shadow_coordinates(maps, shadow_moving_map, position, geometric_normal, to_sun);
-  if (visibility > 0.0f && is_inside_map(moving_uvz, 2.0f * texel_uv.z))
-    visibility = min(visibility, filtered_shadow(shadow_moving_map, moving_uvz, texel_uv.z));
-  return visibility;
+  bool is_near = is_inside_map(near_uvz, 2.0f * maps.texel_uv);
+  bool is_known = is_near || is_inside_map(far_uvz, 2.0f * maps.texel_uv);
+  float visibility = filtered_shadow(is_near ? shadow_near_map : shadow_far_map, is_near ? near_uvz : far_uvz,
+                                     maps.texel_uv);
+  return is_known ? visibility : 1.0f;
 }

@@ -1,0 +1,2 @@
+// Depth of what has no holes.
+void main() {}
