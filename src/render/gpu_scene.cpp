@@ -5,6 +5,8 @@
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
 
+#include "gl/context.h"
+
 namespace parvis::render {
 namespace {
 
@@ -21,7 +23,8 @@ struct MaterialBlock {
   glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
 };
 
-constexpr float anisotropy = 16.0f;
+/// Mesa's processor renderer takes 30 times as long for anisotropic lookups: a frame of seconds.
+float anisotropy() { return gl::is_software() ? 1.0f : 16.0f; }
 
 MaterialBlock block_of(const scene::Material& material) {
   const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
@@ -52,7 +55,7 @@ gl::Texture upload(const scene::Texture& source) {
   glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                       image.pixels.data());
   glGenerateTextureMipmap(texture.name());
-  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, anisotropy);
+  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, anisotropy());
   const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wrap);
