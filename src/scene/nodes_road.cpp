@@ -115,7 +115,8 @@ void build_traffic(const Node& node, SceneBuilder& builder) {
 NodeSchema paving_schema() {
   return {.type = "paving",
           .help =
-              "Shows the scene's roads: asphalt with markings, laid on the ground that is there (so paths "
+              "Shows the scene's roads: asphalt with markings and pavements, laid on the ground that is "
+              "there (so paths "
               "need no "
               "exact heights: within 2.5 m is enough). Not for models that bring their own streets.",
           .example = "paving()",

@@ -35,17 +35,17 @@ TEST(Paving, LiesOnTheGround) {
   ASSERT_EQ(scene.objects.size(), 2u);
   for (const Part& part : scene.objects[1].model->parts) {
     EXPECT_TRUE(check(part.mesh, part.object).ok());
-    for (const glm::vec3& p : part.mesh.positions) EXPECT_NEAR(p.z, 0.1f * p.x + 0.055f, 0.03f);
+    for (const glm::vec3& p : part.mesh.positions) EXPECT_NEAR(p.z, 0.1f * p.x + 0.05f, 0.04f);
     for (const glm::vec3& n : part.mesh.normals) EXPECT_GT(n.z, 0.98f);
   }
   for (const Lane& lane : scene.roads.lanes)
-    for (const glm::vec3& p : lane.points) EXPECT_NEAR(p.z, 0.1f * p.x + 0.05f, 0.03f);
+    for (const glm::vec3& p : lane.points) EXPECT_NEAR(p.z, 0.1f * p.x + 0.06f, 0.03f);
 }
 
 TEST(Paving, HasMarkings) {
   Scene scene = hillside();
   pave(scene);
-  EXPECT_EQ(scene.objects[1].model->parts.size(), 2u);
+  EXPECT_EQ(scene.objects[1].model->parts.size(), 4u);
 }
 
 TEST(Paving, WithoutGroundLanesKeepTheirHeight) {
@@ -53,7 +53,7 @@ TEST(Paving, WithoutGroundLanesKeepTheirHeight) {
   scene.objects.clear();
   const float z = scene.roads.lanes[0].points[0].z;
   pave(scene);
-  EXPECT_NEAR(scene.roads.lanes[0].points[0].z, z + 0.05f, 1e-4f);
+  EXPECT_NEAR(scene.roads.lanes[0].points[0].z, z + 0.06f, 1e-4f);
 }
 
 TEST(Paving, NeedsRoads) {
