@@ -27,8 +27,9 @@ ImageF filtered_along(const ImageF& image, const Kernel& kernel, const Source& s
 }  // namespace
 
 ImageF filtered(const ImageF& image, const Kernel& along_x, const Kernel& along_y) {
-  const ImageF rows = filtered_along(
-      image, along_x, [&](int x, int y, int k) { return image.at(std::clamp(x + k, 0, image.width - 1), y); });
+  const ImageF rows = filtered_along(image, along_x, [&](int x, int y, int k) {
+    return image.at(std::clamp(x + k, 0, image.width - 1), y);
+  });
   return filtered_along(
       rows, along_y, [&](int x, int y, int k) { return rows.at(x, std::clamp(y + k, 0, image.height - 1)); });
 }

@@ -15,21 +15,23 @@ using glm::vec3;
 
 // The constants of the paper, section 4.
 constexpr float pixels_a_degree = 67.0f;
-constexpr float colour_exponent = 0.7f;    // q_c
-constexpr float colour_knee = 0.4f;        // p_c
-constexpr float knee_error = 0.95f;        // p_t
-constexpr float feature_exponent = 0.5f;   // q_f
+constexpr float colour_exponent = 0.7f;      // q_c
+constexpr float colour_knee = 0.4f;          // p_c
+constexpr float knee_error = 0.95f;          // p_t
+constexpr float feature_exponent = 0.5f;     // q_f
 constexpr float feature_width_deg = 0.082f;  // w
 constexpr float pi = 3.14159265f;
 const vec3 white_xyz{0.950428545f, 1.0f, 1.088900371f};
 
 vec3 xyz_from_linear(vec3 c) {
-  return {0.4124564f * c.x + 0.3575761f * c.y + 0.1804375f * c.z, 0.2126729f * c.x + 0.7151522f * c.y + 0.0721750f * c.z,
+  return {0.4124564f * c.x + 0.3575761f * c.y + 0.1804375f * c.z,
+          0.2126729f * c.x + 0.7151522f * c.y + 0.0721750f * c.z,
           0.0193339f * c.x + 0.1191920f * c.y + 0.9503041f * c.z};
 }
 
 vec3 linear_from_xyz(vec3 c) {
-  return {3.2404542f * c.x - 1.5371385f * c.y - 0.4985314f * c.z, -0.9692660f * c.x + 1.8760108f * c.y + 0.0415560f * c.z,
+  return {3.2404542f * c.x - 1.5371385f * c.y - 0.4985314f * c.z,
+          -0.9692660f * c.x + 1.8760108f * c.y + 0.0415560f * c.z,
           0.0556434f * c.x - 0.2040259f * c.y + 1.0572252f * c.z};
 }
 
@@ -78,24 +80,25 @@ ImageF mapped(const ImageF& image, int channels, const Function& function) {
   return result;
 }
 
-/// a1 sqrt(pi/b1) exp(-pi^2 x^2 / b1) + the second such term: table 1 of the paper, as weights of two Gaussians.
+/// a1 sqrt(pi/b1) exp(-pi^2 x^2 / b1) + the second such term: table 1 of the paper, as weights of two
+/// Gaussians.
 struct Sensitivity {
   float a1, b1, a2, b2;
 };
 constexpr Sensitivity achromatic{1.0f, 0.0047f, 0.0f, 1e-5f}, red_green{1.0f, 0.0053f, 0.0f, 1e-5f},
     blue_yellow{34.1f, 0.04f, 13.5f, 0.025f};
 
-int filter_radius() {
-  return int(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_a_degree));
-}
+int filter_radius() { return int(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_a_degree)); }
 
-/// A channel seen from the distance: each term of the sensitivity is a separable Gaussian, and the whole has sum 1.
+/// A channel seen from the distance: each term of the sensitivity is a separable Gaussian, and the whole has
+/// sum 1.
 ImageF seen(const ImageF& channel, const Sensitivity& s) {
   const int radius = filter_radius();
   const auto term = [&](float a, float b, double& sum) {
     const float sigma = std::sqrt(b / (2.0f * pi * pi)) * pixels_a_degree;
     double line = 0.0;
-    for (int x = -radius; x <= radius; ++x) line += std::exp(-double(x * x) / (2.0 * double(sigma) * double(sigma)));
+    for (int x = -radius; x <= radius; ++x)
+      line += std::exp(-double(x * x) / (2.0 * double(sigma) * double(sigma)));
     sum = double(a * std::sqrt(pi / b)) * line * line;  // over the two dimensions of the kernel
     return gaussian(sigma, radius);
   };
@@ -118,9 +121,11 @@ ImageF perceived(const ImageF& linear) {
   const Sensitivity* sensitivities[]{&achromatic, &red_green, &blue_yellow};
   for (int c = 0; c < 3; ++c) {
     ImageF channel(linear.width, linear.height, 1);
-    for (std::size_t i = 0; i < channel.pixels.size(); ++i) channel.pixels[i] = opponent.pixels[3 * i + std::size_t(c)];
+    for (std::size_t i = 0; i < channel.pixels.size(); ++i)
+      channel.pixels[i] = opponent.pixels[3 * i + std::size_t(c)];
     channel = seen(channel, *sensitivities[c]);
-    for (std::size_t i = 0; i < channel.pixels.size(); ++i) blurred.pixels[3 * i + std::size_t(c)] = channel.pixels[i];
+    for (std::size_t i = 0; i < channel.pixels.size(); ++i)
+      blurred.pixels[3 * i + std::size_t(c)] = channel.pixels[i];
   }
   return mapped(blurred, 3, [](vec3 ycxcz) {
     return hunt_adjusted(lab_from_linear(glm::clamp(linear_from_ycxcz(ycxcz), vec3(0.0f), vec3(1.0f))));
@@ -129,8 +134,9 @@ ImageF perceived(const ImageF& linear) {
 
 /// Section 4.1.3: the largest distance, green against blue, maps to 1, with more room for small differences.
 float redistributed(float distance) {
-  static const float most = std::pow(
-      hyab(hunt_adjusted(lab_from_linear({0, 1, 0})), hunt_adjusted(lab_from_linear({0, 0, 1}))), colour_exponent);
+  static const float most =
+      std::pow(hyab(hunt_adjusted(lab_from_linear({0, 1, 0})), hunt_adjusted(lab_from_linear({0, 0, 1}))),
+               colour_exponent);
   const float error = std::pow(distance, colour_exponent), knee = colour_knee * most;
   return error < knee ? knee_error / knee * error
                       : knee_error + (error - knee) / (most - knee) * (1.0f - knee_error);
@@ -152,7 +158,8 @@ ImageF features(const ImageF& luminance, bool is_edge) {
   const Kernel smooth = gaussian(sigma, radius);
   const ImageF dx = filtered(luminance, derivative, smooth), dy = filtered(luminance, smooth, derivative);
   ImageF length(luminance.width, luminance.height, 1);
-  for (std::size_t i = 0; i < length.pixels.size(); ++i) length.pixels[i] = std::hypot(dx.pixels[i], dy.pixels[i]);
+  for (std::size_t i = 0; i < length.pixels.size(); ++i)
+    length.pixels[i] = std::hypot(dx.pixels[i], dy.pixels[i]);
   return length;
 }
 

@@ -1,5 +1,5 @@
-// FLIP: A Difference Evaluator for Alternating Images (Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem, Fairchild,
-// HPG 2020), for low dynamic range.
+// FLIP: A Difference Evaluator for Alternating Images (Andersson, Nilsson, Akenine-Moeller, Oskarsson,
+// Astroem, Fairchild, HPG 2020), for low dynamic range.
 #pragma once
 
 #include "base/image.h"

@@ -67,11 +67,11 @@ double ssim(const Image8& image_a, const Image8& image_b, const Image8& mask) {
 
 Result<Difference> compare(const Image8& test, const Image8& reference, const Image8& mask) {
   if (test.width != reference.width || test.height != reference.height)
-    return error("pictures of {} x {} and {} x {} cannot be compared; render both at one size", test.width, test.height,
-                 reference.width, reference.height);
+    return error("pictures of {} x {} and {} x {} cannot be compared; render both at one size", test.width,
+                 test.height, reference.width, reference.height);
   if (!mask.empty() && (mask.width != test.width || mask.height != test.height))
-    return error("a mask of {} x {} for pictures of {} x {}; both must have one size", mask.width, mask.height, test.width,
-                 test.height);
+    return error("a mask of {} x {} for pictures of {} x {}; both must have one size", mask.width,
+                 mask.height, test.width, test.height);
   Difference difference;
   difference.flip_map = flip(test, reference);
   difference.flip = masked_mean(mask, test.width, test.height,
@@ -92,7 +92,8 @@ Image8 heat_map(const ImageF& flip_map) {
     const std::size_t low = std::min(std::size_t(position), stops.size() - 2);
     const float t = position - float(low);
     for (std::size_t c = 0; c < 3; ++c)
-      picture.pixels[3 * i + c] = std::uint8_t(std::lround((1.0f - t) * stops[low][c] + t * stops[low + 1][c]));
+      picture.pixels[3 * i + c] =
+          std::uint8_t(std::lround((1.0f - t) * stops[low][c] + t * stops[low + 1][c]));
   }
   return picture;
 }

@@ -1,5 +1,5 @@
-// How different two pictures are: FLIP (Andersson et al. 2020, LDR), PSNR and SSIM (Wang et al. 2004), over all pixels or
-// those of a mask.
+// How different two pictures are: FLIP (Andersson et al. 2020, LDR), PSNR and SSIM (Wang et al. 2004), over
+// all pixels or those of a mask.
 #pragma once
 
 #include "base/image.h"
@@ -14,9 +14,10 @@ struct Difference {
   ImageF flip_map;    ///< a channel, of the whole picture
 };
 
-/// Compares two 8-bit sRGB pictures of one size (3 or 4 channels; alpha is passed over). FLIP takes a display of 67 pixels
-/// a degree. `mask` (empty: all pixels) has their size; pixels whose first channel is 128 or more count. The filters run
-/// over the whole pictures, and the means over the masked pixels. A mask without pixels is an error.
+/// Compares two 8-bit sRGB pictures of one size (3 or 4 channels; alpha is passed over). FLIP takes a display
+/// of 67 pixels a degree. `mask` (empty: all pixels) has their size; pixels whose first channel is 128 or
+/// more count. The filters run over the whole pictures, and the means over the masked pixels. A mask without
+/// pixels is an error.
 Result<Difference> compare(const Image8& test, const Image8& reference, const Image8& mask = {});
 
 /// FLIP in false colours, from black over purple and orange to white-yellow.

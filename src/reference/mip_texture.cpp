@@ -42,7 +42,9 @@ MipTexture::MipTexture(const scene::Texture& texture)
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
   const std::uint8_t* p = level.at(x, y);
-  const auto decoded = [&](std::uint8_t value) { return is_srgb_ ? linear_of_byte()[value] : float(value) / 255.0f; };
+  const auto decoded = [&](std::uint8_t value) {
+    return is_srgb_ ? linear_of_byte()[value] : float(value) / 255.0f;
+  };
   return {decoded(p[0]), decoded(p[1]), decoded(p[2]), float(p[3]) / 255.0f};
 }
 

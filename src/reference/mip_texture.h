@@ -12,8 +12,8 @@ class MipTexture {
  public:
   explicit MipTexture(const scene::Texture& texture);
 
-  /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in texels of
-  /// the finest level.
+  /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in
+  /// texels of the finest level.
   glm::vec4 sample(glm::vec2 uv, float texels) const;
   glm::vec2 size() const { return {float(levels_.front().width), float(levels_.front().height)}; }
 

@@ -5,12 +5,15 @@
 namespace parvis::reference {
 namespace {
 
-/// Embree calls these for each candidate hit; geometry belongs to a part, whose first place stands for its material.
+/// Embree calls these for each candidate hit; geometry belongs to a part, whose first place stands for its
+/// material.
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
   const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
-  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0), RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
+  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
+                     RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
                      RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
-  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0), RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_z(arguments->ray, arguments->N, 0));
   const scene::Material& material = *place.material;
   if (!material.is_double_sided && glm::dot(ng, direction) > 0.0f) {
@@ -18,10 +21,11 @@ void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
     return;
   }
   if (material.alpha_mode != scene::Alpha::cutout || material.base_colour_texture == scene::no_index) return;
-  const glm::vec2 uv =
-      texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
-                          RTCHitN_u(arguments->hit, arguments->N, 0), RTCHitN_v(arguments->hit, arguments->N, 0));
-  const float alpha = (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w * material.alpha;
+  const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
+                                           RTCHitN_u(arguments->hit, arguments->N, 0),
+                                           RTCHitN_v(arguments->hit, arguments->N, 0));
+  const float alpha =
+      (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w * material.alpha;
   if (alpha < 0.5f) arguments->valid[0] = 0;
 }
 
@@ -32,7 +36,8 @@ void pass_through(const RTCFilterFunctionNArguments* arguments) { arguments->val
 glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v) {
   const Mesh& mesh = place.part->mesh;
   const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(triangle);
-  const glm::vec2 uv = (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
+  const glm::vec2 uv =
+      (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
   return glm::vec2(place.material->texture_from_mesh_uv * glm::vec3(uv, 1.0f));
 }
 
@@ -78,15 +83,16 @@ RTCScene RayScene::part_scene(const PlacedPart& place) {
   if (!is_new) return entry->second;
   const Mesh& mesh = place.part->mesh;
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                           mesh.positions.size());
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(glm::vec3), mesh.positions.size());
   std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           3 * sizeof(std::uint32_t), mesh.triangle_count());
   std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
   rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
   rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
-  rtcSetGeometryOccludedFilterFunction(geometry, place.part->casts_shadow ? pass_through_holes : pass_through);
+  rtcSetGeometryOccludedFilterFunction(geometry,
+                                       place.part->casts_shadow ? pass_through_holes : pass_through);
   rtcCommitGeometry(geometry);
   entry->second = rtcNewScene(device_);
   rtcAttachGeometry(entry->second, geometry);
@@ -99,8 +105,18 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
-  query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.least_m, ray.direction.x, ray.direction.y, ray.direction.z,
-               0.0f, ray.most_m, ~0u, 0, 0};
+  query.ray = {ray.origin.x,
+               ray.origin.y,
+               ray.origin.z,
+               ray.least_m,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0.0f,
+               ray.most_m,
+               ~0u,
+               0,
+               0};
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(top_, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -110,8 +126,18 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const {
 bool RayScene::is_blocked(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay query{ray.origin.x, ray.origin.y, ray.origin.z, ray.least_m, ray.direction.x, ray.direction.y, ray.direction.z,
-               0.0f, ray.most_m, ~0u, 0, 0};
+  RTCRay query{ray.origin.x,
+               ray.origin.y,
+               ray.origin.z,
+               ray.least_m,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0.0f,
+               ray.most_m,
+               ~0u,
+               0,
+               0};
   rtcOccluded1(top_, &context, &query);
   return query.tfar < 0.0f;
 }

@@ -1,5 +1,5 @@
-// The scene as rays see it: an Embree hierarchy for each part, placed once for each object. Holes of cutout parts and the
-// backs of single-sided ones are passed through, as the renderer draws them.
+// The scene as rays see it: an Embree hierarchy for each part, placed once for each object. Holes of cutout
+// parts and the backs of single-sided ones are passed through, as the renderer draws them.
 #pragma once
 
 #include <embree3/rtcore.h>

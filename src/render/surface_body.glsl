@@ -42,12 +42,12 @@ void main() {
   vec4 base = texture(base_colour_texture, texture_uv);
   base = vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
   bool is_cutout = material_texture_v.w > 0.5f;
-#ifdef COVERAGE_BY_DISCARD
-  if (is_cutout && base.a < 0.5f) discard;
-#else
-  // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away.
-  if (is_cutout) base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
-#endif
+  // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away. A map with
+  // one sample a pixel has no coverage: there holes are discarded.
+  if (is_cutout) {
+    if (frame_size.w < 1.5f && base.a < 0.5f) discard;
+    base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
+  }
 
   vec3 to_viewer = viewer_position.xyz - position;
   float distance_m = length(to_viewer);

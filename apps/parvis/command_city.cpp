@@ -1,0 +1,46 @@
+// parvis city: procedural places.
+#include "city/paper_city.h"
+#include "commands.h"
+
+namespace parvis {
+namespace {
+
+struct Arguments {
+  std::string name;
+  std::filesystem::path folder;
+  std::uint64_t seed = 1;
+};
+
+Status write_city(const Arguments& arguments) {
+  if (Status status = city::write_paper_city(arguments.folder, arguments.seed); !status) return status;
+  fmt::print("{} is written; see it with: parvis view {}\n", arguments.name,
+             (arguments.folder / (arguments.name + ".xp")).string());
+  return Done{};
+}
+
+}  // namespace
+
+void add_city(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("city", "Writes a procedural place: script, models, pictures");
+  const auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option("name", arguments->name,
+                   "paper: the city of Meyer and Loscos 2003, 1 km2, 500,000 triangles")
+      ->required()
+      ->check(CLI::IsMember({"paper"}));
+  command->add_option("-o,--output", arguments->folder, "The folder to write")->required();
+  command->add_option("--seed", arguments->seed, "Another seed gives another city")->capture_default_str();
+  command->footer("Example: parvis city paper -o out/paper");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return write_city(*arguments); }; });
+}
+
+void add_view(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("view", "Opens a window");
+  command->callback([&chosen] { chosen = []() -> Status { return error("not built yet"); }; });
+}
+void add_bench(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("bench", "bench");
+  command->callback([&chosen] { chosen = []() -> Status { return error("not built yet"); }; });
+}
+
+}  // namespace parvis

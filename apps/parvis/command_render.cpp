@@ -1,0 +1,91 @@
+// parvis render: a picture or a film of a scene.
+#include <cmath>
+
+#include "base/image_io.h"
+#include "base/progress.h"
+#include "commands.h"
+#include "scene_arguments.h"
+#include "stage/film.h"
+
+namespace parvis {
+namespace {
+
+struct Arguments : SceneArguments {
+  std::filesystem::path output = "picture.png";
+  double seconds = 0.0;
+  int frames_per_second = 24;
+  int supersample = 1;
+};
+
+/// Means of n x n pixels, in linear light before tone mapping would be dearer; here of the displayed picture.
+Image8 reduced(const Image8& picture, int n) {
+  Image8 small(picture.width / n, picture.height / n, picture.channels);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      for (int c = 0; c < picture.channels; ++c) {
+        int sum = 0;
+        for (int dy = 0; dy < n; ++dy)
+          for (int dx = 0; dx < n; ++dx) sum += picture.at(n * x + dx, n * y + dy)[c];
+        small.at(x, y)[c] = std::uint8_t((sum + n * n / 2) / (n * n));
+      }
+  return small;
+}
+
+Result<Image8> draw(stage::Stage& stage, const Arguments& arguments, int width, int height) {
+  const Result<Camera> camera = stage.camera(arguments.camera);
+  if (!camera) return camera.errors();
+  const int n = arguments.supersample;
+  stage.draw(*camera, n * width, n * height);
+  return n == 1 ? stage.picture() : reduced(stage.picture(), n);
+}
+
+Status render_film(stage::Stage& stage, const Arguments& arguments, int width, int height) {
+  Result<stage::Film> film = stage::Film::open(arguments.output, width, height, arguments.frames_per_second);
+  if (!film) return film.errors();
+  const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
+  Progress progress("rendering film", std::size_t(frames));
+  for (int frame = 0; frame < frames; ++frame) {
+    const Result<Image8> picture = draw(stage, arguments, width, height);
+    if (!picture) return picture.errors();
+    if (Status status = film->add(*picture); !status) return status;
+    stage.play().advance(1.0 / arguments.frames_per_second);
+    progress.advance();
+  }
+  return film->finish();
+}
+
+Status render_scene(const Arguments& arguments) {
+  int width = 0, height = 0;
+  if (Status status = arguments.read_size(width, height); !status) return status;
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
+  if (!stage) return stage.errors();
+  if (arguments.seconds > 0.0) return render_film(**stage, arguments, width, height);
+  const Result<Image8> picture = draw(**stage, arguments, width, height);
+  if (!picture) return picture.errors();
+  return write_image(arguments.output, *picture);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("render", "A picture of a scene, or a film of it");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->add_scene(*command);
+  arguments->add_picture(*command);
+  command->add_option("-o,--output", arguments->output, "The picture (.png, .jpg) or film (.mp4)")
+      ->capture_default_str();
+  command->add_option("--seconds", arguments->seconds, "Length of a film; 0: a picture")
+      ->check(CLI::Range(0.0, 86400.0));
+  command->add_option("--fps", arguments->frames_per_second, "Frames a second of a film")
+      ->check(CLI::Range(1, 240))
+      ->capture_default_str();
+  command->add_option("--supersample", arguments->supersample, "Draw n x n as many pixels and average them")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command->footer("Example: parvis render out/paper/paper.xp --camera drive --seconds 10 -o out/drive.mp4");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return render_scene(*arguments); }; });
+}
+
+}  // namespace parvis

@@ -1,0 +1,25 @@
+// The subcommands. Each adds itself to the command line and, when the user names it, leaves what is to be
+// done.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "base/result.h"
+
+namespace parvis {
+
+using Chosen = std::function<Status()>;
+
+void add_view(CLI::App& app, Chosen& chosen);
+void add_render(CLI::App& app, Chosen& chosen);
+void add_reference(CLI::App& app, Chosen& chosen);
+void add_compare(CLI::App& app, Chosen& chosen);
+void add_check(CLI::App& app, Chosen& chosen);
+void add_city(CLI::App& app, Chosen& chosen);
+void add_bench(CLI::App& app, Chosen& chosen);
+
+inline constexpr void (*command_table[])(CLI::App&, Chosen&) = {
+    add_view, add_render, add_reference, add_compare, add_check, add_city, add_bench};
+
+}  // namespace parvis

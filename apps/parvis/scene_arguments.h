@@ -1,0 +1,61 @@
+// The arguments that every command on a scene has.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "stage/stage.h"
+
+namespace parvis {
+
+struct SceneArguments {
+  std::filesystem::path scene;
+  std::vector<std::filesystem::path> data;
+  std::string camera;
+  std::string size = "1280x720";
+  double time_s = 0.0;
+  std::string method;
+
+  /// SCENE and --data.
+  void add_scene(CLI::App& command) {
+    command.add_option("scene", scene, "The scene's script (.xp)")->required();
+    command.add_option("--data", data, "A further folder that the scene may read from");
+  }
+  /// --camera, --size, --time and --reflection.
+  void add_picture(CLI::App& command) {
+    command.add_option("--camera", camera, "Name of the camera (default: the scene's first)");
+    command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
+    command.add_option("--time", time_s, "Seconds that traffic has driven before")
+        ->check(CLI::Range(0.0, 86400.0));
+    command.add_option("--reflection", method, "Method of reflection in place of the scene's own");
+  }
+
+  /// Width and height out of "1280x720".
+  Status read_size(int& width, int& height) const {
+    char x = 0, rest = 0;
+    if (std::sscanf(size.c_str(), "%d%c%d%c", &width, &x, &height, &rest) != 3 || x != 'x' || width < 1 ||
+        height < 1 || width > 16384 || height > 16384)
+      return error("--size {}: expected width x height in pixels, as 1280x720, each up to 16384", size);
+    return Done{};
+  }
+
+  /// The scene on its stage at the time given; needs a current context.
+  Result<std::unique_ptr<stage::Stage>> open_stage() const {
+    Result<stage::Play> play = stage::open_play(scene, data);
+    if (!play) return play.errors();
+    if (!method.empty()) {
+      const auto& names = scene::reflection_method_names;
+      const auto found = std::find(names.begin(), names.end(), method);
+      if (found == names.end())
+        return error("--reflection {}: expected one of {}", method, fmt::join(names, ", "));
+      play->scene.reflection.method = scene::ReflectionMethod(found - names.begin());
+    }
+    play->advance(time_s);
+    return stage::Stage::create(*std::move(play));
+  }
+};
+
+}  // namespace parvis

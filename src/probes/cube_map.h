@@ -1,0 +1,36 @@
+// A cube map of the surroundings of a point: six views drawn by the renderer, and mipmaps for glossy
+// reflections.
+#pragma once
+
+#include "gl/objects.h"
+#include "render/renderer.h"
+
+namespace parvis::probes {
+
+class CubeMap {
+ public:
+  explicit CubeMap(int resolution);
+
+  /// Draws one face (0..5 in OpenGL's order), seen from `centre`, without the object `excluded` (-1: all).
+  void draw_face(render::Renderer& renderer, int face, glm::vec3 centre, int excluded,
+                 render::Subjects subjects = render::Subjects::all);
+  /// To be called when faces have changed.
+  void update_levels();
+
+  /// The points in the world that the face drawn last shows, sky left out. Reads back: for baking, not for
+  /// frames.
+  void read_points(int face, glm::vec3 centre, std::vector<glm::vec3>& points) const;
+
+  int resolution() const { return resolution_; }
+  GLuint texture() const { return texture_.name(); }
+
+ private:
+  int resolution_;
+  gl::Texture texture_, depth_;
+  gl::Framebuffer framebuffer_;
+};
+
+/// The view of a face from `centre`.
+render::View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer);
+
+}  // namespace parvis::probes

@@ -1,0 +1,91 @@
+// The methods themselves, each named as scripts name it.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+
+#include "probes/reflections.h"
+
+namespace parvis::probes {
+
+/// The paper's "no reflection": shading by the lights alone.
+class NoReflection final : public Reflections {
+ public:
+  std::string fragment_shader() const override { return "probes/no_reflection.frag"; }
+  void bind(const gl::Program&, int) override {}
+
+ private:
+  void update_maps(render::Renderer&, const std::vector<Reflector>&) override {}
+};
+
+/// A map for each reflector, drawn anew every frame. With level of detail its resolution follows the
+/// reflector's size on the screen, and those that are far share one map.
+class RerenderedCubeMap final : public Reflections {
+ public:
+  explicit RerenderedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
+  void bind(const gl::Program& program, int object) override;
+
+ private:
+  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  CubeMap& take(int resolution);
+
+  scene::Reflection settings_;
+  std::multimap<int, std::unique_ptr<CubeMap>> free_, used_;  ///< by resolution
+  std::map<int, const CubeMap*> map_of_object_;
+};
+
+/// A map for each reflector, of which a few faces are drawn a frame, in turn.
+class TimeSlicedCubeMap final : public Reflections {
+ public:
+  explicit TimeSlicedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
+  void bind(const gl::Program& program, int object) override;
+
+ private:
+  struct Sliced {
+    CubeMap map;
+    int next_face = 0;
+    int idle_frames = 0;
+  };
+  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+
+  scene::Reflection settings_;
+  std::map<int, Sliced> maps_;  ///< by object
+};
+
+/// One map for all reflectors, drawn every frame about the one that is largest on the screen.
+class SharedCubeMap final : public Reflections {
+ public:
+  explicit SharedCubeMap(const scene::Reflection& reflection) : map_(reflection.resolution) {}
+  void bind(const gl::Program& program, int) override { bind_map(program, map_); }
+
+ private:
+  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+
+  CubeMap map_;
+};
+
+/// Maps at fixed places along the roads, drawn once without what moves, each looked up as the inside of a box
+/// fitted to the street around it.
+class BoxProjectedProbe final : public Reflections {
+ public:
+  explicit BoxProjectedProbe(const scene::Scene& scene);
+  void bind(const gl::Program& program, int object) override;
+
+ private:
+  struct Probe {
+    glm::vec3 position;
+    glm::vec2 heading;  ///< cosine and sine of the street's direction
+    std::optional<CubeMap> map;
+    glm::vec3 box_centre{0.0f}, box_half_size{0.0f};
+    int idle_frames = 0;
+  };
+  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  void bake(Probe& probe, render::Renderer& renderer);
+
+  int resolution_;
+  std::deque<Probe> probes_;  ///< places stay when one is added
+  std::map<int, const Probe*> probe_of_object_;
+};
+
+}  // namespace parvis::probes

@@ -1,0 +1,9 @@
+#include "probes/methods.h"
+
+namespace parvis::probes {
+
+void SharedCubeMap::update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) {
+  if (!reflectors.empty()) draw_whole(map_, renderer, reflectors.front().centre, reflectors.front().object);
+}
+
+}  // namespace parvis::probes

@@ -1,0 +1,104 @@
+#include "stage/stage.h"
+
+#include <cmath>
+
+namespace parvis::stage {
+namespace {
+
+constexpr float followed_height_m = 0.8f;  // where the eye rests on a vehicle
+
+/// From a little above the south-west, so far that all of the scene is seen.
+Camera view_of_all(const Bounds& bounds) {
+  Camera camera;
+  const float distance_m = std::max(1.3f * bounds.radius(), 2.0f);
+  const glm::vec3 eye = bounds.centre() + distance_m * glm::normalize(glm::vec3(-1.0f, -1.2f, 0.8f));
+  camera.world_from_camera = look_at(eye, bounds.centre());
+  camera.far_m = std::max(camera.far_m, 4.0f * distance_m);
+  return camera;
+}
+
+Camera following(const scene::NamedCamera& named, const glm::mat4& world_from_object) {
+  const glm::vec3 position(world_from_object[3]);
+  const glm::vec2 ahead = glm::normalize(glm::vec2(world_from_object[0]));
+  const glm::vec3 forward(ahead, 0.0f), left(-ahead.y, ahead.x, 0.0f), up(0.0f, 0.0f, 1.0f);
+  const glm::vec3 eye =
+      position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;
+  Camera camera = named.camera;
+  camera.world_from_camera = look_at(eye, position + followed_height_m * up);
+  return camera;
+}
+
+}  // namespace
+
+scene::NodeRegistry node_registry() { return scene::core_nodes(); }
+
+void Play::advance(double seconds) {
+  traffic.step(float(seconds));
+  traffic.place(scene);
+}
+
+Result<Play> open_play(const std::filesystem::path& script,
+                       std::span<const std::filesystem::path> data_folders) {
+  Result<scene::LoadedScene> loaded = scene::load_scene(script, node_registry(), data_folders);
+  if (!loaded) return loaded.errors();
+  for (const Error& warning : loaded->warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
+  traffic::Traffic traffic(loaded->scene);
+  Play play{std::move(loaded->scene), std::move(traffic)};
+  for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  play.traffic.add_vehicles(play.scene);
+  return play;
+}
+
+Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
+    : play_(std::move(play)), renderer_(std::move(renderer)) {}
+
+Result<std::unique_ptr<Stage>> Stage::create(Play play) {
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(play.scene);
+  if (!renderer) return renderer.errors();
+  std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
+  if (Status status = stage->set_reflection(stage->scene().reflection); !status) return status.errors();
+  return stage;
+}
+
+Status Stage::set_reflection(const scene::Reflection& reflection) {
+  play_.scene.reflection = reflection;
+  Result<std::unique_ptr<probes::Reflections>> made = probes::Reflections::create(play_.scene, *renderer_);
+  if (!made) return made.errors();
+  reflections_ = *std::move(made);
+  return Done{};
+}
+
+Result<Camera> Stage::camera(const std::string& name) const {
+  const scene::Scene& scene = play_.scene;
+  if (name.empty() && scene.cameras.empty()) return view_of_all(renderer_->gpu().fixed_bounds());
+  const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
+  if (!named) {
+    std::string names;
+    for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
+    return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
+  }
+  if (named->follows.empty()) return named->camera;
+  for (const scene::Object& object : scene.objects)
+    if (object.name == named->follows) return following(*named, object.world_from_model);
+  return error("camera \"{}\" follows \"{}\", which is not in the scene", named->name, named->follows);
+}
+
+void Stage::draw(const Camera& camera, int width, int height) {
+  renderer_->begin_frame(play_.scene, camera);
+  renderer_->prepare_main_view(camera, width, height);
+  reflections_->update(*renderer_, play_.scene, camera);
+  renderer_->draw_main_view();
+}
+
+reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel) {
+  renderer_->begin_frame(play_.scene, camera);
+  const shading::SunShadow shadow = renderer_->sun_shadow();
+  reference::TraceOptions options;
+  options.samples_a_pixel = samples_a_pixel;
+  options.shadow = &shadow;
+  options.sky_visibility = &renderer_->sky_visibility();
+  const reference::RayScene rays(play_.scene);
+  return reference::trace_picture(rays, play_.scene, renderer_->sky(), camera, width, height, options);
+}
+
+}  // namespace parvis::stage

@@ -1,0 +1,66 @@
+// A scene in motion: script, traffic, renderer and reflections put together. What every command that shows
+// something uses.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "probes/reflections.h"
+#include "reference/tracer.h"
+#include "render/renderer.h"
+#include "scene/scene_loader.h"
+#include "traffic/traffic.h"
+
+namespace parvis::stage {
+
+/// The types of nodes that scripts may use: those of all rooms.
+scene::NodeRegistry node_registry();
+
+/// Reads a script, and puts its traffic on the roads. Warnings are told on standard error.
+struct Play {
+  scene::Scene scene;
+  traffic::Traffic traffic;
+
+  /// Lets `seconds` pass.
+  void advance(double seconds);
+};
+Result<Play> open_play(const std::filesystem::path& script,
+                       std::span<const std::filesystem::path> data_folders);
+
+/// Draws a play with an OpenGL context that is current.
+class Stage {
+ public:
+  static Result<std::unique_ptr<Stage>> create(Play play);
+  Stage(const Stage&) = delete;
+
+  Play& play() { return play_; }
+  const scene::Scene& scene() const { return play_.scene; }
+  render::Renderer& renderer() { return *renderer_; }
+  const probes::Reflections& reflections() const { return *reflections_; }
+
+  /// Changes the method of reflection.
+  Status set_reflection(const scene::Reflection& reflection);
+
+  /// The camera of that name where it is now (it may follow an object); an unnamed one: the first of the
+  /// scene, or a view of the whole where the scene has none. Errors name the cameras that there are.
+  Result<Camera> camera(const std::string& name) const;
+
+  /// Draws the frame of now: shadows, reflections, picture.
+  void draw(const Camera& camera, int width, int height);
+  /// What was drawn last, tone-mapped with the scene's exposure.
+  Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
+  /// The same by the ray tracer, with the renderer's own shadow maps.
+  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_a_pixel);
+
+ private:
+  Stage(Play play, std::unique_ptr<render::Renderer> renderer);
+
+  Play play_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<probes::Reflections> reflections_;
+};
+
+}  // namespace parvis::stage
