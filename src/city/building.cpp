@@ -237,7 +237,8 @@ Building plan_building(const Plot& plot, const Building* neighbour, float distan
   b.upper_floors = std::min(b.upper_floors, 5);
   b.ground_m = random.uniform(4.2f, 4.8f), b.floor_m = random.uniform(3.2f, 3.55f);
   b.has_shops = random.chance(plot.is_corner ? 0.95f : is_central ? 0.72f : 0.4f);
-  b.shop_strip = random.index(shop_strips);
+  b.shop_strip = neighbour ? (neighbour->shop_strip + 1 + random.index(shop_strips - 1)) % shop_strips
+                           : random.index(shop_strips);
   b.module_offset = random.index(shop_modules), b.bay_offset = random.index(facade_bays);
   b.roof = plot.is_corner ? Roof::mansard : choose_roof(random);
   b.cornice_m = random.uniform(0.4f, 0.65f), b.overhang_m = random.uniform(0.4f, 0.6f);

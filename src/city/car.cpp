@@ -123,7 +123,7 @@ void add_plates(scene::Model& model, const CarShape& shape, const Bounds& box) {
 }
 
 void add_shadow(scene::Model& model, const Bounds& box) {
-  const float wider = 0.35f, z = 0.012f;
+  const float wider = 0.2f, z = 0.012f;
   const glm::vec3 size = box.size() + 2.0f * wider;
   add_part(model, "contact_shadow",
            rectangle({box.min.x - wider, box.min.y - wider, z}, {size.x, 0, 0}, {0, size.y, 0}), shadow);

@@ -143,9 +143,11 @@ CarShape van_shape() {
 CarShape bus_shape() {
   CarShape car;
   car.name = "bus";
+  // A small city bus: a long one would need both lanes of these streets to turn.
+  constexpr float shortened = 0.74f;
   const auto section = [](float x, float top_inset, float half, float top_half) {
     BodySection s;
-    s.x = s.x_belt = x, s.x_top = x - top_inset;
+    s.x = s.x_belt = shortened * x, s.x_top = s.x - top_inset;
     s.half_width = half, s.half_belt = half, s.half_top = top_half;
     s.sill = 0.28f, s.shoulder = 0.9f, s.belt = 1.2f, s.edge = 2.98f, s.top = 3.08f;
     return s;
@@ -168,9 +170,9 @@ CarShape bus_shape() {
     add_gap(car.regions, u, 0.8f, 5.9f);
     add_gap(car.regions, u + 0.9f, 0.8f, 5.9f);
   }
-  car.front_axle_x = 3.1f, car.rear_axle_x = -2.7f;
+  car.front_axle_x = 2.35f, car.rear_axle_x = -2.1f;
   car.wheel_radius = 0.48f, car.arch_radius = 0.56f, car.half_track = 1.08f, car.wheel_width = 0.28f;
-  car.mirror = {5.62f, 1.36f, 2.2f}, car.mirror_radii = {0.07f, 0.1f, 0.2f};
+  car.mirror = {4.12f, 1.36f, 2.2f}, car.mirror_radii = {0.07f, 0.1f, 0.2f};
   car.plate_height = 0.55f;
   return car;
 }

@@ -103,7 +103,7 @@ SurfacePictures road_pictures(float carriageway_m, bool has_parking, std::uint32
   const int across_px = has_parking ? 1024 : 512;
   SurfaceCanvas canvas(across_px, 2 * across_px, carriageway_m, road_sheet_length_m);
   Random random(seed);
-  const float middle = 0.5f * carriageway_m, lane_m = has_parking ? 3.3f : middle - 0.4f;
+  const float middle = 0.5f * carriageway_m, lane_m = has_parking ? 3.5f : middle - 0.3f;
   paint_asphalt(canvas, seed);
   paint_patch(canvas, {middle + 0.6f, 3.0f, middle + 2.1f, 8.2f}, 0.72f);
   paint_patch(canvas, {middle - 2.9f, 14.0f, middle - 1.7f, 15.6f}, 1.22f);

@@ -40,13 +40,13 @@ SurfacePictures leaf_pictures(glm::vec3 colour, std::uint32_t seed) {
   SurfaceCanvas canvas(512, 512, 1.0f, 1.0f, nothing);
   Texel twig = matt(glm::vec3(0.09f, 0.07f, 0.04f), 0.0f);
   canvas.fill({0.492f, 0.0f, 0.508f, 0.75f}, twig);
-  for (int i = 0; i < 13; ++i) {  // in turn to both sides, one at the tip
-    const float up = 0.06f + 0.6f * float(i) / 12.0f, side = i == 12 ? 0.0f : i % 2 == 0 ? 1.0f : -1.0f;
+  for (int i = 0; i < 17; ++i) {  // in turn to both sides, one at the tip
+    const float up = 0.06f + 0.6f * float(i) / 16.0f, side = i == 16 ? 0.0f : i % 2 == 0 ? 1.0f : -1.0f;
     const float heading =
         side * random.uniform(0.7f, 1.35f) * (1.1f - 0.5f * up) + random.uniform(-0.15f, 0.15f);
     const glm::vec3 own =
         colour * random.uniform(0.75f, 1.2f) * glm::vec3(random.uniform(0.9f, 1.15f), 1.0f, 0.9f);
-    paint_leaf(canvas, {0.5f, up}, heading, random.uniform(0.3f, 0.38f), own);
+    paint_leaf(canvas, {0.5f, up}, heading, random.uniform(0.34f, 0.44f), own);
   }
   return canvas.pictures(2, 4);
 }

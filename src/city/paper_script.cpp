@@ -38,8 +38,9 @@ std::string roads(const StreetPlan& plan) {
     const float s = city_half_m, o = road.offset_m;
     const std::string path = road.runs_north ? fmt::format("{:.1f} {:.1f} 0, {:.1f} {:.1f} 0", o, -s, o, s)
                                              : fmt::format("{:.1f} {:.1f} 0, {:.1f} {:.1f} 0", -s, o, s, o);
-    text += fmt::format("road(name=\"road {}\", path=\"{}\", lanes=1, lane_width=3.3, speed_km_h={})\n",
-                        ++number, path, road.profile.has_parking ? 50 : 40);
+    const bool is_wide = road.profile.has_parking;
+    text += fmt::format("road(name=\"road {}\", path=\"{}\", lanes=1, lane_width={}, speed_km_h={})\n",
+                        ++number, path, is_wide ? 3.5 : 3.9, is_wide ? 50 : 40);
   }
   return text + "\n";
 }
@@ -64,7 +65,7 @@ std::string cameras() {
          camera("crossing", at(9.3f, -13.5f, 1.6f), at(-18.0f, 15.0f, 1.6f), 65) +
          camera("avenue", at(-7.2f, 17.0f, 1.6f), at(2.0f, 80.0f, 1.6f), 60) +
          camera("park", at(14.0f, -70.0f, 1.75f), at(45.0f, -20.0f, 1.75f), 65) +
-         camera("balcony", at(-8.0f, 25.0f, 12.0f), at(8.0f, -50.0f, 7.0f), 65) +
+         camera("balcony", at(-7.7f, 27.0f, 12.0f), at(14.0f, -30.0f, 5.5f), 65) +
          camera("roofs", at(-150.0f, -190.0f, 95.0f), at(20.0f, -10.0f, 0.0f), 55) +
          camera("plan", at(0.0f, 0.0f, 320.0f), at(0.0f, 0.0f, 0.0f), 60) +
          "camera(name=\"follow\", follows=\"vehicle 1\", offset=\"-6.5 -2.6 1.7\", fov_deg=65)\n";

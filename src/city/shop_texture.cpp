@@ -51,8 +51,8 @@ void paint_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Ran
     if (shelf + 0.4f > glass.y1) break;
     for (float x = glass.x0 + 0.1f; x < glass.x1 - 0.25f;) {
       const float width = random.uniform(0.12f, 0.4f), height = random.uniform(0.12f, 0.42f);
-      const glm::vec3 thing =
-          glm::mix(tint, glm::vec3(random.uniform(), random.uniform(), random.uniform()), 0.6f);
+      const float green = random.uniform(0.7f, 1.0f), blue = green * random.uniform(0.5f, 0.95f);
+      const glm::vec3 thing = glm::mix(glm::vec3(1.0f, green, blue), tint, random.uniform(0.0f, 0.6f));
       if (random.chance(0.8f))
         canvas.fill({x, shelf, std::min(x + width, glass.x1), shelf + height},
                     matt(thing * random.uniform(0.06f, 0.28f), -0.12f, 0.05f));
