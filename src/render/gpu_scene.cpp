@@ -23,9 +23,6 @@ struct MaterialBlock {
   glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
 };
 
-/// Mesa's processor renderer takes 30 times as long for anisotropic lookups: a frame of seconds.
-float anisotropy() { return gl::is_software() ? 1.0f : 16.0f; }
-
 MaterialBlock block_of(const scene::Material& material) {
   const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
   return {glm::vec4(material.base_colour, material.alpha),
@@ -55,14 +52,29 @@ gl::Texture upload(const scene::Texture& source) {
   glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                       image.pixels.data());
   glGenerateTextureMipmap(texture.name());
-  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, anisotropy());
+  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, has_fast_anisotropy() ? 16.0f : 1.0f);
   const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wrap);
   return texture;
 }
 
+std::uint8_t features_of(const scene::Material& material) {
+  std::uint8_t features = 0;
+  if (material.normal_texture != scene::no_index) features |= surface_has_normal_map;
+  if (material.surface_texture != scene::no_index) features |= surface_has_surface_map;
+  if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
+  if (material.clear_coat > 0.0f) features |= surface_has_coat;
+  if (material.alpha_mode == scene::Alpha::cutout) features |= surface_has_holes;
+  return features;
+}
+
 }  // namespace
+
+bool has_fast_anisotropy() {
+  static const bool is_fast = !gl::is_software();
+  return is_fast;
+}
 
 GpuScene::GpuScene(const scene::Scene& scene) {
   white_ = plain_texture({255, 255, 255, 255});
@@ -113,10 +125,11 @@ void GpuScene::upload_model_materials(const scene::Model& model) {
     return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
   };
   for (const scene::Material& material : model.materials) {
-    materials_.push_back(
-        {texture_or(material.base_colour_texture, white_), texture_or(material.normal_texture, flat_normal_),
-         texture_or(material.surface_texture, white_), texture_or(material.emission_texture, white_),
-         pass_of(material.alpha_mode), material.is_double_sided, material.is_mirror_like});
+    materials_.push_back({texture_or(material.base_colour_texture, white_),
+                          texture_or(material.normal_texture, flat_normal_),
+                          texture_or(material.surface_texture, white_),
+                          texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
+                          material.is_double_sided, material.is_mirror_like, features_of(material)});
     const MaterialBlock block = block_of(material);
     const std::size_t offset = material_bytes_.size();
     material_bytes_.resize(offset + std::size_t(block_stride_));

@@ -23,10 +23,25 @@ struct PartRange {
   bool casts_shadow;
 };
 
+/// What the surface shader must look up for a material.
+enum SurfaceFeature : std::uint8_t {
+  surface_has_normal_map = 1,
+  surface_has_surface_map = 2,
+  surface_has_emission_map = 4,
+  surface_has_coat = 8,
+  surface_has_holes = 16
+};
+inline constexpr std::size_t surface_feature_combinations = 32;
+
+/// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
+/// it.
+bool has_fast_anisotropy();
+
 struct GpuMaterial {
   GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
   Pass pass;
   bool is_double_sided, is_mirror_like;
+  std::uint8_t features;  ///< of SurfaceFeature
 };
 
 /// One part of one object. `record` is what the vertex shader reads for it.

@@ -3,8 +3,6 @@
 namespace parvis::render {
 namespace {
 
-constexpr int samples_a_pixel = 4;
-
 gl::Texture multisampled_texture(GLenum format, int width, int height) {
   gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D_MULTISAMPLE));
   glTextureStorage2DMultisample(texture.name(), samples_a_pixel, format, width, height, GL_TRUE);

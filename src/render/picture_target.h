@@ -9,6 +9,8 @@
 
 namespace parvis::render {
 
+inline constexpr int samples_a_pixel = 4;
+
 class PictureTarget {
  public:
   static Result<PictureTarget> create();

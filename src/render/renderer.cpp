@@ -57,7 +57,7 @@ void Renderer::bind_frame(const View& view) {
   for (int i = 0; i < 2; ++i) block.uvz_from_world[i] = maps.uvz_from_world[i];
   block.shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
   block.size = {float(view.width), float(view.height), float(sky.levels.size()),
-                view.kind == ViewKind::main ? 4.0f : 1.0f};
+                view.kind == ViewKind::main ? float(samples_a_pixel) : 1.0f};
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
   block.visibility_size = glm::vec4(grid.size_m, 0.0f);

@@ -36,7 +36,11 @@ bool shows(Subjects subjects, bool is_moving) {
 }  // namespace
 
 Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
+  GpuScene gpu(scene);
   Programs programs;
+  Result<SurfacePrograms> surface = SurfacePrograms::create("render/surface.frag", gpu.materials());
+  if (!surface) return surface.errors();
+  programs.surface = *std::move(surface);
   const auto make = [](const char* vertex, const char* fragment, gl::Program& program) -> Status {
     Result<gl::Program> made = gl::Program::create(vertex, fragment);
     if (!made) return made.errors();
@@ -44,16 +48,15 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
     assign_bindings(program);
     return Done{};
   };
-  for (const Status& status : {make("render/surface.vert", "render/surface.frag", programs.surface),
-                               make("render/depth.vert", "render/depth.frag", programs.depth),
+  for (const Status& status : {make("render/depth.vert", "render/depth.frag", programs.depth),
                                make("render/depth.vert", "render/solid_depth.frag", programs.solid_depth),
                                make("render/depth.vert", "render/picking.frag", programs.picking)})
     if (!status) return status.errors();
-  return SceneDrawable(scene, std::move(programs));
+  return SceneDrawable(scene, std::move(gpu), std::move(programs));
 }
 
-SceneDrawable::SceneDrawable(const scene::Scene& scene, Programs programs)
-    : gpu_(scene), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
+SceneDrawable::SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs)
+    : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
   for_each_fixed_opaque_part(scene, [this](const Mesh& mesh, const glm::mat4& world_from_mesh) {
     occlusion_.add_occluder(mesh, world_from_mesh);
   });
@@ -62,10 +65,13 @@ SceneDrawable::SceneDrawable(const scene::Scene& scene, Programs programs)
 Status SceneDrawable::set_reflection(ReflectionSource* source) {
   reflection_ = nullptr;
   if (!source) return Done{};
-  Result<gl::Program> program = gl::Program::create("render/surface.vert", source->fragment_shader());
-  if (!program) return program.errors();
-  programs_.mirror = *std::move(program);
-  assign_bindings(programs_.mirror);
+  std::vector<GpuMaterial> mirrors;
+  for (const Item& item : gpu_.items())
+    if (item.is_mirror)
+      mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
+  Result<SurfacePrograms> programs = SurfacePrograms::create(source->fragment_shader(), mirrors);
+  if (!programs) return programs.errors();
+  programs_.mirror = *std::move(programs);
   reflection_ = source;
   return Done{};
 }
@@ -173,6 +179,13 @@ void SceneDrawable::draw_depth(const ViewList& list) const {
   }
 }
 
+const gl::Program& SceneDrawable::program_for(const View& view, const Batch& batch) const {
+  if (view.kind == ViewKind::shadow) return programs_.depth;
+  if (view.kind == ViewKind::picking) return programs_.picking;
+  const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
+  return programs.of(gpu_.materials()[std::size_t(batch.material)]);
+}
+
 void SceneDrawable::draw(const View& view, Pass pass) {
   const ViewList& list = list_of(view);
   if (list.batches[std::size_t(pass)].empty()) return;
@@ -182,16 +195,12 @@ void SceneDrawable::draw(const View& view, Pass pass) {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
   if (view.kind == ViewKind::shadow && pass == Pass::opaque) return draw_depth(list);
 
-  const gl::Program& plain = view.kind == ViewKind::shadow    ? programs_.depth
-                             : view.kind == ViewKind::picking ? programs_.picking
-                                                              : programs_.surface;
   const gl::Program* current = nullptr;
   for (const Batch& batch : list.batches[std::size_t(pass)]) {
-    const bool is_mirror = batch.mirror_object >= 0;
-    const gl::Program& program = is_mirror ? programs_.mirror : plain;
+    const gl::Program& program = program_for(view, batch);
     if (current != &program) program.use();
     current = &program;
-    if (is_mirror) reflection_->bind(program, batch.mirror_object);
+    if (batch.mirror_object >= 0) reflection_->bind(program, batch.mirror_object);
     gpu_.bind_material(batch.material);
     draw_commands(list, batch.first_command, batch.command_count);
   }

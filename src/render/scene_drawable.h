@@ -11,6 +11,7 @@
 #include "render/gpu_scene.h"
 #include "render/occlusion.h"
 #include "render/stream_buffer.h"
+#include "render/surface_programs.h"
 #include "render/view.h"
 
 namespace parvis::render {
@@ -62,7 +63,8 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    gl::Program surface, mirror, depth, solid_depth, picking;
+    SurfacePrograms surface, mirror;
+    gl::Program depth, solid_depth, picking;
   };
 
   /// What one view draws. The main view's list is kept while others are prepared and drawn.
@@ -76,7 +78,8 @@ class SceneDrawable final : public Drawable {
     DrawStatistics statistics;
   };
 
-  SceneDrawable(const scene::Scene& scene, Programs programs);
+  SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs);
+  const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
   std::uint64_t sort_key(const Item& item, const View& view) const;
   void gather(const View& view, ViewList& list);

@@ -3,7 +3,7 @@
 // the radiance that arrives at `position` from the mirror direction, blurred for the roughness. It may use
 // `surface_sky_cell`, what the place sees of the sky.
 #include "render/frame.glsl"
-#include "render/material.glsl"
+#include "render/anisotropy.glsl"
 #include "render/sky_lookup.glsl"
 #include "render/sun_lookup.glsl"
 #include "shading/surface.glsl"
@@ -20,6 +20,7 @@ vec4 surface_sky_cell;
 
 vec3 reflected_radiance(vec3 at, vec3 direction, float roughness);
 
+#ifdef HAS_NORMAL_MAP
 // The normal map turns the normal within the frame of the triangle's texture gradients: +x along u, +y against v.
 vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
   vec3 px = dFdx(position), py = dFdy(position);
@@ -36,35 +37,50 @@ vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
   vec3 n = texture(normal_texture, texture_uv).xyz * 2.0f - 1.0f;
   return normalize((tangent * n.x + bitangent * n.y) * material_emission.a + normal * max(n.z, 0.01f));
 }
+#endif
 
 void main() {
   vec2 texture_uv = texture_coordinates(uv);
-  vec4 base = texture(base_colour_texture, texture_uv);
+  vec4 base = base_colour_at(texture_uv);
   base = vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
-  bool is_cutout = material_texture_v.w > 0.5f;
+#ifdef HAS_HOLES
   // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away. A map with
   // one sample a pixel has no coverage: there holes are discarded.
-  if (is_cutout) {
-    if (frame_size.w < 1.5f && base.a < 0.5f) discard;
-    base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
-  }
+  base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
+  if (frame_size.w < 2.0f && base.a < 0.5f) discard;
+#endif
 
   vec3 to_viewer = viewer_position.xyz - position;
   float distance_m = length(to_viewer);
   to_viewer /= distance_m;
   vec3 normal = normalize(gl_FrontFacing ? vertex_normal : -vertex_normal);
-  vec4 detail = texture(surface_texture, texture_uv);
+#ifdef HAS_SURFACE_MAP
+  vec3 detail = texture(surface_texture, texture_uv).rgb;
+#else
+  vec3 detail = vec3(1.0f);
+#endif
 
   Surface s;
+#ifdef HAS_NORMAL_MAP
   s.normal = mapped_normal(normal, texture_uv);
+#else
+  s.normal = normal;
+#endif
   s.base_colour = base.rgb;
   s.metallic = material_layers.x * detail.b;
   s.roughness = material_layers.y * detail.g;
+#ifdef HAS_COAT
   s.clear_coat = material_layers.z;
+#else
+  s.clear_coat = 0.0f;
+#endif
   s.clear_coat_roughness = material_layers.w;
   s.translucency = material_texture_u.w;
   s.occlusion = detail.r;
-  s.emission = material_emission.rgb * texture(emission_texture, texture_uv).rgb;
+  s.emission = material_emission.rgb;
+#ifdef HAS_EMISSION_MAP
+  s.emission *= texture(emission_texture, texture_uv).rgb;
+#endif
 
   SceneLight light;
   light.to_sun = frame_to_sun.xyz;
@@ -76,7 +92,11 @@ void main() {
   surface_sky_cell = sky_visibility_cell(position, normal);
   vec3 mirrored = reflect(-to_viewer, s.normal);
   vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);
-  vec3 coat_reflection = s.clear_coat > 0.0f ? reflected_radiance(position, mirrored, s.clear_coat_roughness) : vec3(0.0f);
+#ifdef HAS_COAT
+  vec3 coat_reflection = reflected_radiance(position, mirrored, s.clear_coat_roughness);
+#else
+  vec3 coat_reflection = vec3(0.0f);
+#endif
   vec3 light_out = lit_radiance(s, light, to_viewer, visible_sun(position, normal),
                                 sky_share_of_normal(surface_sky_cell, s.normal), base_reflection, coat_reflection);
   light_out = through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance);
