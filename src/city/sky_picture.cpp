@@ -26,10 +26,12 @@ glm::vec3 clear_sky(glm::vec3 direction, glm::vec3 to_sun) {
 
 /// Share of a point of the cloud layer that is cloud; `p` in kilometres.
 float cloud_density(glm::vec2 p, float height, std::uint32_t seed) {
-  const float shape = fractal_noise(glm::vec3(0.8f * p, 0.35f * height), 3, seed);
-  const float detail = fractal_noise(glm::vec3(2.3f * p, 1.3f * height), 4, seed + 20);
   // Cumulus is flat below and rounded above: the threshold rises with height.
-  return std::clamp((shape + 0.42f * (detail - 0.5f) - 0.55f - 0.1f * height) * 7.0f, 0.0f, 1.0f);
+  const float shape = fractal_noise(glm::vec3(0.8f * p, 0.35f * height), 3, seed) - 0.55f - 0.1f * height;
+  constexpr float detail_share = 0.42f;
+  if (shape < -0.5f * detail_share) return 0.0f;
+  const float detail = fractal_noise(glm::vec3(2.3f * p, 1.3f * height), 4, seed + 20) - 0.5f;
+  return std::clamp((shape + detail_share * detail) * 7.0f, 0.0f, 1.0f);
 }
 
 struct Cloud {
@@ -40,7 +42,7 @@ struct Cloud {
 /// Marches through the layer, a few steps, with a look toward the sun at each.
 Cloud clouds(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
   if (direction.z < 0.02f) return {};
-  constexpr int steps = 16;
+  constexpr int steps = 24;
   const glm::vec3 sunlit(3.0f, 2.9f, 2.7f), shaded(0.55f, 0.63f, 0.76f);
   float through = 1.0f;
   glm::vec3 light(0.0f);
@@ -54,7 +56,7 @@ Cloud clouds(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
     const float before = cloud_density(p + 0.16f * toward_sun, height + 0.2f, seed) +
                          0.6f * cloud_density(p + 0.4f * toward_sun, height + 0.5f, seed);
     const float lit = std::exp(-1.5f * before) * (0.55f + 0.45f * height);
-    const float step = 1.0f - std::exp(-0.8f * density);
+    const float step = 1.0f - std::exp(-0.53f * density);
     light += through * step * glm::mix(shaded, sunlit, lit), through *= 1.0f - step;
   }
   Cloud cloud{light, 1.0f - through};
@@ -89,7 +91,10 @@ glm::vec3 ground_radiance(glm::vec3 direction, std::uint32_t seed) {
   const glm::vec3 colour = field.identity < 0.5f ? glm::mix(wood, grass, 2.0f * field.identity)
                                                  : glm::mix(grass, soil, 2.0f * field.identity - 1.0f);
   const float detail = 0.75f + 0.5f * fractal_noise(4.0f * p, endless, 3, seed + 5);
-  return glm::mix(horizon_radiance, 0.9f * detail * colour, std::exp(-0.3f * distance_km));
+  const glm::vec3 town = 0.17f * glm::vec3(1.0f, 0.96f, 0.88f);  // underfoot: it lights the place from below
+  const float near = glm::smoothstep(-0.15f, -0.45f, direction.z);
+  return glm::mix(horizon_radiance, detail * glm::mix(0.9f * colour, town, near),
+                  std::exp(-0.3f * distance_km));
 }
 
 glm::vec3 radiance_from(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
@@ -98,7 +103,7 @@ glm::vec3 radiance_from(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t see
   if (direction.z < skyline(azimuth, seed))
     return glm::mix(linear_from_srgb8(0x9C, 0x94, 0x84), horizon_radiance, 0.6f);
   if (direction.z < hills(azimuth, seed + 3))
-    return glm::mix(linear_from_srgb8(0x5E, 0x74, 0x78) * 0.8f, horizon_radiance, 0.45f);
+    return glm::mix(linear_from_srgb8(0x5E, 0x74, 0x78), horizon_radiance, 0.55f);
   const Cloud cloud = clouds(direction, to_sun, seed + 7);
   return glm::mix(clear_sky(direction, to_sun), cloud.radiance, cloud.cover);
 }
