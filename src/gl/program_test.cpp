@@ -1,0 +1,71 @@
+#include "gl/program.h"
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+#include "gl/shader_files.h"
+#include "gl/test_context.h"
+
+namespace parvis::gl {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
+TEST(ShaderText, HoldsEachIncludedFileOnce) {
+  std::vector<std::string> files;
+  const Result<std::string> text = shader_text("render/surface.frag", {}, Dialect::desktop_450, files);
+  ASSERT_TRUE(text) << to_string(text.errors());
+  EXPECT_EQ(count(*text, "uniform Frame"), 1u);
+  EXPECT_EQ(text->find("#include"), std::string::npos);
+  EXPECT_TRUE(text->starts_with("#version 450 core"));
+}
+
+TEST(ShaderText, AFileThatIsNotThereIsNamed) {
+  std::vector<std::string> files;
+  const Result<std::string> text = shader_text("render/no_such.frag", {}, Dialect::desktop_450, files);
+  ASSERT_FALSE(text);
+  EXPECT_NE(to_string(text.errors()).find("render/no_such.frag"), std::string::npos);
+}
+
+class ProgramTest : public ContextTest {};
+
+TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
+  // The define breaks one line of an included file.
+  const Result<GLuint> shader = compile_shader(GL_FRAGMENT_SHADER, "render/surface.frag",
+                                               {{"greatest_radiance", "1.0f 2.0f"}}, Dialect::desktop_450);
+  ASSERT_FALSE(shader);
+  const std::string message = to_string(shader.errors());
+  EXPECT_NE(message.find("render/surface_body.glsl:"), std::string::npos) << message;
+}
+
+/// Multisampled textures are of OpenGL ES 3.10: there, the samples are brought together by a blit.
+bool is_for_the_desktop_alone(std::string_view path) { return path == "render/resolve.frag"; }
+
+TEST_F(ProgramTest, EveryDisplayShaderCompilesInBothDialects) {
+  const Defines all{{"HAS_NORMAL_MAP", ""}, {"HAS_SURFACE_MAP", ""}, {"HAS_EMISSION_MAP", ""},
+                    {"HAS_COAT", ""},       {"HAS_HOLES", ""},       {"ANISOTROPY_BY_TAPS", ""}};
+  for (const ShaderFile* file = embedded_shaders; file->path; ++file) {
+    const std::string_view path = file->path;
+    if (path.ends_with(".glsl"sv)) continue;
+    const GLenum stage = path.ends_with(".vert"sv) ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER;
+    for (const Dialect dialect : {Dialect::desktop_450, Dialect::es_300}) {
+      if (dialect == Dialect::es_300 && is_for_the_desktop_alone(path)) continue;
+      for (const Defines& defines : {Defines{}, all}) {
+        const Result<GLuint> shader = compile_shader(stage, file->path, defines, dialect);
+        ASSERT_TRUE(shader) << path << (dialect == Dialect::es_300 ? " as GLSL ES 3.00: " : ": ")
+                            << to_string(shader.errors());
+        glDeleteShader(*shader);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace parvis::gl
