@@ -1,9 +1,13 @@
-// road, paving, traffic: where vehicles drive, and which.
+// road, streets, paving, traffic: where vehicles drive, and which.
+#include <algorithm>
+
+#include "scene/material_change.h"
 #include "scene/model_assembly.h"
 #include "scene/model_node.h"
 #include "scene/node_registry.h"
 #include "scene/nodes.h"
 #include "scene/placement.h"
+#include "scene/road_from_polygons.h"
 #include "scene/scene_builder.h"
 
 namespace parvis::scene {
@@ -112,6 +116,71 @@ void build_traffic(const Node& node, SceneBuilder& builder) {
   }
 }
 
+NodeSchema streets_schema() {
+  return {
+      .type = "streets",
+      .help =
+          "Roads along the middle of the road surfaces that a model has: of the parts that match target, "
+          "those whose "
+          "names do not speak of footpaths, cycle paths, parking or rails. Stands after the model.",
+      .attributes = {{.name = "of", .help = "name of the model", .is_required = true},
+                     {.name = "target",
+                      .help =
+                          "name of objects, nodes or materials of the file; * and ? stand for any text and "
+                          "any character",
+                      .fallback = "*Road*",
+                      .is_repeatable = true},
+                     {.name = "speed_km_h",
+                      .type = AttributeType::number,
+                      .help = "the limit",
+                      .fallback = "30",
+                      .unit = "km/h",
+                      .minimum = 1,
+                      .maximum = 300}},
+      .example =
+          "model(name=\"quarter\", file=\"quarter.city.json\")\n"
+          "streets(of=\"quarter\")"};
+}
+
+/// Adds the triangles of an object's matching parts, in the world; what a part is called says what it is for.
+void add_road_polygons(const Object& object, const std::string& target, std::vector<RoadPolygon>& polygons) {
+  const Model& model = *object.model;
+  const std::vector<glm::mat4> model_from_node = rest_pose(model);
+  for (const std::size_t index : matching_parts(model, target)) {
+    const Part& part = model.parts[index];
+    const std::string function = part.object + " " + model.materials[std::size_t(part.material)].name;
+    const glm::mat4 world_from_mesh = object.world_from_model * model_from_node[std::size_t(part.node)];
+    const std::vector<std::uint32_t>& indices = part.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      RoadPolygon polygon{{{}}, function};
+      for (std::size_t k = 0; k < 3; ++k)
+        polygon.rings[0].emplace_back(world_from_mesh * glm::vec4(part.mesh.positions[indices[i + k]], 1.0f));
+      polygons.push_back(std::move(polygon));
+    }
+  }
+}
+
+void build_streets(const Node& node, SceneBuilder& builder) {
+  const std::string name = node.text("of");
+  const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
+  if (object == builder.scene.objects.end())
+    return builder.fail(
+        error_at(node.where_of("of"), "no model called \"{}\" stands before this node", name));
+
+  std::vector<RoadPolygon> polygons;
+  if (!node.gives("target")) add_road_polygons(*object, node.text("target"), polygons);
+  for (const NodeAttribute& attribute : node.attributes)
+    if (attribute.schema->name == "target") add_road_polygons(*object, attribute.text, polygons);
+  const std::vector<Road> roads = roads_from_polygons(polygons);
+  if (roads.empty())
+    builder.warn(error_at(node.where_of("of"), "streets: \"{}\" has no road surfaces that match", name));
+  for (Road road : roads) {
+    road.speed_limit = float(node.number("speed_km_h")) * m_s_per_km_h;
+    road.where = node.where_of("of");
+    builder.roads.push_back(std::move(road));
+  }
+}
+
 NodeSchema paving_schema() {
   return {.type = "paving",
           .help =
@@ -129,6 +198,7 @@ void build_paving(const Node&, SceneBuilder& builder) { builder.has_paving = tru
 
 void add_road_nodes(NodeRegistry& registry) {
   registry.add(road_schema(), build_road);
+  registry.add(streets_schema(), build_streets);
   registry.add(paving_schema(), build_paving);
   registry.add(traffic_schema(), build_traffic);
 }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr float sweep_step_m = 1.0f;
 constexpr float sweep_margin_m = 0.12f;  // on each side of the largest vehicle
+constexpr float entry_margin_m = 1.4f;   // less than Vehicle remembers of the way behind its tail
+constexpr float exit_margin_m = 1.8f;    // less than Driver's standing gap
 constexpr float slowest = 1.5f;          // m/s: however tight the bend
 constexpr float bridge_clearance_m = 3.0f;
 
@@ -65,11 +67,14 @@ VehicleShape largest(const std::vector<VehicleShape>& shapes) {
   return result;
 }
 
-/// A turning lane's vehicle reaches back and forth over the lane's ends; on a street it stays within them.
+/// A turning lane's vehicle reaches back and forth over the lane's ends. On a street it keeps from them: it
+/// holds the turning lane still when its tail enters, and holds the next when its front comes nearer than it
+/// would wait.
 Sweep sweep_along(const scene::MeasuredPath& path, bool is_turn, const VehicleShape& shape) {
   const float half = 0.5f * shape.length_m();
-  const float from = is_turn ? -half : std::min(half, 0.5f * path.length());
-  const float to = path.length() - from;
+  const float middle_m = 0.5f * path.length();
+  const float from = is_turn ? -half : std::min(half + entry_margin_m, middle_m);
+  const float to = is_turn ? path.length() + half : std::max(path.length() - half - exit_margin_m, middle_m);
   const int steps = std::max(1, int(std::ceil((to - from) / sweep_step_m)));
   Sweep sweep;
   for (int i = 0; i <= steps; ++i) {

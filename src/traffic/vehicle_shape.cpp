@@ -31,6 +31,19 @@ Bounds bounds_of(const VehicleShape& shape, int node) {
   return bounds;
 }
 
+/// Width over tyres and wings: mirrors stand out above, but pass over and between those of others.
+void find_width(VehicleShape& shape, const Bounds& bounds) {
+  const float mirrors_begin_m = bounds.min.z + 0.45f * bounds.size().z;
+  Bounds low;
+  for (const scene::Part& part : shape.model->parts)
+    for (const glm::vec3& position : part.mesh.positions) {
+      const glm::vec3 p(shape.rest_pose[std::size_t(part.node)] * glm::vec4(position, 1.0f));
+      if (p.z < mirrors_begin_m) low.add(p);
+    }
+  shape.half_width_m = 0.5f * low.size().y;
+  shape.middle_y_m = low.centre().y;
+}
+
 void find_wheels(VehicleShape& shape) {
   const std::vector<scene::ModelNode>& nodes = shape.model->nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -38,7 +51,8 @@ void find_wheels(VehicleShape& shape) {
     const bool is_inside_wheel = parent != scene::no_index && names_a_wheel(nodes[std::size_t(parent)].name);
     if (!names_a_wheel(nodes[i].name) || is_inside_wheel) continue;
     const Bounds bounds = bounds_of(shape, int(i));
-    if (bounds.empty()) continue;
+    // A spare wheel hangs clear of the ground.
+    if (bounds.empty() || bounds.min.z > shape.ground_z_m + 0.25f * bounds.size().z) continue;
     shape.wheels.push_back({int(i), bounds.centre(), std::max(0.5f * bounds.size().z, 0.05f), false});
   }
 }
@@ -66,9 +80,8 @@ VehicleShape vehicle_shape(std::shared_ptr<const scene::Model> model) {
   shape.model = std::move(model);
   if (!bounds.empty()) {
     shape.front_m = bounds.max.x, shape.rear_m = bounds.min.x;
-    shape.half_width_m = 0.5f * bounds.size().y;
-    shape.middle_y_m = bounds.centre().y;
     shape.ground_z_m = bounds.min.z;
+    find_width(shape, bounds);
   }
   find_wheels(shape);
   find_axles(shape);
