@@ -1,13 +1,16 @@
 #include "scene/model_source.h"
 
+#include "scene/assimp_reader.h"
+#include "scene/city_json.h"
 #include "scene/gltf_reader.h"
 
 namespace parvis::scene {
 
-Result<Model> model_from_file(const std::filesystem::path& file, UpAxis, Errors& warnings) {
+Result<Model> model_from_file(const std::filesystem::path& file, UpAxis up, Errors& warnings) {
   const std::string extension = file.extension().string();
   if (extension == ".glb" || extension == ".gltf") return read_gltf(file, warnings);
-  return error("{}: model files cannot be read yet", file.string());
+  if (extension == ".json") return read_city_model(file, warnings);
+  return read_with_assimp(file, up, warnings);
 }
 
 }  // namespace parvis::scene

@@ -165,5 +165,33 @@ TEST_F(ModelNodes, RealCarsGetGlassByTheColourOfTheirPalette) {
   }
 }
 
+TEST_F(ModelNodes, ARealCarGetsGlassPaintAndWheels) {
+  const auto car = shared_data("cars/p406/p406.obj", PARVIS_SOURCE_DIR);
+  if (!car) GTEST_SKIP() << "skipped: shared data absent";
+  const std::vector<std::filesystem::path> data{car->parent_path().parent_path().parent_path()};
+  const auto loaded =
+      load_scene(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/cars/p406.xp", registry_, data);
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_TRUE(loaded->warnings.empty()) << to_string(loaded->warnings);
+  const Model& model = *loaded->scene.objects.at(0).model;
+  float glass_area = 0.0f;
+  Bounds glass;
+  for (const Part& part : model.parts) {
+    if (model.materials[std::size_t(part.material)].name != "glass") continue;
+    glass.add(part.mesh.bounds());
+    for (std::size_t i = 0; i < part.mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t c) { return part.mesh.positions[part.mesh.indices[i + c]]; };
+      glass_area += 0.5f * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+  }
+  // Wind- and rear screen of about 0.9 m2 each, six side panes: 3.3 m2 by the car's picture.
+  EXPECT_GT(glass_area, 2.7f);
+  EXPECT_LT(glass_area, 4.0f);
+  EXPECT_GT(glass.min.z, 0.6f);  // no pane below the shoulder
+  const Bounds box = bounds(model);
+  EXPECT_NEAR(box.size().x, 4.64f, 0.05f);
+  EXPECT_NEAR(box.min.z, -0.11f, 0.01f);  // what the script's position lifts to the ground
+}
+
 }  // namespace
 }  // namespace parvis::scene

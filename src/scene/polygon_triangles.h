@@ -1,0 +1,19 @@
+// Polygons with holes, in space, to triangles.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace parvis::scene {
+
+/// The area vector of a closed ring (Newell): its direction is the normal, its length twice the area.
+glm::dvec3 newell_normal(const std::vector<glm::dvec3>& ring);
+
+/// Triangles of a nearly flat polygon: the outer ring, counter-clockwise about `normal`, then its holes (any
+/// direction). Corner indices run through all rings' points in order. Where rings cross, points are added to
+/// the end of `points`.
+std::vector<std::uint32_t> triangulated(const std::vector<std::vector<glm::dvec3>>& rings, glm::dvec3 normal,
+                                        std::vector<glm::dvec3>& points);
+
+}  // namespace parvis::scene
