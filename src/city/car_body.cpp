@@ -13,7 +13,7 @@ constexpr float fixed_row =
     3.4f;  // above it grid lines follow the net; below they spread over what the arches leave
 constexpr int arch_pieces = 14;  // of the half circle over a wheel
 constexpr int rows_below = 6;    // cells between the lower edge and there
-constexpr float columns_apart = 0.5f, rows_apart = 0.7f, least_gap = 0.012f;
+constexpr float columns_apart = 0.5f, rows_apart = 0.7f;
 
 std::vector<glm::vec3> section_points(const BodySection& s) {
   const float rise = s.shoulder - s.sill;
@@ -28,8 +28,7 @@ std::vector<glm::vec3> section_points(const BodySection& s) {
           {s.x_top, 0.0f, s.top}};
 }
 
-/// Sorted lines from 0 to `end`, `apart` or less, that contain all of `wanted`; lines nearer than `least_gap`
-/// to a wanted one are left out.
+/// Sorted lines from 0 to `end` that contain all of `wanted`, with others between them about `apart`.
 std::vector<float> grid_lines(float end, std::vector<float> wanted, float apart) {
   wanted.push_back(0.0f), wanted.push_back(end);
   std::sort(wanted.begin(), wanted.end());
@@ -64,6 +63,7 @@ class BodyMesher {
 
   CarMeshes meshes() {
     std::vector<std::vector<float>> columns;
+    columns.reserve(u_.size());
     for (const float u : u_) columns.push_back(column_rows(u));
     for (std::size_t i = 0; i + 1 < u_.size(); ++i)
       for (std::size_t j = 0; j + 1 < columns[i].size(); ++j) add_cell(i, columns[i], columns[i + 1], j);
@@ -105,11 +105,11 @@ class BodyMesher {
     return 0.0f;
   }
 
-  /// Row parameters of a column from its lower edge to the middle of the top. Where no arch is, region
-  /// borders below `fixed_row` attract the nearest line.
+  /// Row parameters of a column from its lower edge to the middle of the top.
   std::vector<float> column_rows(float u) const {
     const float lowest = lowest_row(u);
     std::vector<float> result;
+    result.reserve(rows_below + v_.size());
     for (int i = 0; i < rows_below; ++i)
       result.push_back(lowest + (fixed_row - lowest) * float(i) / float(rows_below));
     result.insert(result.end(), v_.begin(), v_.end());

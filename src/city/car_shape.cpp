@@ -165,7 +165,10 @@ CarShape bus_shape() {
                  {0.0f, 2.1f, 6.0f, 6.35f, black}};  // the destination board
   add_window(car.regions, 0.0f, 2.5f, 4.75f, 5.95f);
   add_window(car.regions, 14.6f, 16.0f, 5.2f, 5.9f);
-  for (float u = 2.75f; u < 13.0f; u += 1.0f) add_window(car.regions, u, u + 0.96f, 5.0f, 5.85f);
+  for (int i = 0; i < 11; ++i) {
+    const float u = 2.75f + float(i);
+    add_window(car.regions, u, u + 0.96f, 5.0f, 5.85f);
+  }
   for (const float u : {3.2f, 7.4f}) {
     add_gap(car.regions, u, 0.8f, 5.9f);
     add_gap(car.regions, u + 0.9f, 0.8f, 5.9f);

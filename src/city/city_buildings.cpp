@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 #include <vector>
 
 #include "city/building.h"
@@ -31,8 +32,10 @@ std::string block_name(const StreetPlan& plan, const Building& building) {
 
 /// Chooses by rank; signs fill what is left when nothing larger fits.
 std::vector<Ornament> chosen_ornaments(std::vector<Ornament> possible, std::size_t triangles) {
-  std::stable_sort(possible.begin(), possible.end(),
-                   [](const Ornament& a, const Ornament& b) { return a.rank > b.rank; });
+  std::sort(possible.begin(), possible.end(), [](const Ornament& a, const Ornament& b) {
+    return std::tuple(-a.rank, a.building, a.face, a.x_m, a.z_m) <
+           std::tuple(-b.rank, b.building, b.face, b.x_m, b.z_m);
+  });
   std::vector<Ornament> chosen;
   for (const Ornament& ornament : possible) {
     const std::size_t cost = triangle_count(ornament.kind);

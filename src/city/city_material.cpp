@@ -102,8 +102,8 @@ CityMaterial wall_material(int style, int tint) { return CityMaterial(style * wa
 void add_city_materials(scene::Model& model, std::uint64_t seed) {
   const std::vector<Sheet> sheets = all_sheets();
   Random random(seed, 11);
-  std::vector<std::uint32_t> seeds;
-  for (std::size_t i = 0; i < sheets.size(); ++i) seeds.push_back(random.next());
+  std::vector<std::uint32_t> seeds(sheets.size());
+  for (std::uint32_t& sheet_seed : seeds) sheet_seed = random.next();
   std::vector<SurfacePictures> painted(sheets.size());
   parallel_for(sheets.size(), [&](std::size_t i) { painted[i] = sheets[i].paint(seeds[i]); });
   for (std::size_t i = 0; i < sheets.size(); ++i) {

@@ -76,8 +76,9 @@ void paint_string_course(SurfaceCanvas& canvas, glm::vec3 trim, float floor_m, s
 void paint_piers(SurfaceCanvas& canvas, glm::vec3 trim) {
   for (int bay = 0; bay < facade_bays; bay += 2) {
     const float x = facade_bay_m * float(bay);
-    for (float y = 0.0f; y < canvas.height_m() - 0.01f; y += 0.425f) {
-      const float half = (int(y / 0.425f + 0.5f) & 1) ? 0.26f : 0.2f;
+    constexpr float stone_m = 0.425f;
+    for (int stone = 0; stone < int(canvas.height_m() / stone_m); ++stone) {
+      const float y = stone_m * float(stone), half = stone % 2 == 1 ? 0.26f : 0.2f;
       canvas.fill({x - half, y + 0.015f, x + half, y + 0.41f}, matt(trim * (0.92f + 0.02f * half), 0.05f));
     }
   }

@@ -117,8 +117,10 @@ SurfacePictures road_pictures(float carriageway_m, bool has_parking, std::uint32
     for (const float side : {-1.0f, 1.0f}) {
       const float line = middle + side * lane_m, kerb = middle + side * (middle - 0.3f);
       paint_marking(canvas, {line - 0.05f, 0.0f, line + 0.05f, road_sheet_length_m}, seed + 6);
-      for (float y = 0.0f; y < road_sheet_length_m - 0.1f; y += 5.2f)
+      for (int bay = 0; bay < 5; ++bay) {
+        const float y = road_sheet_length_m / 5.0f * float(bay);
         paint_marking(canvas, {std::min(line, kerb), y, std::max(line, kerb), y + 0.1f}, seed + 7);
+      }
     }
   }
   return canvas.pictures(4, 4);
@@ -127,8 +129,10 @@ SurfacePictures road_pictures(float carriageway_m, bool has_parking, std::uint32
 SurfacePictures zebra_pictures(float carriageway_m, std::uint32_t seed) {
   SurfaceCanvas canvas(1024, 512, carriageway_m, zebra_length_m);
   paint_asphalt(canvas, seed);
-  for (float x = 0.45f; x < carriageway_m - 0.6f; x += 1.0f)
+  for (int stripe = 0; stripe < int(carriageway_m - 0.05f); ++stripe) {
+    const float x = 0.45f + float(stripe);
     paint_marking(canvas, {x, 0.4f, x + 0.5f, 3.6f}, seed + 1);
+  }
   paint_marking(canvas, {0.4f, 4.7f, 0.5f * carriageway_m - 0.1f, 5.1f}, seed + 2);
   return canvas.pictures(2, 4);
 }

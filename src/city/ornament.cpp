@@ -182,6 +182,7 @@ void add_wing(CityMesh& mesh, const Building& b, const Frame& f, const Ornament&
 void suggest_on_face(const Building& b, int index, int face_index, float distance_m, Random& random,
                      std::vector<Ornament>& found) {
   const Face& face = b.faces[std::size_t(face_index)];
+  const int middle_bay = face.bays / 2;
   const float bay_m = face.width_m / float(face.bays), near = distance_m / 100.0f;
   const auto suggest = [&](Kind kind, float x, float width, float z, float reach, float rank) {
     found.push_back({kind, index, face_index, x, width, z, reach, random.index(64),
@@ -203,7 +204,7 @@ void suggest_on_face(const Building& b, int index, int face_index, float distanc
     for (int floor = 0; floor < b.upper_floors; ++floor) {
       const bool is_long = floor == 0 || floor == b.upper_floors - 1;
       if (!is_long && random.chance(0.6f)) continue;
-      const float x = is_long ? bay_m * float(first) + margin : bay_m * float(face.bays / 2) + margin;
+      const float x = is_long ? bay_m * float(first) + margin : bay_m * float(middle_bay) + margin;
       const float width =
           (is_long ? bay_m * float(std::min(bays, face.bays - first)) : bay_m) - 2.0f * margin;
       suggest(Kind::balcony, x, width, b.ground_m + b.floor_m * float(floor) + 0.22f, is_long ? 0.85f : 0.7f,
@@ -215,7 +216,7 @@ void suggest_on_face(const Building& b, int index, int face_index, float distanc
     for (int bay = 0; bay < face.bays; ++bay)
       suggest(Kind::dormer, bay_m * (float(bay) + 0.5f) - 0.65f, 1.3f, eaves + 0.5f, 1.45f, 1.9f);
   else if (b.roof == Roof::gable && random.chance(0.3f))
-    suggest(Kind::dormer, bay_m * (float(face.bays / 2) + 0.5f) - 0.65f, 1.3f, eaves + 0.6f, 1.1f, 0.6f);
+    suggest(Kind::dormer, bay_m * (float(middle_bay) + 0.5f) - 0.65f, 1.3f, eaves + 0.6f, 1.1f, 0.6f);
 }
 
 }  // namespace

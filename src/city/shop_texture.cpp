@@ -157,8 +157,10 @@ void paint_house_module(SurfaceCanvas& canvas, float x0, float foot, int index, 
   for (const float x : {middle - 1.25f, middle + 1.25f}) {
     paint_window(canvas, style, x, foot, random);
     const Texel iron = matt(glm::vec3(0.02f), 0.02f, 0.5f);
-    for (float bar = x - 0.5f; bar < x + 0.51f; bar += 0.125f)
+    for (int i = 0; i <= 8; ++i) {
+      const float bar = x - 0.5f + 0.125f * float(i);
       canvas.fill({bar - 0.012f, foot + 1.15f, bar + 0.012f, foot + 3.15f}, iron);
+    }
     for (const float y : {1.35f, 2.2f, 2.95f})
       canvas.fill({x - 0.55f, foot + y, x + 0.55f, foot + y + 0.03f}, iron);
   }
@@ -202,7 +204,8 @@ SurfacePictures ground_floor_pictures(std::uint32_t seed) {
     for (int module = 0; module < shop_modules; ++module) {
       const float x0 = shop_module_m * float(module);
       if (strip < shop_strips)
-        paint_shop_front(canvas, x0, foot, shops[std::size_t(strip * shop_modules + module)], random);
+        paint_shop_front(canvas, x0, foot, shops[std::size_t(strip) * shop_modules + std::size_t(module)],
+                         random);
       else
         paint_house_module(canvas, x0, foot, module, stone * 1.05f, random);
     }

@@ -35,7 +35,7 @@ glm::vec3 SplineSurface::control_point(int column, int row) const {
   if (column >= columns_) return mirrored(control_point(2 * (columns_ - 1) - column, row));
   if (row >= rows_) return mirrored(control_point(column, 2 * (rows_ - 1) - row));
   if (row < 0) return 2.0f * control_point(column, 0) - control_point(column, -row);
-  return points_[std::size_t(column * rows_ + row)];
+  return points_[std::size_t(column) * std::size_t(rows_) + std::size_t(row)];
 }
 
 glm::vec3 SplineSurface::blend(float u, float v, bool along_u, bool along_v) const {

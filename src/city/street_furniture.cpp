@@ -49,7 +49,8 @@ void add_pit(CityMesh& mesh, glm::vec3 foot) {
 /// Along both pavements of the two wide roads, outward from the main crossing, 25 m apart and staggered.
 glm::vec3 lamp_place(std::size_t i) {
   const glm::vec2 centre = main_crossing();
-  const float reach = 17.0f + 25.0f * float(i / 8) + (i % 2 == 0 ? 0.0f : 12.5f);
+  const std::size_t ring = i / 8;
+  const float reach = 17.0f + 25.0f * float(ring) + (i % 2 == 0 ? 0.0f : 12.5f);
   const float kerb = 0.5f * wide_road.carriageway_m + 0.45f, side = i % 2 == 0 ? kerb : -kerb;
   const float along = i / 4 % 2 == 0 ? reach : -reach;
   const glm::vec2 offset = i / 2 % 2 == 0 ? glm::vec2(side, along) : glm::vec2(along, side);
@@ -59,7 +60,8 @@ glm::vec3 lamp_place(std::size_t i) {
 /// On the rounded corners of the main crossing.
 glm::vec3 bollard_place(std::size_t i) {
   const glm::vec2 quadrant(i % 4 == 0 || i % 4 == 3 ? 1.0f : -1.0f, i % 4 < 2 ? 1.0f : -1.0f);
-  const float turn = 0.35f + 0.28f * float(i / 4), half = 0.5f * wide_road.carriageway_m;
+  const std::size_t number = i / 4;
+  const float turn = 0.35f + 0.28f * float(number), half = 0.5f * wide_road.carriageway_m;
   const glm::vec2 from_kerb = glm::vec2(4.0f) - 3.6f * glm::vec2(std::sin(turn), std::cos(turn));
   return {main_crossing() + quadrant * (glm::vec2(half) + from_kerb), kerb_m};
 }
@@ -78,6 +80,7 @@ std::vector<TreePlace> tree_places() {
                                        {c.x + 47.0f, c.y - 23.0f, kerb_m},
                                        {c.x + 178.0f, c.y - 172.0f, kerb_m}}};
   std::vector<TreePlace> places;
+  places.reserve(feet.size());
   for (std::size_t i = 0; i < feet.size(); ++i)
     places.push_back({feet[i], std::fmod(137.5f * float(i), 360.0f), i < 4 ? 0 : 1});
   return places;

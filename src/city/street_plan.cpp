@@ -18,6 +18,7 @@ bool is_park(int column, int row) { return (column == 2 && row == 2) || (column 
 
 std::vector<Road> make_roads() {
   std::vector<Road> roads;
+  roads.reserve(2 * roads_each_way);
   for (int i = 0; i < roads_each_way; ++i)
     roads.push_back({true, north_road_x[std::size_t(i)], i == wide_north_road ? wide_road : narrow_road});
   for (int i = 0; i < roads_each_way; ++i)
@@ -27,7 +28,7 @@ std::vector<Road> make_roads() {
 
 Block make_block(const std::vector<Road>& roads, int column, int row) {
   const auto road = [&](int first, int i) -> const Road* {
-    return i < 0 || i >= roads_each_way ? nullptr : &roads[std::size_t(first + i)];
+    return i < 0 || i >= roads_each_way ? nullptr : &roads[std::size_t(first) + std::size_t(i)];
   };
   Block block;
   block.roads = {road(roads_each_way, row - 1), road(0, column), road(roads_each_way, row),

@@ -29,7 +29,7 @@ float covered(int i, float low, float high) {
   return std::clamp(std::min(high, float(i + 1)) - std::max(low, float(i)), 0.0f, 1.0f);
 }
 
-std::uint8_t byte(float value) { return std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
+std::uint8_t byte(float value) { return std::uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f)); }
 
 /// sRGB encoding through a table: pow for every pixel of every texture would take a second.
 std::uint8_t srgb_byte(float linear) {
@@ -38,7 +38,7 @@ std::uint8_t srgb_byte(float linear) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = byte(srgb_from_linear(float(i) / 4095.0f));
     return values;
   }();
-  return table[std::size_t(std::clamp(linear, 0.0f, 1.0f) * 4095.0f + 0.5f)];
+  return table[std::size_t(std::lround(std::clamp(linear, 0.0f, 1.0f) * 4095.0f))];
 }
 
 /// Means over squares of `shrink` pixels, as bytes with alpha 1.

@@ -25,15 +25,19 @@ void paint_cornice(SurfaceCanvas& canvas, const Rect& r, glm::vec3 stone) {
   };
   band(0.0f, 0.16f, 0.03f, 0.95f), band(0.56f, 0.66f, 0.12f, 1.0f), band(0.66f, 0.86f, 0.2f, 1.04f);
   band(0.86f, 1.0f, 0.26f, 1.1f);
-  for (float x = 0.0f; x < r.x1 - 0.01f; x += 0.32f)
+  for (int i = 0; i < 32; ++i) {  // dentils
+    const float x = trim_sheet_m / 32.0f * float(i);
     canvas.fill({x + 0.06f, r.y0 + 0.26f * strip_m, x + 0.26f, r.y0 + 0.56f * strip_m}, matt(stone, 0.12f));
+  }
   canvas.shade_below({r.x0, r.y0 + 0.2f * strip_m, r.x1, r.y0 + 0.56f * strip_m}, 0.5f);
 }
 
 void paint_soffit(SurfaceCanvas& canvas, const Rect& r, glm::vec3 stone) {
   canvas.fill(r, matt(stone * 0.62f, 0.0f));
-  for (float x = 0.0f; x < r.x1 - 0.01f; x += 0.64f)
+  for (int i = 0; i < 16; ++i) {  // brackets
+    const float x = trim_sheet_m / 16.0f * float(i);
     canvas.fill({x + 0.2f, r.y0, x + 0.44f, r.y0 + 0.85f * strip_m}, matt(stone * 0.95f, 0.1f));
+  }
 }
 
 void paint_chimney(SurfaceCanvas& canvas, const Rect& r) {
@@ -62,7 +66,8 @@ void paint_awning(SurfaceCanvas& canvas, const Rect& r, glm::vec3 colour, glm::v
 
 void paint_dormers(SurfaceCanvas& canvas, const Rect& r, Random& random) {
   canvas.fill(r, matt(glm::vec3(0.5f, 0.47f, 0.4f), 0.0f));
-  for (float x = 0.0f; x < r.x1 - 0.01f; x += dormer_module_m) {
+  for (int i = 0; i < 8; ++i) {
+    const float x = dormer_module_m * float(i);
     canvas.fill({x, r.y0, x + 0.09f, r.y1}, matt(linear_from_srgb8(0x7C, 0x85, 0x8C), 0.03f, 0.5f));
     canvas.fill({x + dormer_module_m - 0.09f, r.y0, x + dormer_module_m, r.y1},
                 matt(linear_from_srgb8(0x7C, 0x85, 0x8C), 0.03f, 0.5f));
@@ -71,7 +76,7 @@ void paint_dormers(SurfaceCanvas& canvas, const Rect& r, Random& random) {
   }
 }
 
-/// Rows of rounded tiles. `row_m`, `tile_m` divide the sheet.
+/// Rows of rounded tiles.
 void paint_tiles(SurfaceCanvas& canvas, glm::vec3 colour, std::uint32_t seed) {
   const int columns = 24, rows = 16;
   const glm::ivec2 stains(3, 3);
