@@ -371,8 +371,8 @@ class Reader {
   const Json* surfaces_ = nullptr;
   bool is_solid_ = false;
 
-  std::map<std::tuple<std::string, int, bool, int, int>, Mesh>
-      parts_;  ///< by material name, photograph, solid, tile
+  std::map<std::tuple<std::string, std::string, int, bool, int, int>, Mesh>
+      parts_;  ///< by material, object, photograph, solid, tile
   std::size_t polygon_count_ = 0;
 };
 
