@@ -5,15 +5,18 @@
 
 namespace parvis::render {
 
-/// Calls `visit(mesh, world_from_mesh)` for every part of the scene that neither moves nor has holes.
+/// Calls `visit(part, material, world_from_mesh)` for every part of the scene that neither moves nor has
+/// holes.
 template <class Visit>
 void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
   for (const scene::Object& object : scene.objects) {
     if (object.is_dynamic) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
-    for (const scene::Part& part : object.model->parts)
-      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
-        visit(part.mesh, object.world_from_model * pose[std::size_t(part.node)]);
+    for (const scene::Part& part : object.model->parts) {
+      const scene::Material& material = object.model->materials[std::size_t(part.material)];
+      if (material.alpha_mode == scene::Alpha::opaque)
+        visit(part, material, object.world_from_model * pose[std::size_t(part.node)]);
+    }
   }
 }
 

@@ -20,15 +20,18 @@ class Frustum {
   /// False only where the whole box lies outside one plane: a few boxes near corners pass that could not be
   /// seen.
   bool may_see(const Bounds& box) const {
+    if (box.empty()) return false;
     const glm::vec3 centre = box.centre(), half = 0.5f * box.size();
     for (const glm::vec4& plane : planes_) {
       const glm::vec3 normal(plane);
-      if (glm::dot(normal, centre) + plane.w + glm::dot(glm::abs(normal), half) < 0.0f) return false;
+      if (glm::dot(normal, centre) + plane.w + glm::dot(glm::abs(normal), half) < -slack_m) return false;
     }
     return true;
   }
 
  private:
+  static constexpr float slack_m = 1e-3f;  // rounding must not cut off what touches a plane
+
   std::array<glm::vec4, 6> planes_;
 };
 

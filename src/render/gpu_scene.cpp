@@ -66,6 +66,7 @@ std::uint8_t features_of(const scene::Material& material) {
   if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
   if (material.clear_coat > 0.0f) features |= surface_has_coat;
   if (material.alpha_mode == scene::Alpha::cutout) features |= surface_has_holes;
+  if (material.is_double_sided) features |= surface_has_backs;
   return features;
 }
 

@@ -29,9 +29,10 @@ enum SurfaceFeature : std::uint8_t {
   surface_has_surface_map = 2,
   surface_has_emission_map = 4,
   surface_has_coat = 8,
-  surface_has_holes = 16
+  surface_has_holes = 16,
+  surface_has_backs = 32
 };
-inline constexpr std::size_t surface_feature_combinations = 32;
+inline constexpr std::size_t surface_feature_combinations = 64;
 
 /// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
 /// it.

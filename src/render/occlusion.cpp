@@ -12,17 +12,20 @@ namespace {
 constexpr int width = 640, height = 360;
 constexpr std::size_t pixel_count = std::size_t(width) * std::size_t(height);
 constexpr float least_area_m2 = 4.0f;  // smaller triangles hide less than they cost
-constexpr float near_w = 0.05f;
 constexpr std::size_t tasks = 16;
+constexpr float slack = 1.001f;  // of depth: an occluder does not hide itself, nor what lies in its plane
 
-/// The polygon's part with w > near_w (Sutherland and Hodgman); a triangle gives 0, 3 or 4 corners.
+/// Metres before the near plane, or a measure like them.
+float before_near_plane(const glm::vec4& clip) { return clip.z + clip.w; }
+
+/// The polygon's part before the near plane (Sutherland and Hodgman); a triangle gives 0, 3 or 4 corners.
 int clip_to_near(const std::array<glm::vec4, 3>& in, std::array<glm::vec4, 4>& out) {
   int count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::vec4 &a = in[i], &b = in[(i + 1) % 3];
-    if (a.w > near_w) out[std::size_t(count++)] = a;
-    if ((a.w > near_w) != (b.w > near_w))
-      out[std::size_t(count++)] = glm::mix(a, b, (near_w - a.w) / (b.w - a.w));
+    const float at_a = before_near_plane(a), at_b = before_near_plane(b);
+    if (at_a > 0.0f) out[std::size_t(count++)] = a;
+    if ((at_a > 0.0f) != (at_b > 0.0f)) out[std::size_t(count++)] = glm::mix(a, b, at_a / (at_a - at_b));
   }
   return count;
 }
@@ -38,13 +41,15 @@ float at(const glm::vec3& plane, float x, float y) { return plane.x * x + plane.
 
 }  // namespace
 
-void OcclusionCuller::add_occluder(const Mesh& mesh, const glm::mat4& world_from_mesh) {
+void OcclusionCuller::add_occluder(const Mesh& mesh, const glm::mat4& world_from_mesh, bool has_backs) {
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     std::array<glm::vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = world_from_mesh * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
     const float area = 0.5f * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (area >= least_area_m2) corners_.insert(corners_.end(), corners.begin(), corners.end());
+    if (area < least_area_m2) continue;
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    if (has_backs) corners_.insert(corners_.end(), corners.rbegin(), corners.rend());
   }
 }
 
@@ -62,7 +67,7 @@ void OcclusionCuller::project(const glm::mat4& clip_from_world, std::size_t tria
     const std::array<glm::vec3, 3> p{on_screen(polygon[0]), on_screen(polygon[std::size_t(fan)]),
                                      on_screen(polygon[std::size_t(fan) + 1])};
     const float twice_area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    if (std::abs(twice_area) < 1.0f) continue;
+    if (twice_area < 1.0f) continue;  // seen from behind, or too small
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     ScreenTriangle screen;
@@ -145,7 +150,7 @@ bool OcclusionCuller::hides(const Bounds& box) const {
     const glm::vec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                       corner & 4 ? box.max.z : box.min.z, 1.0f);
     const glm::vec4 clip = clip_from_world_ * p;
-    if (clip.w <= near_w) return false;
+    if (before_near_plane(clip) <= 0.0f) return false;
     const glm::vec3 screen = on_screen(clip);
     low = glm::min(low, glm::vec2(screen)), high = glm::max(high, glm::vec2(screen));
     nearest = std::max(nearest, screen.z);
@@ -154,7 +159,7 @@ bool OcclusionCuller::hides(const Bounds& box) const {
   const int y0 = std::max(int(std::floor(low.y)), 0), y1 = std::min(int(std::floor(high.y)), height - 1);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
-      if (farthest_[std::size_t(y) * std::size_t(width) + std::size_t(x)] <= nearest) return false;
+      if (farthest_[std::size_t(y) * std::size_t(width) + std::size_t(x)] <= slack * nearest) return false;
   return true;
 }
 

@@ -15,8 +15,9 @@ namespace parvis::render {
 
 class OcclusionCuller {
  public:
-  /// Adds the triangles of an opaque, fixed mesh that are large enough to hide something.
-  void add_occluder(const Mesh& mesh, const glm::mat4& world_from_mesh);
+  /// Adds the triangles of an opaque, fixed mesh that are large enough to hide something. Unless `has_backs`,
+  /// they are not there when seen from behind: the camera may stand within a house.
+  void add_occluder(const Mesh& mesh, const glm::mat4& world_from_mesh, bool has_backs);
 
   /// Draws the occluders for a view.
   void draw(const glm::mat4& clip_from_world);

@@ -57,8 +57,9 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
 
 SceneDrawable::SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs)
     : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
-  for_each_fixed_opaque_part(scene, [this](const Mesh& mesh, const glm::mat4& world_from_mesh) {
-    occlusion_.add_occluder(mesh, world_from_mesh);
+  for_each_fixed_opaque_part(scene, [this](const scene::Part& part, const scene::Material& material,
+                                           const glm::mat4& world_from_mesh) {
+    occlusion_.add_occluder(part.mesh, world_from_mesh, material.is_double_sided);
   });
 }
 

@@ -8,12 +8,15 @@ namespace {
 
 shading::SkyVisibility visibility_in(const scene::Scene& scene) {
   Bounds bounds;
-  for_each_fixed_opaque_part(scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
-    bounds.add(transformed(world_from_mesh, mesh.bounds()));
-  });
+  for_each_fixed_opaque_part(
+      scene, [&](const scene::Part& part, const scene::Material&, const glm::mat4& world_from_mesh) {
+        bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
+      });
   shading::HeightField heights(bounds);
   for_each_fixed_opaque_part(
-      scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
+      scene, [&](const scene::Part& part, const scene::Material&, const glm::mat4& world_from_mesh) {
+        heights.add(part.mesh, world_from_mesh);
+      });
   return shading::make_sky_visibility(heights);
 }
 

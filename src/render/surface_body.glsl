@@ -53,7 +53,10 @@ void main() {
   vec3 to_viewer = viewer_position.xyz - position;
   float distance_m = length(to_viewer);
   to_viewer /= distance_m;
-  vec3 normal = normalize(gl_FrontFacing ? vertex_normal : -vertex_normal);
+  vec3 normal = normalize(vertex_normal);
+#ifdef HAS_BACKS
+  if (!gl_FrontFacing) normal = -normal;
+#endif
 #ifdef HAS_SURFACE_MAP
   vec3 detail = texture(surface_texture, texture_uv).rgb;
 #else

@@ -13,6 +13,7 @@ gl::Defines defines_of(std::uint8_t features) {
   if (features & surface_has_emission_map) defines.emplace_back("HAS_EMISSION_MAP", "");
   if (features & surface_has_coat) defines.emplace_back("HAS_COAT", "");
   if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
+  if (features & surface_has_backs) defines.emplace_back("HAS_BACKS", "");
   if (!has_fast_anisotropy()) defines.emplace_back("ANISOTROPY_BY_TAPS", "");
   return defines;
 }
