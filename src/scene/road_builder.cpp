@@ -11,9 +11,10 @@ namespace parvis::scene {
 
 namespace {
 
-constexpr float kerb_radius_m = 5.0f;      // of the corners between streets: a car turns right on 6.5 m
-constexpr float bend_radius_m = 7.0f;      // of the innermost lane's edge where a street bends
-constexpr float loop_radius_m = 4.5f;      // in which a car turns round at a dead end
+constexpr float kerb_radius_m = 5.0f;  // of the corners between streets: a car turns right on 6.5 m
+constexpr float bend_radius_m = 7.0f;  // of the innermost lane's edge where a street bends
+constexpr float widest_loop_m = 4.5f,
+                tightest_loop_m = 3.5f;    // radius on which a car turns round at a dead end
 constexpr float longest_cut_m = 60.0f;     // back from a crossing, however acute the angle
 constexpr float longest_corner_m = 12.0f;  // of it, for rounding the kerb
 constexpr float shortest_cut_m = 1.5f;
@@ -65,9 +66,9 @@ float clear_m(const Arm& arm, const Arm& other) {
 /// How much of a dead end the loop takes in which a car turns round; nothing where a one-way road ends.
 float loop_length_m(const Arm& arm) {
   if (arm.is_one_way) return 0.0f;
-  const float aside = std::min(0.5f * arm.half_width_m, loop_radius_m);
-  const float sum = aside + loop_radius_m;
-  return loop_radius_m + std::sqrt(4.0f * loop_radius_m * loop_radius_m - sum * sum);
+  const float radius = std::clamp(1.5f * arm.half_width_m, tightest_loop_m, widest_loop_m);
+  const float sum = radius + std::min(0.5f * arm.half_width_m, radius);
+  return radius + std::sqrt(4.0f * radius * radius - sum * sum);
 }
 
 void cut_back(std::vector<Arm>& arms, const RoadNetwork& network) {

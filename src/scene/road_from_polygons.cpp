@@ -8,6 +8,7 @@
 
 #include "base/bounds.h"
 #include "scene/path.h"
+#include "scene/road_network.h"
 #include "scene/skeleton.h"
 
 namespace parvis::scene {
@@ -20,11 +21,13 @@ constexpr float margin_m = 4.0f;     // around the polygons
 constexpr float gap_m = 2.0f;        // between surfaces that belong together
 constexpr float island_m2 = 150.0f;  // in the carriageway, driven past, not around
 constexpr float narrowest_road_m = 2.6f;
-constexpr float narrowest_lane_m = 2.8f;  // two cars can just pass
+constexpr float narrowest_lane_m = 2.35f;  // two cars just pass, a wheel on the pavement
+constexpr float kerb_distance_m = 0.3f;    // that lanes leave on each side
 constexpr float widest_lane_m = 3.25f;
-constexpr float shortest_end_m = 25.0f;  // of a road that ends without meeting another
-constexpr float smoothing_m = 5.0f;      // standard deviation: takes away the steps of the cells
-constexpr float tolerance_m = 0.25f;     // of the simplified line
+constexpr float shortest_end_m = 25.0f;   // of a road that ends without meeting another
+constexpr float turning_circle_m = 9.0f;  // of a car
+constexpr float smoothing_m = 5.0f;       // standard deviation: takes away the steps of the cells
+constexpr float tolerance_m = 0.25f;      // of the simplified line
 
 // Words for what vehicles do not use, in the languages of the city models at hand (Dutch BGT, German,
 // English).
@@ -118,6 +121,7 @@ Path smoothed(const Path& path, float deviation_m) {
     }
     result.push_back(sum / weights);
   }
+  result.front() = path.front(), result.back() = path.back();  // to the last bit: there roads meet
   return result;
 }
 
@@ -175,8 +179,8 @@ std::optional<Road> road_of(const SkeletonBranch& branch, const Skeleton& skelet
   Road road;
   road.path = centre_line(branch, skeleton, ground);
   road.lanes_each_way = std::clamp(int(0.5f * width_m / 3.0f), 1, 3);
-  road.lane_width_m =
-      std::clamp(0.5f * width_m / float(road.lanes_each_way), narrowest_lane_m, widest_lane_m);
+  road.lane_width_m = std::clamp((0.5f * width_m - kerb_distance_m) / float(road.lanes_each_way),
+                                 narrowest_lane_m, widest_lane_m);
   return road.path.size() < 2 ? std::nullopt : std::optional(std::move(road));
 }
 
@@ -184,11 +188,21 @@ std::optional<Road> road_of(const SkeletonBranch& branch, const Skeleton& skelet
 int joined_ends(const Road& road, std::span<const Road> roads) {
   const auto is_joined = [&](glm::vec3 end, glm::vec3 other_end) {
     return end == other_end || std::ranges::any_of(roads, [&](const Road& other) {
-             return &other != &road && (other.path.front() == end || other.path.back() == end);
+             return other.path != road.path && (other.path.front() == end || other.path.back() == end);
            });
   };
   return int(is_joined(road.path.front(), road.path.back())) +
          int(is_joined(road.path.back(), road.path.front()));
+}
+
+/// Without those whose ends are too narrow to turn a car in, as long as such ends come up.
+std::vector<Road> without_narrow_dead_ends(std::vector<Road> roads) {
+  const auto is_trap = [](const Road& road, std::span<const Road> all) {
+    return joined_ends(road, all) < 2 && 2.0f * half_width_m(road) < turning_circle_m;
+  };
+  while (std::erase_if(roads, [&, all = roads](const Road& road) { return is_trap(road, all); }) > 0)
+    continue;
+  return roads;
 }
 
 bool is_usable(const RoadPolygon& polygon) {
@@ -219,10 +233,11 @@ std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons) {
   for (const SkeletonBranch& branch : skeleton.branches)
     if (std::optional<Road> road = road_of(branch, skeleton, ground)) roads.push_back(std::move(*road));
 
-  std::vector<Road> kept;
-  for (const Road& road : roads)
-    if (joined_ends(road, roads) == 2 || MeasuredPath(road.path).length() >= shortest_end_m)
-      kept.push_back(road);
+  std::erase_if(roads, [all = roads](const Road& road) {
+    return joined_ends(road, all) < 2 && MeasuredPath(road.path).length() < shortest_end_m;
+  });
+  std::vector<Road> kept = without_narrow_dead_ends(roads);
+  if (kept.empty()) kept = std::move(roads);
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].name = fmt::format("road surface {}", i + 1);
   return kept;
 }
