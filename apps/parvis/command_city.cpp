@@ -34,13 +34,4 @@ void add_city(CLI::App& app, Chosen& chosen) {
   command->callback([arguments, &chosen] { chosen = [arguments] { return write_city(*arguments); }; });
 }
 
-void add_view(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("view", "Opens a window");
-  command->callback([&chosen] { chosen = []() -> Status { return error("not built yet"); }; });
-}
-void add_bench(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("bench", "bench");
-  command->callback([&chosen] { chosen = []() -> Status { return error("not built yet"); }; });
-}
-
 }  // namespace parvis

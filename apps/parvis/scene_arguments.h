@@ -42,8 +42,8 @@ struct SceneArguments {
     return Done{};
   }
 
-  /// The scene on its stage at the time given; needs a current context.
-  Result<std::unique_ptr<stage::Stage>> open_stage() const {
+  /// The scene with its traffic, at the time given.
+  Result<stage::Play> open_play() const {
     Result<stage::Play> play = stage::open_play(scene, data);
     if (!play) return play.errors();
     if (!method.empty()) {
@@ -54,6 +54,13 @@ struct SceneArguments {
       play->scene.reflection.method = scene::ReflectionMethod(found - names.begin());
     }
     play->advance(time_s);
+    return play;
+  }
+
+  /// The same on its stage; needs a current context.
+  Result<std::unique_ptr<stage::Stage>> open_stage() const {
+    Result<stage::Play> play = open_play();
+    if (!play) return play.errors();
     return stage::Stage::create(*std::move(play));
   }
 };

@@ -1,0 +1,35 @@
+// parvis view: the window.
+#include "commands.h"
+#include "scene_arguments.h"
+#include "viewer/window.h"
+
+namespace parvis {
+namespace {
+
+struct Arguments : SceneArguments {
+  viewer::WindowOptions window;
+};
+
+Status view(Arguments& arguments) {
+  viewer::WindowOptions& window = arguments.window;
+  if (Status status = arguments.read_size(window.width, window.height); !status) return status;
+  window.camera = arguments.camera;
+  Result<stage::Play> play = arguments.open_play();
+  if (!play) return play.errors();
+  return viewer::show(*std::move(play), window);
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("view", "Opens a window: walk, fly, follow a vehicle");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->add_scene(*command);
+  arguments->add_picture(*command);
+  command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")->check(CLI::Range(0, 1000000));
+  command->add_option("--screenshot", arguments->window.screenshot, "Write the last frame when the window closes");
+  command->footer("Example: parvis view out/paper/paper.xp --camera street");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
+}
+
+}  // namespace parvis
