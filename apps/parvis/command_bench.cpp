@@ -1,11 +1,37 @@
-// parvis bench: figures.
+// parvis bench: figures, as a table and as JSON.
+#include "bench/frame_bench.h"
 #include "commands.h"
 
 namespace parvis {
+namespace {
+
+struct Arguments {
+  std::string name;
+  std::filesystem::path json;
+  bool is_quick = false;
+};
+
+Status measure(const Arguments& arguments) {
+  const Result<bench::Report> report = bench::frame_bench(arguments.is_quick);
+  if (!report) return report.errors();
+  report->print();
+  return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
+}
+
+}  // namespace
 
 void add_bench(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("bench", "Measures");
-  command->callback([&chosen] { chosen = []() -> Status { return error("not yet"); }; });
+  CLI::App* command = app.add_subcommand("bench", "Measures, and prints every figure");
+  const auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option("name", arguments->name,
+                   "frame: a frame of the paper's city, its culling, the mirrors' truth")
+      ->required()
+      ->check(CLI::IsMember({"frame"}));
+  command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: done within three minutes");
+  command->add_option("--json", arguments->json, "Also write the figures to this file");
+  command->footer("Example: parvis bench frame --quick --json frame.json");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return measure(*arguments); }; });
 }
 
 }  // namespace parvis

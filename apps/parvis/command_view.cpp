@@ -26,8 +26,10 @@ void add_view(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
   arguments->add_picture(*command);
-  command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")->check(CLI::Range(0, 1000000));
-  command->add_option("--screenshot", arguments->window.screenshot, "Write the last frame when the window closes");
+  command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--screenshot", arguments->window.screenshot,
+                      "Write the last frame when the window closes");
   command->footer("Example: parvis view out/paper/paper.xp --camera street");
   command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
 }

@@ -37,16 +37,20 @@ void Play::advance(double seconds) {
   traffic.place(scene);
 }
 
+Play make_play(scene::Scene scene) {
+  traffic::Traffic traffic(scene);
+  Play play{std::move(scene), std::move(traffic)};
+  for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  play.traffic.add_vehicles(play.scene);
+  return play;
+}
+
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders) {
   Result<scene::LoadedScene> loaded = scene::load_scene(script, node_registry(), data_folders);
   if (!loaded) return loaded.errors();
   for (const Error& warning : loaded->warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
-  traffic::Traffic traffic(loaded->scene);
-  Play play{std::move(loaded->scene), std::move(traffic)};
-  for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-  play.traffic.add_vehicles(play.scene);
-  return play;
+  return make_play(std::move(loaded->scene));
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)

@@ -19,7 +19,7 @@ namespace parvis::stage {
 /// The types of nodes that scripts may use: those of all rooms.
 scene::NodeRegistry node_registry();
 
-/// Reads a script, and puts its traffic on the roads. Warnings are told on standard error.
+/// A scene with its traffic.
 struct Play {
   scene::Scene scene;
   traffic::Traffic traffic;
@@ -27,6 +27,9 @@ struct Play {
   /// Lets `seconds` pass.
   void advance(double seconds);
 };
+/// Puts a scene's traffic on its roads; tells warnings on standard error.
+Play make_play(scene::Scene scene);
+/// The same of a script.
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
 

@@ -80,9 +80,9 @@ int next_vehicle(const scene::Scene& scene, int previous) {
 }
 
 void show_statistics(GLFWwindow* window, const render::DrawStatistics& drawn, int frames, double seconds) {
-  const std::string title =
-      fmt::format("Parvis: {:.1f} ms a frame, {} triangles in {} draws, {} of {} parts hidden", 1000.0 * seconds / frames,
-                  drawn.triangles, drawn.draws, drawn.items_hidden, drawn.items_in_frustum);
+  const std::string title = fmt::format(
+      "Parvis: {:.1f} ms a frame, {} triangles in {} draws, {} of {} parts hidden", 1000.0 * seconds / frames,
+      drawn.triangles, drawn.draws, drawn.items_hidden, drawn.items_in_frustum);
   glfwSetWindowTitle(window, title.c_str());
 }
 
@@ -108,12 +108,14 @@ class Visit {
       last = now;
       draw();
       ++frames, ++frames_of_title;
-      if (const double since = std::chrono::duration<double>(now - last_title).count(); since > title_interval_s) {
+      if (const double since = std::chrono::duration<double>(now - last_title).count();
+          since > title_interval_s) {
         show_statistics(window_, stage_.renderer().statistics(), frames_of_title, since);
         last_title = now, frames_of_title = 0;
       }
       if (std::exchange(input_.wants_picture, false))
-        if (Status status = write_image(fmt::format("parvis-{}.png", ++pictures_), stage_.picture()); !status) return status;
+        if (Status status = write_image(fmt::format("parvis-{}.png", ++pictures_), stage_.picture()); !status)
+          return status;
     }
     return options.screenshot.empty() ? Status(Done{}) : write_image(options.screenshot, stage_.picture());
   }

@@ -14,8 +14,8 @@ struct WindowOptions {
   std::string screenshot;  ///< written when the window closes; empty: none
 };
 
-/// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is no display or
-/// no OpenGL 4.5.
+/// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is
+/// no display or no OpenGL 4.5.
 Status show(stage::Play play, const WindowOptions& options);
 
 }  // namespace parvis::viewer

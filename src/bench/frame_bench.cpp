@@ -1,0 +1,214 @@
+#include "bench/frame_bench.h"
+
+#include <epoxy/gl.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "base/random.h"
+#include "base/test_data.h"
+#include "bench/mirror_check.h"
+#include "city/paper_city.h"
+#include "render/frustum.h"
+#include "scene/city_json.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int width = 1280, height = 720;
+
+double milliseconds(auto&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A folder that goes when the bench does.
+struct ScratchFolder {
+  fs::path path = fs::temp_directory_path() / fmt::format("parvis-bench-{}", getpid());
+  ~ScratchFolder() {
+    std::error_code code;
+    fs::remove_all(path, code);
+  }
+};
+
+Camera at(glm::vec3 eye, float heading_rad, float pitch_rad) {
+  const glm::vec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad), std::sin(heading_rad) * std::cos(pitch_rad),
+                        std::sin(pitch_rad));
+  Camera camera;
+  camera.vertical_fov = vertical_fov(glm::radians(65.0f), float(width) / float(height));
+  camera.world_from_camera = look_at(eye, eye + ahead);
+  return camera;
+}
+
+/// Points on the lanes from which a visitor or a driver looks, in an order that the seed shuffles.
+std::vector<Camera> viewpoints(const scene::RoadGraph& roads, std::size_t count, float eye_height_m, float pitch_rad) {
+  Random random(5);
+  std::vector<Camera> cameras;
+  while (cameras.size() < count) {
+    const scene::Lane& lane = roads.lanes[std::size_t(random.index(int(roads.lanes.size())))];
+    const std::size_t i = std::size_t(random.index(int(lane.points.size()) - 1));
+    const glm::vec3 along = lane.points[i + 1] - lane.points[i];
+    const glm::vec3 eye = lane.points[i] + random.uniform() * along + glm::vec3(0, 0, eye_height_m);
+    cameras.push_back(at(eye, std::atan2(along.y, along.x), pitch_rad));
+  }
+  return cameras;
+}
+
+stage::Play play_with(const scene::Scene& scene, int vehicles) {
+  scene::Scene copy = scene;  // models are shared
+  copy.traffic.vehicles = vehicles;
+  return stage::make_play(std::move(copy));
+}
+
+int reflectors_seen(stage::Stage& stage, const Camera& camera) {
+  stage.renderer().begin_frame(stage.scene(), camera);
+  stage.renderer().prepare_main_view(camera, width, height);
+  std::vector<probes::Reflector> reflectors;
+  probes::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
+  return int(reflectors.size());
+}
+
+/// Lets traffic drive until some view sees between `least` and `most` cars; the best view found otherwise.
+Camera view_of_cars(stage::Stage& stage, int least, int most, Report& report) {
+  Camera best;
+  int best_seen = -1;
+  for (int second = 0; second < 40; ++second) {
+    for (const Camera& camera : viewpoints(stage.scene().roads, 12, 9.0f, glm::radians(-4.0f))) {
+      const int seen = reflectors_seen(stage, camera);
+      if (seen >= least && seen <= most) {
+        report.note(fmt::format("{} cars, {} seen, from a balcony, after {} s", stage.play().traffic.vehicle_count(), seen, second));
+        return camera;
+      }
+      if (seen <= most && seen > best_seen) best = camera, best_seen = seen;
+    }
+    stage.play().advance(1.0);
+  }
+  report.note(fmt::format("no view of {} to {} cars was found: {} are seen", least, most, best_seen));
+  return best;
+}
+
+struct Method {
+  const char* key;
+  scene::Reflection reflection;
+};
+
+/// Times whole frames of each method in alternating order.
+Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
+                    std::vector<Median>& medians) {
+  using scene::ReflectionMethod;
+  const Method methods[]{{"none", {ReflectionMethod::none, 128, false}},
+                         {"rerendered", {ReflectionMethod::rerendered_cube_map, 128, false}},
+                         {"rerendered_lod", {ReflectionMethod::rerendered_cube_map, 128, true}}};
+  std::vector<double> samples[3];
+  for (int repeat = 0; repeat < repeats; ++repeat)
+    for (int i = 0; i < 3; ++i) {
+      const int method = (repeat % 2 == 0) ? i : 2 - i;
+      if (Status status = stage.set_reflection(methods[method].reflection); !status) return status;
+      stage.draw(camera, width, height);  // makes what is made once
+      glFinish();
+      samples[method].push_back(milliseconds([&] {
+        stage.draw(camera, width, height);
+        glFinish();
+      }));
+    }
+  for (int i = 0; i < 3; ++i) {
+    medians.push_back(median(samples[i]));
+    report.add(fmt::format("frame_ms_{}_{}", methods[i].key, cars), medians.back());
+  }
+  return Done{};
+}
+
+/// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
+void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
+  int hidden = 0, culled = 0, false_culls = 0;
+  for (const Camera& camera : viewpoints(stage.scene().roads, views, 1.6f, 0.0f)) {
+    stage.renderer().begin_frame(stage.scene(), camera);
+    const auto picture = stage.renderer().pick(camera, width, height, false);
+    std::vector<int> pixels(stage.scene().objects.size(), 0);
+    for (const std::uint32_t object : picture.pixels)
+      if (object > 0) ++pixels[object - 1];
+    stage.renderer().prepare_main_view(camera, width, height);
+    std::vector<bool> is_drawn(pixels.size(), false);
+    for (const int object : stage.renderer().visible_objects()) is_drawn[std::size_t(object)] = true;
+    const render::Frustum frustum(render::camera_view(camera, 0, width, height).clip_from_world);
+    for (std::size_t o = 0; o < pixels.size(); ++o) {
+      if (!stage.scene().objects[o].takes_reflection) continue;
+      if (!frustum.may_see(stage.renderer().gpu().object_bounds()[o])) continue;
+      if (pixels[o] > 0) {
+        false_culls += !is_drawn[o];
+        continue;
+      }
+      ++hidden;
+      culled += !is_drawn[o];
+    }
+  }
+  report.add("occlusion_culled_percent", hidden > 0 ? 100.0 * culled / hidden : 0.0);
+  report.add("false_culls", false_culls);
+  report.note(fmt::format("{} of {} hidden cars in the frustum are culled, over {} views", culled, hidden, views));
+}
+
+void measure_reference(stage::Stage& stage, Report& report) {
+  const Camera camera = viewpoints(stage.scene().roads, 1, 1.6f, 0.0f).front();
+  const reference::TracedPicture traced = stage.trace(camera, 480, 270, 16);
+  report.add("reference_mrays_s", 1e-6 * double(traced.rays) / traced.seconds);
+}
+
+void measure_denhaag(Report& report) {
+  const auto file = shared_data("cities/DenHaag_01.city.json", fs::current_path());
+  if (!file) return report.note("load_ms_denhaag is skipped: the shared data is absent");
+  std::vector<double> samples;
+  for (int i = 0; i < 5; ++i)
+    samples.push_back(milliseconds([&] {
+      Errors warnings;
+      static_cast<void>(scene::read_city_model(*file, warnings));
+    }));
+  report.add("load_ms_denhaag", median(samples));
+}
+
+}  // namespace
+
+Result<Report> frame_bench(bool is_quick) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  Report report("frame");
+  report.note("machine: " + gl::driver_name());
+  const ScratchFolder folder;
+  Status written = Done{};
+  const double generated_ms = milliseconds([&] { written = city::write_paper_city(folder.path, 1); });
+  if (!written) return written.errors();
+  const Result<scene::LoadedScene> loaded = scene::load_scene(folder.path / "paper.xp", stage::node_registry());
+  if (!loaded) return loaded.errors();
+  report.add("triangles", double(loaded->scene.static_triangle_count()));
+  report.add("city_generate_ms", generated_ms);
+
+  const int repeats = is_quick ? 7 : 21;
+  for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
+    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(loaded->scene, cars));
+    if (!stage) return stage.errors();
+    const Camera camera = view_of_cars(**stage, least, most, report);
+    const int seen = reflectors_seen(**stage, camera);
+    std::vector<Median> medians;
+    if (Status status = time_methods(**stage, camera, cars, repeats, report, medians); !status) return status.errors();
+    if (cars == 30) report.add("rerendered_ms_per_car", (medians[1].value - medians[0].value) / std::max(seen, 1));
+  }
+  {
+    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(loaded->scene, 120));
+    if (!stage) return stage.errors();
+    measure_occlusion(**stage, is_quick ? 20 : 80, report);
+    measure_reference(**stage, report);
+  }
+  measure_denhaag(report);
+  const Result<MirrorFlips> flips = mirror_flips();
+  if (!flips) return flips.errors();
+  report.add("ball_flip", flips->ball);
+  report.add("box_flip", flips->box);
+  report.add("ball_flip_faces_swapped", flips->ball_faces_swapped);
+  return report;
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,39 @@
+#include "bench/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+
+namespace parvis::bench {
+
+Median median(std::vector<double> samples) {
+  if (samples.empty()) return {};
+  std::sort(samples.begin(), samples.end());
+  const double count = double(samples.size()), reach = 0.98 * std::sqrt(count);  // 1.96 sqrt(n) / 2
+  const auto at = [&](double rank) {
+    return samples[std::size_t(std::clamp(std::lround(rank), 0l, long(samples.size()) - 1))];
+  };
+  const double middle = 0.5 * (count - 1.0);
+  const double value = 0.5 * (at(std::floor(middle)) + at(std::ceil(middle)));
+  return {value, at(std::floor(middle - reach)), at(std::ceil(middle + reach))};
+}
+
+void Report::add(const std::string& key, const Median& median) {
+  add(key, median.value);
+  note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low, median.high));
+}
+
+void Report::print() const {
+  for (const auto& [key, value] : figures_) fmt::print("{:<36} {:>14.4f}\n", key, value);
+  for (const std::string& row : rows_) fmt::print("  {}\n", row);
+}
+
+Status Report::write(const std::filesystem::path& file) const {
+  nlohmann::json json{{"bench", name_}, {"figures", nlohmann::json::object()}, {"rows", rows_}};
+  for (const auto& [key, value] : figures_) json["figures"][key] = value;
+  return write_file(file, json.dump(2) + "\n");
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,38 @@
+// What a bench tells: figures by key and rows of text, as a table and as JSON.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+
+namespace parvis::bench {
+
+/// A median with its 95 % interval (order statistics, binomial).
+struct Median {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+Median median(std::vector<double> samples);
+
+class Report {
+ public:
+  explicit Report(std::string name) : name_(std::move(name)) {}
+
+  void add(const std::string& key, double value) { figures_.emplace_back(key, value); }
+  /// The median counts; its interval stands in a row.
+  void add(const std::string& key, const Median& median);
+  void note(std::string row) { rows_.push_back(std::move(row)); }
+
+  void print() const;
+  /// {"bench": NAME, "figures": {KEY: number, ...}, "rows": [...]}
+  Status write(const std::filesystem::path& file) const;
+
+ private:
+  std::string name_;
+  std::vector<std::pair<std::string, double>> figures_;
+  std::vector<std::string> rows_;
+};
+
+}  // namespace parvis::bench
