@@ -1,4 +1,4 @@
-// A mirror ball and a mirror box in far, textured surroundings: there a cube map is exact, and FLIP against the ray tracer
+// A mirror ball and a mirror box in textured surroundings a thousand radii away: there a cube map is exact, and FLIP against the ray tracer
 // tells whether directions, faces and filters are right.
 #pragma once
 
@@ -8,6 +8,7 @@ namespace parvis::bench {
 
 struct MirrorFlips {
   double ball = 0.0, box = 0.0;
+  double ball_at_50_radii = 0.0, box_at_50_radii = 0.0;  ///< nearer walls: the map's one centre shows
   double ball_faces_swapped = 0.0;  ///< the same ball with two faces of its map exchanged: the check can fail
 };
 
