@@ -1,5 +1,6 @@
-// script/bench frame: what a frame of the paper's city costs without and with re-rendered reflections (table 1 of Meyer and
-// Loscos 2003), whether hidden cars are culled, and how fast and how right the rest of the house is.
+// script/bench frame: what a frame of the paper's city costs without and with re-rendered reflections (table
+// 1 of Meyer and Loscos 2003), whether hidden cars are culled, and how fast and how right the rest of the
+// house is.
 #pragma once
 
 #include "bench/report.h"

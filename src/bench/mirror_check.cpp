@@ -12,10 +12,11 @@ namespace parvis::bench {
 namespace {
 
 constexpr int map_resolution = 1024;
-// A map has one centre: its error falls with distance. Far walls leave what this check is for: directions, faces, filters.
-constexpr float far_radii = 1000.0f;
+// A map has one centre: its error falls with distance. Far walls leave what this check is for: directions,
+// faces, filters.
+constexpr float far_radii = 2000.0f;
 constexpr float near_radii = 50.0f;
-constexpr int width = 640, height = 480;
+constexpr int width = 1280, height = 720;
 
 Mesh ball() {
   constexpr int rings = 96, sectors = 192;
@@ -23,7 +24,8 @@ Mesh ball() {
   for (int r = 0; r <= rings; ++r)
     for (int s = 0; s <= sectors; ++s) {
       const float polar = 3.14159265f * float(r) / rings, azimuth = 6.2831853f * float(s) / sectors;
-      const glm::vec3 n(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      const glm::vec3 n(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                        std::cos(polar));
       mesh.positions.push_back(n);
       mesh.normals.push_back(n);
       mesh.uvs.emplace_back(0.0f);
@@ -45,7 +47,8 @@ Mesh cube(float half, bool is_room) {
       n[axis] = side, u[(axis + 1) % 3] = 1.0f;
       const glm::vec3 v = glm::cross(n, u);
       const std::uint32_t first = std::uint32_t(mesh.positions.size());
-      for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+      for (const glm::vec2 corner :
+           {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         mesh.positions.push_back(half * (n + corner.x * u + corner.y * v));
         mesh.normals.push_back(is_room ? -n : n);
         // each side of the room shows another part of the picture
@@ -113,10 +116,11 @@ class SwappedFaces final : public probes::Reflections {
   void update_maps(render::Renderer& renderer, const std::vector<probes::Reflector>& reflectors) override {
     for (int face = 0; face < 6; ++face)
       map_.draw_face(renderer, face, reflectors.front().centre, reflectors.front().object);
-    const gl::Texture kept = gl::texture_2d(GL_R11F_G11F_B10F, map_resolution, map_resolution);
-    const auto copy = [](GLuint from, GLenum from_target, int from_layer, GLuint to, GLenum to_target, int to_layer) {
-      glCopyImageSubData(from, from_target, 0, 0, 0, from_layer, to, to_target, 0, 0, 0, to_layer, map_resolution,
-                         map_resolution, 1);
+    const gl::Texture kept = gl::texture_2d(GL_RGBA16F, map_resolution, map_resolution);
+    const auto copy = [](GLuint from, GLenum from_target, int from_layer, GLuint to, GLenum to_target,
+                         int to_layer) {
+      glCopyImageSubData(from, from_target, 0, 0, 0, from_layer, to, to_target, 0, 0, 0, to_layer,
+                         map_resolution, map_resolution, 1);
     };
     constexpr int first = 0, second = 3;
     copy(map_.texture(), GL_TEXTURE_CUBE_MAP, first, kept.name(), GL_TEXTURE_2D, 0);
@@ -173,10 +177,11 @@ Result<MirrorFlips> mirror_flips() {
     flip = *measured;
     return Done{};
   };
-  for (const Status& status : {measure(ball(), far_radii, false, flips.ball), measure(box, far_radii, false, flips.box),
-                               measure(ball(), far_radii, true, flips.ball_faces_swapped),
-                               measure(ball(), near_radii, false, flips.ball_at_50_radii),
-                               measure(box, near_radii, false, flips.box_at_50_radii)})
+  for (const Status& status :
+       {measure(ball(), far_radii, false, flips.ball), measure(box, far_radii, false, flips.box),
+        measure(ball(), far_radii, true, flips.ball_faces_swapped),
+        measure(ball(), near_radii, false, flips.ball_at_50_radii),
+        measure(box, near_radii, false, flips.box_at_50_radii)})
     if (!status) return status.errors();
   return flips;
 }

@@ -22,7 +22,8 @@ Median median(std::vector<double> samples) {
 
 void Report::add(const std::string& key, const Median& median) {
   add(key, median.value);
-  note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low, median.high));
+  note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low,
+                   median.high));
 }
 
 void Report::print() const {

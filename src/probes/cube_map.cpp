@@ -39,8 +39,8 @@ CubeMap::CubeMap(int resolution)
       texture_(gl::Texture::create(GLenum(GL_TEXTURE_CUBE_MAP))),
       depth_(gl::texture_2d(GL_DEPTH_COMPONENT32F, resolution, resolution)),
       framebuffer_(gl::Framebuffer::create()) {
-  glTextureStorage2D(texture_.name(), int(std::bit_width(unsigned(resolution))), GL_R11F_G11F_B10F,
-                     resolution, resolution);
+  glTextureStorage2D(texture_.name(), int(std::bit_width(unsigned(resolution))), GL_RGBA16F, resolution,
+                     resolution);
   glTextureParameteri(texture_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
