@@ -8,7 +8,7 @@ layout(std140) uniform Frame {
   vec4 frame_sky_sh[9];
   mat4 frame_uvz_from_world[2];
   vec4 frame_shadow_texel;  // metres in the far and the near map; z: in texture coordinates
-  vec4 frame_size;       // pixels; z: levels of the sky; w: samples a pixel
+  vec4 frame_size;       // pixels; z: levels of the sky
   vec4 frame_visibility_origin;  // of the sky visibility grid; w: lift
   vec4 frame_visibility_size;
 };

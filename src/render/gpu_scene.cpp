@@ -65,8 +65,11 @@ std::uint8_t features_of(const scene::Material& material) {
   if (material.surface_texture != scene::no_index) features |= surface_has_surface_map;
   if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
   if (material.clear_coat > 0.0f) features |= surface_has_coat;
-  if (material.alpha_mode == scene::Alpha::cutout) features |= surface_has_holes;
   if (material.is_double_sided) features |= surface_has_backs;
+  if (material.alpha_mode == scene::Alpha::cutout) {
+    features |= surface_has_holes;
+    if (material.translucency > 0.0f) features |= surface_is_leaf;
+  }
   return features;
 }
 

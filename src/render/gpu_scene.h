@@ -29,10 +29,11 @@ enum SurfaceFeature : std::uint8_t {
   surface_has_surface_map = 2,
   surface_has_emission_map = 4,
   surface_has_coat = 8,
-  surface_has_holes = 16,
-  surface_has_backs = 32
+  surface_has_backs = 16,
+  surface_has_holes = 32,
+  surface_is_leaf = 64  ///< cut out and translucent: small, many, in many layers
 };
-inline constexpr std::size_t surface_feature_combinations = 64;
+inline constexpr std::size_t surface_feature_combinations = 128;
 
 /// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
 /// it.

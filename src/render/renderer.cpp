@@ -56,8 +56,7 @@ void Renderer::bind_frame(const View& view) {
   const shading::ShadowMaps& maps = shadows_.maps();
   for (int i = 0; i < 2; ++i) block.uvz_from_world[i] = maps.uvz_from_world[i];
   block.shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
-  block.size = {float(view.width), float(view.height), float(sky.levels.size()),
-                view.kind == ViewKind::main ? float(samples_a_pixel) : 1.0f};
+  block.size = {float(view.width), float(view.height), float(sky.levels.size()), 0.0f};
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
   block.visibility_size = glm::vec4(grid.size_m, 0.0f);
@@ -119,7 +118,7 @@ void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
-  shadows_.update(camera.position_in_world(), scene.sun.direction_to_sun, scene_.gpu().moving_bounds(),
+  shadows_.update(camera, scene.sun.direction_to_sun, scene_.gpu().moving_bounds(),
                   [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
 }

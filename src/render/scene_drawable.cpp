@@ -184,12 +184,13 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::shadow) return programs_.depth;
   if (view.kind == ViewKind::picking) return programs_.picking;
   const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
-  return programs.of(gpu_.materials()[std::size_t(batch.material)]);
+  return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
 
 void SceneDrawable::draw(const View& view, Pass pass) {
   const ViewList& list = list_of(view);
-  if (list.batches[std::size_t(pass)].empty()) return;
+  const std::vector<Batch>& batches = list.batches[std::size_t(pass)];
+  if (batches.empty()) return;
   glVertexArrayVertexBuffer(vertex_array_.name(), 1, list.record_store.name(), list.first_record,
                             sizeof(Item::Record));
   glBindVertexArray(vertex_array_.name());
@@ -197,7 +198,7 @@ void SceneDrawable::draw(const View& view, Pass pass) {
   if (view.kind == ViewKind::shadow && pass == Pass::opaque) return draw_depth(list);
 
   const gl::Program* current = nullptr;
-  for (const Batch& batch : list.batches[std::size_t(pass)]) {
+  for (const Batch& batch : batches) {
     const gl::Program& program = program_for(view, batch);
     if (current != &program) program.use();
     current = &program;

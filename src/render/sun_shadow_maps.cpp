@@ -10,6 +10,7 @@ namespace {
 
 constexpr int map_size = 4096;
 constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings throw shadows
+constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
 constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
 constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
 
@@ -17,6 +18,14 @@ glm::mat3 sun_frame(glm::vec3 to_sun) {
   const glm::vec3 aside = std::abs(to_sun.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(aside, to_sun));
   return glm::transpose(glm::mat3(right, glm::cross(to_sun, right), to_sun));
+}
+
+/// Middle of what a viewer sees best, among the heights of the place.
+glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
+  const glm::vec3 forward = camera.forward_in_world();
+  glm::vec3 focus = camera.position_in_world() + near_ahead_m * glm::vec3(forward.x, forward.y, 0.0f);
+  focus.z = std::clamp(focus.z, place.min.z, place.max.z);
+  return focus;
 }
 
 gl::Framebuffer depth_framebuffer() {
@@ -111,7 +120,7 @@ SunShadowMaps::Square SunShadowMaps::square_of(const Bounds& box) const {
   return {corner, glm::clamp(high, 0, map_size) - corner};
 }
 
-void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun, std::span<const Bounds> moving,
+void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
                            const std::function<void(const View&)>& draw) {
   if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
   if (!far_is_drawn_) {
@@ -119,7 +128,8 @@ void SunShadowMaps::update(glm::vec3 position, glm::vec3 to_sun, std::span<const
     draw(aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y)));
     far_is_drawn_ = true;
   }
-  if (glm::distance(position, near_centre_) > near_stay_m) draw_near_fixed(position, draw);
+  const glm::vec3 focus = focus_of(camera, fixed_);
+  if (glm::distance(focus, near_centre_) > near_stay_m) draw_near_fixed(focus, draw);
 
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();

@@ -21,9 +21,9 @@ class SunShadowMaps {
   /// `fixed` bounds all that does not move, in the world.
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
-  /// Calls `draw` for each map that must be drawn for a viewer at `position`; for all of them when the sun
-  /// has moved. `moving` bounds each thing that moves.
-  void update(glm::vec3 position, glm::vec3 to_sun, std::span<const Bounds> moving,
+  /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
+  /// `moving` bounds each thing that moves.
+  void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
               const std::function<void(const View&)>& draw);
 
   /// At `shadow_unit`.

@@ -1,4 +1,8 @@
 #include "render/frame.glsl"
+#ifdef IS_LEAF
+#include "render/sky_lookup.glsl"
+#include "render/sun_lookup.glsl"
+#endif
 
 layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
@@ -10,6 +14,11 @@ layout(location = 5) in vec4 world_from_mesh_row2;
 out vec3 position;
 out vec3 vertex_normal;
 out vec2 uv;
+#ifdef IS_LEAF
+// A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
+out float leaf_sun;
+out vec4 leaf_sky_cell;
+#endif
 
 void main() {
   vec4 p = vec4(mesh_position, 1.0f);
@@ -20,5 +29,11 @@ void main() {
   vec3 c2 = vec3(world_from_mesh_row0.z, world_from_mesh_row1.z, world_from_mesh_row2.z);
   vertex_normal = mat3(cross(c1, c2), cross(c2, c0), cross(c0, c1)) * mesh_normal;
   uv = mesh_uv;
+#ifdef IS_LEAF
+  vec3 normal = normalize(vertex_normal);
+  normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
+  leaf_sun = visible_sun(position, normal);
+  leaf_sky_cell = sky_visibility_cell(position, normal);
+#endif
   gl_Position = clip_from_world * vec4(position, 1.0f);
 }

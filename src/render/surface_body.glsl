@@ -14,6 +14,10 @@ const float greatest_radiance = 30000.0f;  // the target holds half floats
 in vec3 position;
 in vec3 vertex_normal;
 in vec2 uv;
+#ifdef IS_LEAF
+in float leaf_sun;
+in vec4 leaf_sky_cell;
+#endif
 out vec4 radiance;
 
 vec4 surface_sky_cell;
@@ -41,13 +45,20 @@ vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
 
 void main() {
   vec2 texture_uv = texture_coordinates(uv);
+#ifdef IS_LEAF
+  vec4 base = texture(base_colour_texture, texture_uv);
+#else
   vec4 base = base_colour_at(texture_uv);
+#endif
   base = vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
 #ifdef HAS_HOLES
-  // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away. A map with
-  // one sample a pixel has no coverage: there holes are discarded.
+#ifdef ONE_SAMPLE
+  // Without multisampling there is no coverage by alpha. (Where there is, a shader that discards nothing is faster.)
+  if (base.a < 0.5f) discard;
+#else
+  // Alpha to coverage: sharpen the edge to a pixel's width, so that leaves neither swell nor thin out far away.
   base.a = clamp((base.a - 0.5f) / max(fwidth(base.a), 1e-4f) + 0.5f, 0.0f, 1.0f);
-  if (frame_size.w < 2.0f && base.a < 0.5f) discard;
+#endif
 #endif
 
   vec3 to_viewer = viewer_position.xyz - position;
@@ -92,7 +103,13 @@ void main() {
   light.haze_radiance = frame_haze.rgb;
   light.haze_per_m = frame_to_sun.w;
 
+#ifdef IS_LEAF
+  surface_sky_cell = leaf_sky_cell;
+  float sun = leaf_sun;
+#else
   surface_sky_cell = sky_visibility_cell(position, normal);
+  float sun = visible_sun(position, normal);
+#endif
   vec3 mirrored = reflect(-to_viewer, s.normal);
   vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);
 #ifdef HAS_COAT
@@ -100,7 +117,7 @@ void main() {
 #else
   vec3 coat_reflection = vec3(0.0f);
 #endif
-  vec3 light_out = lit_radiance(s, light, to_viewer, visible_sun(position, normal),
+  vec3 light_out = lit_radiance(s, light, to_viewer, sun,
                                 sky_share_of_normal(surface_sky_cell, s.normal), base_reflection, coat_reflection);
   light_out = through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance);
   radiance = vec4(min(light_out, vec3(greatest_radiance)), base.a);

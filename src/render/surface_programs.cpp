@@ -12,10 +12,20 @@ gl::Defines defines_of(std::uint8_t features) {
   if (features & surface_has_surface_map) defines.emplace_back("HAS_SURFACE_MAP", "");
   if (features & surface_has_emission_map) defines.emplace_back("HAS_EMISSION_MAP", "");
   if (features & surface_has_coat) defines.emplace_back("HAS_COAT", "");
-  if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
   if (features & surface_has_backs) defines.emplace_back("HAS_BACKS", "");
+  if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
+  if (features & surface_is_leaf) defines.emplace_back("IS_LEAF", "");
   if (!has_fast_anisotropy()) defines.emplace_back("ANISOTROPY_BY_TAPS", "");
   return defines;
+}
+
+Status link(gl::Program& program, const std::string& fragment_path, const gl::Defines& defines) {
+  if (program.name()) return Done{};
+  Result<gl::Program> linked = gl::Program::create("render/surface.vert", fragment_path, defines);
+  if (!linked) return linked.errors();
+  program = *std::move(linked);
+  assign_bindings(program);
+  return Done{};
 }
 
 }  // namespace
@@ -24,13 +34,13 @@ Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path
                                                 const std::vector<GpuMaterial>& materials) {
   SurfacePrograms made;
   for (const GpuMaterial& material : materials) {
-    gl::Program& program = made.programs_[material.features];
-    if (program.name()) continue;
-    Result<gl::Program> linked =
-        gl::Program::create("render/surface.vert", fragment_path, defines_of(material.features));
-    if (!linked) return linked.errors();
-    program = *std::move(linked);
-    assign_bindings(program);
+    gl::Defines defines = defines_of(material.features);
+    if (Status status = link(made.programs_[material.features], fragment_path, defines); !status)
+      return status.errors();
+    if (!(material.features & surface_has_holes)) continue;
+    defines.emplace_back("ONE_SAMPLE", "");
+    if (Status status = link(made.one_sample_[material.features], fragment_path, defines); !status)
+      return status.errors();
   }
   return made;
 }

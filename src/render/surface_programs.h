@@ -13,15 +13,21 @@ namespace parvis::render {
 
 class SurfacePrograms {
  public:
-  /// Links render/surface.vert and `fragment_path` for each combination of features among `materials`.
+  /// Links render/surface.vert and `fragment_path` for each combination of features among `materials`, for
+  /// views of many samples a pixel and of one.
   static Result<SurfacePrograms> create(const std::string& fragment_path,
                                         const std::vector<GpuMaterial>& materials);
 
-  /// Of a material that was among them.
-  const gl::Program& of(const GpuMaterial& material) const { return programs_[material.features]; }
+  /// For a material that was among them.
+  const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {
+    const bool discards = (material.features & surface_has_holes) && !is_multisampled;
+    return (discards ? one_sample_ : programs_)[material.features];
+  }
 
  private:
-  std::array<gl::Program, surface_feature_combinations> programs_;
+  using Variants = std::array<gl::Program, surface_feature_combinations>;
+  Variants programs_;
+  Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha
 };
 
 }  // namespace parvis::render
