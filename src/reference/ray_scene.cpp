@@ -7,6 +7,8 @@ namespace {
 
 /// Embree calls these for each candidate hit; geometry belongs to a part, whose first place stands for its
 /// material.
+/// A ray to the sun meets from behind what the sun sees from the front.
+template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
   const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
@@ -16,7 +18,8 @@ void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
                             RTCRayN_dir_y(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_z(arguments->ray, arguments->N, 0));
   const scene::Material& material = *place.material;
-  if (!material.is_double_sided && glm::dot(ng, direction) > 0.0f) {
+  const bool is_back = (glm::dot(ng, direction) > 0.0f) != is_shadow;
+  if (!material.is_double_sided && is_back) {
     arguments->valid[0] = 0;
     return;
   }
@@ -90,9 +93,9 @@ RTCScene RayScene::part_scene(const PlacedPart& place) {
                                           3 * sizeof(std::uint32_t), mesh.triangle_count());
   std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
   rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
-  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
+  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
   rtcSetGeometryOccludedFilterFunction(geometry,
-                                       place.part->casts_shadow ? pass_through_holes : pass_through);
+                                       place.part->casts_shadow ? pass_through_holes<true> : pass_through);
   rtcCommitGeometry(geometry);
   entry->second = rtcNewScene(device_);
   rtcAttachGeometry(entry->second, geometry);
