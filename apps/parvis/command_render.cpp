@@ -4,6 +4,7 @@
 #include "base/image_io.h"
 #include "base/progress.h"
 #include "commands.h"
+#include "render/picture_reader.h"
 #include "scene_arguments.h"
 #include "stage/film.h"
 
@@ -19,6 +20,7 @@ struct Arguments : SceneArguments {
 
 /// Means of n x n pixels, in linear light before tone mapping would be dearer; here of the displayed picture.
 Image8 reduced(const Image8& picture, int n) {
+  if (n == 1) return picture;
   Image8 small(picture.width / n, picture.height / n, picture.channels);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x)
@@ -31,26 +33,30 @@ Image8 reduced(const Image8& picture, int n) {
   return small;
 }
 
-Result<Image8> draw(stage::Stage& stage, const Arguments& arguments, int width, int height) {
+Status draw(stage::Stage& stage, const Arguments& arguments, int width, int height) {
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
   const int n = arguments.supersample;
   stage.draw(*camera, n * width, n * height);
-  return n == 1 ? stage.picture() : reduced(stage.picture(), n);
+  return Done{};
 }
 
 Status render_film(stage::Stage& stage, const Arguments& arguments, int width, int height) {
   Result<stage::Film> film = stage::Film::open(arguments.output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
+  render::PictureReader reader;
   Progress progress("rendering film", std::size_t(frames));
   for (int frame = 0; frame < frames; ++frame) {
-    const Result<Image8> picture = draw(stage, arguments, width, height);
-    if (!picture) return picture.errors();
-    if (Status status = film->add(*picture); !status) return status;
+    if (Status status = draw(stage, arguments, width, height); !status) return status;
+    if (const auto picture = reader.next(stage.renderer(), stage.scene().exposure)) {
+      if (Status status = film->add(reduced(*picture, arguments.supersample)); !status) return status;
+    }
     stage.play().advance(1.0 / arguments.frames_per_second);
     progress.advance();
   }
+  while (const auto picture = reader.rest())
+    if (Status status = film->add(reduced(*picture, arguments.supersample)); !status) return status;
   return film->finish();
 }
 
@@ -62,9 +68,8 @@ Status render_scene(const Arguments& arguments) {
   Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   if (arguments.seconds > 0.0) return render_film(**stage, arguments, width, height);
-  const Result<Image8> picture = draw(**stage, arguments, width, height);
-  if (!picture) return picture.errors();
-  return write_image(arguments.output, *picture);
+  if (Status status = draw(**stage, arguments, width, height); !status) return status;
+  return write_image(arguments.output, reduced((*stage)->picture(), arguments.supersample));
 }
 
 }  // namespace

@@ -62,6 +62,11 @@ void PictureTarget::display(GLuint framebuffer, float exposure) const {
   draw_screen(display_, framebuffer, radiance_.name());
 }
 
+void PictureTarget::start_reading(float exposure, GLsizeiptr bytes) const {
+  display(displayed_.name(), exposure);
+  glGetTextureImage(picture_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(bytes), nullptr);
+}
+
 Image8 PictureTarget::read_picture(float exposure) const {
   display(displayed_.name(), exposure);
   Image8 picture(width_, height_, 4);

@@ -29,6 +29,8 @@ class PictureTarget {
   void display(GLuint framebuffer, float exposure) const;
 
   // Readbacks wait for the GPU: for stills and tests. Films read through render/picture_reader.h.
+  /// Tone-maps and lets the GPU copy the picture, bottom row first, RGBA, into the bound pixel pack buffer.
+  void start_reading(float exposure, GLsizeiptr bytes) const;
   Image8 read_picture(float exposure) const;
   ImageF read_radiance() const;
 

@@ -44,6 +44,7 @@ class Renderer {
 
   /// Tone-maps the main view into a framebuffer of its size (0: the window's).
   void display(GLuint framebuffer, float exposure) const { target_.display(framebuffer, exposure); }
+  void start_reading(float exposure, GLsizeiptr bytes) const { target_.start_reading(exposure, bytes); }
   Image8 read_picture(float exposure) const { return target_.read_picture(exposure); }
   ImageF read_radiance() const { return target_.read_radiance(); }
 

@@ -7,6 +7,7 @@
 #include "gl/test_context.h"
 #include "render/culling_check.h"
 #include "render/golden.h"
+#include "render/picture_reader.h"
 #include "render/test_scene.h"
 
 namespace parvis::render {
@@ -204,6 +205,27 @@ TEST_F(RendererTest, AReflectorIsNotInItsOwnSurroundings) {
   };
   EXPECT_GT(centre_depth(-1), 0.0f);
   EXPECT_EQ(centre_depth(ball), 0.0f);  // reversed depth: nothing is there
+}
+
+TEST_F(RendererTest, FilmsGetTheirFramesInOrderAndWhole) {
+  scene::Scene scene;
+  const int car = add(scene, model_of(box({-1, -1, 0}, {1, 1, 2}), matt(glm::vec3(0.5f))), true);
+  const auto renderer = renderer_of(scene);
+  const Camera camera = map_camera(30, 20);
+  PictureReader reader;
+  std::vector<Image8> expected, read;
+  for (int frame = 0; frame < 5; ++frame) {
+    scene.objects[std::size_t(car)].world_from_model = glm::translate(glm::mat4(1.0f), {frame - 2, 0, 0});
+    const int size = frame < 3 ? 64 : 96;  // the size may change
+    draw(*renderer, scene, camera, size, size);
+    expected.push_back(renderer->read_picture(1.0f));
+    if (std::optional<Image8> picture = reader.next(*renderer, 1.0f)) read.push_back(*std::move(picture));
+  }
+  EXPECT_EQ(read.size(), 3u);
+  while (std::optional<Image8> picture = reader.rest()) read.push_back(*std::move(picture));
+  ASSERT_EQ(read.size(), expected.size());
+  for (std::size_t i = 0; i < read.size(); ++i)
+    EXPECT_EQ(read[i].pixels, expected[i].pixels) << "frame " << i;
 }
 
 TEST_F(RendererTest, APlaceWithSunAndShadowIsGolden) {
