@@ -25,8 +25,9 @@ TEST(Roots, PathsThatLeadOutAreRefusedWithTheirPlace) {
   folder.write("scene/a.xp", "x");
   fs::create_symlink(folder.path() / "secret.txt", folder.path() / "scene/link.txt");
   const Roots roots(folder.path() / "scene");
-  for (const std::string& name : {std::string("../secret.txt"), (folder.path() / "secret.txt").string(), std::string("link.txt"),
-                                  std::string("a/../../secret.txt"), std::string("/etc/passwd")}) {
+  for (const std::string& name :
+       {std::string("../secret.txt"), (folder.path() / "secret.txt").string(), std::string("link.txt"),
+        std::string("a/../../secret.txt"), std::string("/etc/passwd")}) {
     const Result<fs::path> found = roots.find(name, {"a.xp", 3, 7});
     ASSERT_FALSE(found) << name;
     EXPECT_EQ(to_string(found.errors().front()).substr(0, 9), "a.xp:3:7:");

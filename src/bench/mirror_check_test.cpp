@@ -7,8 +7,8 @@
 namespace parvis::bench {
 namespace {
 
-/// The GPU's cube maps against the ray tracer. One sample a pixel of a curved mirror leaves aliased edges, hence not 0.02;
-/// exchanged faces show that the check can fail.
+/// The GPU's cube maps against the ray tracer. One sample a pixel of a curved mirror leaves aliased edges,
+/// hence not 0.02; exchanged faces show that the check can fail.
 TEST(Mirrors, CubeMapsAgreeWithTheRayTracer) {
   const Result<gl::Context> context = gl::Context::create_headless();
   ASSERT_TRUE(context) << to_string(context.errors());

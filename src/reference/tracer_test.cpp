@@ -60,7 +60,8 @@ TEST(Tracer, ASceneWithoutGeometryShowsTheSky) {
 
 TEST(Tracer, AQuadFillsThePixelsThatTrigonometrySays) {
   // 4 m high at 10 m in a picture of 60 degrees: 4 / (2 * 10 * tan 30) of its height
-  const scene::Scene scene = scene_of(quad({-50, 0, -2}, {50, 0, -2}, {50, 0, 2}, {-50, 0, 2}), glowing(glm::vec3(1)));
+  const scene::Scene scene =
+      scene_of(quad({-50, 0, -2}, {50, 0, -2}, {50, 0, 2}, {-50, 0, 2}), glowing(glm::vec3(1)));
   const TracedPicture picture = trace(scene, looking_north(), 3, 300);
   double rows = 0.0;
   for (int y = 0; y < 300; ++y) rows += double(picture.radiance.at(1, y)[0] > 0.5f);
@@ -75,7 +76,8 @@ TEST(Tracer, AMirrorShowsWhatStandsInItsDirection) {
   chrome.is_mirror_like = true;
   // a mirror that looks half to the viewer, half to the east: a ray to the north leaves to the east
   scene::Scene scene = scene_of(quad({-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}), chrome, true);
-  const scene::Scene wall = scene_of(quad({20, 5, -3}, {20, -5, -3}, {20, -5, 3}, {20, 5, 3}), glowing({0, 1, 0}));
+  const scene::Scene wall =
+      scene_of(quad({20, 5, -3}, {20, -5, -3}, {20, -5, 3}, {20, 5, 3}), glowing({0, 1, 0}));
   scene.objects.push_back(wall.objects[0]);
   const TracedPicture picture = trace(scene, looking_north());
   const float* middle = picture.radiance.at(16, 16);
@@ -91,7 +93,8 @@ TEST(Tracer, TheShadowOfAWallEndsWhereTrigonometrySays) {
   scene::Scene scene = scene_of(quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}), white);
   const scene::Scene wall = scene_of(quad({-50, 0, 0}, {50, 0, 0}, {50, 0, 3}, {-50, 0, 3}), white);
   scene.objects.push_back(wall.objects[0]);
-  scene.sun.direction_to_sun = glm::normalize(glm::vec3(0, -1, 1));  // 45 degrees: 3 m of wall throw 3 m of shadow
+  scene.sun.direction_to_sun =
+      glm::normalize(glm::vec3(0, -1, 1));  // 45 degrees: 3 m of wall throw 3 m of shadow
   scene.sun.irradiance = glm::vec3(3.0f);
   const RayScene rays(scene);
   EXPECT_TRUE(rays.is_blocked({{0, 2.9f, 0.001f}, scene.sun.direction_to_sun}));
@@ -124,12 +127,14 @@ TEST(Tracer, PosedObjectsStandWhereTheirPoseSays) {
 }
 
 TEST(Tracer, TheSameSeedGivesTheSamePicture) {
-  const scene::Scene scene = scene_of(quad({-2, 0, -2}, {2, 1, -2}, {2, 0, 2}, {-2, 0, 2}), glowing(glm::vec3(1)));
+  const scene::Scene scene =
+      scene_of(quad({-2, 0, -2}, {2, 1, -2}, {2, 0, 2}, {-2, 0, 2}), glowing(glm::vec3(1)));
   EXPECT_EQ(trace(scene, looking_north()).radiance.pixels, trace(scene, looking_north()).radiance.pixels);
 }
 
 TEST(Tracer, ZeroAreaTrianglesDoNoHarm) {
-  const scene::Scene scene = scene_of(quad({0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}), glowing(glm::vec3(1)));
+  const scene::Scene scene =
+      scene_of(quad({0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}), glowing(glm::vec3(1)));
   for (const float value : trace(scene, looking_north()).radiance.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
