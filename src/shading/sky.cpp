@@ -4,14 +4,12 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
-#include "base/random.h"
 
 namespace parvis::shading {
 namespace {
 
 constexpr float pi_f = 3.14159265f;
 constexpr int level_count = 7;
-constexpr int samples_a_pixel = 64;
 /// Brighter than this many times the picture's mean is the sun's disc and glare: the scene's own sun stands
 /// for it.
 constexpr float sun_threshold = 12.0f;
@@ -76,11 +74,10 @@ ImageF halved(const ImageF& picture) {
   return half;
 }
 
-/// Blurs `source` by the GGX lobe of `roughness` about each direction (Karis 2013, n = v = r), at the size of
-/// `size_of`.
-ImageF prefiltered(const ImageF& source, const ImageF& size_of, float roughness) {
+/// Blurs `source` by the GGX lobe of `roughness` about each direction (Karis 2013, n = v = r).
+ImageF prefiltered(const ImageF& source, float roughness, int samples) {
   const float alpha = roughness * roughness;
-  ImageF result(size_of.width, size_of.height, 3);
+  ImageF result(source.width, source.height, 3);
   parallel_for(std::size_t(result.height), [&](std::size_t row) {
     for (int x = 0; x < result.width; ++x) {
       const vec3 n = direction_of(result, float(x) + 0.5f, float(row) + 0.5f, 0.0f);
@@ -88,8 +85,8 @@ ImageF prefiltered(const ImageF& source, const ImageF& size_of, float roughness)
                  b = cross(n, t);
       vec3 sum(0.0f);
       float weights = 0.0f;
-      for (int i = 0; i < samples_a_pixel; ++i) {
-        const float u = (float(i) + 0.5f) / float(samples_a_pixel);
+      for (int i = 0; i < samples; ++i) {
+        const float u = (float(i) + 0.5f) / float(samples);
         const float phi = 2.39996323f * float(i);  // golden angle: an even spiral, the same for every pixel
         const float cos_h = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
         const float sin_h = std::sqrt(std::max(0.0f, 1.0f - cos_h * cos_h));
@@ -150,8 +147,9 @@ SkyLight make_sky_light(const ImageF& picture, float intensity, float heading) {
   std::vector<ImageF> halves{sky.levels.front()};
   for (int level = 1; level < level_count; ++level) {
     halves.push_back(halved(halves.back()));
-    // The source is a level sharper than the result: enough for the lobe, and 64 samples then leave no noise.
-    sky.levels.push_back(prefiltered(halves.back(), halves.back(), float(level) / float(level_count - 1)));
+    // Narrow lobes span a few pixels only, and the largest levels have the narrowest.
+    const int samples = std::min(16 << (level - 1), 64);
+    sky.levels.push_back(prefiltered(halves.back(), float(level) / float(level_count - 1), samples));
   }
   const ImageF& small = halves[std::min<std::size_t>(3, halves.size() - 1)];
   sky.irradiance_sh = irradiance_coefficients(small, heading);
