@@ -83,7 +83,7 @@ Result<Difference> compare(const Image8& test, const Image8& reference, const Im
 }
 
 Image8 heat_map(const ImageF& flip_map) {
-  // Five colours of matplotlib's magma, as sRGB bytes.
+  // Six colours of matplotlib's magma, as sRGB bytes.
   constexpr std::array<std::array<float, 3>, 6> stops{
       {{0, 0, 4}, {59, 15, 112}, {140, 41, 129}, {222, 73, 104}, {254, 159, 109}, {252, 253, 191}}};
   Image8 picture(flip_map.width, flip_map.height, 3);

@@ -1,12 +1,14 @@
 #include "reference/ray_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace parvis::reference {
 namespace {
 
 /// Embree calls these for each candidate hit; geometry belongs to a part, whose first place stands for its
-/// material.
+/// material. Front and back are told in the mesh's frame, where a mirrored placement does not exchange them.
 /// A ray to the sun meets from behind what the sun sees from the front.
 template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
@@ -23,12 +25,14 @@ void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
     return;
   }
-  if (material.alpha_mode != scene::Alpha::cutout || material.base_colour_texture == scene::no_index) return;
-  const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
-                                           RTCHitN_u(arguments->hit, arguments->N, 0),
-                                           RTCHitN_v(arguments->hit, arguments->N, 0));
-  const float alpha =
-      (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w * material.alpha;
+  if (material.alpha_mode != scene::Alpha::cutout) return;
+  float alpha = material.alpha;
+  if (material.base_colour_texture != scene::no_index) {
+    const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
+                                             RTCHitN_u(arguments->hit, arguments->N, 0),
+                                             RTCHitN_v(arguments->hit, arguments->N, 0));
+    alpha *= (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
+  }
   if (alpha < 0.5f) arguments->valid[0] = 0;
 }
 
@@ -54,23 +58,9 @@ RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), 
       for (const scene::Texture& texture : model.textures) textures->emplace_back(texture);
     }
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
-    for (const scene::Part& part : model.parts) {
-      if (part.mesh.indices.empty()) continue;
-      const scene::Material& material = model.materials[std::size_t(part.material)];
-      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
-      places_.push_back(std::make_unique<PlacedPart>(
-          PlacedPart{&part, &material, textures.get(), world_from_mesh,
-                     glm::transpose(glm::inverse(glm::mat3(world_from_mesh))), int(o),
-                     object.takes_reflection && material.is_mirror_like}));
-      triangle_count_ += part.mesh.triangle_count();
-
-      RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, part_scene(*places_.back()));
-      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
-      rtcCommitGeometry(instance);
-      rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
-      rtcReleaseGeometry(instance);
-    }
+    for (const scene::Part& part : model.parts)
+      place(part, object.world_from_model * pose[std::size_t(part.node)], int(o), object.takes_reflection,
+            model.materials[std::size_t(part.material)], *textures);
   }
   rtcCommitScene(top_);
 }
@@ -79,6 +69,24 @@ RayScene::~RayScene() {
   rtcReleaseScene(top_);
   for (const auto& [part, scene] : part_scenes_) rtcReleaseScene(scene);
   rtcReleaseDevice(device_);
+}
+
+void RayScene::place(const scene::Part& part, const glm::mat4& world_from_mesh, int object,
+                     bool takes_reflection, const scene::Material& material,
+                     const std::vector<MipTexture>& textures) {
+  const float volume = glm::determinant(glm::mat3(world_from_mesh));
+  if (part.mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
+  places_.push_back(std::make_unique<PlacedPart>(PlacedPart{
+      &part, &material, &textures, world_from_mesh, glm::transpose(glm::inverse(glm::mat3(world_from_mesh))),
+      object, takes_reflection && material.is_mirror_like, volume < 0.0f}));
+  triangle_count_ += part.mesh.triangle_count();
+
+  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, part_scene(*places_.back()));
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
+  rtcCommitGeometry(instance);
+  rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
+  rtcReleaseGeometry(instance);
 }
 
 RTCScene RayScene::part_scene(const PlacedPart& place) {
@@ -94,10 +102,12 @@ RTCScene RayScene::part_scene(const PlacedPart& place) {
   std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
   rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
   rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
-  rtcSetGeometryOccludedFilterFunction(geometry,
-                                       place.part->casts_shadow ? pass_through_holes<true> : pass_through);
+  // What blends throws no shadow, as in the renderer's maps.
+  const bool casts_shadow = place.part->casts_shadow && place.material->alpha_mode != scene::Alpha::blend;
+  rtcSetGeometryOccludedFilterFunction(geometry, casts_shadow ? pass_through_holes<true> : pass_through);
   rtcCommitGeometry(geometry);
   entry->second = rtcNewScene(device_);
+  rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
   rtcAttachGeometry(entry->second, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(entry->second);

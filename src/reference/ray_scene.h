@@ -27,7 +27,8 @@ struct PlacedPart {
   glm::mat4 world_from_mesh;
   glm::mat3 world_from_normal;
   int object;
-  bool is_mirror;
+  bool is_mirror;    ///< takes reflections
+  bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
 };
 
 struct Hit {
@@ -39,6 +40,8 @@ struct Hit {
 
 class RayScene {
  public:
+  /// Takes the scene as it stands now; it must outlive this. What a transform flattens or makes infinite is
+  /// left out.
   explicit RayScene(const scene::Scene& scene);
   RayScene(const RayScene&) = delete;
   ~RayScene();
@@ -49,6 +52,8 @@ class RayScene {
   std::size_t triangle_count() const { return triangle_count_; }
 
  private:
+  void place(const scene::Part& part, const glm::mat4& world_from_mesh, int object, bool takes_reflection,
+             const scene::Material& material, const std::vector<MipTexture>& textures);
   RTCScene part_scene(const PlacedPart& place);
 
   RTCDevice device_;

@@ -16,7 +16,8 @@ struct TraceOptions {
   std::uint64_t seed = 1;
   const shading::SunShadow* shadow = nullptr;              ///< the renderer's maps; null: exact shadow rays
   const shading::SkyVisibility* sky_visibility = nullptr;  ///< the renderer's; null: open everywhere
-  std::string progress = "tracing";                        ///< what the progress bar says
+  bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
+  std::string progress = "tracing";    ///< what the progress bar says
 };
 
 struct TracedPicture {
@@ -25,6 +26,10 @@ struct TracedPicture {
   std::uint64_t rays = 0;  ///< of all kinds
   double seconds = 0.0;
 };
+
+/// The object that each pixel's centre shows, counted from 1; 0: the sky.
+using ObjectPicture = BasicImage<std::uint32_t>;
+ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height);
 
 /// Traces one picture. Mirror-like parts of objects that take reflections show what their mirror rays hit,
 /// shaded by the same recipe, there reflecting the sky; all other surfaces reflect the sky. The same options
