@@ -207,8 +207,9 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
       float weights = 0.0f;
       int mirrors = 0;
       for (int i = 0; i < samples; ++i) {
-        const float px = float(x) + (float(i % side) + random.uniform()) / float(side);
-        const float py = float(row) + (float(i / side) + random.uniform()) / float(side);
+        const int column_in_pixel = i % side, row_in_pixel = i / side;
+        const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
+        const float py = float(row) + (float(row_in_pixel) + random.uniform()) / float(side);
         const Ray ray = camera_ray(camera, width, height, {px, py});
         bool is_mirror = false;
         const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, random, ray_count, &is_mirror);

@@ -8,10 +8,12 @@
 #include "render/culling_check.h"
 #include "render/golden.h"
 #include "render/picture_reader.h"
-#include "render/test_scene.h"
+#include "scene/test_scene.h"
 
 namespace parvis::render {
 namespace {
+
+using scene::add, scene::box, scene::ground, scene::matt, scene::model_of, scene::quad, scene::sphere;
 
 constexpr float pi = 3.14159265f;
 

@@ -1,4 +1,4 @@
-// Small places for tests: quads, boxes and spheres with one material each.
+// Small places for the tests of all rooms: quads, boxes and spheres with one material each.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace parvis::render {
+namespace parvis::scene {
 
 inline Mesh quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
   Mesh mesh;
@@ -55,24 +55,24 @@ inline Mesh sphere(glm::vec3 centre, float radius, int rings = 32) {
   return mesh;
 }
 
-inline scene::Material matt(glm::vec3 colour) {
-  scene::Material material;
+inline Material matt(glm::vec3 colour) {
+  Material material;
   material.base_colour = colour;
   material.roughness = 1.0f;
   return material;
 }
 
-inline std::shared_ptr<scene::Model> model_of(Mesh mesh, const scene::Material& material) {
-  auto model = std::make_shared<scene::Model>();
+inline std::shared_ptr<Model> model_of(Mesh mesh, const Material& material) {
+  auto model = std::make_shared<Model>();
   model->materials.push_back(material);
   model->parts.push_back({"part", std::move(mesh), 0, 0, true});
   return model;
 }
 
 /// Adds an object; returns its index.
-inline int add(scene::Scene& scene, std::shared_ptr<const scene::Model> model, bool moves = false,
+inline int add(Scene& scene, std::shared_ptr<const Model> model, bool moves = false,
                const glm::mat4& world_from_model = glm::mat4(1.0f)) {
-  scene::Object object;
+  Object object;
   object.model = std::move(model);
   object.world_from_model = world_from_model;
   object.is_dynamic = moves;
@@ -80,4 +80,4 @@ inline int add(scene::Scene& scene, std::shared_ptr<const scene::Model> model, b
   return int(scene.objects.size()) - 1;
 }
 
-}  // namespace parvis::render
+}  // namespace parvis::scene
