@@ -20,8 +20,10 @@ void walk(const scene::Lane& lane, const Place& place) {
     const glm::vec3 step = lane.points[i + 1] - lane.points[i];
     const float length = glm::length(step);
     if (length <= 0.0f) continue;
-    for (; until_next < length; until_next += spacing_m)
+    while (until_next < length) {
       place(lane.points[i] + until_next / length * step, step / length);
+      until_next += spacing_m;
+    }
     until_next -= length;
   }
 }
@@ -99,9 +101,13 @@ void BoxProjectedProbe::update_maps(render::Renderer& renderer, const std::vecto
     if (probe.idle_frames > forgotten_after) probe.map.reset();
 }
 
+void BoxProjectedProbe::forget_surroundings() {
+  for (Probe& probe : probes_) probe.map.reset();
+}
+
 void BoxProjectedProbe::bind(const gl::Program& program, int object) {
   const Probe& probe = *probe_of_object_.at(object);
-  bind_map(program, *probe.map);
+  if (probe.map) bind_map(program, *probe.map);
   program.set("box_is_used", 1.0f);
   program.set("map_centre", probe.position);
   program.set("box_centre", probe.box_centre);

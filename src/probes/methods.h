@@ -81,6 +81,7 @@ class BoxProjectedProbe final : public Reflections {
     int idle_frames = 0;
   };
   void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  void forget_surroundings() override;
   void bake(Probe& probe, render::Renderer& renderer);
 
   int resolution_;

@@ -48,6 +48,8 @@ void find_reflectors(const render::Renderer& renderer, const scene::Scene& scene
 void Reflections::update(render::Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
   find_reflectors(renderer, scene, camera, reflectors_);
   faces_drawn_ = 0;
+  if (fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
+  fixed_changes_ = renderer.fixed_changes();
   update_maps(renderer, reflectors_);
 }
 

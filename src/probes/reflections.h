@@ -37,9 +37,13 @@ class Reflections : public render::ReflectionSource {
   void draw_whole(CubeMap& map, render::Renderer& renderer, glm::vec3 centre, int excluded);
   static void bind_map(const gl::Program& program, const CubeMap& map);
 
+  /// The fixed surroundings are others now.
+  virtual void forget_surroundings() {}
+
   int faces_drawn_ = 0;
 
  private:
+  int fixed_changes_ = 0;  ///< of the renderer, that the maps know of
   std::vector<Reflector> reflectors_;
 };
 

@@ -51,6 +51,7 @@ glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, f
 RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
+    if (!object.is_visible) continue;
     const scene::Model& model = *object.model;
     auto& textures = textures_[&model];
     if (!textures) {

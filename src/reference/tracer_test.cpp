@@ -126,6 +126,13 @@ TEST(Tracer, PosedObjectsStandWhereTheirPoseSays) {
   EXPECT_NEAR(hit->distance_m, 10.0f, 1e-4f);
 }
 
+TEST(Tracer, HiddenObjectsAreNotThere) {
+  scene::Scene scene = scene_of(quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}), glowing(glm::vec3(1)));
+  EXPECT_GT(*trace(scene, looking_north()).radiance.at(16, 16), 0.5f);
+  scene.objects[0].is_visible = false;
+  EXPECT_EQ(*trace(scene, looking_north()).radiance.at(16, 16), 0.0f);
+}
+
 TEST(Tracer, TheSameSeedGivesTheSamePicture) {
   const scene::Scene scene =
       scene_of(quad({-2, 0, -2}, {2, 1, -2}, {2, 0, 2}, {-2, 0, 2}), glowing(glm::vec3(1)));

@@ -5,8 +5,8 @@
 
 namespace parvis::render {
 
-/// Calls `visit(part, material, world_from_mesh)` for every part of the scene that neither moves nor has
-/// holes.
+/// Calls `visit(object, part, world_from_mesh)` for every part of the scene that neither moves nor has holes;
+/// of hidden objects, too.
 template <class Visit>
 void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
   for (const scene::Object& object : scene.objects) {
@@ -15,7 +15,7 @@ void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
     for (const scene::Part& part : object.model->parts) {
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
       if (material.alpha_mode == scene::Alpha::opaque)
-        visit(part, material, object.world_from_model * pose[std::size_t(part.node)]);
+        visit(object, part, object.world_from_model * pose[std::size_t(part.node)]);
     }
   }
 }

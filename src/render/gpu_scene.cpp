@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
+#include <utility>
 
 #include "gl/context.h"
 
@@ -146,6 +148,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     const scene::Object& object = scene.objects[o];
     first_item_.push_back(std::uint32_t(items_.size()));
     is_moving_.push_back(object.is_dynamic);
+    is_visible_.push_back(object.is_visible);
     rest_poses_.push_back(scene::rest_pose(*object.model));
     const int first = first_part_[object.model.get()];
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
@@ -157,6 +160,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
   }
   first_item_.push_back(std::uint32_t(items_.size()));
   object_bounds_.resize(scene.objects.size());
+  world_from_model_.resize(scene.objects.size());
   for (std::size_t o = 0; o < scene.objects.size(); ++o) place(scene, o);
 }
 
@@ -174,14 +178,24 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
     bounds.add(item.bounds);
   }
   object_bounds_[o] = bounds;
+  world_from_model_[o] = object.world_from_model;
 }
 
 void GpuScene::update(const scene::Scene& scene) {
+  assert(scene.objects.size() == object_bounds_.size());
   moving_bounds_.clear();
+  fixed_change_ = {};
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    if (!is_moving_[o]) continue;
-    place(scene, o);
-    moving_bounds_.push_back(object_bounds_[o]);
+    const scene::Object& object = scene.objects[o];
+    const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
+    if (is_moving_[o]) {
+      place(scene, o);
+      if (object.is_visible) moving_bounds_.push_back(object_bounds_[o]);
+    } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
+      if (was_visible) fixed_change_.add(object_bounds_[o]);
+      place(scene, o);
+      if (object.is_visible) fixed_change_.add(object_bounds_[o]);
+    }
   }
 }
 

@@ -63,18 +63,22 @@ class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
 
-  /// Takes over transforms: of all objects, or of those that move.
+  /// Takes over where objects are and which are hidden. The scene has as many objects as at first.
   void update(const scene::Scene& scene);
+  /// Where fixed objects appeared, vanished or were put elsewhere in the last update; empty: all stayed.
+  const Bounds& fixed_change() const { return fixed_change_; }
 
   const std::vector<PartRange>& parts() const { return parts_; }
   const std::vector<GpuMaterial>& materials() const { return materials_; }
   const std::vector<Item>& items() const { return items_; }
   /// Of all parts of an object, in the world.
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
+  /// Of all that does not move, hidden things included.
   Bounds fixed_bounds() const;
-  /// Of each object that moves.
+  /// Of each object that moves and is seen.
   const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
   bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
+  bool is_visible(int object) const { return is_visible_[std::size_t(object)] != 0; }
 
   /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
   void bind_material(int material) const;
@@ -101,8 +105,10 @@ class GpuScene {
   std::vector<Item> items_;
   std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
   std::vector<Bounds> object_bounds_;
-  std::vector<std::uint8_t> is_moving_;
+  std::vector<std::uint8_t> is_moving_, is_visible_;
+  std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
+  Bounds fixed_change_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
 };
 

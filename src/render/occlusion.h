@@ -19,6 +19,8 @@ class OcclusionCuller {
   /// they are not there when seen from behind: the camera may stand within a house.
   void add_occluder(const Mesh& mesh, const glm::mat4& world_from_mesh, bool has_backs);
 
+  void clear() { corners_.clear(); }
+
   /// Draws the occluders for a view.
   void draw(const glm::mat4& clip_from_world);
   /// Is the whole box behind occluders of the view drawn last? False where it reaches behind the eye.

@@ -72,6 +72,10 @@ void Renderer::begin_view(const View& view) {
   glClipControl(GL_LOWER_LEFT, is_shadow ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE);
   glDepthFunc(is_shadow ? GL_LEQUAL : GL_GEQUAL);
   glClearDepth(is_shadow ? 1.0 : 0.0);
+  if (view.has_part()) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(view.part.x, view.part.y, view.part.z, view.part.w);
+  }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glFrontFace(GL_CCW);
@@ -104,6 +108,7 @@ void Renderer::draw_prepared(const View& view) {
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
   }
+  glDisable(GL_SCISSOR_TEST);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // as a window's panels expect it
 }
 
@@ -114,6 +119,11 @@ void Renderer::draw_view(const View& view) {
 
 void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   scene_.update(scene);
+  if (const Bounds& changed = scene_.gpu().fixed_change(); !changed.empty()) {
+    shadows_.renew(changed, scene_.gpu().fixed_bounds());
+    sky_.renew_visibility(scene, changed);
+    ++fixed_changes_;
+  }
   sun_ = scene.sun;
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;

@@ -53,6 +53,9 @@ class Renderer {
   int height() const { return target_.height(); }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }
   const GpuScene& gpu() const { return scene_.gpu(); }
+  /// How often fixed things have appeared, vanished or moved: what is kept of their pictures is then out of
+  /// date.
+  int fixed_changes() const { return fixed_changes_; }
 
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return sky_.light(); }
@@ -69,6 +72,7 @@ class Renderer {
   scene::Sun sun_;
   float haze_per_m_ = 0.0f;
   float exposure_ = 1.0f;
+  int fixed_changes_ = 0;
   SceneDrawable scene_;
   SunShadowMaps shadows_;
   std::vector<Drawable*> drawables_;

@@ -102,6 +102,41 @@ TEST_F(RendererTest, AShadowGoesWithItsObject) {
   EXPECT_LT(lit_at(5), 0.6f * lit_at(-5));
 }
 
+/// A renderer that saw the change gives the picture of one that was made after it.
+TEST_F(RendererTest, FixedThingsMayVanishAppearAndMove) {
+  scene::Scene scene;
+  add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));
+  const int wall = add(scene, model_of(box({-8, -0.2f, 0}, {8, 0, 4}), matt(glm::vec3(0.5f))));
+  const int tower = add(scene, model_of(box({3, 2, 0}, {5, 4, 7}), matt(glm::vec3(0.2f, 0.5f, 0.3f))));
+  const int guest = add(scene, model_of(box({-5, -4, 0}, {-4, -3, 1}), matt(glm::vec3(0.9f))), true);
+  scene.sun.direction_to_sun = {0.3f, -0.5f, 0.6f};
+  Camera camera;
+  camera.world_from_camera = look_at({-14, -16, 9}, {0, 0, 1});
+  const auto renderer = renderer_of(scene);
+  draw(*renderer, scene, camera, 200, 150);
+  const ImageF at_first = renderer->read_radiance();
+
+  const auto expect_as_new = [&](const char* what) {
+    draw(*renderer, scene, camera, 200, 150);
+    const ImageF changed = renderer->read_radiance();
+    EXPECT_NE(changed.pixels, at_first.pixels) << what;
+    const auto fresh = renderer_of(scene);
+    draw(*fresh, scene, camera, 200, 150);
+    EXPECT_EQ(changed.pixels, fresh->read_radiance().pixels) << what;
+  };
+  const auto object = [&](int index) -> scene::Object& { return scene.objects[std::size_t(index)]; };
+  object(wall).is_visible = false;
+  expect_as_new("a wall vanishes");
+  object(guest).is_visible = false;
+  expect_as_new("what moves vanishes");
+  object(wall).is_visible = object(guest).is_visible = true;
+  object(tower).world_from_model[3] = {-6, 3, 0, 1};
+  expect_as_new("a tower stands elsewhere");
+  object(tower).world_from_model[3] = {0, 0, 0, 1};
+  draw(*renderer, scene, camera, 200, 150);
+  EXPECT_EQ(renderer->read_radiance().pixels, at_first.pixels);
+}
+
 TEST_F(RendererTest, TheSunMayMove) {
   scene::Scene scene;
   add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));

@@ -57,10 +57,21 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
 
 SceneDrawable::SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs)
     : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
-  for_each_fixed_opaque_part(scene, [this](const scene::Part& part, const scene::Material& material,
-                                           const glm::mat4& world_from_mesh) {
-    occlusion_.add_occluder(part.mesh, world_from_mesh, material.is_double_sided);
-  });
+  find_occluders(scene);
+}
+
+void SceneDrawable::find_occluders(const scene::Scene& scene) {
+  occlusion_.clear();
+  for_each_fixed_opaque_part(
+      scene, [this](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        const bool has_backs = object.model->materials[std::size_t(part.material)].is_double_sided;
+        if (object.is_visible) occlusion_.add_occluder(part.mesh, world_from_mesh, has_backs);
+      });
+}
+
+void SceneDrawable::update(const scene::Scene& scene) {
+  gpu_.update(scene);
+  if (!gpu_.fixed_change().empty()) find_occluders(scene);
 }
 
 Status SceneDrawable::set_reflection(ReflectionSource* source) {
@@ -98,7 +109,7 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, const View& view) const 
 }
 
 void SceneDrawable::gather(const View& view, ViewList& list) {
-  const Frustum frustum(view.clip_from_world);
+  const Frustum frustum(view.clip_of_part() * view.clip_from_world);
   if (view.culls_hidden) occlusion_.draw(view.clip_from_world);
   list.order.clear();
   list.statistics = {};
@@ -106,6 +117,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Item& item = items[i];
     if (item.object == view.excluded_object || !shows(view.subjects, gpu_.is_moving(item.object))) continue;
+    if (!gpu_.is_visible(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
     if (!frustum.may_see(item.bounds)) continue;
     ++list.statistics.items_in_frustum;
@@ -160,6 +172,7 @@ void SceneDrawable::prepare(const View& view) {
 
 void SceneDrawable::draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const {
   const std::size_t offset = std::size_t(list.first_command) + sizeof(Command) * first;
+  // OpenGL takes the place in the bound buffer as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
   glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
                               GLsizei(count), 0);
 }

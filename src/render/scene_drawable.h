@@ -39,7 +39,7 @@ class SceneDrawable final : public Drawable {
  public:
   static Result<SceneDrawable> create(const scene::Scene& scene);
 
-  void update(const scene::Scene& scene) { gpu_.update(scene); }
+  void update(const scene::Scene& scene);
   /// null: all reflect the sky alone.
   Status set_reflection(ReflectionSource* source);
 
@@ -79,6 +79,7 @@ class SceneDrawable final : public Drawable {
   };
 
   SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs);
+  void find_occluders(const scene::Scene& scene);
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
   std::uint64_t sort_key(const Item& item, const View& view) const;

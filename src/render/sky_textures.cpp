@@ -6,18 +6,19 @@
 namespace parvis::render {
 namespace {
 
-shading::SkyVisibility visibility_in(const scene::Scene& scene) {
+/// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
+shading::HeightField heights_of(const scene::Scene& scene) {
   Bounds bounds;
   for_each_fixed_opaque_part(
-      scene, [&](const scene::Part& part, const scene::Material&, const glm::mat4& world_from_mesh) {
+      scene, [&](const scene::Object&, const scene::Part& part, const glm::mat4& world_from_mesh) {
         bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
       });
   shading::HeightField heights(bounds);
   for_each_fixed_opaque_part(
-      scene, [&](const scene::Part& part, const scene::Material&, const glm::mat4& world_from_mesh) {
-        heights.add(part.mesh, world_from_mesh);
+      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        if (object.is_visible) heights.add(part.mesh, world_from_mesh);
       });
-  return shading::make_sky_visibility(heights);
+  return heights;
 }
 
 gl::Texture upload(const shading::SkyLight& sky) {
@@ -55,12 +56,17 @@ Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
 
 SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
     : light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
-      visibility_(visibility_in(scene)),
+      visibility_(shading::make_sky_visibility(heights_of(scene))),
       program_(std::move(program)),
       picture_(upload(light_)),
       cells_(upload(visibility_)),
       no_attributes_(gl::VertexArray::create()) {
   program_.set("screen_depth", 0.0f);  // depth is reversed: the farthest
+}
+
+void SkyTextures::renew_visibility(const scene::Scene& scene, const Bounds& changed) {
+  shading::renew_sky_visibility(visibility_, heights_of(scene), changed);
+  cells_ = upload(visibility_);
 }
 
 void SkyTextures::bind() const {

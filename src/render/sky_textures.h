@@ -14,6 +14,9 @@ class SkyTextures {
  public:
   static Result<SkyTextures> create(const scene::Scene& scene);
 
+  /// Takes over fixed things that appeared, vanished or moved within `changed`.
+  void renew_visibility(const scene::Scene& scene, const Bounds& changed);
+
   /// Texture units `sky_unit` and `sky_visibility_unit`.
   void bind() const;
   /// Fills what the depth buffer says is empty.

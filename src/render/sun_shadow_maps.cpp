@@ -104,15 +104,49 @@ void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void
   drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
 }
 
+void SunShadowMaps::draw_far(const std::function<void(const View&)>& draw) {
+  const glm::vec3 size = fixed_in_sun_.size();
+  far_view_ = aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
+  draw(far_view_);
+  far_is_drawn_ = true;
+}
+
+void SunShadowMaps::renew(const Bounds& changed, const Bounds& fixed) {
+  Bounds all = fixed_;
+  all.add(fixed);
+  if (all.min != fixed_.min || all.max != fixed_.max) {
+    fixed_ = all;
+    turn_to(to_sun_);
+  }
+  changed_.add(changed);
+}
+
+/// Of the maps that are drawn already, the squares where fixed things changed.
+void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
+  const auto draw_part = [&](View view, const Square& square) {
+    view.part = glm::ivec4(square.corner, square.size);
+    if (view.has_part()) draw(view);
+  };
+  if (far_is_drawn_) draw_part(far_view_, square_of(shading::shadow_far_map, changed_));
+  if (near_centre_.x < 1e30f) {
+    const Square square = square_of(shading::shadow_near_map, changed_);
+    View fixed_view = near_view_;
+    fixed_view.framebuffer = near_fixed_framebuffer_.name();
+    draw_part(fixed_view, square);
+    if (square.size.x > 0 && square.size.y > 0) drawn_over_.push_back(square);
+  }
+  changed_ = {};
+}
+
 void SunShadowMaps::put_back(const Square& square) {
   glCopyImageSubData(near_fixed_.name(), GL_TEXTURE_2D, 0, square.corner.x, square.corner.y, 0, depth_.name(),
                      GL_TEXTURE_2D_ARRAY, 0, square.corner.x, square.corner.y, shading::shadow_near_map,
                      square.size.x, square.size.y, 1);
 }
 
-/// Where a box falls in the near map, with a texel of margin.
-SunShadowMaps::Square SunShadowMaps::square_of(const Bounds& box) const {
-  const Bounds uv = transformed(maps_.uvz_from_world[shading::shadow_near_map], box);
+/// Where a box falls in a map, with a texel of margin.
+SunShadowMaps::Square SunShadowMaps::square_of(int map, const Bounds& box) const {
+  const Bounds uv = transformed(maps_.uvz_from_world[map], box);
   const auto texel = [](float share) { return int(std::clamp(share, 0.0f, 1.0f) * float(map_size)); };
   const glm::ivec2 low(texel(uv.min.x) - 1, texel(uv.min.y) - 1);
   const glm::ivec2 high(texel(uv.max.x) + 2, texel(uv.max.y) + 2);
@@ -123,18 +157,16 @@ SunShadowMaps::Square SunShadowMaps::square_of(const Bounds& box) const {
 void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
                            const std::function<void(const View&)>& draw) {
   if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
-  if (!far_is_drawn_) {
-    const glm::vec3 size = fixed_in_sun_.size();
-    draw(aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y)));
-    far_is_drawn_ = true;
-  }
+  if (!changed_.empty()) draw_changed(draw);
+  if (!far_is_drawn_) draw_far(draw);
   const glm::vec3 focus = focus_of(camera, fixed_);
   if (glm::distance(focus, near_centre_) > near_stay_m) draw_near_fixed(focus, draw);
 
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();
   for (const Bounds& box : moving)
-    if (const Square square = square_of(box); square.size.x > 2 && square.size.y > 2)
+    if (const Square square = square_of(shading::shadow_near_map, box);
+        square.size.x > 2 && square.size.y > 2)
       drawn_over_.push_back(square);
   View moving_view = near_view_;
   moving_view.subjects = Subjects::moving;

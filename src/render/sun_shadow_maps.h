@@ -21,6 +21,10 @@ class SunShadowMaps {
   /// `fixed` bounds all that does not move, in the world.
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
+  /// Fixed things appeared, vanished or moved within `changed`: the next update draws that part of the maps
+  /// again. `fixed` bounds all that does not move now.
+  void renew(const Bounds& changed, const Bounds& fixed);
+
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
   /// `moving` bounds each thing that moves.
   void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
@@ -39,8 +43,10 @@ class SunShadowMaps {
   void turn_to(glm::vec3 to_sun);
   View aim(int map, glm::vec3 centre, float half_width_m);
   void draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw);
+  void draw_far(const std::function<void(const View&)>& draw);
+  void draw_changed(const std::function<void(const View&)>& draw);
   void put_back(const Square& square);
-  Square square_of(const Bounds& box) const;
+  Square square_of(int map, const Bounds& box) const;
 
   Bounds fixed_;
   glm::vec3 to_sun_;
@@ -51,9 +57,10 @@ class SunShadowMaps {
   std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
   gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};
-  View near_view_;
+  View near_view_, far_view_;
   std::vector<Square> drawn_over_;  ///< of the near map, by what moved
   bool far_is_drawn_ = false;
+  Bounds changed_;  ///< since the last update
   glm::vec3 near_centre_{1e30f};
 };
 

@@ -27,11 +27,28 @@ struct View {
   glm::vec3 position_in_world{0.0f};  ///< of the eye; for shadows, a point far toward the sun
   GLuint framebuffer = 0;
   int width = 0, height = 0;
+  glm::ivec4 part{
+      0};  ///< x, y, width, height in pixels, from the lower left: all that is drawn; none: everything
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   Subjects subjects = Subjects::all;
   bool clears = true;         ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
+
+  bool has_part() const { return part.z > 0 && part.w > 0; }
+  /// Spreads the part's share of the clip square over the whole square: what is to be drawn lies within.
+  glm::mat4 clip_of_part() const;
 };
+
+inline glm::mat4 View::clip_of_part() const {
+  glm::mat4 crop(1.0f);
+  if (!has_part()) return crop;
+  const glm::vec2 size{float(width), float(height)},
+      middle{float(part.x) + 0.5f * float(part.z), float(part.y) + 0.5f * float(part.w)};
+  const glm::vec2 grow = size / glm::vec2(float(part.z), float(part.w));
+  crop[0][0] = grow.x, crop[1][1] = grow.y;
+  crop[3] = glm::vec4(grow * (1.0f - 2.0f * middle / size), 0.0f, 1.0f);
+  return crop;
+}
 
 inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int height) {
   View view;

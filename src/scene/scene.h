@@ -23,6 +23,7 @@ struct Object {
   std::vector<glm::mat4> pose;    ///< model_from_node of each node; empty: the model's rest pose
   bool is_dynamic = false;        ///< moves: has no part in baked things, throws its own shadow
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
+  bool is_visible = true;         ///< is drawn, throws shadows, stands in reflections; may change at any time
 };
 
 struct Sun {
@@ -66,6 +67,7 @@ struct TrafficDemand {
   int vehicles = 0;
   std::uint64_t seed = 1;
   std::vector<std::shared_ptr<const Model>> models;  ///< x forward, wheels as nodes whose names hold "wheel"
+  bool is_visible = true;                            ///< hidden vehicles drive on
 };
 
 struct Scene {

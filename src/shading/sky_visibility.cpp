@@ -49,6 +49,7 @@ struct OpenSky {
 
 struct Grid {
   glm::ivec3 cells;
+  glm::ivec2 first{0};  ///< column of a larger grid at which this one begins
   vec3 origin, cell_m;
   std::vector<vec4> values;
   std::vector<std::uint8_t> is_air;
@@ -58,7 +59,8 @@ struct Grid {
   }
 };
 
-Grid empty_grid(const Bounds& bounds) {
+/// The grid of a place, without its cells' values.
+Grid layout(const Bounds& bounds) {
   Grid grid;
   // A cell of margin all round and above the roofs.
   grid.cell_m = cell_size_m;
@@ -67,14 +69,12 @@ Grid empty_grid(const Bounds& bounds) {
   const float wanted = (size.x / grid.cell_m.x) * (size.y / grid.cell_m.y) * (size.z / grid.cell_m.z);
   if (wanted > most_cells) grid.cell_m *= std::cbrt(wanted / most_cells);
   grid.cells = glm::max(glm::ivec3(glm::ceil(size / grid.cell_m)), glm::ivec3(1));
-  const std::size_t count = grid.index(0, 0, grid.cells.z);
-  grid.values.assign(count, vec4(0.0f));
-  grid.is_air.assign(count, 0);
   return grid;
 }
 
 void fill_column(Grid& grid, const HeightField& heights, int x, int y) {
-  const glm::vec2 centre = glm::vec2(grid.origin) + (glm::vec2(x, y) + 0.5f) * glm::vec2(grid.cell_m);
+  const glm::vec2 centre =
+      glm::vec2(grid.origin) + (glm::vec2(grid.first + glm::ivec2(x, y)) + 0.5f) * glm::vec2(grid.cell_m);
   std::array<glm::vec2, directions> azimuths;
   std::array<std::array<float, distances_m.size()>, directions> surroundings;
   for (std::size_t d = 0; d < directions; ++d) {
@@ -119,6 +119,21 @@ void fill_solid_cells(Grid& grid) {
         if (count > 0.0f) grid.values[grid.index(x, y, z)] = sum / count;
       }
   });
+}
+
+void fill(Grid& grid, const HeightField& heights) {
+  const std::size_t count = grid.index(0, 0, grid.cells.z);
+  grid.values.assign(count, vec4(0.0f));
+  grid.is_air.assign(count, 0);
+  parallel_for(std::size_t(grid.cells.y), [&](std::size_t y) {
+    for (int x = 0; x < grid.cells.x; ++x) fill_column(grid, heights, x, int(y));
+  });
+  fill_solid_cells(grid);
+}
+
+void store(const vec4& value, std::uint8_t* four_bytes) {
+  for (int c = 0; c < 4; ++c)
+    four_bytes[c] = std::uint8_t(std::lround(255.0f * std::clamp(value[c], 0.0f, 1.0f)));
 }
 
 }  // namespace
@@ -172,21 +187,43 @@ float HeightField::height_m(glm::vec2 position) const {
 
 SkyVisibility make_sky_visibility(const HeightField& heights) {
   if (heights.bounds().empty()) return {};
-  Grid grid = empty_grid(heights.bounds());
-  parallel_for(std::size_t(grid.cells.y), [&](std::size_t y) {
-    for (int x = 0; x < grid.cells.x; ++x) fill_column(grid, heights, x, int(y));
-  });
-  fill_solid_cells(grid);
+  Grid grid = layout(heights.bounds());
+  fill(grid, heights);
 
   SkyVisibility result;
   result.grid = {grid.origin, grid.cell_m * vec3(grid.cells), 0.5f * grid.cell_m.x};
   result.cells = grid.cells;
   result.values.resize(4 * grid.values.size());
-  for (std::size_t i = 0; i < grid.values.size(); ++i)
-    for (int c = 0; c < 4; ++c)
-      result.values[4 * i + std::size_t(c)] =
-          std::uint8_t(std::lround(255.0f * std::clamp(grid.values[i][c], 0.0f, 1.0f)));
+  for (std::size_t i = 0; i < grid.values.size(); ++i) store(grid.values[i], &result.values[4 * i]);
   return result;
+}
+
+void renew_sky_visibility(SkyVisibility& visibility, const HeightField& heights, const Bounds& changed) {
+  if (heights.bounds().empty()) return;
+  const Grid whole = layout(heights.bounds());
+  if (whole.cells != visibility.cells || whole.origin != visibility.grid.origin) {
+    visibility = make_sky_visibility(heights);
+    return;
+  }
+  // A change is seen from as far as horizons are looked for; a margin of one cell feeds the solid ones.
+  const glm::ivec2 reach(glm::ceil(glm::vec2(distances_m.back()) / glm::vec2(whole.cell_m)));
+  const glm::ivec2 last = glm::ivec2(whole.cells) - 1;
+  const auto cell_of = [&](vec3 point) {
+    return glm::ivec2(glm::floor((glm::vec2(point) - glm::vec2(whole.origin)) / glm::vec2(whole.cell_m)));
+  };
+  const glm::ivec2 low = glm::clamp(cell_of(changed.min) - reach, glm::ivec2(0), last);
+  const glm::ivec2 high = glm::clamp(cell_of(changed.max) + reach, glm::ivec2(0), last);
+  const glm::ivec2 first = glm::max(low - 1, glm::ivec2(0)), end = glm::min(high + 1, last) + 1;
+
+  Grid part = whole;
+  part.cells = glm::ivec3(end - first, whole.cells.z);
+  part.first = first;
+  fill(part, heights);
+  for (int z = 0; z < whole.cells.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        store(part.values[part.index(x - first.x, y - first.y, z)],
+              &visibility.values[4 * whole.index(x, y, z)]);
 }
 
 vec4 SkyVisibility::at(vec3 coordinates) const {

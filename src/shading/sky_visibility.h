@@ -46,4 +46,8 @@ struct SkyVisibility {
 /// Cells of about 4 x 4 x 3 m. An empty place is open.
 SkyVisibility make_sky_visibility(const HeightField& heights);
 
+/// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless
+/// the place's bounds are others now.
+void renew_sky_visibility(SkyVisibility& visibility, const HeightField& heights, const Bounds& changed);
+
 }  // namespace parvis::shading

@@ -48,6 +48,21 @@ TEST(SkyVisibility, AStreetSeesTheStripThatTheoryGives) {
   EXPECT_NEAR(share(street(), {0, 0, 0}, up), theory, 0.15f);
 }
 
+TEST(SkyVisibility, ARenewedGridIsThatOfThePlaceAsItIsNow) {
+  const Bounds place{{-200, -300, 0}, {200, 300, 20}};
+  const auto heights_with = [&](bool has_block) {
+    HeightField heights(place);
+    heights.add(roof(-200, -8, -300, 300, 20), glm::mat4(1.0f));
+    if (has_block) heights.add(roof(20, 45, -30, 10, 12), glm::mat4(1.0f));
+    return heights;
+  };
+  SkyVisibility sky = make_sky_visibility(heights_with(false));
+  renew_sky_visibility(sky, heights_with(true), {{20, -30, 0}, {45, 10, 12}});
+  EXPECT_EQ(sky.values, make_sky_visibility(heights_with(true)).values);
+  renew_sky_visibility(sky, heights_with(false), {{20, -30, 0}, {45, 10, 12}});
+  EXPECT_EQ(sky.values, make_sky_visibility(heights_with(false)).values);
+}
+
 TEST(SkyVisibility, WallsBrightenUpwardAndRoofsAreOpen) {
   const SkyVisibility sky = street();
   const vec3 east(1, 0, 0);

@@ -83,8 +83,8 @@ Result<Camera> Stage::camera(const std::string& name) const {
   }
   if (named->follows.empty()) return named->camera;
   for (const scene::Object& object : scene.objects)
-    if (object.name == named->follows) return following(*named, object.world_from_model);
-  return error("camera \"{}\" follows \"{}\", which is not in the scene", named->name, named->follows);
+    if (object.is_visible && object.name == named->follows) return following(*named, object.world_from_model);
+  return error("camera \"{}\" follows \"{}\", which is not to be seen", named->name, named->follows);
 }
 
 void Stage::draw(const Camera& camera, int width, int height) {

@@ -69,6 +69,7 @@ void Traffic::place(scene::Scene& scene) const {
     const Vehicle& vehicle = vehicles[i];
     scene::Object& object = scene.objects[first_object_ + i];
     const float back_m = missing * vehicle.last_move_m;
+    object.is_visible = scene.traffic.is_visible;
     object.world_from_model =
         vehicle.shape->world_from_model(vehicle.rear_axle(back_m, lanes), vehicle.front_axle(back_m, lanes));
     vehicle.shape->set_pose(vehicle.travelled_m - double(back_m), vehicle.steering(back_m, lanes),

@@ -74,7 +74,8 @@ int next_vehicle(const scene::Scene& scene, int previous) {
   const int count = int(scene.objects.size());
   for (int step = 1; step <= count; ++step) {
     const int index = (std::max(previous, 0) + step) % count;
-    if (scene.objects[std::size_t(index)].is_dynamic) return index;
+    const scene::Object& object = scene.objects[std::size_t(index)];
+    if (object.is_dynamic && object.is_visible) return index;
   }
   return -1;
 }
