@@ -3,6 +3,7 @@
 
 #include "base/image_io.h"
 #include "base/progress.h"
+#include "base/reduction.h"
 #include "commands.h"
 #include "render/picture_reader.h"
 #include "scene_arguments.h"
@@ -17,21 +18,6 @@ struct Arguments : SceneArguments {
   int frames_per_second = 24;
   int supersample = 1;
 };
-
-/// Means of n x n pixels, in linear light before tone mapping would be dearer; here of the displayed picture.
-Image8 reduced(const Image8& picture, int n) {
-  if (n == 1) return picture;
-  Image8 small(picture.width / n, picture.height / n, picture.channels);
-  for (int y = 0; y < small.height; ++y)
-    for (int x = 0; x < small.width; ++x)
-      for (int c = 0; c < picture.channels; ++c) {
-        int sum = 0;
-        for (int dy = 0; dy < n; ++dy)
-          for (int dx = 0; dx < n; ++dx) sum += picture.at(n * x + dx, n * y + dy)[c];
-        small.at(x, y)[c] = std::uint8_t((sum + n * n / 2) / (n * n));
-      }
-  return small;
-}
 
 Status draw(stage::Stage& stage, const Arguments& arguments, int width, int height) {
   const Result<Camera> camera = stage.camera(arguments.camera);
@@ -86,7 +72,9 @@ void add_render(CLI::App& app, Chosen& chosen) {
   command->add_option("--fps", arguments->frames_per_second, "Frames a second of a film")
       ->check(CLI::Range(1, 240))
       ->capture_default_str();
-  command->add_option("--supersample", arguments->supersample, "Draw n x n as many pixels and average them")
+  command
+      ->add_option("--supersample", arguments->supersample,
+                   "Draw n x n as many pixels and average their light")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
   command->footer("Example: parvis render out/paper/paper.xp --camera drive --seconds 10 -o out/drive.mp4");
