@@ -44,16 +44,18 @@ Camera at(glm::vec3 eye, float heading_rad, float pitch_rad) {
   return camera;
 }
 
-/// Points on the lanes from which a visitor or a driver looks, in an order that the seed shuffles.
-std::vector<Camera> viewpoints(const scene::RoadGraph& roads, std::size_t count, float eye_height_m,
+/// Points on the lanes where traffic drives, from which a visitor or a driver looks, in an order that a seed
+/// shuffles.
+std::vector<Camera> viewpoints(const scene::Scene& scene, std::size_t count, float eye_height_m,
                                float pitch_rad) {
   Random random(5);
   std::vector<Camera> cameras;
   while (cameras.size() < count) {
-    const scene::Lane& lane = roads.lanes[std::size_t(random.index(int(roads.lanes.size())))];
+    const scene::Lane& lane = scene.roads.lanes[std::size_t(random.index(int(scene.roads.lanes.size())))];
     const std::size_t i = std::size_t(random.index(int(lane.points.size()) - 1));
     const glm::vec3 along = lane.points[i + 1] - lane.points[i];
     const glm::vec3 eye = lane.points[i] + random.uniform() * along + glm::vec3(0, 0, eye_height_m);
+    if (glm::distance(glm::vec2(eye), scene.traffic.centre) > scene.traffic.radius_m) continue;
     cameras.push_back(at(eye, std::atan2(along.y, along.x), pitch_rad));
   }
   return cameras;
@@ -88,8 +90,8 @@ int vehicles_ahead(const scene::Scene& scene, const Camera& camera) {
 Result<Camera> view_of_cars(stage::Stage& stage, int least, int most, Report& report) {
   constexpr int longest_search_s = 120;
   for (int second = 0; second < longest_search_s; ++second) {
-    for (const float height_m : {9.0f, 25.0f, 60.0f, 120.0f})
-      for (const Camera& camera : viewpoints(stage.scene().roads, 24, height_m, -0.004f * height_m)) {
+    for (const float height_m : {9.0f, 25.0f, 60.0f})
+      for (const Camera& camera : viewpoints(stage.scene(), 24, height_m, -0.004f * height_m)) {
         if (vehicles_ahead(stage.scene(), camera) < least) continue;
         const int seen = reflectors_seen(stage, camera);
         if (seen < least || seen > most) continue;
@@ -136,7 +138,7 @@ Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int rep
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
 void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
   int hidden = 0, culled = 0, false_culls = 0;
-  for (const Camera& camera : viewpoints(stage.scene().roads, views, 1.6f, 0.0f)) {
+  for (const Camera& camera : viewpoints(stage.scene(), views, 1.6f, 0.0f)) {
     stage.renderer().begin_frame(stage.scene(), camera);
     const auto picture = stage.renderer().pick(camera, width, height, false);
     std::vector<int> pixels(stage.scene().objects.size(), 0);
@@ -164,7 +166,7 @@ void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
 }
 
 void measure_reference(stage::Stage& stage, Report& report) {
-  const Camera camera = viewpoints(stage.scene().roads, 1, 1.6f, 0.0f).front();
+  const Camera camera = viewpoints(stage.scene(), 1, 1.6f, 0.0f).front();
   const reference::TracedPicture traced = stage.trace(camera, 480, 270, 16);
   report.add("reference_mrays_s", 1e-6 * double(traced.rays) / traced.seconds);
 }

@@ -94,9 +94,21 @@ NodeSchema traffic_schema() {
                           .type = AttributeType::integer,
                           .help = "the same seed gives the same traffic",
                           .fallback = "1",
-                          .minimum = 0}},
+                          .minimum = 0},
+                         {.name = "centre",
+                          .type = AttributeType::vec3,
+                          .help = "of the part of the town that they keep to",
+                          .fallback = "0 0 0",
+                          .unit = "m"},
+                         {.name = "radius",
+                          .type = AttributeType::number,
+                          .help = "of that part: they start in it, and turn back at its rim where streets let them",
+                          .fallback = "1000000",
+                          .unit = "m",
+                          .minimum = 10,
+                          .maximum = 1e6}},
           .example =
-              "traffic(vehicles=30, seed=7) {\n"
+              "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
               "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
               "}",
           .is_unique = true,
@@ -107,6 +119,8 @@ void build_traffic(const Node& node, SceneBuilder& builder) {
   TrafficDemand& traffic = builder.scene.traffic;
   traffic.vehicles = int(node.integer("vehicles"));
   traffic.seed = std::uint64_t(node.integer("seed"));
+  traffic.centre = glm::vec2(node.vec3("centre"));
+  traffic.radius_m = float(node.number("radius"));
   for (const Node& kind : node.children) {
     const std::shared_ptr<const Model> model = model_of(kind, builder);
     if (!model) continue;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,6 +69,8 @@ struct TrafficDemand {
   std::uint64_t seed = 1;
   std::vector<std::shared_ptr<const Model>> models;  ///< x forward, wheels as nodes whose names hold "wheel"
   bool is_visible = true;                            ///< hidden vehicles drive on
+  glm::vec2 centre{0.0f};  ///< vehicles keep to the streets within `radius_m` of it, where these lead on
+  float radius_m = std::numeric_limits<float>::max();
 };
 
 struct Scene {

@@ -122,6 +122,18 @@ void find_conflicts(std::vector<DrivingLane>& lanes, const scene::RoadGraph& roa
   for (DrivingLane& lane : lanes) lane.is_shared = !lane.conflicts.empty();
 }
 
+/// A lane in a crossing is judged by where it leads to, since that is when the turn is chosen.
+void measure_ways_out(std::vector<DrivingLane>& lanes, const scene::RoadGraph& roads, const Area& area) {
+  for (DrivingLane& lane : lanes) lane.outside_m = area.outside_m(glm::vec2(lane.path.points().back()));
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    if (roads.lanes[i].crossing < 0 || lanes[i].next.empty()) continue;
+    lanes[i].outside_m = std::numeric_limits<float>::max();
+    for (const int next : lanes[i].next)
+      lanes[i].outside_m = std::min(
+          lanes[i].outside_m, area.outside_m(glm::vec2(lanes[std::size_t(next)].path.points().back())));
+  }
+}
+
 }  // namespace
 
 float DrivingLane::safe_speed_at(float distance_m) const {
@@ -132,7 +144,7 @@ float DrivingLane::safe_speed_at(float distance_m) const {
 }
 
 std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
-                                       float comfortable_braking) {
+                                       float comfortable_braking, const Area& area) {
   std::vector<DrivingLane> lanes(roads.lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const scene::Lane& lane = roads.lanes[i];
@@ -142,6 +154,7 @@ std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std:
     lanes[i].safe_speeds = safe_speeds(lanes[i].path, lane.speed_limit, comfortable_braking);
   }
   keep_lanes_that_lead_on(lanes);
+  measure_ways_out(lanes, roads, area);
   if (!shapes.empty()) find_conflicts(lanes, roads, largest(shapes));
   return lanes;
 }

@@ -2,6 +2,8 @@
 // which lanes cannot be used at the same time.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "scene/path.h"
@@ -10,6 +12,16 @@
 
 namespace parvis::traffic {
 
+/// The part of the town that vehicles keep to.
+struct Area {
+  glm::vec2 centre{0.0f};
+  float radius_m = std::numeric_limits<float>::max();
+
+  float outside_m(glm::vec2 point) const {
+    return std::max(glm::distance(point, centre) - radius_m, 0.0f);
+  }
+};
+
 struct DrivingLane {
   scene::MeasuredPath path;
   std::vector<int> next;   ///< only lanes that lead on
@@ -17,6 +29,7 @@ struct DrivingLane {
   bool is_shared =
       false;  ///< crosses, leaves or joins another lane's way: to be asked for before it is entered
   std::vector<int> conflicts;      ///< lanes whose way overlaps with this one's
+  float outside_m = 0.0f;          ///< of the area: its end, or in a crossing, that of the street it leads to
   std::vector<float> safe_speeds;  ///< m/s at every metre from the start: limit, bends, and braking for them
 
   float safe_speed_at(float distance_m) const;
@@ -28,6 +41,6 @@ inline constexpr float lateral_acceleration = 2.2f;
 /// Lanes with the indices of `roads`. `shapes` are the vehicles to come: two lanes conflict where the largest
 /// of them would touch one another.
 std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
-                                       float comfortable_braking);
+                                       float comfortable_braking, const Area& area);
 
 }  // namespace parvis::traffic

@@ -34,9 +34,10 @@ float distance_to(const Vehicle& vehicle, std::size_t route_index, std::span<con
 
 }  // namespace
 
-Simulation::Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes)
-    : shapes_(std::move(shapes)),
-      lanes_(driving_lanes(roads, shapes_, gentle_braking)),
+Simulation::Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes, const Area& area)
+    : area_(area),
+      shapes_(std::move(shapes)),
+      lanes_(driving_lanes(roads, shapes_, gentle_braking, area)),
       rights_(lanes_),
       occupancy_(lanes_.size()),
       promised_room_m_(lanes_.size(), 0.0f) {
@@ -57,7 +58,7 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
     if (lanes_[lane].is_usable && !lanes_[lane].is_shared)
       for (float at = longest_m + 1.0f; at < lanes_[lane].path.length() - 3.0f; at += longest_m + spacing_m)
-        places.push_back({int(lane), at});
+        if (area_.outside_m(glm::vec2(lanes_[lane].path.at(at))) == 0.0f) places.push_back({int(lane), at});
 
   Random random(seed);
   for (std::size_t i = places.size(); i > 1; --i)

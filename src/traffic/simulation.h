@@ -12,11 +12,11 @@ inline constexpr float step_s = 1.0f / 60.0f;
 
 class Simulation {
  public:
-  Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes);
+  Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes, const Area& area);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Puts up to `wanted` vehicles on the streets, at rest, with room between them, and returns how many found
+  /// Puts up to `wanted` vehicles on the streets of the area, at rest, with room between them, and returns how many found
   /// room.
   std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
   /// Lets `step_s` pass. Allocates nothing.
@@ -42,6 +42,7 @@ class Simulation {
   void move(std::size_t index);
 
   Driver driver_;
+  Area area_;
   std::vector<VehicleShape> shapes_;
   std::vector<DrivingLane> lanes_;
   RightOfWay rights_;

@@ -208,6 +208,27 @@ TEST(Traffic, OneWayRoadsThatEndAreNotUsed) {
   EXPECT_EQ(traffic.warnings().size(), 1u);
 }
 
+TEST(Traffic, VehiclesKeepToTheirPartOfTheTown) {
+  constexpr float spacing_m = 100.0f, radius_m = 150.0f;
+  const glm::vec2 centre(200.0f, 300.0f);
+  scene::Scene scene = scene_of(grid(8, spacing_m), 25);
+  const auto farthest_m = [&] {
+    Traffic traffic(scene);
+    float farthest = 0.0f;
+    for (int second = 0; second < 300; ++second) {
+      traffic.step(1.0f);
+      for (const Vehicle& v : traffic.simulation().vehicles())
+        farthest = std::max(
+            farthest, glm::distance(glm::vec2(v.front_axle(0.0f, traffic.simulation().lanes())), centre));
+    }
+    EXPECT_EQ(traffic.vehicle_count(), 25u);
+    return farthest;
+  };
+  EXPECT_GT(farthest_m(), 400.0f) << "without an area they go everywhere";
+  scene.traffic.centre = centre, scene.traffic.radius_m = radius_m;
+  EXPECT_LT(farthest_m(), radius_m + spacing_m) << "at most to the next crossing beyond the rim";
+}
+
 TEST(Traffic, MoreVehiclesThanRoomAreTurnedAway) {
   const Traffic traffic(scene_of(grid(2, 60.0f), 10000));
   EXPECT_LT(traffic.vehicle_count(), 200u);

@@ -1,5 +1,6 @@
 #include "traffic/vehicle.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace parvis::traffic {
@@ -12,6 +13,14 @@ float length_of(std::span<const DrivingLane> lanes, int lane) {
   return lanes[std::size_t(lane)].path.length();
 }
 
+/// One of the lanes that lead least far out of the area, at random.
+int turn(const std::vector<int>& next, std::span<const DrivingLane> lanes, Random& random) {
+  const auto outside_m = [&](int lane) { return lanes[std::size_t(lane)].outside_m; };
+  const float least_m = outside_m(std::ranges::min(next, {}, outside_m));
+  int chance = random.index(int(std::ranges::count(next, least_m, outside_m)));
+  return *std::ranges::find_if(next, [&](int lane) { return outside_m(lane) == least_m && chance-- == 0; });
+}
+
 }  // namespace
 
 void Vehicle::plan(std::span<const DrivingLane> lanes) {
@@ -19,8 +28,7 @@ void Vehicle::plan(std::span<const DrivingLane> lanes) {
   for (std::size_t i = current; i < route.size(); ++i) ahead_m += length_of(lanes, route[i]);
   while (route.size() < longest_route &&
          (ahead_m < planned_ahead_m || !can_rest_on(lanes[std::size_t(route.back())]))) {
-    const std::vector<int>& next = lanes[std::size_t(route.back())].next;
-    route.push_back(next[std::size_t(random.index(int(next.size())))]);
+    route.push_back(turn(lanes[std::size_t(route.back())].next, lanes, random));
     ahead_m += length_of(lanes, route.back());
   }
 }
