@@ -48,8 +48,8 @@ std::string roads(const StreetPlan& plan) {
 std::string traffic(std::span<const std::string> vehicle_files, std::uint64_t seed) {
   // Thirty cars on 8 km of road would be an empty town: they keep to the streets about the main crossing.
   const glm::vec2 centre = main_crossing();
-  std::string text = fmt::format("traffic(vehicles=30, seed={}, centre=\"{:.0f} {:.0f} 0\", radius=250) {{\n", seed,
-                                 centre.x, centre.y);
+  std::string text = fmt::format("traffic(vehicles=30, seed={}, centre=\"{:.0f} {:.0f} 0\", radius=250) {{\n",
+                                 seed, centre.x, centre.y);
   for (const std::string& file : vehicle_files)
     text += fmt::format("  model(file=\"{}\", dynamic=1, reflective=1)\n", file);
   return text + "}\n\n";

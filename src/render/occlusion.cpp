@@ -12,6 +12,8 @@ namespace {
 constexpr int width = 640, height = 360;
 constexpr std::size_t pixel_count = std::size_t(width) * std::size_t(height);
 constexpr float least_area_m2 = 4.0f;  // smaller triangles hide less than they cost
+constexpr std::size_t most_shape_triangles = 20'000;
+constexpr float least_area_px = 0.01f;
 constexpr std::size_t tasks = 16;
 constexpr float slack = 1.001f;  // of depth: an occluder does not hide itself, nor what lies in its plane
 
@@ -37,6 +39,11 @@ glm::vec3 on_screen(const glm::vec4& clip) {
           (0.5f + 0.5f * clip.y * inverse_w) * float(height), inverse_w};
 }
 
+void add_triangle(const std::array<glm::vec3, 3>& corners, bool has_backs, std::vector<glm::vec3>& out) {
+  out.insert(out.end(), corners.begin(), corners.end());
+  if (has_backs) out.insert(out.end(), corners.rbegin(), corners.rend());
+}
+
 float at(const glm::vec3& plane, float x, float y) { return plane.x * x + plane.y * y + plane.z; }
 
 }  // namespace
@@ -48,15 +55,24 @@ void OcclusionCuller::add_occluder(const Mesh& mesh, const glm::mat4& world_from
       corners[k] = world_from_mesh * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
     const float area = 0.5f * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     if (area < least_area_m2) continue;
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
-    if (has_backs) corners_.insert(corners_.end(), corners.rbegin(), corners.rend());
+    add_triangle(corners, has_backs, corners_);
   }
 }
 
-void OcclusionCuller::project(const glm::mat4& clip_from_world, std::size_t triangle,
-                              std::vector<ScreenTriangle>& out) const {
+int OcclusionCuller::add_shape(const Mesh& mesh, bool has_backs) {
+  if (mesh.indices.size() / 3 > most_shape_triangles) return -1;
+  std::vector<glm::vec3>& corners = shapes_.emplace_back();
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    add_triangle({mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                  mesh.positions[mesh.indices[i + 2]]},
+                 has_backs, corners);
+  return int(shapes_.size()) - 1;
+}
+
+void OcclusionCuller::project(const glm::mat4& clip_from_corners, const glm::vec3* corners,
+                              std::vector<ScreenTriangle>& out) {
   std::array<glm::vec4, 3> clip;
-  for (std::size_t k = 0; k < 3; ++k) clip[k] = clip_from_world * glm::vec4(corners_[3 * triangle + k], 1.0f);
+  for (std::size_t k = 0; k < 3; ++k) clip[k] = clip_from_corners * glm::vec4(corners[k], 1.0f);
   for (int axis = 0; axis < 2; ++axis) {  // wholly to one side: most triangles leave here
     if (clip[0][axis] > clip[0].w && clip[1][axis] > clip[1].w && clip[2][axis] > clip[2].w) return;
     if (clip[0][axis] < -clip[0].w && clip[1][axis] < -clip[1].w && clip[2][axis] < -clip[2].w) return;
@@ -67,7 +83,7 @@ void OcclusionCuller::project(const glm::mat4& clip_from_world, std::size_t tria
     const std::array<glm::vec3, 3> p{on_screen(polygon[0]), on_screen(polygon[std::size_t(fan)]),
                                      on_screen(polygon[std::size_t(fan) + 1])};
     const float twice_area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    if (twice_area < 1.0f) continue;  // seen from behind, or too small
+    if (twice_area < least_area_px) continue;  // seen from behind, or too small
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     ScreenTriangle screen;
@@ -124,7 +140,7 @@ void OcclusionCuller::take_farthest_of_neighbours() {
       32);
 }
 
-void OcclusionCuller::draw(const glm::mat4& clip_from_world) {
+void OcclusionCuller::draw(const glm::mat4& clip_from_world, std::span<const PlacedShape> placed) {
   clip_from_world_ = clip_from_world;
   inverse_w_.assign(pixel_count, 0.0f);
   projected_.resize(tasks);
@@ -132,7 +148,13 @@ void OcclusionCuller::draw(const glm::mat4& clip_from_world) {
   parallel_for(tasks, [&](std::size_t task) {
     projected_[task].clear();
     for (std::size_t i = task * count / tasks; i < (task + 1) * count / tasks; ++i)
-      project(clip_from_world, i, projected_[task]);
+      project(clip_from_world, &corners_[3 * i], projected_[task]);
+    for (std::size_t i = task; i < placed.size(); i += tasks) {
+      const std::vector<glm::vec3>& corners = shapes_[std::size_t(placed[i].shape)];
+      const glm::mat4 clip_from_mesh = clip_from_world * placed[i].world_from_mesh;
+      for (std::size_t c = 0; c < corners.size(); c += 3)
+        project(clip_from_mesh, &corners[c], projected_[task]);
+    }
   });
   parallel_for(tasks, [&](std::size_t task) {
     const int first_row = int(task) * height / int(tasks), end_row = (int(task) + 1) * height / int(tasks);

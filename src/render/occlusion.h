@@ -1,11 +1,13 @@
-// Occlusion culling on the processor, without readback: large triangles of the fixed scene are rasterised at
-// a low resolution, and a box is hidden where all its pixels lie behind them (after Greene 1993, Hierarchical
-// Z-Buffer Visibility, and Collin 2011, Culling the Battlefield). It never hides what can be seen through a
-// gap of a pixel or more of its own resolution: depth is the farthest of a pixel and its eight neighbours.
+// Occlusion culling on the processor, without readback: large triangles of the fixed scene, and those of
+// moving things near the eye (a queue of cars hides most of itself), are rasterised at a low resolution, and
+// a box is hidden where all its pixels lie behind them (after Greene 1993, Hierarchical Z-Buffer Visibility,
+// and Collin 2011, Culling the Battlefield). It never hides what can be seen through a gap of a pixel or more
+// of its own resolution: depth is the farthest of a pixel and its eight neighbours.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "base/bounds.h"
@@ -21,8 +23,17 @@ class OcclusionCuller {
 
   void clear() { corners_.clear(); }
 
+  /// Keeps an opaque mesh that moves; returns the number by which `draw` knows it, or -1 where it has too
+  /// many triangles to be drawn by the processor.
+  int add_shape(const Mesh& mesh, bool has_backs);
+
+  /// A shape as it stands now.
+  struct PlacedShape {
+    int shape;
+    glm::mat4 world_from_mesh;
+  };
   /// Draws the occluders for a view.
-  void draw(const glm::mat4& clip_from_world);
+  void draw(const glm::mat4& clip_from_world, std::span<const PlacedShape> placed = {});
   /// Is the whole box behind occluders of the view drawn last? False where it reaches behind the eye.
   bool hides(const Bounds& box) const;
 
@@ -38,12 +49,13 @@ class OcclusionCuller {
     int min_x, max_x, min_y, max_y;
   };
 
-  void project(const glm::mat4& clip_from_world, std::size_t triangle,
-               std::vector<ScreenTriangle>& out) const;
+  static void project(const glm::mat4& clip_from_corners, const glm::vec3* corners,
+                      std::vector<ScreenTriangle>& out);
   void rasterise(const ScreenTriangle& triangle, int first_row, int end_row);
   void take_farthest_of_neighbours();
 
-  std::vector<glm::vec3> corners_;  ///< three for each occluder, in the world
+  std::vector<glm::vec3> corners_;              ///< three for each occluder, in the world
+  std::vector<std::vector<glm::vec3>> shapes_;  ///< the same, in each shape's frame
   glm::mat4 clip_from_world_{1.0f};
   std::vector<std::vector<ScreenTriangle>> projected_;  ///< one list for each task
   std::vector<float> inverse_w_;                        ///< nearest occluder; 0: none

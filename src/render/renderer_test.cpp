@@ -193,6 +193,26 @@ TEST_F(RendererTest, OcclusionCullingHidesMuchAndNothingThatIsSeen) {
   EXPECT_GT(hidden_culled, hidden * 8 / 10);
 }
 
+TEST_F(RendererTest, ThingsThatMoveHideOthersWhereTheyAreNow) {
+  scene::Scene scene;
+  add(scene, model_of(ground(100), matt(glm::vec3(0.4f))));
+  const int bus = add(scene, model_of(sphere({0, 0, 2}, 2.0f), matt(glm::vec3(0.6f))), true);
+  const int car = add(scene, model_of(box({-1, 9, 0.2f}, {1, 11, 1.5f}), matt(glm::vec3(0.6f))), true);
+  const auto renderer = renderer_of(scene);
+  Camera camera;
+  camera.world_from_camera = look_at({0, -10, 1.6f}, {0, 0, 1.6f});
+  CullingCheck check = check_culling(*renderer, scene, camera, 1280, 720);
+  EXPECT_EQ(check.hidden, 1) << "object " << car << " stands behind " << bus;
+  EXPECT_EQ(check.hidden_culled, 1);
+  EXPECT_EQ(check.false_culls, 0);
+
+  scene.objects[std::size_t(bus)].world_from_model = glm::translate(glm::mat4(1.0f), {4.5f, 0, 0});
+  renderer->begin_frame(scene, camera);
+  check = check_culling(*renderer, scene, camera, 1280, 720);
+  EXPECT_EQ(check.hidden, 0);
+  EXPECT_EQ(check.false_culls, 0);
+}
+
 TEST_F(RendererTest, AnOccluderDoesNotHideItself) {
   scene::Scene scene;
   add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));  // its bounds are as flat as itself

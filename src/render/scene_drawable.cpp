@@ -58,6 +58,7 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
 SceneDrawable::SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs)
     : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
   find_occluders(scene);
+  keep_moving_shapes(scene);
 }
 
 void SceneDrawable::find_occluders(const scene::Scene& scene) {
@@ -67,6 +68,18 @@ void SceneDrawable::find_occluders(const scene::Scene& scene) {
         const bool has_backs = object.model->materials[std::size_t(part.material)].is_double_sided;
         if (object.is_visible) occlusion_.add_occluder(part.mesh, world_from_mesh, has_backs);
       });
+}
+
+void SceneDrawable::keep_moving_shapes(const scene::Scene& scene) {
+  shape_of_part_.assign(gpu_.parts().size(), -1);
+  std::size_t item = 0;
+  for (const scene::Object& object : scene.objects)
+    for (const scene::Part& part : object.model->parts) {
+      int& shape = shape_of_part_[std::size_t(gpu_.items()[item++].part)];
+      const scene::Material& material = object.model->materials[std::size_t(part.material)];
+      if (object.is_dynamic && material.alpha_mode == scene::Alpha::opaque && shape < 0)
+        shape = occlusion_.add_shape(part.mesh, material.is_double_sided);
+    }
 }
 
 void SceneDrawable::update(const scene::Scene& scene) {
@@ -108,9 +121,26 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, const View& view) const 
          (std::uint64_t(part.material) << 22) | std::uint64_t(item.part);
 }
 
+/// Of what moves, only what is near: what hides others must look larger than they do.
+void SceneDrawable::draw_occluders(const View& view, const Frustum& frustum) {
+  constexpr float farthest_radii = 40.0f;
+  placed_shapes_.clear();
+  for (const Item& item : gpu_.items()) {
+    const int shape = shape_of_part_[std::size_t(item.part)];
+    if (shape < 0 || !gpu_.is_moving(item.object) || !gpu_.is_visible(item.object)) continue;
+    const Bounds& bounds = gpu_.object_bounds()[std::size_t(item.object)];
+    const float distance_m = glm::distance(bounds.centre(), view.position_in_world);
+    if (distance_m > farthest_radii * bounds.radius() || !frustum.may_see(item.bounds)) continue;
+    const glm::mat4 rows(item.record.rows[0], item.record.rows[1], item.record.rows[2],
+                         glm::vec4(0, 0, 0, 1));
+    placed_shapes_.push_back({shape, glm::transpose(rows)});
+  }
+  occlusion_.draw(view.clip_from_world, placed_shapes_);
+}
+
 void SceneDrawable::gather(const View& view, ViewList& list) {
   const Frustum frustum(view.clip_of_part() * view.clip_from_world);
-  if (view.culls_hidden) occlusion_.draw(view.clip_from_world);
+  if (view.culls_hidden) draw_occluders(view, frustum);
   list.order.clear();
   list.statistics = {};
   const std::vector<Item>& items = gpu_.items();

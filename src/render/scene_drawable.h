@@ -83,6 +83,8 @@ class SceneDrawable final : public Drawable {
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
   std::uint64_t sort_key(const Item& item, const View& view) const;
+  void keep_moving_shapes(const scene::Scene& scene);
+  void draw_occluders(const View& view, const Frustum& frustum);
   void gather(const View& view, ViewList& list);
   void batch(const View& view, ViewList& list) const;
   void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;
@@ -93,6 +95,8 @@ class SceneDrawable final : public Drawable {
 
   GpuScene gpu_;
   OcclusionCuller occlusion_;
+  std::vector<int> shape_of_part_;  ///< for occlusion; -1: the part hides nothing while it moves
+  std::vector<OcclusionCuller::PlacedShape> placed_shapes_;
   Programs programs_;
   ReflectionSource* reflection_ = nullptr;
   gl::VertexArray vertex_array_;

@@ -77,42 +77,44 @@ std::vector<std::string> names_of_vehicles(const Node& node) {
 }
 
 NodeSchema traffic_schema() {
-  return {.type = "traffic",
-          .help =
-              "Vehicles on the roads of the scene. Its models are the kinds of vehicles: x forward, y left, "
-              "the road "
-              "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
-              "vehicles are "
-              "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
-          .attributes = {{.name = "vehicles",
-                          .type = AttributeType::integer,
-                          .help = "how many",
-                          .minimum = 0,
-                          .maximum = 10'000,
-                          .is_required = true},
-                         {.name = "seed",
-                          .type = AttributeType::integer,
-                          .help = "the same seed gives the same traffic",
-                          .fallback = "1",
-                          .minimum = 0},
-                         {.name = "centre",
-                          .type = AttributeType::vec3,
-                          .help = "of the part of the town that they keep to",
-                          .fallback = "0 0 0",
-                          .unit = "m"},
-                         {.name = "radius",
-                          .type = AttributeType::number,
-                          .help = "of that part: they start in it, and turn back at its rim where streets let them",
-                          .fallback = "1000000",
-                          .unit = "m",
-                          .minimum = 10,
-                          .maximum = 1e6}},
-          .example =
-              "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
-              "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
-              "}",
-          .is_unique = true,
-          .names_made = names_of_vehicles};
+  return {
+      .type = "traffic",
+      .help =
+          "Vehicles on the roads of the scene. Its models are the kinds of vehicles: x forward, y left, "
+          "the road "
+          "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
+          "vehicles are "
+          "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
+      .attributes = {{.name = "vehicles",
+                      .type = AttributeType::integer,
+                      .help = "how many",
+                      .minimum = 0,
+                      .maximum = 10'000,
+                      .is_required = true},
+                     {.name = "seed",
+                      .type = AttributeType::integer,
+                      .help = "the same seed gives the same traffic",
+                      .fallback = "1",
+                      .minimum = 0},
+                     {.name = "centre",
+                      .type = AttributeType::vec3,
+                      .help = "of the part of the town that they keep to",
+                      .fallback = "0 0 0",
+                      .unit = "m"},
+                     {.name = "radius",
+                      .type = AttributeType::number,
+                      .help =
+                          "of that part: they start in it, and turn back at its rim where streets let them",
+                      .fallback = "1000000",
+                      .unit = "m",
+                      .minimum = 10,
+                      .maximum = 1e6}},
+      .example =
+          "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
+          "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
+          "}",
+      .is_unique = true,
+      .names_made = names_of_vehicles};
 }
 
 void build_traffic(const Node& node, SceneBuilder& builder) {

@@ -129,8 +129,8 @@ void measure_ways_out(std::vector<DrivingLane>& lanes, const scene::RoadGraph& r
     if (roads.lanes[i].crossing < 0 || lanes[i].next.empty()) continue;
     lanes[i].outside_m = std::numeric_limits<float>::max();
     for (const int next : lanes[i].next)
-      lanes[i].outside_m = std::min(
-          lanes[i].outside_m, area.outside_m(glm::vec2(lanes[std::size_t(next)].path.points().back())));
+      lanes[i].outside_m = std::min(lanes[i].outside_m,
+                                    area.outside_m(glm::vec2(lanes[std::size_t(next)].path.points().back())));
   }
 }
 

@@ -17,9 +17,7 @@ struct Area {
   glm::vec2 centre{0.0f};
   float radius_m = std::numeric_limits<float>::max();
 
-  float outside_m(glm::vec2 point) const {
-    return std::max(glm::distance(point, centre) - radius_m, 0.0f);
-  }
+  float outside_m(glm::vec2 point) const { return std::max(glm::distance(point, centre) - radius_m, 0.0f); }
 };
 
 struct DrivingLane {

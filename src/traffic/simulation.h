@@ -16,8 +16,8 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Puts up to `wanted` vehicles on the streets of the area, at rest, with room between them, and returns how many found
-  /// room.
+  /// Puts up to `wanted` vehicles on the streets of the area, at rest, with room between them, and returns
+  /// how many found room.
   std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
   /// Lets `step_s` pass. Allocates nothing.
   void step();

@@ -22,8 +22,8 @@ Traffic::Traffic(const scene::Scene& scene) {
   const scene::TrafficDemand& demand = scene.traffic;
   std::vector<VehicleShape> shapes = shapes_of(demand);
   const bool has_models = !shapes.empty();
-  simulation_ = std::make_unique<Simulation>(scene.roads, std::move(shapes),
-                                             Area{demand.centre, demand.radius_m});
+  simulation_ =
+      std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{demand.centre, demand.radius_m});
   if (demand.vehicles <= 0) return;
   if (scene.roads.empty()) {
     warnings_.push_back("traffic: the scene has no roads, so no vehicle drives; add road(path=...) nodes");
@@ -33,9 +33,10 @@ Traffic::Traffic(const scene::Scene& scene) {
     const std::size_t wanted = std::size_t(demand.vehicles);
     const std::size_t found = simulation_->spread_vehicles(wanted, demand.seed);
     if (found < wanted)
-      warnings_.push_back(fmt::format(
-          "traffic: room for {} of {} vehicles; more or longer roads that lead on, or a larger radius, give more",
-          found, wanted));
+      warnings_.push_back(
+          fmt::format("traffic: room for {} of {} vehicles; more or longer roads that lead on, or a larger "
+                      "radius, give more",
+                      found, wanted));
   }
   for (int i = 0; i < warm_up_steps; ++i) simulation_->step();
 }

@@ -37,8 +37,8 @@ struct Vehicle {
     return !lane.is_shared && lane.path.length() > room_m() + 2.5f;
   }
 
-  /// Extends the route, turning at random among the ways that keep to the area, until it reaches far enough and
-  /// ends where the vehicle can rest.
+  /// Extends the route, turning at random among the ways that keep to the area, until it reaches far enough
+  /// and ends where the vehicle can rest.
   void plan(std::span<const DrivingLane> lanes);
   /// Forgets the route from `index` on and plans it anew.
   void plan_anew(std::size_t index, std::span<const DrivingLane> lanes);
