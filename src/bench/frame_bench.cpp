@@ -160,12 +160,12 @@ void measure_reference(stage::Stage& stage, Report& report) {
 void measure_denhaag(Report& report) {
   const auto file = shared_data("cities/DenHaag_01.city.json", fs::current_path());
   if (!file) return report.note("load_ms_denhaag is skipped: the shared data is absent");
-  std::vector<double> samples;
-  for (int i = 0; i < 5; ++i)
-    samples.push_back(milliseconds([&] {
+  std::vector<double> samples(5);
+  for (double& sample : samples)
+    sample = milliseconds([&] {
       Errors warnings;
       static_cast<void>(scene::read_city_model(*file, warnings));
-    }));
+    });
   report.add("load_ms_denhaag", median(samples));
 }
 

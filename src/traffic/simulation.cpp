@@ -54,11 +54,17 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
     longest_m = std::max(longest_m, shape.length_m());
     longest_reach_m_ = std::max(longest_reach_m_, shape.length_m() + 2.0f * shape.half_width_m + 1.0f);
   }
+  const float first_m = longest_m + 1.0f, pitch_m = longest_m + spacing_m;
   std::vector<Place> places;
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
-    if (lanes_[lane].is_usable && !lanes_[lane].is_shared)
-      for (float at = longest_m + 1.0f; at < lanes_[lane].path.length() - 3.0f; at += longest_m + spacing_m)
-        if (area_.outside_m(glm::vec2(lanes_[lane].path.at(at))) == 0.0f) places.push_back({int(lane), at});
+  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+    if (!lanes_[lane].is_usable || lanes_[lane].is_shared) continue;
+    const int count = int(std::ceil((lanes_[lane].path.length() - 3.0f - first_m) / pitch_m));
+    for (int i = 0; i < count; ++i) {
+      const float front_m = first_m + float(i) * pitch_m;
+      if (area_.outside_m(glm::vec2(lanes_[lane].path.at(front_m))) == 0.0f)
+        places.push_back({int(lane), front_m});
+    }
+  }
 
   Random random(seed);
   for (std::size_t i = places.size(); i > 1; --i)
