@@ -156,6 +156,7 @@ Result<double> flip_of(scene::Scene scene, bool swaps_faces) {
   const shading::SunShadow shadow = (*renderer)->sun_shadow();
   options.shadow = &shadow;
   options.sky_visibility = &(*renderer)->sky_visibility();
+  options.body_shade = &(*renderer)->body_shade();
   const reference::RayScene rays(scene);
   const reference::TracedPicture truth =
       reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);

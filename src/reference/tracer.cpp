@@ -56,6 +56,7 @@ class Tracer {
         sky_(sky),
         shadow_(options.shadow),
         sky_visibility_(options.sky_visibility),
+        body_shade_(options.body_shade),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
@@ -104,7 +105,7 @@ class Tracer {
     const vec3 to_viewer = -cone.ray.direction;
     const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces;
-    const vec4 sky_cell = sky_cell_at(point);
+    const vec4 sky_cell = sky_cell_at(point, hit.place->object);
     const auto sky_reflection = [&](float roughness) {
       return shading::sky_share_of_direction(sky_cell, mirrored) *
              sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
@@ -140,10 +141,14 @@ class Tracer {
   }
 
   /// What the place sees of the sky.
-  vec4 sky_cell_at(const ShadingPoint& point) const {
-    if (!sky_visibility_) return vec4(0.5f, 0.5f, 0.5f, 1.0f);
-    return sky_visibility_->at(
-        shading::sky_visibility_coordinates(sky_visibility_->grid, point.position, point.geometric_normal));
+  vec4 sky_cell_at(const ShadingPoint& point, int object) const {
+    vec4 cell(0.5f, 0.5f, 0.5f, 1.0f);  // open
+    if (sky_visibility_)
+      cell = sky_visibility_->at(
+          shading::sky_visibility_coordinates(sky_visibility_->grid, point.position, point.geometric_normal));
+    if (!body_shade_) return cell;
+    return shading::shaded_cell(
+        cell, shading::sky_share_beside_bodies(*body_shade_, point.position, point.geometric_normal, object));
   }
 
   float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
@@ -157,6 +162,7 @@ class Tracer {
   const shading::SkyLight& sky_;
   const shading::SunShadow* shadow_;
   const shading::SkyVisibility* sky_visibility_;
+  const shading::BodyShade* body_shade_;
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
 };

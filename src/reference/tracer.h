@@ -5,6 +5,7 @@
 #include "base/camera.h"
 #include "base/image.h"
 #include "reference/ray_scene.h"
+#include "shading/body_shade.h"
 #include "shading/shadow.h"
 #include "shading/sky.h"
 #include "shading/sky_visibility.h"
@@ -16,8 +17,9 @@ struct TraceOptions {
   std::uint64_t seed = 1;
   const shading::SunShadow* shadow = nullptr;              ///< the renderer's maps; null: exact shadow rays
   const shading::SkyVisibility* sky_visibility = nullptr;  ///< the renderer's; null: open everywhere
-  bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
-  std::string progress = "tracing";    ///< what the progress bar says
+  const shading::BodyShade* body_shade = nullptr;  ///< the renderer's; null: moving things hide no sky
+  bool mirrors_see_themselves = true;              ///< else a reflection passes through its own object
+  std::string progress = "tracing";                ///< what the progress bar says
 };
 
 struct TracedPicture {

@@ -11,15 +11,15 @@ inline constexpr GLuint shadow_unit = 5;
 inline constexpr GLuint first_reflection_unit = 6;  ///< to 14, for the rooms above
 inline constexpr GLuint sky_visibility_unit = 15;
 
-/// To be called once for each program that includes frame.glsl, material.glsl, sky_lookup.glsl or
-/// sun_lookup.glsl.
+/// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
+/// sky_lookup.glsl or sun_lookup.glsl.
 inline void assign_bindings(const gl::Program& program) {
   constexpr const char* samplers[]{"base_colour_texture", "normal_texture", "surface_texture",
                                    "emission_texture",    "sky_texture",    "shadow_maps"};
   for (int unit = 0; unit < 6; ++unit) program.set(samplers[unit], unit);
   program.set("sky_visibility_texture", int(sky_visibility_unit));
-  constexpr const char* blocks[]{"Frame", "Material"};
-  for (GLuint binding = 0; binding < 2; ++binding)
+  constexpr const char* blocks[]{"Frame", "Material", "Bodies"};
+  for (GLuint binding = 0; binding < 3; ++binding)
     if (const GLuint index = glGetUniformBlockIndex(program.name(), blocks[binding]);
         index != GL_INVALID_INDEX)
       glUniformBlockBinding(program.name(), index, binding);

@@ -181,16 +181,31 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
   world_from_model_[o] = object.world_from_model;
 }
 
+/// What light passes (leaves, glass) hides no sky.
+void GpuScene::add_body(const scene::Object& object, std::size_t o) {
+  const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
+  Bounds in_model;
+  for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
+    const PartRange& part = parts_[std::size_t(items_[i].part)];
+    if (part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque)
+      in_model.add(transformed(pose[std::size_t(part.node)], part.bounds));
+  }
+  if (const auto body = shading::body_of(in_model, object.world_from_model, int(o))) bodies_.push_back(*body);
+}
+
 void GpuScene::update(const scene::Scene& scene) {
   assert(scene.objects.size() == object_bounds_.size());
   moving_bounds_.clear();
+  bodies_.clear();
   fixed_change_ = {};
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
     if (is_moving_[o]) {
       place(scene, o);
-      if (object.is_visible) moving_bounds_.push_back(object_bounds_[o]);
+      if (!object.is_visible) continue;
+      moving_bounds_.push_back(object_bounds_[o]);
+      add_body(object, o);
     } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
       if (was_visible) fixed_change_.add(object_bounds_[o]);
       place(scene, o);

@@ -10,6 +10,7 @@
 #include "gl/objects.h"
 #include "render/view.h"
 #include "scene/scene.h"
+#include "shading/body_shade.h"
 
 namespace parvis::render {
 
@@ -77,6 +78,8 @@ class GpuScene {
   Bounds fixed_bounds() const;
   /// Of each object that moves and is seen.
   const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
+  /// What of them hides the sky from others.
+  const std::vector<shading::Body>& bodies() const { return bodies_; }
   bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
   bool is_visible(int object) const { return is_visible_[std::size_t(object)] != 0; }
 
@@ -90,7 +93,8 @@ class GpuScene {
   void upload_geometry(const std::vector<const scene::Model*>& models);
   void upload_model_materials(const scene::Model& model);
   void make_items(const scene::Scene& scene);
-  void place(const scene::Scene& scene, std::size_t item);
+  void place(const scene::Scene& scene, std::size_t object);
+  void add_body(const scene::Object& object, std::size_t o);
   GLuint plain_texture(glm::u8vec4 colour);
 
   std::unordered_map<const scene::Model*, int> first_part_;  ///< of each model, in parts_
@@ -108,6 +112,7 @@ class GpuScene {
   std::vector<std::uint8_t> is_moving_, is_visible_;
   std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
+  std::vector<shading::Body> bodies_;
   Bounds fixed_change_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
 };

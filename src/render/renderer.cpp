@@ -20,6 +20,8 @@ glm::mat4 with_reversed_depth(const glm::mat4& clip_from_world) {
   return glm::transpose(rows);
 }
 
+constexpr GLsizeiptr block_alignment = 256;  // no OpenGL asks for more
+
 bool has_colour(const View& view) { return view.kind == ViewKind::main || view.kind == ViewKind::cube_face; }
 
 }  // namespace
@@ -41,6 +43,7 @@ Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTexture
       shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()),
       drawables_{&scene_},
       frame_blocks_(1 << 18),
+      body_blocks_(1 << 16),
       target_(std::move(target)) {}
 
 void Renderer::bind_frame(const View& view) {
@@ -60,7 +63,7 @@ void Renderer::bind_frame(const View& view) {
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
   block.visibility_size = glm::vec4(grid.size_m, 0.0f);
-  const GLintptr offset = frame_blocks_.append(std::span<const FrameBlock>(&block, 1), 256);
+  const GLintptr offset = frame_blocks_.append(std::span<const FrameBlock>(&block, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, 0, frame_blocks_.name(), offset, sizeof(FrameBlock));
 }
 
@@ -127,6 +130,10 @@ void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   sun_ = scene.sun;
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;
+  body_shade_ = shading::make_body_shade(scene_.gpu().bodies(), camera.position_in_world());
+  const GLintptr bodies =
+      body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
   shadows_.update(camera, scene.sun.direction_to_sun, scene_.gpu().moving_bounds(),
                   [this](const View& view) { draw_view(view); });

@@ -60,6 +60,7 @@ class Renderer {
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return sky_.light(); }
   const shading::SkyVisibility& sky_visibility() const { return sky_.visibility(); }
+  const shading::BodyShade& body_shade() const { return body_shade_; }
   shading::SunShadow sun_shadow() const { return shadows_.read_back(); }
 
  private:
@@ -76,7 +77,8 @@ class Renderer {
   SceneDrawable scene_;
   SunShadowMaps shadows_;
   std::vector<Drawable*> drawables_;
-  StreamBuffer frame_blocks_;
+  shading::BodyShade body_shade_;
+  StreamBuffer frame_blocks_, body_blocks_;
   PictureTarget target_;
   View main_view_;
 };

@@ -102,6 +102,28 @@ TEST_F(RendererTest, AShadowGoesWithItsObject) {
   EXPECT_LT(lit_at(5), 0.6f * lit_at(-5));
 }
 
+/// Under a box on wheels the road is dark, in the shadow of the sun and out of it, and the ray tracer's
+/// function says by how much.
+TEST_F(RendererTest, AMovingBodyDarkensTheRoadBelowIt) {
+  scene::Scene scene;
+  add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));
+  const int car = add(scene, model_of(box({-2, -1, 0.2f}, {2, 1, 1.5f}), matt(glm::vec3(0.5f))), true);
+  scene.sun.irradiance = glm::vec3(0.0f);
+  const auto renderer = renderer_of(scene);
+  Camera camera;  // along the ground, below the body
+  camera.world_from_camera = look_at({0, -12, 0.6f}, {0, 0, 0});
+  camera.vertical_fov = glm::radians(4.0f);
+  const auto light_under = [&](bool is_there) {
+    scene.objects[std::size_t(car)].is_visible = is_there;
+    draw(*renderer, scene, camera, 64, 64);
+    return renderer->read_radiance().at(32, 32)[1];  // just before the middle of the ground
+  };
+  const float open = light_under(false), shaded = light_under(true);
+  const float share = sky_share_beside_bodies(renderer->body_shade(), {0, -0.15f, 0}, {0, 0, 1}, -1);
+  EXPECT_LT(share, 0.2f);
+  EXPECT_NEAR(shaded / open, share, 0.05f);  // the pixel sees 0.25 m of the ground
+}
+
 /// A renderer that saw the change gives the picture of one that was made after it.
 TEST_F(RendererTest, FixedThingsMayVanishAppearAndMove) {
   scene::Scene scene;

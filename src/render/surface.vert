@@ -1,5 +1,6 @@
 #include "render/frame.glsl"
 #ifdef IS_LEAF
+#include "render/body_lookup.glsl"
 #include "render/sky_lookup.glsl"
 #include "render/sun_lookup.glsl"
 #endif
@@ -10,6 +11,7 @@ layout(location = 2) in vec2 mesh_uv;
 layout(location = 3) in vec4 world_from_mesh_row0;
 layout(location = 4) in vec4 world_from_mesh_row1;
 layout(location = 5) in vec4 world_from_mesh_row2;
+layout(location = 6) in uint object;
 
 out vec3 position;
 out vec3 vertex_normal;
@@ -18,6 +20,8 @@ out vec2 uv;
 // A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
 out float leaf_sun;
 out vec4 leaf_sky_cell;
+#else
+flat out int object_of_surface;
 #endif
 
 void main() {
@@ -33,7 +37,9 @@ void main() {
   vec3 normal = normalize(vertex_normal);
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = visible_sun(position, normal);
-  leaf_sky_cell = sky_visibility_cell(position, normal);
+  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, int(object)));
+#else
+  object_of_surface = int(object);
 #endif
   gl_Position = clip_from_world * vec4(position, 1.0f);
 }

@@ -4,6 +4,7 @@
 // `surface_sky_cell`, what the place sees of the sky.
 #include "render/frame.glsl"
 #include "render/anisotropy.glsl"
+#include "render/body_lookup.glsl"
 #include "render/sky_lookup.glsl"
 #include "render/sun_lookup.glsl"
 #include "shading/surface.glsl"
@@ -17,6 +18,8 @@ in vec2 uv;
 #ifdef IS_LEAF
 in float leaf_sun;
 in vec4 leaf_sky_cell;
+#else
+flat in int object_of_surface;
 #endif
 out vec4 radiance;
 
@@ -107,7 +110,8 @@ void main() {
   surface_sky_cell = leaf_sky_cell;
   float sun = leaf_sun;
 #else
-  surface_sky_cell = sky_visibility_cell(position, normal);
+  surface_sky_cell = shaded_cell(sky_visibility_cell(position, normal),
+                                 sky_share_beside_bodies(position, normal, object_of_surface));
   float sun = visible_sun(position, normal);
 #endif
   vec3 mirrored = reflect(-to_viewer, s.normal);

@@ -101,6 +101,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
   options.samples_a_pixel = samples_a_pixel;
   options.shadow = &shadow;
   options.sky_visibility = &renderer_->sky_visibility();
+  options.body_shade = &renderer_->body_shade();
   const reference::RayScene rays(play_.scene);
   return reference::trace_picture(rays, play_.scene, renderer_->sky(), camera, width, height, options);
 }
