@@ -67,13 +67,14 @@ Mesh cube(float half, bool is_room) {
 Image8 wall_picture() {
   constexpr int cell = 48, across = 8;
   Image8 picture(3 * cell * across, 2 * cell * across, 4, 255);
-  std::vector<glm::vec3> colours;
+  std::vector<glm::vec3> colours(std::size_t{3 * across} * std::size_t{2 * across});
   Random random(11);
-  for (int i = 0; i < 3 * across * 2 * across; ++i)
-    colours.emplace_back(random.uniform(40, 230), random.uniform(40, 230), random.uniform(40, 230));
+  for (glm::vec3& colour : colours)
+    colour = {random.uniform(40, 230), random.uniform(40, 230), random.uniform(40, 230)};
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const glm::vec3 colour = colours[std::size_t((y / cell) * 3 * across + x / cell)];
+      const glm::vec3 colour =
+          colours[std::size_t(y / cell) * std::size_t{3 * across} + std::size_t(x / cell)];
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = std::uint8_t(colour[c]);
     }
   return picture;
@@ -132,7 +133,7 @@ class SwappedFaces final : public probes::Reflections {
   probes::CubeMap map_{map_resolution};
 };
 
-Result<double> flip_of(scene::Scene scene, bool swaps_faces) {
+Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
   std::unique_ptr<probes::Reflections> reflections;
