@@ -1,20 +1,22 @@
 // CityJSON 0.2 to 2.0: buildings, terrain, roads and the rest as one model, in metres about a local origin
-// that is kept.
+// that is kept. What becomes of the polygons: scene/city_assembly.h.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "base/result.h"
 #include "scene/model.h"
 
 namespace parvis::scene {
 
-/// Parts by tile, name and material; Model::origin keeps where the origin lies. Materials are named after the
-/// semantics
-/// ("WallSurface"), and so are objects; roads' names add what they are for ("Road voetpad"), as streets()
-/// asks. Takes the highest level of detail of each object. Surfaces without semantics are named after their
-/// object's type, those of buildings by their slope. Objects without polygons are named in `warnings`; a file
-/// without any, an unknown version and an index out of range are errors.
-Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings);
+/// Takes each object's highest level of detail, or the highest not above `most_detail` (the lowest, where all
+/// are above). Of several themes of materials or pictures the file's default one counts, else the first.
+/// Surfaces without semantics are named after their object's type, those of buildings by their slope. Objects
+/// of extensions ("+Pavilion") are taken by their geometry. Objects without polygons and templates that are
+/// not there are named in `warnings`; a file without any polygon, an unknown version and an index out of
+/// range are errors.
+Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
+                              std::optional<double> most_detail = {});
 
 }  // namespace parvis::scene

@@ -98,10 +98,123 @@ TEST(CityJson, AnObjectWithoutPolygonsIsNamed) {
   EXPECT_NE(warnings[0].message.find("shed"), std::string::npos);
 }
 
+/// The house with a geometry template of a mast of 1 x 1 x 4 m, placed twice as large on the house's
+/// corner 6.
+std::string house_with_mast() {
+  return with(house(), "\"CityObjects\":{",
+              R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2",
+    "boundaries":[[[0,1,2,3]]]}],"vertices-templates":[[0,0,0],[1,0,0],[1,0,4],[0,0,4]]},
+    "CityObjects":{"mast":{"type":"CityFurniture","geometry":[{"type":"GeometryInstance","template":0,"boundaries":[6],
+    "transformationMatrix":[2,0,0,0.5, 0,2,0,0, 0,0,2,0, 0,0,0,1]}]},)");
+}
+
+TEST(CityJson, TemplatesStandAtTheirPlaces) {
+  const Result<Model> city = read(house_with_mast());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area(*city, "CityFurniture"), 16.0, 1e-3);
+  for (const Part& part : city->parts)
+    if (part.object == "CityFurniture") {
+      EXPECT_NEAR(part.mesh.bounds().min.x, 5.5f, 1e-4f);   // corner 6 lies at x 5 of the model
+      EXPECT_NEAR(part.mesh.bounds().max.z, 16.0f, 1e-4f);  // 8 m up, and 2 x 4 m
+    }
+  EXPECT_FALSE(read(with(house_with_mast(), "\"template\":0", "\"template\":3")));
+  EXPECT_FALSE(read(with(house_with_mast(), "[6]", "[66]")));
+}
+
+TEST(CityJson, MirroredTemplatesKeepTheirFaces) {
+  const Result<Model> city = read(with(house_with_mast(), "[2,0,0,0.5, 0,2", "[2,0,0,0.5, 0,-2"));
+  ASSERT_TRUE(city) << to_string(city.errors());
+  const auto mast = std::find_if(city->parts.begin(), city->parts.end(),
+                                 [](const Part& part) { return part.object == "CityFurniture"; });
+  ASSERT_NE(mast, city->parts.end());
+  EXPECT_GT(mast->mesh.normals.front().y, 0.9f);  // unmirrored it looks to -y
+}
+
+/// The house with two materials, of which the wall of the last face takes the second by the default theme.
+std::string house_with_materials() {
+  return with(with(house(), "\"CityObjects\":{", R"("appearance":{"default-theme-material":"day","materials":[
+    {"name":"a","diffuseColor":[1,0,0]},{"name":"b","diffuseColor":[0,1,0],"transparency":0.25,"shininess":0.5},
+    {"name":"c","diffuseColor":[1,0,0]}]},"CityObjects":{)"),
+              "\"lod\":\"2.2\"",
+              R"("lod":"2.2","material":{"autumn":{"value":0},"day":{"values":[[0,null,2,0,0,1]]}})");
+}
+
+TEST(CityJson, MaterialsOfTheDefaultTheme) {
+  const Result<Model> city = read(house_with_materials());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  std::size_t red = 0, green = 0;
+  for (const Material& material : city->materials) {
+    red += material.base_colour == glm::vec3(1, 0, 0) ? 1 : 0;
+    if (material.base_colour != glm::vec3(0, 1, 0)) continue;
+    ++green;
+    EXPECT_EQ(material.name, "WallSurface");
+    EXPECT_NEAR(material.alpha, 0.75f, 1e-6f);
+    EXPECT_EQ(material.alpha_mode, Alpha::blend);
+    EXPECT_LT(material.roughness, 0.5f);
+  }
+  EXPECT_EQ(red, 2u);  // of the ground and of the walls: materials that look alike are one
+  EXPECT_EQ(green, 1u);
+  EXPECT_FALSE(read(with(house_with_materials(), "0,1]]}}", "0,9]]}}")));
+}
+
+TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
+  const std::string old =
+      with(with(house(), "\"1.1\"", "\"0.2\""), "\"lod\":\"2.2\"",
+           R"("lod":2,"semantics":[[{"type":"GroundSurface"},{"type":"WallSurface"},null,{},
+                                  {"type":"RoofSurface"}]])");
+  const Result<Model> city = read(old);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area(*city, "RoofSurface"), 60.0, 1e-3);  // what the list calls a roof
+}
+
+TEST(CityJson, WithoutTransformVerticesAreMetres) {
+  std::string text =
+      with(house(), R"("transform":{"scale":[0.001,0.001,0.001],"translate":[80000,450000,2]},)", "");
+  const Result<Model> city = read(text);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(bounds(*city).size().x, 10000.0f, 1e-2f);
+}
+
+TEST(CityJson, TheLevelOfDetailAskedFor) {
+  const std::string text = with(house(), "\"geometry\":[", R"("geometry":[{"type":"MultiSurface","lod":"0",
+    "boundaries":[[[0,1,2,3]]]},{"type":"MultiLineString","lod":"3","boundaries":[[0,1]]},)");
+  const TestFolder folder;
+  Errors warnings;
+  const auto file = folder.write("city.json", text);
+  const auto triangles = [&](std::optional<double> level) {
+    const Result<Model> city = read_city_model(file, warnings, level);
+    return city ? city->triangle_count() : 0;
+  };
+  EXPECT_GT(triangles({}), 10u);
+  EXPECT_EQ(triangles(1.0), 2u);
+  EXPECT_GT(triangles(2.5), 10u);
+  EXPECT_EQ(triangles(-1.0), 2u);
+}
+
+TEST(CityJson, ExtensionsAreTakenByTheirGeometry) {
+  const Result<Model> tower = read(with(house(), "\"Building\"", "\"+NoiseBuilding\""));
+  ASSERT_TRUE(tower) << to_string(tower.errors());
+  EXPECT_NEAR(area(*tower, "WallSurface"), 216.0, 1e-3);
+  const Result<Model> thing = read(with(house(), "\"Building\"", "\"+Pavilion\""));
+  ASSERT_TRUE(thing) << to_string(thing.errors());
+  EXPECT_NEAR(area(*thing, "GenericCityObject"), 372.0, 1e-3);
+}
+
+TEST(CityJson, SolidsOfManySolids) {
+  std::string text = with(house(), "\"Solid\"", "\"MultiSolid\"");
+  text = with(text, "\"boundaries\":[[", "\"boundaries\":[[[");
+  text = with(text, "[[3,0,4,7]]]]", "[[3,0,4,7]]]]]");
+  const Result<Model> city = read(text);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area(*city, "WallSurface"), 216.0, 1e-3);
+}
+
 TEST(CityJson, DamagedTextNeverCrashes) {
   Random random(3);
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < 600; ++round) {
     std::string text = house();
+    if (round % 3 == 1) text = house_with_mast();
+    if (round % 3 == 2) text = house_with_materials();
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = "0123456789[]{},:\"-e.x"[random.index(21)];
     static_cast<void>(read(text));

@@ -42,11 +42,20 @@ const Look* find(const std::string& name) {
   return nullptr;
 }
 
+/// The look of a type: CityJSON's derived types begin with it ("BridgePart"), others are alike.
+std::string type_name(const std::string& object_type) {
+  for (const Look& look : looks)
+    if (object_type.starts_with(look.name)) return look.name;
+  return object_type == "Waterway" ? "WaterBody" : "GenericCityObject";
+}
+
 }  // namespace
 
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up) {
   if (find(semantics)) return semantics;
-  if (!object_type.starts_with("Building")) return find(object_type) ? object_type : "GenericCityObject";
+  const bool is_building =
+      object_type.find("Building") != std::string::npos || object_type == "OtherConstruction";
+  if (!is_building) return type_name(object_type);
   constexpr float steep = 0.34f;  // cosine of 70 degrees
   if (up > steep) return "RoofSurface";
   return up < -steep ? "GroundSurface" : "WallSurface";

@@ -8,7 +8,8 @@
 namespace parvis::scene {
 
 /// The name that a surface's material gets: its own semantics ("RoofSurface"), its object's type ("Road"), or
-/// for buildings without semantics the one that its slope tells. `up` is the z of its unit normal.
+/// for buildings (extensions' too) without semantics the one that its slope tells. `up` is the z of its unit
+/// normal.
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up);
 
 /// The plain material of a name.

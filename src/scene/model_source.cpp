@@ -6,11 +6,12 @@
 
 namespace parvis::scene {
 
-Result<Model> model_from_file(const std::filesystem::path& file, UpAxis up, Errors& warnings) {
+Result<Model> model_from_file(const std::filesystem::path& file, const ModelReading& reading,
+                              Errors& warnings) {
   const std::string extension = file.extension().string();
   if (extension == ".glb" || extension == ".gltf") return read_gltf(file, warnings);
-  if (extension == ".json") return read_city_model(file, warnings);
-  return read_with_assimp(file, up, warnings);
+  if (extension == ".json") return read_city_model(file, warnings, reading.most_detail);
+  return read_with_assimp(file, reading.up, warnings);
 }
 
 }  // namespace parvis::scene

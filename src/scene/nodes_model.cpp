@@ -21,6 +21,11 @@ NodeSchema model_schema() {
             .help = "the file's upward axis; \"file\": what its format says",
             .fallback = "file",
             .choices = {"file", "y", "z"}},
+           {.name = "lod",
+            .type = AttributeType::number,
+            .help = "of city models: the level of detail, or the next one below; else the highest",
+            .minimum = 0.0,
+            .maximum = 4.0},
            {.name = "dynamic",
             .type = AttributeType::flag,
             .help = "it may move: stands in nothing that is computed once",
@@ -45,18 +50,40 @@ NodeSchema model_schema() {
   return schema;
 }
 
+/// What decides how the node's file is read.
+std::string reading_key(const Node& node) {
+  const std::string level = node.gives("lod") ? fmt::format("&lod={}", node.number("lod")) : "";
+  return node.file("file").string() + "?up=" + node.text("up") + level;
+}
+
+/// Georeferenced models stand as their coordinates say: the first one's origin is the scene's, and the others
+/// stand about it, so that tiles of one city meet.
+glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& builder) {
+  constexpr double far_m = 50'000.0;  // floats end at millimetres there, and no city is so large
+  if (model.origin == glm::dvec3(0.0)) return glm::vec3(0.0f);
+  if (builder.scene.origin == glm::dvec3(0.0)) builder.scene.origin = model.origin;
+  const glm::dvec3 offset = model.origin - builder.scene.origin;
+  if (glm::length(offset) < far_m) return glm::vec3(offset);
+  builder.warn(error_at(node.where_of("file"),
+                        "\"{}\" lies {:.0f} km from the scene's first georeferenced model; their coordinate "
+                        "systems may differ. It is put beside it instead",
+                        model.name, glm::length(offset) / 1000.0));
+  return glm::vec3(0.0f);
+}
+
 std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder) {
   const std::filesystem::path file = node.file("file");
-  const UpAxis up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
-  return builder.shared_model(file.string() + "?up=" + node.text("up"),
-                              [&]() -> std::shared_ptr<const Model> {
-                                Errors warnings;
-                                Result<Model> model = model_from_file(file, up, warnings);
-                                for (const Error& warning : warnings) builder.warn(warning);
-                                if (model) return std::make_shared<const Model>(std::move(*model));
-                                builder.fail(model.errors(), node.where_of("file"));
-                                return nullptr;
-                              });
+  ModelReading reading;
+  reading.up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
+  if (node.gives("lod")) reading.most_detail = node.number("lod");
+  return builder.shared_model(reading_key(node), [&]() -> std::shared_ptr<const Model> {
+    Errors warnings;
+    Result<Model> model = model_from_file(file, reading, warnings);
+    for (const Error& warning : warnings) builder.warn(warning);
+    if (model) return std::make_shared<const Model>(std::move(*model));
+    builder.fail(model.errors(), node.where_of("file"));
+    return nullptr;
+  });
 }
 
 void build_model(const Node& node, SceneBuilder& builder) {
@@ -66,13 +93,15 @@ void build_model(const Node& node, SceneBuilder& builder) {
   object.is_dynamic = node.flag("dynamic");
   object.takes_reflection = node.flag("reflective");
   const std::string name = node.gives("name") ? node.text("name") : node.file("file").stem().string();
+  glm::mat4 placed_from_model(1.0f);
+  placed_from_model[3] = glm::vec4(offset_in_scene(*object.model, node, builder), 1.0f);
   std::vector<glm::vec3> positions = node.points("positions");
   if (positions.empty()) positions.emplace_back(0.0f);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     object.name = i == 0 ? name : fmt::format("{} {}", name, i + 1);
     glm::mat4 moved(1.0f);
     moved[3] = glm::vec4(positions[i], 1.0f);
-    object.world_from_model = builder.world_from_parent() * moved * placement(node);
+    object.world_from_model = builder.world_from_parent() * moved * placement(node) * placed_from_model;
     builder.scene.objects.push_back(object);
   }
 }
@@ -80,9 +109,9 @@ void build_model(const Node& node, SceneBuilder& builder) {
 }  // namespace
 
 std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
-  const std::shared_ptr<const Model> as_read = read_model_file(node, builder);
+  std::shared_ptr<const Model> as_read = read_model_file(node, builder);
   if (!as_read || node.children.empty()) return as_read;
-  std::string key = node.file("file").string() + "?up=" + node.text("up");
+  std::string key = reading_key(node);
   for (const Node& child : node.children) key += signature(child);
   return builder.shared_model(key, [&] {
     Model model = *as_read;

@@ -64,6 +64,36 @@ glm::vec3 placed(const Object& object, glm::vec3 point) {
   return glm::vec3(object.world_from_model * glm::vec4(point, 1.0f));
 }
 
+/// A square of 10 m whose middle lies at `east` in the country's coordinates.
+std::string tile(int east) {
+  return fmt::format(
+      R"({{"type":"CityJSON","version":"2.0","transform":{{"scale":[1,1,1],"translate":[{},450000,0]}},
+    "CityObjects":{{"square":{{"type":"LandUse","geometry":[{{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2,3]]]}}]}}}},
+    "vertices":[[0,0,0],[10,0,0],[10,10,0],[0,10,0]]}})",
+      east - 5);
+}
+
+TEST_F(ModelNodes, TilesOfOneCityMeet) {
+  folder_.write("west.city.json", tile(80000));
+  folder_.write("east.city.json", tile(80010));
+  const Scene scene = scene_of("model(file=\"west.city.json\") {}\nmodel(file=\"east.city.json\")");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.origin, glm::dvec3(80000.0, 450005.0, 0.0));
+  EXPECT_EQ(glm::vec3(scene.objects[0].world_from_model[3]), glm::vec3(0.0f));
+  EXPECT_EQ(glm::vec3(scene.objects[1].world_from_model[3]), glm::vec3(10.0f, 0.0f, 0.0f));
+}
+
+TEST_F(ModelNodes, ACityElsewhereIsPutBesideTheFirstAndTold) {
+  folder_.write("west.city.json", tile(80000));
+  folder_.write("far.city.json", tile(2680000));
+  const auto loaded = load("model(file=\"west.city.json\")\nmodel(file=\"far.city.json\")");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  ASSERT_EQ(loaded->warnings.size(), 1u);
+  EXPECT_NE(loaded->warnings[0].message.find("2600 km"), std::string::npos) << loaded->warnings[0].message;
+  EXPECT_EQ(loaded->warnings[0].where.line, 2);
+  EXPECT_EQ(glm::vec3(loaded->scene.objects[1].world_from_model[3]), glm::vec3(0.0f));
+}
+
 TEST_F(ModelNodes, AreObjectsInTheirPlace) {
   const Scene scene = scene_of(
       "group(position=\"10 0 0\") { model(name=a, file=two.glb, position=\"0 5 0\", heading_deg=90, scale=2) "
