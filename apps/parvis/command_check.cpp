@@ -1,6 +1,7 @@
 // parvis check: is a scene right? And the reference of all nodes.
 #include "commands.h"
 #include "scene/scene_reference.h"
+#include "scene/schema_json.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -9,23 +10,39 @@ namespace {
 struct Arguments {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> data;
-  bool wants_reference = false;
+  bool wants_reference = false, wants_schema = false;
 };
 
+/// What --scenario and --tour can name.
+void print_states(const scene::LiveScene& live) {
+  for (const scene::Node* node : live.scenarios())
+    fmt::print("scenario {}{}{}\n", node->text("name"), node->gives("title") ? ": " : "",
+               node->text("title"));
+  for (const scene::Node& node : live.nodes())
+    if (node.schema->type == "tour") fmt::print("tour {}\n", node.text("name"));
+}
+
 Status check(const Arguments& arguments) {
-  const scene::NodeRegistry registry = stage::node_registry();
+  const scene::NodeRegistry& registry = stage::node_registry();
   if (arguments.wants_reference) {
     fmt::print("{}", scene::scene_reference(registry));
     return Done{};
   }
-  if (arguments.scene.empty()) return error("name a scene, or ask for --reference");
-  const Result<scene::LoadedScene> loaded = scene::load_scene(arguments.scene, registry, arguments.data);
+  if (arguments.wants_schema) {
+    fmt::print("{}", scene::schema_json(registry));
+    return Done{};
+  }
+  if (arguments.scene.empty()) return error("name a scene, or ask for --reference or --schema");
+  Result<scene::LoadedScene> loaded = scene::load_scene(arguments.scene, registry, arguments.data);
   if (!loaded) return loaded.errors();
   for (const Error& warning : loaded->warnings) fmt::print("warning: {}\n", to_string(warning));
-  const scene::Scene& scene = loaded->scene;
+  scene::Scene& scene = loaded->scene;
+  scene::LiveScene live(std::move(loaded->script));
+  if (Status status = live.prepare_scenarios(scene); !status) return status;
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
              scene.roads.lanes.size(), scene.traffic.vehicles, scene.cameras.size());
+  print_states(live);
   return Done{};
 }
 
@@ -38,6 +55,8 @@ void add_check(CLI::App& app, Chosen& chosen) {
   command->add_option("--data", arguments->data, "A further folder that the scene may read from");
   command->add_flag("--reference", arguments->wants_reference,
                     "Print the reference of all nodes (docs/scene-reference.md)");
+  command->add_flag("--schema", arguments->wants_schema,
+                    "Print all nodes with their attributes and messages as JSON");
   command->footer("Example: parvis check scenes/delft.xp --data ../shared/data");
   command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }

@@ -15,6 +15,7 @@ struct Arguments : SceneArguments {
 Status trace(const Arguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
+  if (Status status = arguments.expect_one_scenario(); !status) return status;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();

@@ -27,8 +27,9 @@ Status draw(stage::Stage& stage, const Arguments& arguments, int width, int heig
   return Done{};
 }
 
-Status render_film(stage::Stage& stage, const Arguments& arguments, int width, int height) {
-  Result<stage::Film> film = stage::Film::open(arguments.output, width, height, arguments.frames_per_second);
+Status render_film(stage::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
+                   int width, int height) {
+  Result<stage::Film> film = stage::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
   render::PictureReader reader;
@@ -46,6 +47,26 @@ Status render_film(stage::Stage& stage, const Arguments& arguments, int width, i
   return film->finish();
 }
 
+/// picture.png of the scenario "oaks": picture-oaks.png.
+std::filesystem::path named_after(const std::filesystem::path& output, std::string scenario) {
+  std::replace(scenario.begin(), scenario.end(), '/', '-');
+  std::filesystem::path named = output;
+  return named.replace_filename(output.stem().string() + "-" + scenario + output.extension().string());
+}
+
+/// A picture, or a film: of --seconds, or as long as the tour.
+Status render_one(stage::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
+                  int height) {
+  if (!arguments.tour.empty()) {
+    const Result<double> length_s = stage.play().actions.start_tour(arguments.tour);
+    if (!length_s) return length_s.errors();
+    if (arguments.seconds == 0.0) arguments.seconds = *length_s;
+  }
+  if (arguments.seconds > 0.0) return render_film(stage, arguments, output, width, height);
+  if (Status status = draw(stage, arguments, width, height); !status) return status;
+  return write_image(output, reduced(stage.picture(), arguments.supersample));
+}
+
 Status render_scene(const Arguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
@@ -53,9 +74,13 @@ Status render_scene(const Arguments& arguments) {
   if (!context) return context.errors();
   Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
-  if (arguments.seconds > 0.0) return render_film(**stage, arguments, width, height);
-  if (Status status = draw(**stage, arguments, width, height); !status) return status;
-  return write_image(arguments.output, reduced((*stage)->picture(), arguments.supersample));
+  if (arguments.scenarios.size() < 2) return render_one(**stage, arguments, arguments.output, width, height);
+  for (const std::string& scenario : arguments.scenarios) {
+    if (Status status = (*stage)->choose_scenario(scenario); !status) return status;
+    const std::filesystem::path output = named_after(arguments.output, scenario);
+    if (Status status = render_one(**stage, arguments, output, width, height); !status) return status;
+  }
+  return Done{};
 }
 
 }  // namespace
@@ -67,7 +92,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
   arguments->add_picture(*command);
   command->add_option("-o,--output", arguments->output, "The picture (.png, .jpg) or film (.mp4)")
       ->capture_default_str();
-  command->add_option("--seconds", arguments->seconds, "Length of a film; 0: a picture")
+  command->add_option("--tour", arguments->tour, "A film of a tour of the scene")->excludes("--camera");
+  command->add_option("--seconds", arguments->seconds, "Length of a film; 0: a picture, or the whole tour")
       ->check(CLI::Range(0.0, 86400.0));
   command->add_option("--fps", arguments->frames_per_second, "Frames a second of a film")
       ->check(CLI::Range(1, 240))

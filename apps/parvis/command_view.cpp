@@ -13,9 +13,13 @@ struct Arguments : SceneArguments {
 Status view(Arguments& arguments) {
   viewer::WindowOptions& window = arguments.window;
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
+  if (Status status = arguments.expect_one_scenario(); !status) return status;
   window.camera = arguments.camera;
   Result<stage::Play> play = arguments.open_play();
   if (!play) return play.errors();
+  if (!arguments.tour.empty())
+    if (const Result<double> length = play->actions.start_tour(arguments.tour); !length)
+      return length.errors();
   return viewer::show(*std::move(play), window);
 }
 
@@ -26,6 +30,7 @@ void add_view(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
   arguments->add_picture(*command);
+  command->add_option("--tour", arguments->tour, "Begin with a tour of the scene; moving ends it");
   command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
   command->add_option("--screenshot", arguments->window.screenshot,

@@ -18,18 +18,24 @@ struct SceneArguments {
   std::string size = "1280x720";
   double time_s = 0.0;
   std::string method;
+  std::vector<std::string> scenarios;  ///< none: as the scene begins
+  std::vector<std::string> presses;    ///< "KEY@SECONDS"
+  std::string tour;
 
   /// SCENE and --data.
   void add_scene(CLI::App& command) {
     command.add_option("scene", scene, "The scene's script (.xp)")->required();
     command.add_option("--data", data, "A further folder that the scene may read from");
   }
-  /// --camera, --size, --time and --reflection.
+  /// --camera, --scenario, --size, --time, --press and --reflection.
   void add_picture(CLI::App& command) {
     command.add_option("--camera", camera, "Name of the camera (default: the scene's first)");
+    command.add_option("--scenario", scenarios, "A state of the scene that it gives by this name");
     command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
-    command.add_option("--time", time_s, "Seconds that traffic has driven before")
+    command.add_option("--time", time_s, "Seconds that have passed in the scene before")
         ->check(CLI::Range(0.0, 86400.0));
+    command.add_option("--press", presses,
+                       "A key that a person presses so many seconds after: KEY@SECONDS; may repeat");
     command.add_option("--reflection", method, "Method of reflection in place of the scene's own");
   }
 
@@ -53,8 +59,36 @@ struct SceneArguments {
         return error("--reflection {}: expected one of {}", method, fmt::join(names, ", "));
       play->scene.reflection.method = scene::ReflectionMethod(found - names.begin());
     }
+    action::Actions& actions = play->actions;
+    if (!scenarios.empty())
+      if (Status status = actions.live().choose(play->scene, scenarios.front()); !status)
+        return status.errors();
+    if (Status status = plan_presses(actions); !status) return status.errors();
     play->advance(time_s);
     return play;
+  }
+
+  /// Plans what --press asks for.
+  Status plan_presses(action::Actions& actions) const {
+    for (const std::string& press : presses) {
+      const std::size_t at = press.find('@');
+      const std::string key = press.substr(0, at);
+      const std::vector<double> in_s =
+          at == std::string::npos ? std::vector{0.0} : scene::parse_numbers(press.substr(at + 1));
+      if (in_s.size() != 1 || in_s[0] < 0.0)
+        return error("--press {}: expected KEY@SECONDS, as button2@1.5", press);
+      if (!actions.uses_key(key))
+        return error("--press {}: nothing in the scene waits for the key \"{}\"", press, key);
+      actions.press(key, in_s[0]);
+    }
+    return Done{};
+  }
+
+  /// --scenario for a command that shows one.
+  Status expect_one_scenario() const {
+    if (scenarios.size() > 1)
+      return error("--scenario: one at a time; parvis render writes a picture of each");
+    return Done{};
   }
 
   /// The same on its stage; needs a current context.

@@ -11,6 +11,13 @@ const NodeAttribute* Node::find(const std::string& name) const {
   return nullptr;
 }
 
+void Node::set(const std::string& name, AttributeValue new_value, std::string text) {
+  const AttributeSchema* attribute = schema->find(name);
+  assert(attribute && "the node's schema has no such attribute");
+  std::erase_if(attributes, [&](const NodeAttribute& each) { return each.schema == attribute; });
+  attributes.push_back({attribute, std::move(new_value), std::move(text), where});
+}
+
 const FileLocation& Node::where_of(const std::string& name) const {
   const NodeAttribute* attribute = find(name);
   return attribute ? attribute->where : where;
@@ -45,8 +52,24 @@ std::vector<glm::vec3> Node::points(const std::string& name) const {
   return all;
 }
 
+std::vector<Event> Node::events(const std::string& name) const {
+  std::vector<Event> all;
+  for (const NodeAttribute& attribute : attributes)
+    if (attribute.schema->name == name) all.push_back(std::get<Event>(attribute.value));
+  return all;
+}
+
 std::filesystem::path Node::file(const std::string& name) const {
   return value<std::filesystem::path>(name).value_or(std::filesystem::path());
+}
+
+const Node* find_node(const std::vector<Node>& nodes, const std::string& name) {
+  for (const Node& node : nodes) {
+    const bool is_named = node.schema->find("name") && node.gives("name") && node.text("name") == name;
+    if (is_named || (node.schema->is_unique && name == "%" + node.schema->type)) return &node;
+    if (const Node* inside = find_node(node.children, name)) return inside;
+  }
+  return nullptr;
 }
 
 std::string signature(const Node& node) {

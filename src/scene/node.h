@@ -27,6 +27,10 @@ struct Node {
   FileLocation where;
   std::vector<NodeAttribute> attributes;  ///< in the order written, repeats included
   std::vector<Node> children;             ///< included files put their nodes in place
+  std::vector<NodeAttribute> overrides;   ///< of the node that `schema->takes_attributes_of` names
+
+  /// Changes the attribute from now on; `text` is what a script would write.
+  void set(const std::string& name, AttributeValue new_value, std::string text);
 
   /// The script gives the attribute.
   bool gives(const std::string& name) const { return find(name) != nullptr; }
@@ -41,6 +45,8 @@ struct Node {
   glm::vec3 vec3(const std::string& name) const;  ///< vec3, colour
   /// path, points; those of a repeated attribute follow each other.
   std::vector<glm::vec3> points(const std::string& name) const;
+  /// All values of a repeatable event, in the order written.
+  std::vector<Event> events(const std::string& name) const;
   /// The canonical path; empty where the script does not give it.
   std::filesystem::path file(const std::string& name) const;
 
@@ -49,6 +55,10 @@ struct Node {
   template <class T>
   std::optional<T> value(const std::string& name) const;
 };
+
+/// The node called `name` among `nodes` and those inside them, or null. "%TYPE" is the one node of a unique
+/// type.
+const Node* find_node(const std::vector<Node>& nodes, const std::string& name);
 
 /// What the node and its children say, without names and places: equal texts build equal models.
 std::string signature(const Node& node);

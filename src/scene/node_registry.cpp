@@ -9,6 +9,7 @@ namespace parvis::scene {
 
 void NodeRegistry::add(NodeSchema schema, BuildNode build) {
   assert(!find(schema.type) && "a node type is added twice");
+  schema.complete_messages();
   types_.push_back({std::move(schema), std::move(build), {}});
 }
 
@@ -48,6 +49,7 @@ NodeRegistry core_nodes() {
   add_road_nodes(registry);
   add_light_nodes(registry);
   add_camera_nodes(registry);
+  add_scenario_nodes(registry);
   return registry;
 }
 

@@ -39,7 +39,7 @@ NodeSchema model_schema() {
             .help = "many copies, one at each point (relative to position=)",
             .unit = "m",
             .is_repeatable = true}},
-      .stands_in = {top_level, "group", "traffic"},
+      .stands_in = {top_level, "group", "scenario", "traffic"},
       .example =
           "model(name=\"taxi\", file=\"cars/van.glb\", position=\"3 4 0\", heading_deg=90, dynamic=1, "
           "reflective=1) {\n"
@@ -47,6 +47,7 @@ NodeSchema model_schema() {
           "}"};
   const std::vector<AttributeSchema> placement = placement_attributes();
   schema.attributes.insert(schema.attributes.begin() + 2, placement.begin(), placement.end());
+  schema.attributes.push_back(visible_attribute());
   return schema;
 }
 
@@ -92,6 +93,7 @@ void build_model(const Node& node, SceneBuilder& builder) {
   if (!object.model) return;
   object.is_dynamic = node.flag("dynamic");
   object.takes_reflection = node.flag("reflective");
+  object.is_visible = builder.is_visible() && node.flag("visible");
   const std::string name = node.gives("name") ? node.text("name") : node.file("file").stem().string();
   glm::mat4 placed_from_model(1.0f);
   placed_from_model[3] = glm::vec4(offset_in_scene(*object.model, node, builder), 1.0f);

@@ -53,7 +53,8 @@ NodeSchema road_schema() {
                           .unit = "km/h",
                           .minimum = 1,
                           .maximum = 300}},
-          .example = "road(path=\"0 0, 120 0, 200 40\", lanes=2, speed_km_h=30)"};
+          .example = "road(path=\"0 0, 120 0, 200 40\", lanes=2, speed_km_h=30)",
+          .is_laid_out_once = true};
 }
 
 void build_road(const Node& node, SceneBuilder& builder) {
@@ -85,7 +86,8 @@ NodeSchema traffic_schema() {
           "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
           "vehicles are "
           "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
-      .attributes = {{.name = "vehicles",
+      .attributes = {{.name = "name", .help = "by which other nodes refer to it; %traffic does, too"},
+                     {.name = "vehicles",
                       .type = AttributeType::integer,
                       .help = "how many",
                       .minimum = 0,
@@ -108,17 +110,21 @@ NodeSchema traffic_schema() {
                       .fallback = "1000000",
                       .unit = "m",
                       .minimum = 10,
-                      .maximum = 1e6}},
+                      .maximum = 1e6},
+                     visible_attribute()},
       .example =
           "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
           "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
           "}",
       .is_unique = true,
+      .is_laid_out_once = true,
       .names_made = names_of_vehicles};
 }
 
 void build_traffic(const Node& node, SceneBuilder& builder) {
   TrafficDemand& traffic = builder.scene.traffic;
+  traffic.is_visible = builder.is_visible() && node.flag("visible");
+  if (!traffic.models.empty()) return;  // built again
   traffic.vehicles = int(node.integer("vehicles"));
   traffic.seed = std::uint64_t(node.integer("seed"));
   traffic.centre = glm::vec2(node.vec3("centre"));
@@ -155,7 +161,8 @@ NodeSchema streets_schema() {
                       .maximum = 300}},
       .example =
           "model(name=\"quarter\", file=\"quarter.city.json\")\n"
-          "streets(of=\"quarter\")"};
+          "streets(of=\"quarter\")",
+      .is_laid_out_once = true};
 }
 
 /// Adds the triangles of an object's matching parts, in the world; what a part is called says what it is for.
@@ -205,7 +212,8 @@ NodeSchema paving_schema() {
               "need no "
               "exact heights: within 2.5 m is enough). Not for models that bring their own streets.",
           .example = "paving()",
-          .is_unique = true};
+          .is_unique = true,
+          .is_laid_out_once = true};
 }
 
 void build_paving(const Node&, SceneBuilder& builder) { builder.has_paving = true; }

@@ -9,18 +9,29 @@ std::vector<AttributeSchema> placement_attributes() {
            .type = AttributeType::vec3,
            .help = "where its origin stands in its parent",
            .fallback = "0 0 0",
-           .unit = "m"},
+           .unit = "m",
+           .is_live = true},
           {.name = "heading_deg",
            .type = AttributeType::angle,
            .help = "turn about the vertical, clockwise from above",
            .fallback = "0",
-           .unit = "degrees"},
+           .unit = "degrees",
+           .is_live = true},
           {.name = "scale",
            .type = AttributeType::number,
            .help = "size relative to the file's",
            .fallback = "1",
            .minimum = 1e-6,
-           .maximum = 1e6}};
+           .maximum = 1e6,
+           .is_live = true}};
+}
+
+AttributeSchema visible_attribute() {
+  return {.name = "visible",
+          .type = AttributeType::flag,
+          .help = "whether it is to be seen at first",
+          .fallback = "1",
+          .is_live = true};
 }
 
 glm::mat4 turned(float heading) {

@@ -11,6 +11,9 @@ namespace parvis::scene {
 /// position=, heading_deg=, scale=
 std::vector<AttributeSchema> placement_attributes();
 
+/// visible=
+AttributeSchema visible_attribute();
+
 /// parent_from_node of a node with placement_attributes().
 glm::mat4 placement(const Node& node);
 

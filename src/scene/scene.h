@@ -11,6 +11,7 @@
 
 #include "base/camera.h"
 #include "base/image.h"
+#include "base/result.h"
 #include "scene/model.h"
 #include "scene/road_graph.h"
 
@@ -61,6 +62,8 @@ struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
   int resolution = 128;              ///< pixels along a face's edge
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
+
+  bool operator==(const Reflection&) const = default;
 };
 
 /// Traffic to be put on the road graph.
@@ -86,6 +89,8 @@ struct Scene {
   glm::dvec3 origin{0.0};  ///< georeferenced coordinates of the world's origin, zero where there are none
 
   const NamedCamera* find_camera(const std::string& name) const;
+  /// Where a camera is now: it may stay with an object, which must be there to be seen.
+  Result<Camera> camera_now(const NamedCamera& named) const;
   std::size_t static_triangle_count() const;
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "base/result.h"
@@ -15,22 +16,46 @@
 
 namespace parvis::scene {
 
+/// Where the nodes of a group stand, and whether they are to be seen.
+struct NodeFrame {
+  glm::mat4 world_from_nodes{1.0f};
+  bool is_visible = true;
+};
+
+/// Models by what they were made of: objects that look alike share one.
+using SharedModels = std::map<std::string, std::shared_ptr<const Model>>;
+
+/// What a scene that runs keeps of its script. Nodes stay where they are in memory when it is moved.
+struct Script {
+  const NodeRegistry* registry = nullptr;  ///< must outlive it
+  std::vector<Node> nodes;
+  std::unordered_map<const Node*, NodeFrame> frames;  ///< in which each node stands
+  std::vector<const Node*> object_makers,
+      camera_makers;  ///< the node that made each object and camera, or null
+  SharedModels models;
+};
+
 /// A scene, and what its author should know about it: missing textures that a placeholder stands for, ...
 struct LoadedScene {
   Scene scene;
   Errors warnings;
+  Script script;
 };
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const NodeRegistry& registry) : registry_(registry) {}
+  explicit SceneBuilder(const NodeRegistry& registry, SharedModels models = {})
+      : registry_(registry), models_(std::move(models)) {}
 
   Scene scene;
   std::vector<Road> roads;  ///< in the world; finish() makes lanes of them
   bool has_paving = false;  ///< finish() lays carriageways on the ground
 
-  /// Builds nodes that stand in a frame inside the present one.
-  void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f));
+  /// Builds nodes that stand in a frame inside the present one; hidden ones are built, too.
+  void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
+             bool is_visible = true);
+  /// Builds one node again, in the frame in which it stood. What is laid out once is left out.
+  void build_again(const Node& node, const NodeFrame& frame);
 
   /// Lets a node that stands in a `model` change it.
   void change(Model& model, const Node& node) {
@@ -38,7 +63,9 @@ class SceneBuilder {
   }
 
   /// The frame in which the node that is being built stands.
-  const glm::mat4& world_from_parent() const { return world_from_parent_; }
+  const glm::mat4& world_from_parent() const { return frame_.world_from_nodes; }
+  /// None of the groups around that node is hidden.
+  bool is_visible() const { return frame_.is_visible; }
 
   /// The model that `make` gave when `key` was first asked for: objects that look alike share one. Null if it
   /// fails.
@@ -53,10 +80,19 @@ class SceneBuilder {
   /// The scene, when everything is built; or all that went wrong.
   Result<LoadedScene> finish() &&;
 
+  const Errors& errors() const { return errors_; }
+  /// What it noted while it built: all but the nodes.
+  Script take_script() &&;
+
  private:
   const NodeRegistry& registry_;
-  glm::mat4 world_from_parent_{1.0f};
-  std::map<std::string, std::shared_ptr<const Model>> models_;
+  void build_one(const Node& node);
+
+  NodeFrame frame_;
+  std::unordered_map<const Node*, NodeFrame> frames_;
+  std::vector<const Node*> object_makers_, camera_makers_;
+  SharedModels models_;
+  bool builds_again_ = false;
   Errors errors_, warnings_;
 };
 

@@ -16,11 +16,13 @@ Result<std::vector<Node>> checked_nodes(const std::filesystem::path& script, con
 
 Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRegistry& registry,
                                std::span<const std::filesystem::path> data_folders) {
-  const Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
+  Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
   if (!nodes) return nodes.errors();
   SceneBuilder builder(registry);
   builder.build(*nodes);
-  return std::move(builder).finish();
+  Result<LoadedScene> loaded = std::move(builder).finish();
+  if (loaded) loaded->script.nodes = *std::move(nodes);
+  return loaded;
 }
 
 Status check_scene(const std::filesystem::path& script, const NodeRegistry& registry,

@@ -24,7 +24,11 @@ type(attribute=value, attribute="a value with spaces") {
 - Colours are `"#RRGGBB"` (sRGB) or three linear numbers. Flags are `1` or `0`.
 - Files lie below the scene's folder or below a folder given by `--data`; paths are relative to that folder, in included
   scripts too, and may not lead out of it.
-- Names (`name=`) are unique in a scene.
+- Names (`name=`) are unique in a scene. The one node of a type that stands once in a scene is also called `%TYPE`:
+  `%sun`.
+- A node takes messages while the scene runs: its section lists them. The last argument takes the rest of the message.
+- An event attribute sends one: `onPress="button2, trees, show oaks, 0.5"`: what must happen, the node that is told, the
+  message, and how many seconds later (none if left out).
 )";
 
 std::string type_name(AttributeType type) {
@@ -53,6 +57,10 @@ std::string type_name(AttributeType type) {
       return "file";
     case AttributeType::reference:
       return "name of a node";
+    case AttributeType::child:
+      return "name of a node inside";
+    case AttributeType::event:
+      return "event";
   }
   return "";
 }
@@ -71,15 +79,36 @@ std::string limits(const AttributeSchema& schema) {
   return "";
 }
 
+std::string choices_of(const AttributeSchema& schema) {
+  constexpr std::size_t few = 12;
+  if (schema.choices.size() <= few) return fmt::format(" (`{}`)", fmt::join(schema.choices, "`, `"));
+  return fmt::format(" ({} names: `{}`, ..., `{}`)", schema.choices.size(), schema.choices.front(),
+                     schema.choices.back());
+}
+
 std::string attribute_row(const AttributeSchema& schema) {
   std::string type = type_name(schema.type) + limits(schema);
   if (!schema.unit.empty()) type += ", " + schema.unit;
+  if (schema.type == AttributeType::event) type += fmt::format(", `{}`", event_pattern(schema));
   if (schema.is_repeatable) type += "; may repeat";
   std::string fallback = schema.is_required ? "*required*" : "";
   if (!schema.fallback.empty()) fallback = fmt::format("`{}`", schema.fallback);
   std::string help = schema.help;
-  if (!schema.choices.empty()) help += fmt::format(" (`{}`)", fmt::join(schema.choices, "`, `"));
+  if (!schema.choices.empty()) help += choices_of(schema);
+  if (!schema.spellings.empty())
+    help += fmt::format("; also spelt `{}`", fmt::join(schema.spellings, "`, `"));
   return fmt::format("| `{}` | {} | {} | {} |\n", schema.name, type, fallback, escaped(help));
+}
+
+std::string message_row(const MessageSchema& schema) {
+  std::string pattern = schema.name;
+  std::string types;
+  for (const AttributeSchema& argument : schema.arguments) {
+    pattern += argument.is_required ? " " + argument.name : fmt::format(" [{}]", argument.name);
+    types += (types.empty() ? "" : "; ") + type_name(argument.type) + limits(argument);
+    if (!argument.unit.empty()) types += ", " + argument.unit;
+  }
+  return fmt::format("| `{}` | {} | {} |\n", pattern, types, escaped(schema.help));
 }
 
 std::string place_of(const NodeSchema& schema) {
@@ -96,6 +125,8 @@ std::string node_section(const NodeSchema& schema, const NodeRegistry& registry)
   text += "\n";
   if (!schema.attributes.empty()) text += "\n| attribute | type | default | |\n| --- | --- | --- | --- |\n";
   for (const AttributeSchema& attribute : schema.attributes) text += attribute_row(attribute);
+  if (!schema.messages.empty()) text += "\n| message | arguments | |\n| --- | --- | --- |\n";
+  for (const MessageSchema& message : schema.messages) text += message_row(message);
   return text + fmt::format("\n```\n{}\n```\n", schema.example);
 }
 

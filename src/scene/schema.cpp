@@ -11,6 +11,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr std::string_view separators = " \t\r\n,";
+constexpr double longest_delay_s = 86'400.0;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(separators);
@@ -100,9 +101,33 @@ Result<AttributeValue> parse_choice(const AttributeSchema& schema, const std::st
 }  // namespace
 
 const AttributeSchema* NodeSchema::find(const std::string& name) const {
-  const auto found =
-      std::find_if(attributes.begin(), attributes.end(), [&](const auto& a) { return a.name == name; });
+  const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const AttributeSchema& a) {
+    return a.name == name || std::find(a.spellings.begin(), a.spellings.end(), name) != a.spellings.end();
+  });
   return found == attributes.end() ? nullptr : &*found;
+}
+
+const MessageSchema* NodeSchema::find_message(const std::string& name) const {
+  const auto found = std::find_if(messages.begin(), messages.end(),
+                                  [&](const MessageSchema& m) { return edit_distance(m.name, name) == 0; });
+  return found == messages.end() ? nullptr : &*found;
+}
+
+void NodeSchema::complete_messages() {
+  const auto add = [this](MessageSchema message) {
+    if (!find_message(message.name)) messages.push_back(std::move(message));
+  };
+  if (find("visible")) {
+    add({"show", "makes it visible", {}});
+    add({"hide", "makes it invisible", {}});
+    add({"toggle", "shows it if it is hidden, hides it if it is shown", {}});
+  }
+  for (const AttributeSchema& attribute : attributes) {
+    if (!attribute.is_live) continue;
+    AttributeSchema argument = attribute;
+    argument.is_required = true;
+    add({attribute.name, "sets the attribute", {std::move(argument)}});
+  }
 }
 
 std::vector<double> parse_numbers(std::string_view text) {
@@ -121,6 +146,62 @@ std::vector<double> parse_numbers(std::string_view text) {
     at = stop;
   }
 }
+
+std::string event_pattern(const AttributeSchema& schema) {
+  const bool is_time = schema.source == AttributeType::number,
+             is_index = schema.source == AttributeType::integer;
+  return fmt::format("{}, TARGET, MESSAGE, DELAY", is_time ? "SECONDS" : is_index ? "NUMBER" : "SOURCE");
+}
+
+namespace {
+
+/// All of a few, or the first and the last of many.
+std::string some_of(const std::vector<std::string>& choices) {
+  constexpr std::size_t few = 12;
+  if (choices.size() <= few) return fmt::format("{}", fmt::join(choices, ", "));
+  return fmt::format("{}, {}, {}, ..., {}", choices[0], choices[1], choices[2], choices.back());
+}
+
+std::string source_help(const AttributeSchema& schema) {
+  switch (schema.source) {
+    case AttributeType::number:
+      return "when, in seconds";
+    case AttributeType::integer:
+      return "which, counted from 1";
+    case AttributeType::reference:
+      return schema.choices.empty()
+                 ? "the name of a node"
+                 : fmt::format("{} or the name of a node", fmt::join(schema.choices, ", "));
+    default:
+      return "one of " + some_of(schema.choices);
+  }
+}
+
+Result<AttributeValue> parse_event(const AttributeSchema& schema, const std::string& text,
+                                   const FileLocation& where) {
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 3 && fields.size() != 4) return mismatch(schema, text, where);
+  Event event{std::string(trimmed(fields[0])), std::string(trimmed(fields[1])),
+              std::string(trimmed(fields[2]))};
+  if (event.source.empty() || event.target.empty() || event.message.empty())
+    return mismatch(schema, text, where);
+  if (fields.size() == 4) {
+    const std::vector<double> delay = parse_numbers(fields[3]);
+    if (delay.size() != 1 || delay[0] < 0.0 || delay[0] > longest_delay_s)
+      return error_at(where, "{}: the delay \"{}\" is no number of seconds from 0 to {}", schema.name,
+                      trimmed(fields[3]), longest_delay_s);
+    event.delay_s = delay[0];
+  }
+  AttributeSchema source{
+      .name = schema.name + ", its source", .type = schema.source, .choices = schema.choices};
+  if (source.type == AttributeType::number) source.minimum = 0, source.unit = "seconds";
+  if (source.type == AttributeType::integer) source.minimum = 1;
+  const Result<AttributeValue> checked = parse_value(source, event.source, Roots(""), where);
+  if (!checked) return checked.errors();
+  return AttributeValue(std::move(event));
+}
+
+}  // namespace
 
 std::string expectation(const AttributeSchema& schema) {
   const auto limits = [&] {
@@ -148,7 +229,7 @@ std::string expectation(const AttributeSchema& schema) {
     case AttributeType::colour:
       return "a colour: \"#RRGGBB\" (sRGB), or three linear numbers \"r g b\"" + limits();
     case AttributeType::choice:
-      return fmt::format("one of {}", fmt::join(schema.choices, ", "));
+      return "one of " + some_of(schema.choices);
     case AttributeType::path:
       return "two or more points \"x y z, x y z, ...\" (z may be left out), at most 100000" + limits();
     case AttributeType::points:
@@ -156,7 +237,16 @@ std::string expectation(const AttributeSchema& schema) {
     case AttributeType::file:
       return "the name of a file";
     case AttributeType::reference:
-      return "the name of a node";
+      return schema.refers_to.empty()
+                 ? "the name of a node"
+                 : fmt::format("the name of a {}", fmt::join(schema.refers_to, " or a "));
+    case AttributeType::child:
+      return "the name of a node inside it";
+    case AttributeType::event:
+      return fmt::format(
+          "\"{}\": {}, the node that is told, what it is told, and after how "
+          "many seconds (0 if left out)",
+          event_pattern(schema), source_help(schema));
   }
   return "";
 }
@@ -188,8 +278,11 @@ Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::str
         return error_at(where, "{}=\"{}\" is a folder; expected a file", schema.name, text);
       return AttributeValue(std::move(*file));
     }
+    case AttributeType::event:
+      return parse_event(schema, text, where);
     case AttributeType::text:
     case AttributeType::reference:
+    case AttributeType::child:
       break;
   }
   return AttributeValue(text);

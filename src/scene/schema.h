@@ -1,5 +1,5 @@
-// What a node type is to the script's reader: its attributes with types, units, limits and defaults. Errors,
-// `parvis check` and docs/scene-reference.md all come from here.
+// What a node type is to the script's reader: its attributes with types, units, limits and defaults, and the
+// messages that it takes. Errors, `parvis check` and docs/scene-reference.md all come from here.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,15 +16,18 @@ enum class AttributeType : unsigned char {
   text,
   number,
   integer,
-  flag,      ///< 1/0, true/false, yes/no, on/off
-  angle,     ///< written in degrees (the name ends in _deg), given in radians
-  vec3,      ///< "x y z"
-  colour,    ///< "#RRGGBB" (sRGB), or three linear numbers; given linear
-  choice,    ///< one of `choices`
-  path,      ///< "x y z, x y z, ..." or "x y, x y, ..." (z = 0): at least two points
-  points,    ///< the same, at least one point
-  file,      ///< a file below the scene's folder or a --data folder; given as its canonical path
-  reference  ///< the name of another node
+  flag,       ///< 1/0, true/false, yes/no, on/off
+  angle,      ///< written in degrees (the name ends in _deg), given in radians
+  vec3,       ///< "x y z"
+  colour,     ///< "#RRGGBB" (sRGB), or three linear numbers; given linear
+  choice,     ///< one of `choices`
+  path,       ///< "x y z, x y z, ..." or "x y, x y, ..." (z = 0): at least two points
+  points,     ///< the same, at least one point
+  file,       ///< a file below the scene's folder or a --data folder; given as its canonical path
+  reference,  ///< the name of another node, or %TYPE for the one node of a unique type
+  child,      ///< the name of a node inside this one that can be hidden
+  event  ///< "SOURCE, TARGET, MESSAGE, DELAY": when, to which node, what, after how many seconds (0 if left
+         ///< out)
 };
 
 /// Limit of one path or points attribute.
@@ -38,9 +41,22 @@ struct AttributeSchema {
   std::string unit = {};      ///< "m", "pixels", ...; empty where there is none
   double minimum = -1e9;
   double maximum = 1e9;
-  std::vector<std::string> choices = {};
+  std::vector<std::string> choices = {};  ///< of a choice, or of an event's sources
+  /// Of an event: number (seconds), integer, choice, or reference to an object; or one of `choices`.
+  AttributeType source = AttributeType::choice;
+  std::vector<std::string> refers_to = {};  ///< types of the nodes that a reference may name; empty: any name
+  std::vector<std::string> spellings = {};  ///< other names that are understood
+  bool is_live = false;                     ///< changes while the scene runs: a message of its name sets it
   bool is_required = false;
   bool is_repeatable = false;
+};
+
+/// What a node can be told while the scene runs: "name argument argument". The last argument takes all the
+/// words that are left.
+struct MessageSchema {
+  std::string name = {};
+  std::string help = {};                        ///< one line
+  std::vector<AttributeSchema> arguments = {};  ///< only the last may be left out
 };
 
 /// The parent of nodes that stand in no other.
@@ -54,17 +70,32 @@ struct NodeSchema {
   std::vector<AttributeSchema> attributes = {};
   std::vector<std::string> stands_in{top_level, "group"};  ///< types of the nodes that may hold it
   std::string example = {};                                ///< a script that uses it
+  std::vector<MessageSchema> messages = {};                ///< beside those that its live attributes give it
   bool is_unique = false;                                  ///< stands at most once in a scene
+  bool is_laid_out_once = false;  ///< when the scene is loaded: later only its live attributes change
+  /// Name of the attribute that names a node whose attributes this one takes, too; empty: takes none.
+  std::string takes_attributes_of = {};
   /// Names of the things that the node makes when the scene runs: others may refer to them.
   std::vector<std::string> (*names_made)(const Node& node) = nullptr;
 
+  /// By its name or another spelling.
   const AttributeSchema* find(const std::string& name) const;
+  const MessageSchema* find_message(const std::string& name) const;  ///< without regard to case
+  /// Adds what every node type takes: a message for each live attribute; show, hide and toggle where there is
+  /// `visible`.
+  void complete_messages();
+};
+
+/// What happens to which node when: the value of an event attribute.
+struct Event {
+  std::string source, target, message;
+  double delay_s = 0.0;
 };
 
 /// number and angle: double; integer: long; flag: bool; vec3, colour: vec3; path, points: vector of vec3;
-/// file: path; text, choice, reference: string.
-using AttributeValue =
-    std::variant<std::string, double, long, bool, glm::vec3, std::vector<glm::vec3>, std::filesystem::path>;
+/// file: path; event: Event; text, choice, reference, child: string.
+using AttributeValue = std::variant<std::string, double, long, bool, glm::vec3, std::vector<glm::vec3>,
+                                    std::filesystem::path, Event>;
 
 /// The value that `text` writes. Errors at `where` say what the attribute expects.
 Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
@@ -72,6 +103,9 @@ Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::str
 
 /// What the attribute expects, in words: `a number in m from 0 to 10`.
 std::string expectation(const AttributeSchema& schema);
+
+/// How an event is written: "SECONDS, TARGET, MESSAGE, DELAY".
+std::string event_pattern(const AttributeSchema& schema);
 
 /// Numbers parted by white space or commas; nothing where something else stands among them or one is not
 /// finite.

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "action/action_nodes.h"
+
 namespace parvis::stage {
 namespace {
-
-constexpr float followed_height_m = 0.8f;  // where the eye rests on a vehicle
 
 /// From a little above the south-west, so far that all of the scene is seen.
 Camera view_of_all(const Bounds& bounds) {
@@ -17,29 +17,28 @@ Camera view_of_all(const Bounds& bounds) {
   return camera;
 }
 
-Camera following(const scene::NamedCamera& named, const glm::mat4& world_from_object) {
-  const glm::vec3 position(world_from_object[3]);
-  const glm::vec2 ahead = glm::normalize(glm::vec2(world_from_object[0]));
-  const glm::vec3 forward(ahead, 0.0f), left(-ahead.y, ahead.x, 0.0f), up(0.0f, 0.0f, 1.0f);
-  const glm::vec3 eye =
-      position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;
-  Camera camera = named.camera;
-  camera.world_from_camera = look_at(eye, position + followed_height_m * up);
-  return camera;
-}
-
 }  // namespace
 
-scene::NodeRegistry node_registry() { return scene::core_nodes(); }
+const scene::NodeRegistry& node_registry() {
+  static const scene::NodeRegistry registry = [] {
+    scene::NodeRegistry all = scene::core_nodes();
+    action::add_action_nodes(all);
+    return all;
+  }();
+  return registry;
+}
 
-void Play::advance(double seconds) {
+void Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
   traffic.step(float(seconds));
   traffic.place(scene);
+  actions.advance(scene, seconds, visitor);
+  for (const Error& warning : actions.take_warnings())
+    fmt::print(stderr, "warning: {}\n", to_string(warning));
 }
 
 Play make_play(scene::Scene scene) {
   traffic::Traffic traffic(scene);
-  Play play{std::move(scene), std::move(traffic)};
+  Play play{std::move(scene), std::move(traffic), {}};
   for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
   play.traffic.add_vehicles(play.scene);
   return play;
@@ -50,7 +49,11 @@ Result<Play> open_play(const std::filesystem::path& script,
   Result<scene::LoadedScene> loaded = scene::load_scene(script, node_registry(), data_folders);
   if (!loaded) return loaded.errors();
   for (const Error& warning : loaded->warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
-  return make_play(std::move(loaded->scene));
+  scene::LiveScene live(std::move(loaded->script));
+  if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
+  Play play = make_play(std::move(loaded->scene));
+  play.actions = action::Actions(std::move(live), play.scene);
+  return play;
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
@@ -69,11 +72,14 @@ Status Stage::set_reflection(const scene::Reflection& reflection) {
   Result<std::unique_ptr<probes::Reflections>> made = probes::Reflections::create(play_.scene, *renderer_);
   if (!made) return made.errors();
   reflections_ = *std::move(made);
+  shown_reflection_ = reflection;
   return Done{};
 }
 
 Result<Camera> Stage::camera(const std::string& name) const {
   const scene::Scene& scene = play_.scene;
+  if (name.empty())
+    if (const std::optional<Camera> camera = play_.actions.camera(scene)) return *camera;
   if (name.empty() && scene.cameras.empty()) return view_of_all(renderer_->gpu().fixed_bounds());
   const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
   if (!named) {
@@ -81,13 +87,13 @@ Result<Camera> Stage::camera(const std::string& name) const {
     for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
     return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
   }
-  if (named->follows.empty()) return named->camera;
-  for (const scene::Object& object : scene.objects)
-    if (object.is_visible && object.name == named->follows) return following(*named, object.world_from_model);
-  return error("camera \"{}\" follows \"{}\", which is not to be seen", named->name, named->follows);
+  return scene.camera_now(*named);
 }
 
 void Stage::draw(const Camera& camera, int width, int height) {
+  if (play_.scene.reflection != shown_reflection_)
+    if (const Status status = set_reflection(play_.scene.reflection); !status)
+      fmt::print(stderr, "{}", to_string(status.errors()));
   renderer_->begin_frame(play_.scene, camera);
   renderer_->prepare_main_view(camera, width, height);
   reflections_->update(*renderer_, play_.scene, camera);

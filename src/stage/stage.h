@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "action/actions.h"
 #include "probes/reflections.h"
 #include "reference/tracer.h"
 #include "render/renderer.h"
@@ -17,15 +18,17 @@
 namespace parvis::stage {
 
 /// The types of nodes that scripts may use: those of all rooms.
-scene::NodeRegistry node_registry();
+const scene::NodeRegistry& node_registry();
 
-/// A scene with its traffic.
+/// A scene with its traffic and what its script lets happen.
 struct Play {
   scene::Scene scene;
   traffic::Traffic traffic;
+  action::Actions actions;
 
-  /// Lets `seconds` pass.
-  void advance(double seconds);
+  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it; tells warnings on standard
+  /// error.
+  void advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
 };
 /// Puts a scene's traffic on its roads; tells warnings on standard error.
 Play make_play(scene::Scene scene);
@@ -44,14 +47,18 @@ class Stage {
   render::Renderer& renderer() { return *renderer_; }
   const probes::Reflections& reflections() const { return *reflections_; }
 
+  /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
+  Status choose_scenario(const std::string& name) { return play_.actions.live().choose(play_.scene, name); }
   /// Changes the method of reflection.
   Status set_reflection(const scene::Reflection& reflection);
 
-  /// The camera of that name where it is now (it may follow an object); an unnamed one: the first of the
-  /// scene, or a view of the whole where the scene has none. Errors name the cameras that there are.
+  /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
+  /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
+  /// Errors name the cameras that there are.
   Result<Camera> camera(const std::string& name) const;
 
-  /// Draws the frame of now: shadows, reflections, picture.
+  /// Draws the frame of now: shadows, reflections, picture. Takes over what scenarios and messages have
+  /// changed.
   void draw(const Camera& camera, int width, int height);
   /// What was drawn last, tone-mapped with the scene's exposure.
   Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
@@ -64,6 +71,7 @@ class Stage {
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<probes::Reflections> reflections_;
+  scene::Reflection shown_reflection_;
 };
 
 }  // namespace parvis::stage

@@ -15,8 +15,13 @@ constexpr float lowest_eye_m = 0.4f;
 
 }  // namespace
 
-Navigation::Navigation(const Camera& start) : lens_(start), position_(start.position_in_world()) {
-  const glm::vec3 forward = start.forward_in_world();
+Navigation::Navigation(const Camera& start) : lens_(start), position_(0.0f) { go_to(start); }
+
+void Navigation::go_to(const Camera& camera) {
+  lens_ = camera;
+  position_ = camera.position_in_world();
+  if (mode_ == Mode::follow) mode_ = Mode::fly;
+  const glm::vec3 forward = camera.forward_in_world();
   heading_ = std::atan2(forward.y, forward.x);
   pitch_ = std::asin(std::clamp(forward.z, -1.0f, 1.0f));
 }

@@ -24,6 +24,8 @@ class Navigation {
  public:
   explicit Navigation(const Camera& start);
 
+  /// Goes on from another place.
+  void go_to(const Camera& camera);
   void set_mode(Mode mode);
   Mode mode() const { return mode_; }
 

@@ -4,9 +4,11 @@
 // after epoxy, which brings the declarations of OpenGL
 #include <GLFW/glfw3.h>
 
+#include <array>
 #include <chrono>
 
 #include "base/image_io.h"
+#include "viewer/key_names.h"
 #include "viewer/navigation.h"
 
 namespace parvis::viewer {
@@ -18,30 +20,41 @@ constexpr float longest_step_s = 0.1f;  // after a halt, life goes on where it s
 
 constexpr const char* help =
     "W A S D move, Q E down and up, Shift hurries, drag turns, wheel changes speed or distance\n"
-    "1 walk, 2 fly, 3 follow the next vehicle, P picture, Esc closes\n";
+    "1 walk, 2 fly, 3 follow the next vehicle, Tab next scenario, P picture, Esc closes\n";
 
 /// What GLFW tells through callbacks between two frames.
 struct Input {
+  action::Actions* actions = nullptr;
   Controls controls;
   bool is_dragging = false;
   glm::dvec2 cursor{0.0};
-  bool wants_next_vehicle = false, wants_picture = false;
+  bool wants_next_vehicle = false, wants_next_scenario = false, wants_picture = false;
   int wanted_mode = -1;
 };
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
+/// Tells the scene of a key; false where nothing in it waits for that.
+bool tell_scene(action::Actions& actions, const std::string& key, int glfw_action) {
+  if (!actions.uses_key(key)) return false;
+  if (glfw_action == GLFW_PRESS) actions.press(key);
+  if (glfw_action == GLFW_RELEASE) actions.release(key);
+  return true;
+}
+
 void on_key(GLFWwindow* window, int key, int, int action, int) {
-  if (action != GLFW_PRESS) return;
   Input& input = input_of(window);
+  if (tell_scene(*input.actions, key_name(key), action) || action != GLFW_PRESS) return;
   if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
   if (key == GLFW_KEY_1) input.wanted_mode = int(Mode::walk);
   if (key == GLFW_KEY_2) input.wanted_mode = int(Mode::fly);
   if (key == GLFW_KEY_3) input.wanted_mode = int(Mode::follow), input.wants_next_vehicle = true;
   if (key == GLFW_KEY_P) input.wants_picture = true;
+  if (key == GLFW_KEY_TAB) input.wants_next_scenario = true;
 }
 
 void on_button(GLFWwindow* window, int button, int action, int) {
+  if (tell_scene(*input_of(window).actions, mouse_button_name(button), action)) return;
   if (button == GLFW_MOUSE_BUTTON_LEFT) input_of(window).is_dragging = action == GLFW_PRESS;
 }
 
@@ -92,6 +105,7 @@ class Visit {
  public:
   Visit(GLFWwindow* window, stage::Stage& stage, const Camera& start)
       : window_(window), stage_(stage), navigation_(start) {
+    input_.actions = &stage.play().actions;
     glfwSetWindowUserPointer(window, &input_);
     glfwSetKeyCallback(window, on_key);
     glfwSetMouseButtonCallback(window, on_button);
@@ -127,13 +141,46 @@ class Visit {
     if (std::exchange(input_.wants_next_vehicle, false)) followed_ = next_vehicle(stage_.scene(), followed_);
     if (const int mode = std::exchange(input_.wanted_mode, -1); mode >= 0)
       navigation_.set_mode(Mode(mode) == Mode::follow && followed_ < 0 ? Mode::fly : Mode(mode));
-    stage_.play().advance(double(seconds));
+    if (std::exchange(input_.wants_next_scenario, false)) show_next_scenario();
+    poll_controller();
+    stage_.play().advance(double(seconds), navigation_.camera().position_in_world());
     input_.controls.move = pressed_direction(window_);
+    follow_guidance();
     input_.controls.hurries = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
     const glm::mat4 target =
         followed_ >= 0 ? stage_.scene().objects[std::size_t(followed_)].world_from_model : glm::mat4(1.0f);
     navigation_.step(input_.controls, seconds, target);
     input_.controls = {};
+  }
+
+  /// The view goes where a tour or a message leads it, until the visitor moves.
+  void follow_guidance() {
+    action::Actions& actions = *input_.actions;
+    const bool moves = input_.controls.move != glm::vec3(0.0f) || input_.controls.turn != glm::vec2(0.0f);
+    if (moves) actions.release_view();
+    if (const std::optional<Camera> camera = actions.camera(stage_.scene())) navigation_.go_to(*camera);
+  }
+
+  /// Through the scene's scenarios in their order, then the base scene.
+  void show_next_scenario() {
+    const std::vector<const scene::Node*> scenarios = input_.actions->live().scenarios();
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < scenarios.size(); ++i)
+      if (scenarios[i]->text("name") == input_.actions->live().scenario()) next = i + 1;
+    const std::string name = next < scenarios.size() ? scenarios[next]->text("name") : "";
+    if (const Status status = stage_.choose_scenario(name); !status)
+      fmt::print(stderr, "{}", to_string(status.errors()));
+    else if (!scenarios.empty())
+      fmt::print("{}\n", name.empty() ? "the base scene" : "scenario " + name);
+  }
+
+  void poll_controller() {
+    GLFWgamepadstate state{};
+    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &state) != GLFW_TRUE) return;
+    for (std::size_t i = 0; i < controller_buttons_.size(); ++i)
+      if (const unsigned char is_down = state.buttons[i];
+          std::exchange(controller_buttons_[i], is_down) != is_down)
+        tell_scene(*input_.actions, controller_button_name(int(i)), is_down ? GLFW_PRESS : GLFW_RELEASE);
   }
 
   void draw() {
@@ -149,6 +196,7 @@ class Visit {
   stage::Stage& stage_;
   Navigation navigation_;
   Input input_;
+  std::array<unsigned char, GLFW_GAMEPAD_BUTTON_LAST + 1> controller_buttons_{};
   int followed_ = -1;
   int pictures_ = 0;
 };

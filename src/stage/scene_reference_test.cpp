@@ -2,14 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "base/files.h"
-#include "scene/script_reader.h"
+#include <nlohmann/json.hpp>
 
-namespace parvis::scene {
+#include "base/files.h"
+#include "scene/schema_json.h"
+#include "scene/script_reader.h"
+#include "stage/stage.h"
+
+namespace parvis::stage {
 namespace {
 
+using namespace scene;  // all of it is about this room
+
 TEST(SceneReference, TheCommittedFileIsUpToDate) {
-  const std::string expected = scene_reference(core_nodes());
+  const std::string expected = scene_reference(node_registry());
   const std::filesystem::path file = std::filesystem::path(PARVIS_SOURCE_DIR) / "docs/scene-reference.md";
   const auto committed = read_file(file);
   ASSERT_TRUE(committed) << to_string(committed.errors());
@@ -17,18 +23,39 @@ TEST(SceneReference, TheCommittedFileIsUpToDate) {
                                          "  parvis check --reference > docs/scene-reference.md";
 }
 
-TEST(SceneReference, NamesEveryNodeAndAttribute) {
-  const NodeRegistry registry = core_nodes();
+TEST(SceneReference, NamesEveryNodeAttributeAndMessage) {
+  const NodeRegistry& registry = node_registry();
   const std::string text = scene_reference(registry);
   for (const NodeType& type : registry.types()) {
     EXPECT_NE(text.find("\n## " + type.schema.type + "\n"), std::string::npos);
     for (const AttributeSchema& attribute : type.schema.attributes)
       EXPECT_NE(text.find("| `" + attribute.name + "` |"), std::string::npos) << attribute.name;
+    for (const MessageSchema& message : type.schema.messages)
+      EXPECT_NE(text.find("| `" + message.name), std::string::npos) << message.name;
+  }
+}
+
+TEST(SchemaJson, HoldsEveryNodeAttributeAndMessage) {
+  const NodeRegistry& registry = node_registry();
+  const auto json = nlohmann::json::parse(schema_json(registry));
+  ASSERT_EQ(json["nodes"].size(), registry.types().size());
+  for (std::size_t i = 0; i < registry.types().size(); ++i) {
+    const NodeSchema& schema = registry.types()[i].schema;
+    const nlohmann::json& node = json["nodes"][i];
+    EXPECT_EQ(node["type"], schema.type);
+    ASSERT_EQ(node["attributes"].size(), schema.attributes.size());
+    EXPECT_EQ(node["messages"].size(), schema.messages.size());
+    for (std::size_t k = 0; k < schema.attributes.size(); ++k) {
+      const AttributeSchema& attribute = schema.attributes[k];
+      EXPECT_EQ(node["attributes"][k]["name"], attribute.name);
+      EXPECT_EQ(node["attributes"][k].value("default", ""), attribute.fallback);
+      EXPECT_EQ(node["attributes"][k].value("unit", ""), attribute.unit);
+    }
   }
 }
 
 TEST(SceneReference, EveryExampleParsesAndUsesKnownAttributes) {
-  const NodeRegistry registry = core_nodes();
+  const NodeRegistry& registry = node_registry();
   for (const NodeType& type : registry.types()) {
     const auto nodes = parse_script(type.schema.example, type.schema.type);
     ASSERT_TRUE(nodes) << to_string(nodes.errors());
@@ -41,6 +68,7 @@ TEST(SceneReference, EveryExampleParsesAndUsesKnownAttributes) {
       for (const ScriptNode& child : node.children) open.push_back(&child);
       shows_itself |= node.type == type.schema.type;
       ASSERT_NE(registry.find(node.type), nullptr) << node.type;
+      if (!registry.find(node.type)->schema.takes_attributes_of.empty()) continue;
       for (const ScriptAttribute& attribute : node.attributes)
         EXPECT_NE(registry.find(node.type)->schema.find(attribute.name), nullptr) << attribute.name;
     }
@@ -49,7 +77,7 @@ TEST(SceneReference, EveryExampleParsesAndUsesKnownAttributes) {
 }
 
 TEST(NodeRegistry, DefaultsAreValuesOfTheirType) {
-  const NodeRegistry registry = core_nodes();
+  const NodeRegistry& registry = node_registry();
   for (const NodeType& type : registry.types())
     for (const AttributeSchema& attribute : type.schema.attributes) {
       if (attribute.fallback.empty()) continue;
@@ -59,4 +87,4 @@ TEST(NodeRegistry, DefaultsAreValuesOfTheirType) {
 }
 
 }  // namespace
-}  // namespace parvis::scene
+}  // namespace parvis::stage

@@ -1,0 +1,54 @@
+// Messages on their way: those that events have sent and that arrive at a later step of the simulation. In
+// order, repeatable, and bounded: a storm spreads over steps, a circle of messages is cut.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/live_scene.h"
+
+namespace parvis::action {
+
+/// Messages of one step are delivered up to this number; the others wait for the next.
+inline constexpr std::size_t most_messages_a_step = 1'000;
+/// More do not wait: those that come then are lost, and told.
+inline constexpr std::size_t most_waiting_messages = 100'000;
+/// A message that causes one that causes one ... within the same step.
+inline constexpr int longest_chain = 32;
+
+/// A message to a node, ready to be delivered.
+struct Delivery {
+  const scene::Node* target = nullptr;
+  scene::Message message;
+  FileLocation where;  ///< of the event that sent it
+  int chain = 0;       ///< how many messages of the same step led to it
+};
+
+class EventQueue {
+ public:
+  /// Takes a message that arrives at `step`; `now` is the present one.
+  void post(long now, long step, Delivery delivery);
+  /// The next message that is due at `now`, first sent first; false where there is none or the step has had
+  /// its share.
+  bool next(long now, Delivery& delivery);
+
+  std::size_t size() const { return waiting_.size(); }
+  /// What was cut, lost or postponed since the last call; each circle is told once, storms once in the
+  /// queue's life.
+  Errors take_warnings() { return std::exchange(warnings_, {}); }
+
+ private:
+  void warn(const std::string& kind, Error warning);
+
+  std::map<std::pair<long, long>, Delivery> waiting_;  ///< by step and number
+  long posted_ = 0;
+  long counted_step_ = -1;
+  std::size_t delivered_ = 0;  ///< in the counted step
+  Errors warnings_;
+  std::set<std::string> told_;
+};
+
+}  // namespace parvis::action

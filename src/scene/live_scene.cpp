@@ -1,0 +1,242 @@
+#include "scene/live_scene.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "scene/spelling.h"
+
+namespace parvis::scene {
+namespace {
+
+template <class Nodes, class Visit>
+void for_each_inside(Nodes& nodes, const Visit& visit) {
+  for (auto& node : nodes) {
+    visit(node);
+    for_each_inside(node.children, visit);
+  }
+}
+
+template <class Visit>
+void for_each_from(const Node& node, const Visit& visit) {
+  visit(node);
+  for_each_inside(node.children, visit);
+}
+
+bool is_scenario(const Node& node) { return node.schema->type == "scenario"; }
+
+/// Of a node that is to be seen, or not.
+void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible, is_visible ? "1" : "0"); }
+
+}  // namespace
+
+LiveScene::LiveScene(Script script) : script_(std::move(script)) {
+  for_each_inside(script_.nodes, [this](Node& node) {
+    if (node.schema->is_unique) by_name_.emplace("%" + node.schema->type, &node);
+    if (node.schema->find("name") && node.gives("name")) by_name_.emplace(node.text("name"), &node);
+  });
+  for (std::size_t i = 0; i < script_.object_makers.size(); ++i)
+    if (const Node* maker = script_.object_makers[i]) objects_[maker].push_back(int(i));
+  for (std::size_t i = 0; i < script_.camera_makers.size(); ++i)
+    if (const Node* maker = script_.camera_makers[i]) cameras_[maker].push_back(int(i));
+}
+
+const Node* LiveScene::find(const std::string& name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? nullptr : found->second;
+}
+
+std::vector<int> LiveScene::objects_of(const Node& node) const {
+  std::vector<int> all;
+  for_each_from(node, [&](const Node& each) {
+    if (const auto made = objects_.find(&each); made != objects_.end())
+      all.insert(all.end(), made->second.begin(), made->second.end());
+  });
+  return all;
+}
+
+const NodeFrame& LiveScene::frame_of(const Node& node) const {
+  static const NodeFrame world;
+  const auto found = script_.frames.find(&node);
+  return found == script_.frames.end() ? world : found->second;
+}
+
+/// All nodes are ours to change; others only read them.
+Node& LiveScene::writable(const Node& node) { return const_cast<Node&>(node); }
+
+void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value, std::string text) {
+  writable(node).set(attribute, std::move(value), std::move(text));
+  changed_.insert(&node);
+}
+
+bool LiveScene::receive(const Node& node, const Message& message) {
+  const std::string& name = message.schema->name;
+  const auto show = [this](const Node& target, bool is_visible) {
+    set_visible(writable(target), is_visible);
+    changed_.insert(&target);
+  };
+  if (name == "show" || name == "hide" || name == "toggle") {
+    const Node* target =
+        message.arguments.empty() ? &node : find(std::get<std::string>(message.arguments.front()));
+    show(*target, name == "toggle" ? !target->flag("visible") : name == "show");
+  } else if (name == "only") {
+    const Node* chosen = find(std::get<std::string>(message.arguments.front()));
+    for (const Node& child : node.children) {
+      bool holds_chosen = false;
+      for_each_from(child, [&](const Node& inside) { holds_chosen |= &inside == chosen; });
+      if (child.schema->find("visible")) show(child, holds_chosen);
+    }
+  } else if (const AttributeSchema* attribute = node.schema->find(name); attribute && attribute->is_live) {
+    set(node, attribute->name, message.arguments.front(), message.text.substr(message.text.find(' ') + 1));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::vector<const Node*> LiveScene::scenarios() const {
+  std::vector<const Node*> all;
+  for_each_inside(script_.nodes, [&](const Node& node) {
+    if (is_scenario(node)) all.push_back(&node);
+  });
+  return all;
+}
+
+/// The scenario that it extends, then its own overrides and nodes.
+void LiveScene::change_by(const Node& scenario) {
+  if (scenario.gives("extends")) change_by(*find(scenario.text("extends")));
+  Node& chosen = writable(scenario);
+  as_written_.try_emplace(&chosen, chosen.attributes);
+  chosen.set("chosen", true, "1");
+  changed_.insert(&chosen);
+  for (const Node& child : scenario.children) {
+    if (child.schema->takes_attributes_of.empty()) continue;
+    Node& target = writable(*find(child.text("of")));
+    as_written_.try_emplace(&target, target.attributes);
+    for (const NodeAttribute& attribute : child.overrides)
+      std::erase_if(target.attributes, [&](const auto& each) { return each.schema == attribute.schema; });
+    target.attributes.insert(target.attributes.end(), child.overrides.begin(), child.overrides.end());
+    changed_.insert(&target);
+  }
+}
+
+Status LiveScene::choose(Scene& scene, const std::string& name) {
+  const Node* chosen = name.empty() ? nullptr : find(name);
+  if (!name.empty() && (!chosen || !is_scenario(*chosen))) {
+    std::vector<std::string> known;
+    for (const Node* each : scenarios()) known.push_back(each->text("name"));
+    if (known.empty()) return error("the scene has no scenario \"{}\"; it has none at all", name);
+    return error("the scene has no scenario \"{}\"; it has {}{}", name, fmt::join(known, ", "),
+                 did_you_mean(name, known));
+  }
+  for (auto& [node, attributes] : as_written_) {
+    node->attributes = std::move(attributes);
+    changed_.insert(node);
+  }
+  as_written_.clear();
+  scenario_ = name;
+  if (chosen) change_by(*chosen);
+  if (Errors errors = refresh(scene); !errors.empty()) return errors;
+  return Done{};
+}
+
+Status LiveScene::prepare_scenarios(Scene& scene) {
+  Errors errors;
+  const Node* first = nullptr;
+  for (const Node* scenario : scenarios()) {
+    if (scenario->flag("chosen")) {
+      if (first)
+        errors.push_back(error_at(scenario->where_of("chosen"),
+                                  "the scene begins with scenario \"{}\" already", first->text("name")));
+      first = scenario;
+    }
+    std::set<const Node*> chain{scenario};
+    const Node* base = scenario;
+    while (base->gives("extends") && chain.insert(find(base->text("extends"))).second)
+      base = find(base->text("extends"));
+    if (base->gives("extends"))
+      errors.push_back(error_at(scenario->where_of("extends"), "scenarios extend each other in a circle"));
+  }
+  if (!errors.empty()) return errors;
+  const std::string begins = first ? first->text("name") : "";
+  if (first) set(*first, "chosen", false, "0");
+  for (const Node* scenario : scenarios())
+    if (Status status = choose(scene, scenario->text("name")); !status)
+      errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+  if (errors.empty()) return choose(scene, begins);
+  return errors;
+}
+
+Errors LiveScene::refresh(Scene& scene) {
+  Errors errors;
+  for (const Node* node : std::exchange(changed_, {})) {
+    const Errors met = build_again(scene, *node);
+    errors.insert(errors.end(), met.begin(), met.end());
+  }
+  return errors;
+}
+
+/// Only light and cameras are written in place; objects and cameras are built aside and then take their
+/// places.
+Errors LiveScene::build_again(Scene& scene, const Node& node) {
+  SceneBuilder builder(*script_.registry, std::move(script_.models));
+  std::vector<Object> objects = std::exchange(scene.objects, {});
+  std::vector<NamedCamera> cameras = std::exchange(scene.cameras, {});
+  builder.scene = std::move(scene);
+  builder.build_again(node, frame_of(node));
+  scene = std::move(builder.scene);
+  std::vector<Object> built_objects = std::exchange(scene.objects, std::move(objects));
+  const std::vector<NamedCamera> built_cameras = std::exchange(scene.cameras, std::move(cameras));
+
+  const Errors errors = builder.errors();
+  Script built = std::move(builder).take_script();
+  script_.models = std::move(built.models);
+  if (!errors.empty()) return errors;
+  for (auto& [inside, frame] : built.frames) script_.frames[inside] = frame;
+  put_objects(scene, std::move(built_objects), built.object_makers, node);
+  put_cameras(scene, built_cameras, built.camera_makers);
+  return {};
+}
+
+/// Each object takes the place of one that the same node made of the same model before, or a new one; places
+/// that are left over are hidden.
+void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
+                            const Node& node) {
+  std::set<int> free;
+  for (const int index : objects_of(node)) {
+    free.insert(index);
+    scene.objects[std::size_t(index)].is_visible = false;
+  }
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    std::vector<int>& places = objects_[makers[i]];
+    const auto place = std::find_if(places.begin(), places.end(), [&](int index) {
+      return free.count(index) != 0 && scene.objects[std::size_t(index)].model == built[i].model;
+    });
+    if (place == places.end()) {
+      places.push_back(int(scene.objects.size()));
+      scene.objects.push_back(std::move(built[i]));
+    } else {
+      Object& object = scene.objects[std::size_t(*place)];
+      object.name = std::move(built[i].name);
+      object.world_from_model = built[i].world_from_model;
+      object.is_visible = built[i].is_visible;
+      free.erase(*place);
+    }
+  }
+}
+
+void LiveScene::put_cameras(Scene& scene, const std::vector<NamedCamera>& built,
+                            const std::vector<const Node*>& makers) {
+  std::map<const Node*, std::size_t> used;
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    std::vector<int>& places = cameras_[makers[i]];
+    if (const std::size_t nth = used[makers[i]]++; nth < places.size()) {
+      scene.cameras[std::size_t(places[nth])] = built[i];
+    } else {
+      places.push_back(int(scene.cameras.size()));
+      scene.cameras.push_back(built[i]);
+    }
+  }
+}
+
+}  // namespace parvis::scene
