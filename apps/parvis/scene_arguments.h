@@ -30,7 +30,7 @@ struct SceneArguments {
   /// --camera, --scenario, --size, --time, --press and --reflection.
   void add_picture(CLI::App& command) {
     command.add_option("--camera", camera, "Name of the camera (default: the scene's first)");
-    command.add_option("--scenario", scenarios, "A state of the scene that it gives by this name");
+    command.add_option("--scenario", scenarios, "A state that the scene gives by this name; base: none");
     command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
     command.add_option("--time", time_s, "Seconds that have passed in the scene before")
         ->check(CLI::Range(0.0, 86400.0));

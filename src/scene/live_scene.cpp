@@ -120,7 +120,8 @@ void LiveScene::change_by(const Node& scenario) {
   }
 }
 
-Status LiveScene::choose(Scene& scene, const std::string& name) {
+Status LiveScene::choose(Scene& scene, const std::string& wanted) {
+  const std::string name = wanted == base_scene && !find(wanted) ? "" : wanted;
   const Node* chosen = name.empty() ? nullptr : find(name);
   if (!name.empty() && (!chosen || !is_scenario(*chosen))) {
     std::vector<std::string> known;
@@ -188,7 +189,7 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
   std::vector<Object> built_objects = std::exchange(scene.objects, std::move(objects));
   const std::vector<NamedCamera> built_cameras = std::exchange(scene.cameras, std::move(cameras));
 
-  const Errors errors = builder.errors();
+  Errors errors = builder.errors();
   Script built = std::move(builder).take_script();
   script_.models = std::move(built.models);
   if (!errors.empty()) return errors;

@@ -12,6 +12,9 @@
 
 namespace parvis::scene {
 
+/// Stands for the scene without a scenario, unless one is called so.
+inline const std::string base_scene = "base";
+
 /// Keeps the nodes of one Scene, which its functions take. A moved one goes on as it was.
 class LiveScene {
  public:
@@ -35,8 +38,8 @@ class LiveScene {
   std::vector<const Node*> scenarios() const;
   /// The chosen one's name; empty: none, the base scene.
   const std::string& scenario() const { return scenario_; }
-  /// Changes to another scenario (empty: to the base scene): nodes of the old one get back their attributes
-  /// as written. Fails where there is no such scenario, or where what it asks for cannot be built.
+  /// Changes to another scenario (empty, or `base_scene`: to none): nodes of the old one get back their
+  /// attributes as written. Fails where there is no such scenario, or where what it asks for cannot be built.
   Status choose(Scene& scene, const std::string& name);
   /// Builds what every scenario needs, hidden, so that choosing one loads nothing; then chooses the one that
   /// begins. All errors are told. To be called before the scene is drawn: it adds objects.

@@ -97,7 +97,8 @@ TEST_F(LiveSceneTest, AScenarioChangesTheSceneAndGivesItBack) {
     EXPECT_EQ(glm::vec3(object("trees").world_from_model[3]), glm::vec3(5, 10, 0));
     EXPECT_NEAR(scene_.sun.direction_to_sun.z, 1.0f, 1e-6f);
     EXPECT_NEAR(std::tan(scene_.cameras.at(0).camera.vertical_fov / 2), 9.0f / 16.0f, 1e-5f);
-    choose("");
+    choose("base");
+    EXPECT_EQ(live_.scenario(), "");
     EXPECT_EQ(seen(), "stone");
     EXPECT_EQ(scene_.sun.direction_to_sun, base.sun.direction_to_sun);
     EXPECT_EQ(scene_.cameras.at(0).camera.vertical_fov, base.cameras.at(0).camera.vertical_fov);

@@ -27,6 +27,7 @@ std::size_t word_count(const AttributeSchema& argument) {
 Error unknown_message(const NodeSchema& schema, const std::string& name, const FileLocation& where) {
   if (schema.messages.empty()) return error_at(where, "{} takes no messages", schema.type);
   std::vector<std::string> known;
+  known.reserve(schema.messages.size());
   for (const MessageSchema& message : schema.messages) known.push_back(message.name);
   const std::string suggestion = did_you_mean(name, known);
   return error_at(where, "{} takes no message \"{}\"{}", schema.type, name.substr(0, 40),

@@ -26,6 +26,7 @@ const NodeType* NodeRegistry::find(const std::string& type) const {
 
 std::vector<std::string> NodeRegistry::type_names() const {
   std::vector<std::string> names;
+  names.reserve(types_.size());
   for (const NodeType& type : types_) names.push_back(type.schema.type);
   return names;
 }

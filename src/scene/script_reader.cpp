@@ -13,11 +13,14 @@ class Parser {
     current_ = tokens_.next(), following_ = tokens_.next();
   }
 
-  Result<std::vector<ScriptNode>> script() {
-    std::vector<ScriptNode> nodes = node_list(0);
+  Result<ScriptNode> script() {
+    ScriptNode file;
+    behind_ = &file.comments_before;
+    file.children = node_list(0);
     if (errors_.size() >= max_script_errors) fail(current_.place, "too many errors; reading stopped here");
     if (!errors_.empty()) return std::move(errors_);
-    return nodes;
+    take_comments(file.comments_at_end, true);
+    return file;
   }
 
  private:
@@ -30,6 +33,16 @@ class Parser {
   void skip_to_next_node(int depth);
   bool count_item();
 
+  /// Moves the comments before the present token: those on the line of what came before to that, others to
+  /// `own`, where an empty one stands for a blank line.
+  void take_comments(std::vector<std::string>& own, bool keeps_blanks = false) {
+    for (Comment& comment : current_.comments) {
+      if (comment.has_blank_before && keeps_blanks) own.emplace_back();
+      (comment.begins_line ? own : *behind_).push_back(std::move(comment.text));
+    }
+    current_.comments.clear();
+    if (current_.has_blank_before && keeps_blanks) own.emplace_back();
+  }
   void take() { current_ = std::move(following_), following_ = tokens_.next(); }
   bool at_end() const {
     return current_.kind == TokenKind::end || is_stopped_ || errors_.size() >= max_script_errors;
@@ -51,6 +64,7 @@ class Parser {
   Errors errors_;
   TokenReader tokens_;
   Token current_, following_;
+  std::vector<std::string>* behind_ = nullptr;  ///< of what was read last: where comments on its line go
   std::size_t items_ = 0;
   bool is_stopped_ = false;  ///< an error after which going on would only repeat it
 };
@@ -89,10 +103,14 @@ void Parser::node(std::vector<ScriptNode>& siblings, int depth) {
   ScriptNode result;
   result.type = current_.text;
   result.place = current_.place;
-  take(), take();
+  take_comments(result.comments_before, true);
+  behind_ = &result.comments_behind;
+  take(), take_comments(result.comments_before), take();
   attribute_list(result);
-  if (!is_stopped_ && current_.is('{')) children(result, depth + 1);
+  const bool has_children = !is_stopped_ && current_.is('{');
+  if (has_children) children(result, depth + 1);
   siblings.push_back(std::move(result));
+  behind_ = has_children ? &siblings.back().comments_behind_end : &siblings.back().comments_behind;
 }
 
 void Parser::children(ScriptNode& parent, int depth) {
@@ -102,8 +120,10 @@ void Parser::children(ScriptNode& parent, int depth) {
                 "include it",
                 max_script_depth);
   const TextPlace opening = current_.place;
+  take_comments(parent.comments_behind);
   take();
   parent.children = node_list(depth);
+  take_comments(parent.comments_at_end, true);
   if (current_.is('}')) return take();
   if (current_.kind == TokenKind::end)
     stop(opening, "this '{{' is never closed; add a '}}' after the children of {}", parent.type);
@@ -114,6 +134,7 @@ void Parser::attribute_list(ScriptNode& owner) {
   while (!at_end() && !current_.is(')')) {
     if (!attribute(owner)) return skip_to_end_of_list();
     if (current_.is(',')) {
+      take_comments(owner.attributes.back().comments_behind);
       take();
     } else if (!current_.is(')') && !at_end()) {
       fail(current_.place,
@@ -122,6 +143,8 @@ void Parser::attribute_list(ScriptNode& owner) {
       return skip_to_end_of_list();
     }
   }
+  take_comments(owner.comments_in_list);
+  behind_ = &owner.comments_behind;
   if (current_.is(')')) return take();
   if (current_.kind == TokenKind::end)
     stop(owner.place, "the attributes of {} are never closed; add a ')'", owner.type);
@@ -138,18 +161,24 @@ bool Parser::attribute(ScriptNode& owner) {
   ScriptAttribute result;
   result.name = current_.text;
   result.name_place = current_.place;
-  take(), take();
+  take_comments(result.comments_before);
+  behind_ = &result.comments_before;
+  take(), take_comments(result.comments_before), take(), take_comments(result.comments_before);
   if (current_.kind != TokenKind::word && current_.kind != TokenKind::string) {
     fail(current_.place,
          "expected a value after {}=, found {}; a colour needs quotes: \"#D9A866\" ('#' begins a "
          "comment)",
          result.name, quoted(current_));
+    behind_ = &owner.comments_behind;
     return false;
   }
   result.value = std::move(current_.text);
   result.value_place = current_.place;
+  result.is_quoted = current_.kind == TokenKind::string;
+  result.joints = std::move(current_.joints);
   take();
   owner.attributes.push_back(std::move(result));
+  behind_ = &owner.attributes.back().comments_behind;
   return true;
 }
 
@@ -173,7 +202,7 @@ void Parser::skip_to_next_node(int depth) {
 
 }  // namespace
 
-Result<std::vector<ScriptNode>> parse_script(std::string_view text, const std::string& file) {
+Result<ScriptNode> parse_script_file(std::string_view text, const std::string& file) {
   if (text.size() > max_script_bytes)
     return error_at({file}, "the script is larger than {} MB; geometry belongs in model files",
                     max_script_bytes >> 20);
@@ -185,53 +214,10 @@ Result<std::vector<ScriptNode>> parse_script(std::string_view text, const std::s
   return Parser(text, file).script();
 }
 
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '"':
-        result += "\\\"";
-        break;
-      case '\\':
-        result += "\\\\";
-        break;
-      case '\n':
-        result += "\\n";
-        break;
-      case '\t':
-        result += "\\t";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
-
-void write_nodes(std::string& text, const std::vector<ScriptNode>& nodes, std::size_t depth) {
-  const std::string indent(2 * depth, ' ');
-  for (const ScriptNode& node : nodes) {
-    text += indent + node.type + "(";
-    for (const ScriptAttribute& attribute : node.attributes) {
-      if (&attribute != &node.attributes.front()) text += ", ";
-      text += attribute.name + "=\"" + escaped(attribute.value) + "\"";
-    }
-    text += ")";
-    if (!node.children.empty()) {
-      text += " {\n";
-      write_nodes(text, node.children, depth + 1);
-      text += indent + "}";
-    }
-    text += "\n";
-  }
-}
-
-}  // namespace
-
-std::string to_script(const std::vector<ScriptNode>& nodes) {
-  std::string text;
-  write_nodes(text, nodes, 0);
-  return text;
+Result<std::vector<ScriptNode>> parse_script(std::string_view text, const std::string& file) {
+  Result<ScriptNode> root = parse_script_file(text, file);
+  if (!root) return root.errors();
+  return std::move(root->children);
 }
 
 }  // namespace parvis::scene

@@ -22,7 +22,7 @@ inline constexpr std::size_t max_script_items = 500'000;  ///< nodes and attribu
 /// several are told at once.
 Result<std::vector<ScriptNode>> parse_script(std::string_view text, const std::string& file);
 
-/// Writes nodes so that parse_script reads the same tree again.
-std::string to_script(const std::vector<ScriptNode>& nodes);
+/// The same as one node without a type that holds the file's nodes and its last comments.
+Result<ScriptNode> parse_script_file(std::string_view text, const std::string& file);
 
 }  // namespace parvis::scene

@@ -17,6 +17,10 @@ struct ScriptAttribute {
   std::string value;  ///< without quotes, escapes resolved
   TextPlace name_place;
   TextPlace value_place;
+  bool is_quoted = false;
+  std::vector<std::size_t> joints;           ///< where in the value one written text ended and the next began
+  std::vector<std::string> comments_before;  ///< each from its "//" or "#" to the end of its line
+  std::vector<std::string> comments_behind;  ///< on the attribute's own line
 };
 
 /// `type(name=value, ...) { children }`; attributes in the order written, repeats included.
@@ -25,6 +29,11 @@ struct ScriptNode {
   TextPlace place;
   std::vector<ScriptAttribute> attributes;
   std::vector<ScriptNode> children;
+  std::vector<std::string> comments_before;      ///< an empty one is a blank line
+  std::vector<std::string> comments_behind;      ///< on the line of the ")" or "{"
+  std::vector<std::string> comments_in_list;     ///< after the last attribute
+  std::vector<std::string> comments_at_end;      ///< before the "}"; an empty one is a blank line
+  std::vector<std::string> comments_behind_end;  ///< on the line of the "}"
 };
 
 }  // namespace parvis::scene

@@ -1,5 +1,7 @@
 #include "scene/script_tokens.h"
 
+#include <utility>
+
 namespace parvis::scene {
 namespace {
 
@@ -43,13 +45,24 @@ void TokenReader::fail(TextPlace place, const char* message) {
 void TokenReader::skip_space_and_comments() {
   while (at_ < text_.size()) {
     if (is_space(here())) {
+      if (here() == '\n' && ++line_ends_ > 1) has_blank_ = true;
       advance();
     } else if (at_comment()) {
-      while (at_ < text_.size() && here() != '\n') advance();
+      read_comment();
     } else {
       return;
     }
   }
+}
+
+void TokenReader::read_comment() {
+  const std::size_t start = at_;
+  const bool begins_line = begins_line_;
+  while (at_ < text_.size() && here() != '\n') advance();
+  std::string_view comment = text_.substr(start, at_ - start);
+  while (is_space(comment.back())) comment.remove_suffix(1);
+  comments_.push_back({std::string(comment), begins_line, std::exchange(has_blank_, false)});
+  line_ends_ = 0;
 }
 
 Token TokenReader::next() {
@@ -57,10 +70,13 @@ Token TokenReader::next() {
   Token token;
   const TextPlace place = place_;
   const bool begins_line = begins_line_;
+  std::vector<Comment> comments = std::exchange(comments_, {});
+  const bool has_blank = std::exchange(has_blank_, false);
+  line_ends_ = 0;
   if (at_ < text_.size()) {
     begins_line_ = false;
     if (is_symbol(here())) {
-      token = {TokenKind::symbol, std::string(1, here()), {}, false};
+      token = {TokenKind::symbol, std::string(1, here())};
       advance();
     } else {
       token = here() == '"' ? read_strings() : read_word();
@@ -68,6 +84,8 @@ Token TokenReader::next() {
   }
   token.place = place;
   token.begins_line = begins_line;
+  token.comments = std::move(comments);
+  token.has_blank_before = has_blank;
   return token;
 }
 
@@ -75,12 +93,13 @@ Token TokenReader::read_word() {
   const std::size_t start = at_;
   while (at_ < text_.size() && !is_space(here()) && !is_symbol(here()) && here() != '"' && !at_comment())
     advance();
-  return {TokenKind::word, std::string(text_.substr(start, at_ - start)), {}, false};
+  return {TokenKind::word, std::string(text_.substr(start, at_ - start))};
 }
 
 Token TokenReader::read_strings() {
-  Token token{TokenKind::string, "", {}, false};
+  Token token{TokenKind::string, ""};
   while (here() == '"') {
+    if (!token.text.empty()) token.joints.push_back(token.text.size());
     read_string(token.text);
     skip_space_and_comments();
   }
@@ -89,6 +108,7 @@ Token TokenReader::read_strings() {
 
 void TokenReader::read_string(std::string& into) {
   const TextPlace start = place_;
+  begins_line_ = false;
   advance();
   while (at_ < text_.size() && here() != '"' && here() != '\n') {
     if (here() == '\\') {

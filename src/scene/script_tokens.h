@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "scene/script_syntax.h"
@@ -12,11 +13,20 @@ namespace parvis::scene {
 
 enum class TokenKind : unsigned char { word, string, symbol, end };
 
+struct Comment {
+  std::string text;  ///< from its "//" or "#" to the end of its line
+  bool begins_line = false;
+  bool has_blank_before = false;  ///< a blank line
+};
+
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;  ///< a string without its quotes; one of ( ) { } , = for a symbol
-  TextPlace place;
-  bool begins_line = false;  ///< nothing but white space stands before it on its line
+  TextPlace place = {};
+  bool begins_line = false;              ///< nothing but white space stands before it on its line
+  std::vector<std::size_t> joints = {};  ///< of a string: where in the text its written pieces meet
+  std::vector<Comment> comments = {};    ///< since the token before
+  bool has_blank_before = false;         ///< a blank line, behind its comments
 
   bool is(char symbol) const { return kind == TokenKind::symbol && text.front() == symbol; }
 };
@@ -43,6 +53,7 @@ class TokenReader {
   bool at_comment() const { return here() == '#' || (here() == '/' && here(1) == '/'); }
   void advance();
   void skip_space_and_comments();
+  void read_comment();
   Token read_word();
   Token read_strings();
   void read_string(std::string& into);
@@ -55,6 +66,9 @@ class TokenReader {
   std::size_t at_ = 0;
   TextPlace place_;
   bool begins_line_ = true;
+  std::vector<Comment> comments_;  ///< not handed out yet
+  int line_ends_ = 0;              ///< since the last word or comment
+  bool has_blank_ = false;
 };
 
 }  // namespace parvis::scene

@@ -1,0 +1,45 @@
+// parvis format: scene scripts in one style.
+#include "base/files.h"
+#include "commands.h"
+#include "scene/script_format.h"
+#include "scene/script_reader.h"
+
+namespace parvis {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> scripts;
+  bool only_checks = false;
+};
+
+Status format(const Arguments& arguments) {
+  Errors errors;
+  for (const std::filesystem::path& script : arguments.scripts) {
+    const Result<std::string> text = read_file(script);
+    if (!text) return text.errors();
+    const Result<scene::ScriptNode> tree = scene::parse_script_file(*text, script.string());
+    if (!tree) return tree.errors();
+    const std::string formatted = scene::format_script(*tree);
+    if (formatted == *text) continue;
+    if (arguments.only_checks)
+      errors.push_back(
+          error_at({script.string()}, "is not formatted; run parvis format {}", script.string()));
+    else if (Status status = write_file(script, formatted); !status)
+      return status;
+  }
+  if (!errors.empty()) return errors;
+  return Done{};
+}
+
+}  // namespace
+
+void add_format(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("format", "Writes scene scripts in one style; comments stay");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("scripts", arguments->scripts, "Scene scripts (.xp)")->required();
+  command->add_flag("--check", arguments->only_checks, "Change nothing; fail where something would change");
+  command->footer("Example: parvis format scenes/delft.xp");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return format(*arguments); }; });
+}
+
+}  // namespace parvis
