@@ -89,6 +89,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("render", "A picture of a scene, or a film of it");
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
+  arguments->add_camera(*command);
   arguments->add_picture(*command);
   command->add_option("-o,--output", arguments->output, "The picture (.png, .jpg) or film (.mp4)")
       ->capture_default_str();

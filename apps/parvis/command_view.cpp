@@ -29,6 +29,7 @@ void add_view(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("view", "Opens a window: walk, fly, follow a vehicle");
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
+  arguments->add_camera(*command);
   arguments->add_picture(*command);
   command->add_option("--tour", arguments->tour, "Begin with a tour of the scene; moving ends it");
   command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")

@@ -27,9 +27,12 @@ struct SceneArguments {
     command.add_option("scene", scene, "The scene's script (.xp)")->required();
     command.add_option("--data", data, "A further folder that the scene may read from");
   }
-  /// --camera, --scenario, --size, --time, --press and --reflection.
-  void add_picture(CLI::App& command) {
+  /// --camera.
+  void add_camera(CLI::App& command) {
     command.add_option("--camera", camera, "Name of the camera (default: the scene's first)");
+  }
+  /// --scenario, --size, --time, --press and --reflection.
+  void add_picture(CLI::App& command) {
     command.add_option("--scenario", scenarios, "A state that the scene gives by this name; base: none");
     command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
     command.add_option("--time", time_s, "Seconds that have passed in the scene before")

@@ -7,36 +7,76 @@
 namespace parvis::reference {
 namespace {
 
-/// Embree calls these for each candidate hit; geometry belongs to a part, whose first place stands for its
-/// material. Front and back are told in the mesh's frame, where a mirrored placement does not exchange them.
-/// A ray to the sun meets from behind what the sun sees from the front.
-template <bool is_shadow>
-void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
-  const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
+/// What travels with a query to the filters below.
+struct QueryContext {
+  RTCIntersectContext embree;
+  Passage* passage;  ///< null: the ray sees as the renderer draws
+
+  explicit QueryContext(Passage* p) : passage(p) { rtcInitIntersectContext(&embree); }
+};
+
+RTCRay embree_ray(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.least_m,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0f,
+          ray.most_m,
+          ~0u,
+          0,
+          0};
+}
+
+/// Front and back are told in the mesh's frame, where a mirrored placement does not exchange them.
+bool meets_back(const RTCFilterFunctionNArguments* arguments) {
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
                      RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
                      RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
   const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_y(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_z(arguments->ray, arguments->N, 0));
-  const scene::Material& material = *place.material;
-  const bool is_back = (glm::dot(ng, direction) > 0.0f) != is_shadow;
-  if (!material.is_double_sided && is_back) {
-    arguments->valid[0] = 0;
-    return;
-  }
-  if (material.alpha_mode != scene::Alpha::cutout) return;
-  float alpha = material.alpha;
-  if (material.base_colour_texture != scene::no_index) {
-    const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
-                                             RTCHitN_u(arguments->hit, arguments->N, 0),
-                                             RTCHitN_v(arguments->hit, arguments->N, 0));
-    alpha *= (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
-  }
-  if (alpha < 0.5f) arguments->valid[0] = 0;
+  return glm::dot(ng, direction) > 0.0f;
 }
 
-void pass_through(const RTCFilterFunctionNArguments* arguments) { arguments->valid[0] = 0; }
+float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  if (material.base_colour_texture == scene::no_index) return material.alpha;
+  const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
+                                           RTCHitN_u(arguments->hit, arguments->N, 0),
+                                           RTCHitN_v(arguments->hit, arguments->N, 0));
+  return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
+}
+
+bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  if (!passage.sees_backs && !material.is_double_sided && meets_back(arguments)) return false;
+  if (material.alpha_mode == scene::Alpha::opaque) return true;
+  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments) >= 0.5f;
+  return place.part->casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments);
+}
+
+/// A ray to the sun meets from behind what the sun sees from the front; what blends throws no shadow.
+template <bool is_shadow>
+bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  if (is_shadow && (!place.part->casts_shadow || material.alpha_mode == scene::Alpha::blend)) return false;
+  if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
+  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments) >= 0.5f;
+}
+
+/// Embree calls this for each candidate hit; geometry belongs to a part, whose first place stands for its
+/// material.
+template <bool is_shadow>
+void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
+  const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
+  Passage* passage = reinterpret_cast<const QueryContext*>(arguments->context)->passage;
+  const bool stops =
+      passage ? stops_light(place, *passage, arguments) : stops_as_drawn<is_shadow>(place, arguments);
+  if (!stops) arguments->valid[0] = 0;
+}
 
 }  // namespace
 
@@ -103,9 +143,7 @@ RTCScene RayScene::part_scene(const PlacedPart& place) {
   std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
   rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
   rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
-  // What blends throws no shadow, as in the renderer's maps.
-  const bool casts_shadow = place.part->casts_shadow && place.material->alpha_mode != scene::Alpha::blend;
-  rtcSetGeometryOccludedFilterFunction(geometry, casts_shadow ? pass_through_holes<true> : pass_through);
+  rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
   rtcCommitGeometry(geometry);
   entry->second = rtcNewScene(device_);
   rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
@@ -115,45 +153,28 @@ RTCScene RayScene::part_scene(const PlacedPart& place) {
   return entry->second;
 }
 
-std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
+  QueryContext context(passage);
   RTCRayHit query{};
-  query.ray = {ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.least_m,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0.0f,
-               ray.most_m,
-               ~0u,
-               0,
-               0};
+  query.ray = embree_ray(ray);
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(top_, &context, &query);
+  rtcIntersect1(top_, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{places_[query.hit.instID[0]].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
 }
 
-bool RayScene::is_blocked(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay query{ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               ray.least_m,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               0.0f,
-               ray.most_m,
-               ~0u,
-               0,
-               0};
-  rtcOccluded1(top_, &context, &query);
+bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
+  QueryContext context(passage);
+  RTCRay query = embree_ray(ray);
+  rtcOccluded1(top_, &context.embree, &query);
   return query.tfar < 0.0f;
 }
+
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const { return nearest_hit(ray, nullptr); }
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const {
+  return nearest_hit(ray, &passage);
+}
+bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
+bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
 
 }  // namespace parvis::reference

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/random.h"
 #include "reference/mip_texture.h"
 #include "scene/scene.h"
 
@@ -38,6 +39,14 @@ struct Hit {
   float distance_m;
 };
 
+/// How light travels in a photograph, as against the renderer's picture: every part stops it, from both
+/// sides, but for those that blend: they stop it by chance, as often as their alpha says. Contact shadows
+/// that are painted for the renderer (what blends and throws no shadow) are not there.
+struct Passage {
+  Random random;
+  bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
+};
+
 class RayScene {
  public:
   /// Takes the scene as it stands now; it must outlive this. What a transform flattens or makes infinite is
@@ -47,11 +56,15 @@ class RayScene {
   ~RayScene();
 
   std::optional<Hit> nearest_hit(const Ray& ray) const;
+  std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
   /// Is there anything that throws a shadow along the ray?
   bool is_blocked(const Ray& ray) const;
+  bool is_blocked(const Ray& ray, Passage& passage) const;
   std::size_t triangle_count() const { return triangle_count_; }
 
  private:
+  std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
+  bool is_blocked(const Ray& ray, Passage* passage) const;
   void place(const scene::Part& part, const glm::mat4& world_from_mesh, int object, bool takes_reflection,
              const scene::Material& material, const std::vector<MipTexture>& textures);
   RTCScene part_scene(const PlacedPart& place);

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
+#include "reference/camera_ray.h"
 #include "reference/shading_point.h"
 #include "shading/lighting.h"
 #include "shading/tone_curve.h"
@@ -166,17 +167,6 @@ class Tracer {
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
 };
-
-/// Through a point of the picture, in pixels from its top left; it begins at the near plane, as the
-/// renderer's picture does.
-Ray camera_ray(const Camera& camera, int width, int height, glm::vec2 pixel) {
-  const float tangent = std::tan(0.5f * camera.vertical_fov), aspect = float(width) / float(height);
-  const vec3 in_camera((2.0f * pixel.x / float(width) - 1.0f) * tangent * aspect,
-                       (1.0f - 2.0f * pixel.y / float(height)) * tangent, -1.0f);
-  const float slant = glm::length(in_camera);
-  return {camera.position_in_world(), glm::mat3(camera.world_from_camera) * in_camera / slant,
-          camera.near_m * slant};
-}
 
 }  // namespace
 

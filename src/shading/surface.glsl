@@ -28,31 +28,21 @@ GLSL_FUNCTION float fresnel_of_coat(Surface s, float n_dot_v) {
   return s.clear_coat * (0.04f + 0.96f * schlick_weight(n_dot_v));
 }
 
-// GGX distribution times the Smith visibility term (Hammon's approximation).
-GLSL_FUNCTION float ggx_specular(float roughness, float n_dot_l, float n_dot_v, float n_dot_h) {
-  float alpha = max(roughness, min_roughness) * max(roughness, min_roughness);
-  float a2 = alpha * alpha;
-  float d = n_dot_h * n_dot_h * (a2 - 1.0f) + 1.0f;
-  float visibility = 0.5f / mix(2.0f * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha);
-  return a2 / (pi * d * d) * visibility;
+GLSL_FUNCTION float ggx_alpha(float roughness) {
+  return max(roughness, min_roughness) * max(roughness, min_roughness);
 }
 
-// Radiance toward the viewer from light of `irradiance` (on a plane that faces it) from `to_light`.
-GLSL_FUNCTION vec3 direct_radiance(Surface s, vec3 to_viewer, vec3 to_light, vec3 irradiance) {
-  float n_dot_l = dot(s.normal, to_light);
-  vec3 diffuse = (1.0f - s.metallic) * s.base_colour / pi;
-  vec3 through = s.translucency * diffuse * max(-n_dot_l, 0.0f) * irradiance;
-  if (n_dot_l <= 0.0f) return through;
-  float n_dot_v = max(dot(s.normal, to_viewer), 1e-4f);
-  vec3 h = normalize(to_viewer + to_light);
-  float n_dot_h = clamp(dot(s.normal, h), 0.0f, 1.0f);
-  float v_dot_h = clamp(dot(to_viewer, h), 0.0f, 1.0f);
-  vec3 f0 = specular_f0(s);
-  vec3 fresnel = f0 + (vec3(1.0f) - f0) * schlick_weight(v_dot_h);
-  vec3 base = (vec3(1.0f) - fresnel) * diffuse + fresnel * ggx_specular(s.roughness, n_dot_l, n_dot_v, n_dot_h);
-  float coat = s.clear_coat * (0.04f + 0.96f * schlick_weight(v_dot_h));
-  float coat_specular = coat * ggx_specular(s.clear_coat_roughness, n_dot_l, n_dot_v, n_dot_h);
-  return ((1.0f - coat) * base + vec3(coat_specular)) * n_dot_l * irradiance + through;
+GLSL_FUNCTION float ggx_distribution(float alpha, float n_dot_h) {
+  float a2 = alpha * alpha;
+  float d = n_dot_h * n_dot_h * (a2 - 1.0f) + 1.0f;
+  return a2 / (pi * d * d);
+}
+
+// GGX distribution times the Smith visibility term (Hammon's approximation).
+GLSL_FUNCTION float ggx_specular(float roughness, float n_dot_l, float n_dot_v, float n_dot_h) {
+  float alpha = ggx_alpha(roughness);
+  float visibility = 0.5f / mix(2.0f * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha);
+  return ggx_distribution(alpha, n_dot_h) * visibility;
 }
 
 // Share of the radiance from the mirror direction that goes to the viewer, for the base layer: the split sum with
@@ -63,6 +53,32 @@ GLSL_FUNCTION vec3 base_reflectance(Surface s, float n_dot_v) {
   float scale = -1.04f * a + 1.04f - 0.572f * r;
   float bias = 1.04f * a - 0.04f + 0.022f * r;
   return specular_f0(s) * max(scale, 0.0f) + vec3(clamp(bias, 0.0f, 1.0f));
+}
+
+// Share of the light from `to_light` that goes to the viewer: BRDF times cosine. What a layer reflects does not reach
+// the ones below, on the way in or out, whichever is lower: then no surface gives more light than it gets. The highlights
+// of base and coat count by their weights: 1, or 0 where a path follows their mirror ray instead.
+GLSL_FUNCTION vec3 scattered_share(Surface s, vec3 to_viewer, vec3 to_light, float base_weight, float coat_weight) {
+  float n_dot_l = dot(s.normal, to_light);
+  vec3 diffuse = (1.0f - s.metallic) * s.base_colour / pi;
+  if (n_dot_l <= 0.0f) return s.translucency * diffuse * max(-n_dot_l, 0.0f);
+  float n_dot_v = max(dot(s.normal, to_viewer), 1e-4f);
+  float lower = min(n_dot_l, n_dot_v);
+  vec3 h = normalize(to_viewer + to_light);
+  float n_dot_h = clamp(dot(s.normal, h), 0.0f, 1.0f);
+  float facing = schlick_weight(clamp(dot(to_viewer, h), 0.0f, 1.0f));
+  vec3 f0 = specular_f0(s);
+  vec3 fresnel = f0 + (vec3(1.0f) - f0) * facing;
+  float highlight = base_weight * ggx_specular(s.roughness, n_dot_l, n_dot_v, n_dot_h);
+  vec3 base = (vec3(1.0f) - base_reflectance(s, lower)) * diffuse + fresnel * highlight;
+  float coat = s.clear_coat * (0.04f + 0.96f * facing);
+  float coat_highlight = coat * coat_weight * ggx_specular(s.clear_coat_roughness, n_dot_l, n_dot_v, n_dot_h);
+  return ((1.0f - fresnel_of_coat(s, lower)) * base + vec3(coat_highlight)) * n_dot_l;
+}
+
+// Radiance toward the viewer from light of `irradiance` (on a plane that faces it) from `to_light`.
+GLSL_FUNCTION vec3 direct_radiance(Surface s, vec3 to_viewer, vec3 to_light, vec3 irradiance) {
+  return scattered_share(s, to_viewer, to_light, 1.0f, 1.0f) * irradiance;
 }
 
 // Radiance toward the viewer from the surroundings: `irradiance` of the normal's hemisphere and of the one behind

@@ -1,23 +1,8 @@
 #include "stage/stage.h"
 
-#include <cmath>
-
 #include "action/action_nodes.h"
 
 namespace parvis::stage {
-namespace {
-
-/// From a little above the south-west, so far that all of the scene is seen.
-Camera view_of_all(const Bounds& bounds) {
-  Camera camera;
-  const float distance_m = std::max(1.3f * bounds.radius(), 2.0f);
-  const glm::vec3 eye = bounds.centre() + distance_m * glm::normalize(glm::vec3(-1.0f, -1.2f, 0.8f));
-  camera.world_from_camera = look_at(eye, bounds.centre());
-  camera.far_m = std::max(camera.far_m, 4.0f * distance_m);
-  return camera;
-}
-
-}  // namespace
 
 const scene::NodeRegistry& node_registry() {
   static const scene::NodeRegistry registry = [] {
@@ -34,6 +19,12 @@ void Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
   actions.advance(scene, seconds, visitor);
   for (const Error& warning : actions.take_warnings())
     fmt::print(stderr, "warning: {}\n", to_string(warning));
+}
+
+Result<Camera> Play::camera(const std::string& name) const {
+  if (name.empty())
+    if (const std::optional<Camera> camera = actions.camera(scene)) return *camera;
+  return scene_camera(scene, name);
 }
 
 Play make_play(scene::Scene scene) {
@@ -74,20 +65,6 @@ Status Stage::set_reflection(const scene::Reflection& reflection) {
   reflections_ = *std::move(made);
   shown_reflection_ = reflection;
   return Done{};
-}
-
-Result<Camera> Stage::camera(const std::string& name) const {
-  const scene::Scene& scene = play_.scene;
-  if (name.empty())
-    if (const std::optional<Camera> camera = play_.actions.camera(scene)) return *camera;
-  if (name.empty() && scene.cameras.empty()) return view_of_all(renderer_->gpu().fixed_bounds());
-  const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
-  if (!named) {
-    std::string names;
-    for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
-    return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
-  }
-  return scene.camera_now(*named);
 }
 
 void Stage::draw(const Camera& camera, int width, int height) {

@@ -13,6 +13,7 @@
 #include "reference/tracer.h"
 #include "render/renderer.h"
 #include "scene/scene_loader.h"
+#include "stage/scene_camera.h"
 #include "traffic/traffic.h"
 
 namespace parvis::stage {
@@ -29,6 +30,11 @@ struct Play {
   /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it; tells warnings on standard
   /// error.
   void advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
+
+  /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
+  /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
+  /// Errors name the cameras that there are.
+  Result<Camera> camera(const std::string& name) const;
 };
 /// Puts a scene's traffic on its roads; tells warnings on standard error.
 Play make_play(scene::Scene scene);
@@ -52,10 +58,8 @@ class Stage {
   /// Changes the method of reflection.
   Status set_reflection(const scene::Reflection& reflection);
 
-  /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
-  /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
-  /// Errors name the cameras that there are.
-  Result<Camera> camera(const std::string& name) const;
+  /// See Play::camera.
+  Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
 
   /// Draws the frame of now: shadows, reflections, picture. Takes over what scenarios and messages have
   /// changed.

@@ -1,0 +1,40 @@
+// Finished tiles of a photograph, kept in a file so that interrupted work goes on where it stopped. The file
+// grows by one record a tile; a record that was cut short, or of another scene or options, does not count.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <span>
+
+#include "base/result.h"
+
+namespace parvis::reference {
+
+class PhotographCheckpoint {
+ public:
+  /// Opens or begins `file` for work that `key` stands for, calls `found` with each tile that is there, and
+  /// keeps the file open. A file of another key is begun anew.
+  static Result<PhotographCheckpoint> open(
+      const std::filesystem::path& file, std::uint64_t key,
+      const std::function<void(std::uint32_t tile, std::span<const float> values)>& found);
+  PhotographCheckpoint(PhotographCheckpoint&& other) noexcept;
+  PhotographCheckpoint& operator=(PhotographCheckpoint&&) = delete;
+  ~PhotographCheckpoint();
+
+  /// Appends a tile; any thread may. A tile that cannot be written (full disk) is made again after an
+  /// interruption: it costs time, no truth.
+  void keep(std::uint32_t tile, std::span<const float> values);
+
+ private:
+  PhotographCheckpoint(std::filesystem::path file, std::FILE* stream)
+      : file_(std::move(file)), stream_(stream) {}
+
+  std::filesystem::path file_;
+  std::FILE* stream_;
+  std::mutex mutex_;
+};
+
+}  // namespace parvis::reference

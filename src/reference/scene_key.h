@@ -1,0 +1,14 @@
+// A number that stands for all that a photograph of a scene depends on.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace parvis::reference {
+
+/// The shapes, surfaces and places of all objects, sun, sky and air. Cameras, roads and exposure leave it
+/// alone.
+std::uint64_t scene_key(const scene::Scene& scene);
+
+}  // namespace parvis::reference
