@@ -8,12 +8,14 @@ find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(EXPAT REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
 
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(glu REQUIRED IMPORTED_TARGET glu)
+find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 
 # Debian's OpenImageIO names OpenCV's headers, which its own do not need and its package does not bring.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "base/files.h"
 #include "city/facade_texture.h"
 #include "city/paper_script.h"
@@ -37,6 +39,8 @@ TEST(PaperCity, IsASceneOfThePapersFigures) {
   EXPECT_NE(scene.find_camera("street"), nullptr);
   EXPECT_NE(scene.find_camera("balcony"), nullptr);
   EXPECT_NEAR(glm::dot(scene.sun.direction_to_sun, to_sun()), 1.0f, 1e-5f);
+  const std::string validator = PARVIS_SOURCE_DIR "/script/validate_gltf";  // says so where it is skipped
+  EXPECT_EQ(std::system((validator + " '" + folder.string() + "'/*.glb").c_str()), 0);
   fs::remove_all(folder);
 }
 

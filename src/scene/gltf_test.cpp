@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "base/files.h"
@@ -126,6 +127,13 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   EXPECT_NE(at, std::string::npos) << from;
   EXPECT_EQ(from.size(), to.size());
   return text.replace(at, from.size(), to);
+}
+
+TEST(Gltf, TheKhronosValidatorFindsNoErrorInWhatIsWritten) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_gltf(folder.path() / "small.glb", small_model()));
+  const std::string validator = PARVIS_SOURCE_DIR "/script/validate_gltf";  // says so where it is skipped
+  EXPECT_EQ(std::system((validator + " '" + folder.path().string() + "'/*.glb").c_str()), 0);
 }
 
 TEST(Gltf, HostileFilesAreRefusedByName) {
