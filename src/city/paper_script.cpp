@@ -14,7 +14,7 @@ std::string light() {
   return fmt::format(
       "sun(azimuth_deg={}, elevation_deg={}, irradiance=\"6.2 5.6 4.7\")\n"
       "sky(file=\"sky.hdr\")\n"
-      "air(haze_per_m=0.00035)\n"
+      "air(haze_per_m=0.0002)\n"
       "exposure(value=1.4)\n"
       "reflection(method=\"rerendered_cube_map\", resolution=128)\n\n",
       sun_azimuth_deg, sun_elevation_deg);

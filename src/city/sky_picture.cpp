@@ -88,12 +88,13 @@ glm::vec3 ground_radiance(glm::vec3 direction, std::uint32_t seed) {
   const Cell field = nearest_cell(p, endless, seed);
   const glm::vec3 wood = linear_from_srgb8(0x55, 0x64, 0x3E), grass = linear_from_srgb8(0x86, 0x8C, 0x58);
   const glm::vec3 soil = linear_from_srgb8(0xA8, 0x98, 0x74);
+  // Of albedo; sunlit ground radiates 1.6 times it.
   const glm::vec3 colour = field.identity < 0.5f ? glm::mix(wood, grass, 2.0f * field.identity)
                                                  : glm::mix(grass, soil, 2.0f * field.identity - 1.0f);
   const float detail = 0.75f + 0.5f * fractal_noise(4.0f * p, endless, 3, seed + 5);
   const glm::vec3 town = 0.17f * glm::vec3(1.0f, 0.96f, 0.88f);  // underfoot: it lights the place from below
   const float near = glm::smoothstep(-0.15f, -0.45f, direction.z);
-  return glm::mix(horizon_radiance, detail * glm::mix(0.9f * colour, town, near),
+  return glm::mix(horizon_radiance, detail * glm::mix(1.6f * colour, town, near),
                   std::exp(-0.3f * distance_km));
 }
 
