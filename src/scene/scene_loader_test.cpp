@@ -114,6 +114,27 @@ TEST_F(SceneLoader, TellsAllErrorsAtOnceWithTheirPlaces) {
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
 
+/// Appendix A of the thesis: its nodes come with the rooms that show them; until then each is named, with its
+/// line.
+TEST_F(SceneLoader, NodesOfTheThesisThatHaveNoRoomYetAreNamed) {
+  const std::string errors = errors_of(
+      "dayLight( lattitude=43.70, longitude=7.27,\nstandartMeridian=0, julianDay=130,\ntimeOfDay=16.00, "
+      "turbidy=4 "
+      ")\n"
+      "skyDome(texture=\"CapturedSky.jpg\")\n"
+      "litVirtualObject() {\n object (file=duck.pfb, grab=1, wall=0)\n}\n"
+      "vdobject(cleanModels=0, file=\"car.pfb\", camera=\"10 0 1 10 10 5.5 30 1\", file=\"car2.iv\",\n"
+      "  cameraFile=\"cameraIV.wrl\", file=\"car3.wrl\",cameraName=\"camera\")\n"
+      "%xpShadowMap()\n"
+      "group(name=trees) { }\nexposure(value=-1)\n");
+  for (const char* expected :
+       {"scene.xp:1:1: unknown node type \"dayLight\"", "scene.xp:4:1: unknown node type \"skyDome\"",
+        "scene.xp:5:1: unknown node type \"litVirtualObject\"",
+        "scene.xp:8:1: unknown node type \"vdobject\"", "scene.xp:10:1: unknown node type \"%xpShadowMap\"",
+        "scene.xp:12:16: value=\"-1\""})
+    EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
+}
+
 TEST_F(SceneLoader, RefusesRepeatsAndDuplicateNames) {
   EXPECT_TRUE(holds(errors_of("sky(intensity=1, intensity=2)"), "scene.xp:1:18: intensity is given twice"));
   EXPECT_TRUE(holds(errors_of("camera(name=a)\ngroup(name=a)"),

@@ -171,6 +171,7 @@ void Checker::attribute(Node& node, const ScriptAttribute& written, const std::s
   }
   if (!schema) {
     std::vector<std::string> known;
+    known.reserve(node.schema->attributes.size());
     for (const AttributeSchema& each : node.schema->attributes) known.push_back(each.name);
     return fail(error_at(at_name, "{} has no attribute \"{}\"{}", node.schema->type,
                          written.name.substr(0, 40), did_you_mean(written.name, known)));
