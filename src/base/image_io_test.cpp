@@ -1,0 +1,128 @@
+#include "base/image_io.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/random.h"
+#include "base/test_folder.h"
+
+namespace parvis {
+namespace {
+namespace fs = std::filesystem;
+
+Image8 noise(int width, int height, int channels) {
+  Image8 picture(width, height, channels);
+  Random random(7);
+  for (std::uint8_t& value : picture.pixels) value = std::uint8_t(random.next());
+  return picture;
+}
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+TEST(ImageIo, GreyAndOpaquePicturesBecomeRgba) {
+  const TestFolder folder;
+  for (const int channels : {1, 3}) {
+    const Image8 picture = noise(5, 4, channels);
+    ASSERT_TRUE(write_image(folder.path() / "p.png", picture));
+    const Result<Image8> again = read_image8(folder.path() / "p.png");
+    ASSERT_TRUE(again) << to_string(again.errors());
+    ASSERT_EQ(again->channels, 4);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 5; ++x) {
+        for (int c = 0; c < 3; ++c)
+          ASSERT_EQ(again->at(x, y)[c], picture.at(x, y)[channels == 1 ? 0 : c]) << channels << " channels";
+        ASSERT_EQ(again->at(x, y)[3], 255);
+      }
+  }
+}
+
+TEST(ImageIo, ColourBehindGlassIsNotPremultiplied) {
+  const TestFolder folder;
+  Image8 picture(1, 1, 4);
+  picture.pixels = {200, 100, 50, 10};
+  ASSERT_TRUE(write_image(folder.path() / "glass.png", picture));
+  const Result<Image8> again = read_image8(folder.path() / "glass.png");
+  ASSERT_TRUE(again) << to_string(again.errors());
+  EXPECT_EQ(again->pixels, picture.pixels);
+}
+
+TEST(ImageIo, AnEvenJpegComesBackNearly) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "p.jpg", Image8(32, 16, 3, 120)));
+  const Result<Image8> again = read_image8(folder.path() / "p.jpg");
+  ASSERT_TRUE(again) << to_string(again.errors());
+  EXPECT_EQ(again->width, 32);
+  EXPECT_NEAR(again->at(10, 10)[1], 120, 2);
+}
+
+TEST(ImageIo, RadianceOfDaylightComesBackFromHdr) {
+  const TestFolder folder;
+  ImageF radiance(16, 8, 3);
+  for (std::size_t i = 0; i < radiance.pixels.size(); ++i) radiance.pixels[i] = 0.5f + 90.0f * float(i);
+  ASSERT_TRUE(write_image(folder.path() / "sky.hdr", radiance));
+  const Result<ImageF> again = read_image_float(folder.path() / "sky.hdr");
+  ASSERT_TRUE(again) << to_string(again.errors());
+  for (std::size_t i = 3; i < radiance.pixels.size(); ++i)  // 8 bits of mantissa for the largest of three
+    ASSERT_NEAR(again->pixels[i], radiance.pixels[i], 2.0f + 0.02f * radiance.pixels[i]);
+}
+
+TEST(ImageIo, MemoryIsReadAsFilesAre) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "p.png", noise(9, 7, 4)));
+  const std::string bytes = *read_file(folder.path() / "p.png");
+  const Result<Image8> from_memory = read_image8(bytes_of(bytes), "car.glb image 0");
+  ASSERT_TRUE(from_memory) << to_string(from_memory.errors());
+  EXPECT_EQ(from_memory->pixels, noise(9, 7, 4).pixels);
+}
+
+TEST(ImageIo, FilesCutShortAnywhereAreErrorsThatNameThem) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "p.png", noise(24, 24, 4)));
+  ImageF light(24, 24, 3, 1.0f);
+  for (std::size_t i = 0; i < light.pixels.size(); ++i) light.pixels[i] = float(i * 7919 % 1000);
+  ASSERT_TRUE(write_image(folder.path() / "l.exr", light));
+  ASSERT_TRUE(write_image(folder.path() / "l.hdr", light));
+  for (const char* name : {"p.png", "l.exr", "l.hdr"}) {
+    const std::string whole = *read_file(folder.path() / name);
+    for (const double share : {0.0, 0.01, 0.1, 0.5, 0.9}) {
+      const std::string kind = fs::path(name).extension().string();
+      const fs::path cut = folder.write(
+          "short" + kind, std::string_view(whole).substr(0, std::size_t(share * double(whole.size()))));
+      const Status read = [&]() -> Status {
+        if (kind == ".png") {
+          if (Result<Image8> picture = read_image8(cut); !picture) return picture.errors();
+        } else if (Result<ImageF> picture = read_image_float(cut); !picture) {
+          return picture.errors();
+        }
+        return Done{};
+      }();
+      ASSERT_FALSE(read) << share << " of " << name;
+      EXPECT_NE(to_string(read.errors()).find("short" + kind), std::string::npos) << to_string(read.errors());
+    }
+  }
+}
+
+TEST(ImageIo, MemoryCutShortIsAnErrorWithTheNameGiven) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "p.png", noise(24, 24, 4)));
+  const std::string whole = *read_file(folder.path() / "p.png");
+  for (const std::size_t size : {std::size_t(0), std::size_t(3), std::size_t(8), whole.size() / 2}) {
+    const std::string part = whole.substr(0, size);
+    const Result<Image8> picture = read_image8(bytes_of(part), "car.glb image 0");
+    ASSERT_FALSE(picture) << size << " bytes";
+    EXPECT_NE(to_string(picture.errors()).find("car.glb image 0"), std::string::npos);
+  }
+}
+
+TEST(ImageIo, WhatCannotBeWrittenLeavesNothing) {
+  const TestFolder folder;
+  const Status unknown_kind = write_image(folder.path() / "picture.xyz", noise(4, 4, 3));
+  ASSERT_FALSE(unknown_kind);
+  EXPECT_NE(to_string(unknown_kind.errors()).find("picture.xyz"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace parvis
