@@ -9,6 +9,7 @@
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "scene/gltf_file.h"
+#include "scene/gltf_skin.h"
 #include "scene/placeholder.h"
 
 namespace parvis::scene {
@@ -56,6 +57,7 @@ class Reader {
     model_.name = file_.path().stem().string();
     read_materials();
     read_nodes();
+    bend_skinned_parts();
     read_animations();
     read_pictures();
     if (model_.parts.empty()) fail("no triangles are in this model");
@@ -257,7 +259,34 @@ class Reader {
       part.material = material < 0 ? default_material_ : material;
       part.casts_shadow = member(primitive, "extras").value("casts_shadow", true);
       part.mesh = read_primitive(primitive, mode, name);
-      if (!part.mesh.indices.empty()) model_.parts.push_back(std::move(part));
+      if (part.mesh.indices.empty()) continue;
+      if (const int skin = file_.index(node_source, "skin", "skins"); skin >= 0)
+        skinned_.push_back({model_.parts.size(), skin, member(primitive, "attributes")});
+      model_.parts.push_back(std::move(part));
+    }
+  }
+
+  /// Skinned parts stand in the rest pose of their joints, in the file's frame: their own node counts for
+  /// nothing.
+  void bend_skinned_parts() {
+    const std::vector<glm::mat4> model_from_node = rest_pose(model_);
+    const glm::mat4 file_from_model = glm::inverse(model_from_node.front());
+    for (const Skinned& skinned : skinned_) {
+      Part& part = model_.parts[skinned.part];
+      const GltfSkin skin = read_skin(file_, skinned.skin);
+      std::vector<glm::mat4> file_from_mesh;
+      for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        const int node = node_of_gltf_[std::size_t(skin.joints[i])];
+        if (node == no_index)
+          fail("skin \"{}\": joint {} is missing from the scene", skin.name, skin.joints[i]);
+        file_from_mesh.push_back(file_from_model * model_from_node[std::size_t(node)] *
+                                 skin.joint_from_mesh[i]);
+      }
+      bend(part.mesh, read_skin_weights(file_, skinned.attributes, skin, part.mesh.positions.size()),
+           file_from_mesh);
+      part.node = 0;
+      if (const Status status = check(part.mesh, "skin \"" + skin.name + "\""); !status)
+        fail("{}", status.errors().front().message);
     }
   }
 
@@ -374,6 +403,12 @@ class Reader {
   std::map<std::pair<int, bool>, int> textures_;  ///< (glTF texture, is sRGB) to the model's texture
   std::vector<int> images_;                       ///< of each of the model's textures
   std::vector<int> node_of_gltf_;
+  struct Skinned {
+    std::size_t part;
+    int skin;
+    Json attributes;  ///< of the primitive
+  };
+  std::vector<Skinned> skinned_;
   int default_material_ = 0;
 };
 

@@ -212,6 +212,36 @@ TEST(Gltf, DamagedBytesNeverCrash) {
   }
 }
 
+TEST(Gltf, SkinnedFiguresStandUprightInTheirRestPose) {
+  for (const char* name : {"CesiumMan/CesiumMan.gltf", "RiggedFigure/RiggedFigure.gltf"}) {
+    const auto file = shared_data(std::string("gltf_animated/") + name, PARVIS_SOURCE_DIR);
+    if (!file) GTEST_SKIP() << "skipped: shared data absent";
+    const Bounds box = bounds(read(*file));
+    EXPECT_GT(box.size().z, 1.3f) << name;
+    EXPECT_LT(box.size().z, 2.2f) << name;
+    EXPECT_LT(box.size().x, box.size().z) << name;
+    EXPECT_NEAR(box.min.z, 0.0f, 0.1f) << name;
+  }
+}
+
+TEST(Gltf, ASkinWithMissingJointsIsNamed) {
+  const TestFolder folder;
+  const auto skin_errors = [&](const std::string& joints) {
+    const auto file = folder.write("skin.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+      "nodes":[{"mesh":0,"skin":0},{}],"skins":[{"name":"legs","joints":)" +
+                                                    joints + R"(}],
+      "accessors":[{"count":3,"type":"VEC3","componentType":5126}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+    Errors warnings;
+    const Result<Model> model = read_gltf(file, warnings);
+    return model ? std::string() : to_string(model.errors());
+  };
+  EXPECT_NE(skin_errors("[0,7]").find("skin \"legs\": joint 7 is missing"), std::string::npos);
+  EXPECT_NE(skin_errors("[]").find("skin \"legs\" has no joints"), std::string::npos);
+  EXPECT_NE(skin_errors("[1]").find("skin \"legs\": joint 1 is missing from the scene"), std::string::npos);
+  EXPECT_NE(skin_errors("[0]").find("without joints or weights"), std::string::npos);
+}
+
 TEST(Gltf, ReadsTheCarsOfKenney) {
   const auto file = shared_data("gltf_kenney/vehicles/sedan-sports.glb", PARVIS_SOURCE_DIR);
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
