@@ -113,6 +113,7 @@ std::string message_row(const MessageSchema& schema) {
 
 std::string place_of(const NodeSchema& schema) {
   std::vector<std::string> places;
+  places.reserve(schema.stands_in.size());
   for (const std::string& parent : schema.stands_in)
     places.push_back(parent == top_level ? "at the top level" : fmt::format("in `{}`", parent));
   return fmt::format("Stands {}{}.", fmt::join(places, ", "), schema.is_unique ? ", once in a scene" : "");
