@@ -1,4 +1,5 @@
 // parvis bench: figures, as a table and as JSON.
+#include "bench/doors_bench.h"
 #include "bench/frame_bench.h"
 #include "commands.h"
 
@@ -12,7 +13,8 @@ struct Arguments {
 };
 
 Status measure(const Arguments& arguments) {
-  const Result<bench::Report> report = bench::frame_bench(arguments.is_quick);
+  const Result<bench::Report> report = arguments.name == "doors" ? bench::doors_bench(arguments.is_quick)
+                                                                 : bench::frame_bench(arguments.is_quick);
   if (!report) return report.errors();
   report->print();
   return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
@@ -25,9 +27,10 @@ void add_bench(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   command
       ->add_option("name", arguments->name,
-                   "frame: a frame of the paper's city, its culling, the mirrors' truth")
+                   "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
+                   "and leaves")
       ->required()
-      ->check(CLI::IsMember({"frame"}));
+      ->check(CLI::IsMember({"frame", "doors"}));
   command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: done within three minutes");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");

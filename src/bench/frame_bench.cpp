@@ -1,7 +1,6 @@
 #include "bench/frame_bench.h"
 
 #include <epoxy/gl.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "bench/mirror_check.h"
+#include "bench/scratch_folder.h"
 #include "city/paper_city.h"
 #include "render/culling_check.h"
 #include "render/frustum.h"
@@ -26,15 +26,6 @@ double milliseconds(auto&& work) {
   work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// A folder that goes when the bench does.
-struct ScratchFolder {
-  fs::path path = fs::temp_directory_path() / fmt::format("parvis-bench-{}", getpid());
-  ~ScratchFolder() {
-    std::error_code code;
-    fs::remove_all(path, code);
-  }
-};
 
 Camera at(glm::vec3 eye, float heading_rad, float pitch_rad) {
   const glm::vec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad),

@@ -1,0 +1,13 @@
+// script/bench doors, the photographs: how fast paths are traced, and how long a photograph of the paper's
+// city takes.
+#pragma once
+
+#include "bench/report.h"
+
+namespace parvis::bench {
+
+/// Adds path_traced_mrays_s and photo_s_1280x960_64spp. `is_quick`: a photograph of 4 samples a pixel stands
+/// for that of 64, whose time is in proportion.
+Status measure_photographs(bool is_quick, Report& report);
+
+}  // namespace parvis::bench
