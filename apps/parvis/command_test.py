@@ -1,0 +1,266 @@
+"""The command as its users meet it: help, exit statuses, bad input, the window.
+
+Usage: command_test.py PARVIS [unittest's arguments]. Exit status 0 is done, 1 failed, 2 bad usage.
+"""
+
+import base64
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PARVIS = None  # path of the program, from the command line
+SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "city", "bench"]
+SIZE = ["--size", "64x48"]
+
+
+def run(*arguments, environment=None, before=()):
+    """Runs `parvis` with `arguments`, after the command `before`; returns the finished process with its text."""
+    return subprocess.run(
+        [*before, PARVIS, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=240,
+        env={**os.environ, **(environment or {})},
+    )
+
+
+def triangle(positions=(0, 0, 0, 4, 0, 0, 0, 0, 4), indices=(0, 1, 2), claimed_bytes=None):
+    """A glTF document of one triangle and the bytes of its buffer, true unless told otherwise."""
+    data = struct.pack("<9f", *positions) + struct.pack("<3I", *indices)
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "name": "sail"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [4, 0, 4]},
+            {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": 36},
+            {"buffer": 0, "byteOffset": 36, "byteLength": 12},
+        ],
+        "buffers": [{"byteLength": claimed_bytes or len(data)}],
+    }
+    return document, data
+
+
+def gltf(document, data):
+    """The text of a .gltf file with its buffer inside."""
+    document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    return json.dumps(document)
+
+
+def glb(document, data):
+    """The bytes of a .glb file."""
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def city(version="1.1", last_index=2, has_polygons=True):
+    """The text of a CityJSON file of one roof."""
+    geometry = [{"type": "MultiSurface", "lod": "2", "boundaries": [[[0, 1, last_index]]]}]
+    return json.dumps(
+        {
+            "type": "CityJSON",
+            "version": version,
+            "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]},
+            "CityObjects": {"roof": {"type": "Building", "geometry": geometry if has_polygons else []}},
+            "vertices": [[0, 0, 3], [9, 0, 3], [9, 9, 3]],
+        }
+    )
+
+
+class InAFolder(unittest.TestCase):
+    """Each test has an empty folder of its own."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="parvis-command-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def write(self, name, content):
+        """Writes a file of text or bytes and returns its path."""
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def files(self):
+        """All that lies in the folder."""
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
+
+    def expect_failure(self, *arguments, words, environment=None):
+        """Status 1, a message that holds each of `words`, and no file more or less than before."""
+        before = self.files()
+        done = run(*arguments, environment=environment)
+        self.assertEqual(done.returncode, 1, f"{arguments}: {done.stdout}{done.stderr[:2000]}")
+        for word in words:
+            self.assertIn(word, done.stderr[:20000], arguments)
+        self.assertLess(len(done.stderr), 20000, "a message, not a flood")
+        self.assertEqual(self.files(), before, "nothing half-written")
+
+    def expect_bad_scene(self, script, *words):
+        """Neither checked nor drawn; the message holds `words`."""
+        scene = self.write("scene.xp", script)
+        self.expect_failure("check", scene, words=words)
+        self.expect_failure("render", scene, *SIZE, "-o", self.folder / "out.png", words=words)
+
+    def expect_bad_model(self, name, content, *words):
+        """The same for a model file in a right scene; the message names the file."""
+        self.write(name, content)
+        self.expect_bad_scene(f'sun()\nmodel(file="{name}")\n', name, *words)
+
+
+class Usage(InAFolder):
+    def test_every_subcommand_has_help_with_an_example(self):
+        overview = run("--help")
+        self.assertEqual(overview.returncode, 0)
+        for command in SUBCOMMANDS:
+            done = run(command, "--help")
+            self.assertEqual(done.returncode, 0, command)
+            self.assertIn("Example: parvis " + command, done.stdout)
+            self.assertIn(command, overview.stdout)
+
+    def test_bad_usage_is_status_2(self):
+        for arguments in [
+            [],
+            ["dance"],
+            ["render"],
+            ["render", "a.xp", "--no-such-option"],
+            ["render", "a.xp", "--fps", "0"],
+            ["city", "paper"],
+        ]:
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertTrue(done.stderr, arguments)
+
+    def test_what_fails_is_status_1(self):
+        scene = self.write("scene.xp", "sun()\n")
+        absent = self.folder / "absent.xp"
+        self.expect_failure("check", absent, words=["absent.xp"])
+        self.expect_failure("render", scene, "--size", "wide", words=["--size wide"])
+        self.expect_failure("render", scene, *SIZE, "--camera", "roof", words=["roof"])
+        self.expect_failure("render", scene, *SIZE, "--reflection", "chrome", words=["shared_cube_map"])
+        self.expect_failure("compare", self.folder / "a.png", self.folder / "b.png", words=["a.png"])
+
+    def test_a_right_scene_is_checked_and_drawn(self):
+        self.write("sail.glb", glb(*triangle()))
+        scene = self.write("scene.xp", 'sun()\nmodel(file="sail.glb")\ncamera(name="a", position="0 -9 2")\n')
+        self.assertEqual(run("check", scene).returncode, 0)
+        done = run("render", scene, *SIZE, "-o", self.folder / "out.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "out.png").read_bytes()[:4], b"\x89PNG")
+        self.assertEqual(self.files(), ["out.png", "sail.glb", "scene.xp"])
+
+
+class BadModels(InAFolder):
+    def test_damaged_glb(self):
+        whole = glb(*triangle())
+        self.expect_bad_model("short.glb", whole[: len(whole) // 2])
+        self.expect_bad_model("magic.glb", b"glTG" + whole[4:])
+        self.expect_bad_model("empty.glb", b"")
+
+    def test_buffers_that_claim_more_bytes_than_the_file_has(self):
+        self.expect_bad_model("claims.glb", glb(*triangle(claimed_bytes=1 << 30)))
+
+    def test_vertices_that_are_not_finite(self):
+        for number in ["nan", "inf", "-inf"]:
+            document, data = triangle(positions=(0, 0, 0, 4, float(number), 0, 0, 0, 4))
+            self.expect_bad_model("wild.gltf", gltf(document, data), "vertex 1")
+
+    def test_indices_out_of_range(self):
+        self.expect_bad_model("far.gltf", gltf(*triangle(indices=(0, 1, 70000))), "70000")
+
+    def test_a_missing_texture_is_named_and_the_model_is_drawn(self):
+        document, data = triangle()
+        document["images"] = [{"uri": "lost.png"}]
+        document["textures"] = [{"source": 0}]
+        document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+        document["meshes"][0]["primitives"][0]["material"] = 0
+        self.write("sail.gltf", gltf(document, data))
+        scene = self.write("scene.xp", 'model(file="sail.gltf")\ncamera(name="a", position="0 -9 2")\n')
+        checked = run("check", scene)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("lost.png", checked.stdout)
+        drawn = run("render", scene, *SIZE, "-o", self.folder / "out.png")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertIn("lost.png", drawn.stdout + drawn.stderr)
+
+    def test_city_json(self):
+        self.expect_bad_model("a.city.json", city(last_index=99), "roof")
+        self.expect_bad_model("b.city.json", city(version="7.3"), "7.3")
+        self.expect_bad_model("c.city.json", city(has_polygons=False))
+        self.expect_bad_model("d.city.json", city()[:-40])
+
+
+class BadScripts(InAFolder):
+    def test_cyclic_includes(self):
+        self.write("other.xp", 'include(file="scene.xp")\n')
+        self.expect_bad_scene('sun()\ninclude(file="other.xp")\n', "other.xp", "scene.xp")
+
+    def test_unknown_words(self):
+        self.expect_bad_scene("sun()\nmodle()\n", "scene.xp:2:", "modle", "model")
+        self.expect_bad_scene("\n\nsun(azimut_deg=3)\n", "scene.xp:3:", "azimut_deg", "azimuth_deg")
+
+    def test_ten_megabytes_of_brackets(self):
+        for brackets in ["(", "{", "a(){", ")"]:
+            self.expect_bad_scene(brackets * (10_000_000 // len(brackets)), "scene.xp:1:")
+
+    def test_paths_that_lead_out(self):
+        for path in ["../secret.glb", "/etc/passwd", "a/../../secret.glb"]:
+            self.expect_bad_scene(f'sun()\nmodel(file="{path}")\n', "scene.xp:2:", path)
+
+
+class Surroundings(InAFolder):
+    def test_an_output_folder_that_cannot_be_made(self):
+        self.write("taken", "a file, not a folder")
+        scene = self.write("scene.xp", 'camera(name="a", position="0 -9 2")\n')
+        inside = self.folder / "taken" / "out.png"
+        self.expect_failure("render", scene, *SIZE, "-o", inside, words=["taken"])
+        film = inside.with_suffix(".mp4")
+        self.expect_failure("render", scene, *SIZE, "--seconds", "0.1", "-o", film, words=["taken"])
+        self.expect_failure("reference", scene, *SIZE, "--samples", "1", "-o", inside, words=["taken"])
+        self.expect_failure("city", "paper", "-o", inside.parent, words=["taken"])
+
+    def test_an_output_of_no_known_kind(self):
+        scene = self.write("scene.xp", 'camera(name="a", position="0 -9 2")\n')
+        self.expect_failure("render", scene, *SIZE, "-o", self.folder / "out.xyz", words=["out.xyz"])
+
+    def test_a_driver_below_opengl_4_5(self):
+        scene = self.write("scene.xp", "sun()\n")
+        self.expect_failure(
+            "render", scene, *SIZE, "-o", self.folder / "out.png",
+            words=["OpenGL", "4.5"], environment={"MESA_GL_VERSION_OVERRIDE": "4.4"},
+        )
+
+
+class Window(InAFolder):
+    def test_it_shows_frames_and_writes_the_last(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        scene = self.write("scene.xp", 'sun()\ncamera(name="a", position="0 -9 2")\n')
+        picture = self.folder / "last.png"
+        done = run("view", scene, *SIZE, "--frames", "3", "--screenshot", picture, before=["xvfb-run", "-a"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
+    def test_without_a_display_it_says_so(self):
+        scene = self.write("scene.xp", "sun()\n")
+        self.expect_failure(
+            "view", scene, "--frames", "1", words=["display"],
+            environment={"DISPLAY": "", "WAYLAND_DISPLAY": ""},
+        )
+
+
+if __name__ == "__main__":
+    PARVIS = sys.argv.pop(1)
+    unittest.main()
