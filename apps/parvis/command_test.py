@@ -227,13 +227,15 @@ class Surroundings(InAFolder):
         inside = self.folder / "taken" / "out.png"
         self.expect_failure("render", scene, *SIZE, "-o", inside, words=["taken"])
         film = inside.with_suffix(".mp4")
-        self.expect_failure("render", scene, *SIZE, "--seconds", "0.1", "-o", film, words=["taken"])
+        self.expect_failure("render", scene, *SIZE, "--seconds", "0.1", "-o", film, words=["taken", "choose"])
         self.expect_failure("reference", scene, *SIZE, "--samples", "1", "-o", inside, words=["taken"])
         self.expect_failure("city", "paper", "-o", inside.parent, words=["taken"])
 
     def test_an_output_of_no_known_kind(self):
         scene = self.write("scene.xp", 'camera(name="a", position="0 -9 2")\n')
         self.expect_failure("render", scene, *SIZE, "-o", self.folder / "out.xyz", words=["out.xyz"])
+        film = self.folder / "out.gif"
+        self.expect_failure("render", scene, *SIZE, "--seconds", "0.1", "-o", film, words=["out.gif", ".mp4"])
 
     def test_a_driver_below_opengl_4_5(self):
         scene = self.write("scene.xp", "sun()\n")

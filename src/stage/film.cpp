@@ -19,10 +19,14 @@ std::string quoted(const std::string& word) {
 Result<Film> Film::open(const fs::path& file, int width, int height, int frames_per_second) {
   if (width % 2 != 0 || height % 2 != 0)
     return error("{}: a film of {} x {} pixels; H.264 needs even numbers", file.string(), width, height);
+  if (file.extension() != ".mp4") return error("{}: films are written as .mp4", file.string());
   if (std::system("command -v ffmpeg > /dev/null") != 0)
     return error("{}: films are written by the program ffmpeg, which is not installed", file.string());
   std::error_code code;
   if (!file.parent_path().empty()) fs::create_directories(file.parent_path(), code);
+  if (code)
+    return error("{}: the folder cannot be made ({}); choose one that can be written",
+                 file.parent_path().string(), code.message());
   const fs::path temporary = file.parent_path() / (".partial-" + file.filename().string());
   const std::string command = fmt::format(
       "ffmpeg -y -loglevel error -f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i - "
