@@ -1,5 +1,7 @@
 // parvis render: a picture or a film of a scene.
+#include <atomic>
 #include <cmath>
+#include <csignal>
 
 #include "base/image_io.h"
 #include "base/progress.h"
@@ -11,6 +13,8 @@
 
 namespace parvis {
 namespace {
+
+std::atomic<bool> is_interrupted = false;
 
 struct Arguments : SceneArguments {
   std::filesystem::path output = "picture.png";
@@ -29,12 +33,14 @@ Status draw(stage::Stage& stage, const Arguments& arguments, int width, int heig
 
 Status render_film(stage::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
                    int width, int height) {
+  std::signal(SIGINT, [](int) { is_interrupted = true; });  // half a film is taken away, not left
   Result<stage::Film> film = stage::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
   render::PictureReader reader;
   Progress progress("rendering film", std::size_t(frames));
   for (int frame = 0; frame < frames; ++frame) {
+    if (is_interrupted) return error("{}: interrupted; no film is written", output.string());
     if (Status status = draw(stage, arguments, width, height); !status) return status;
     if (const auto picture = reader.next(stage.renderer(), stage.scene().exposure)) {
       if (Status status = film->add(reduced(*picture, arguments.supersample)); !status) return status;
@@ -104,7 +110,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
                    "Draw n x n as many pixels and average their light")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
-  command->footer("Example: parvis render out/paper/paper.xp --camera drive --seconds 10 -o out/drive.mp4");
+  command->footer("Example: parvis render out/paper/paper.xp --camera follow --seconds 10 -o out/drive.mp4");
   command->callback([arguments, &chosen] { chosen = [arguments] { return render_scene(*arguments); }; });
 }
 

@@ -8,14 +8,16 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "city", "bench"]
+SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "format", "city", "bench"]
 SIZE = ["--size", "64x48"]
 
 
@@ -236,6 +238,20 @@ class Surroundings(InAFolder):
         self.expect_failure("render", scene, *SIZE, "-o", self.folder / "out.xyz", words=["out.xyz"])
         film = self.folder / "out.gif"
         self.expect_failure("render", scene, *SIZE, "--seconds", "0.1", "-o", film, words=["out.gif", ".mp4"])
+
+    def test_an_interrupted_film(self):
+        scene = self.write("scene.xp", 'camera(name="a", position="0 -9 2")\n')
+        film = self.folder / "film.mp4"
+        command = [PARVIS, "render", str(scene), *SIZE, "--seconds", "3600", "-o", str(film)]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        while not self.files()[0].startswith(".") and process.poll() is None:
+            time.sleep(0.05)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        _, told = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, told)
+        self.assertIn("interrupted", told)
+        self.assertEqual(self.files(), ["scene.xp"])
 
     def test_a_driver_below_opengl_4_5(self):
         scene = self.write("scene.xp", "sun()\n")

@@ -31,8 +31,9 @@ Result<Film> Film::open(const fs::path& file, int width, int height, int frames_
   const std::string command = fmt::format(
       "ffmpeg -y -loglevel error -f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i - "
       "-c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
-      width, height, frames_per_second, quoted(temporary.string()));
-  std::signal(SIGPIPE, SIG_IGN);  // an encoder that stops is told by its write, not by our end
+      width, height, frames_per_second,
+      quoted("file:" + temporary.string()));  // a name with a colon is no protocol
+  std::signal(SIGPIPE, SIG_IGN);              // an encoder that stops is told by its write, not by our end
   std::FILE* pipe = popen(command.c_str(), "w");
   if (!pipe) return error("{}: ffmpeg cannot be started", file.string());
   return Film(file, temporary, pipe, width, height);

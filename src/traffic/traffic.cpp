@@ -33,10 +33,10 @@ Traffic::Traffic(const scene::Scene& scene) {
     const std::size_t wanted = std::size_t(demand.vehicles);
     const std::size_t found = simulation_->spread_vehicles(wanted, demand.seed);
     if (found < wanted)
-      warnings_.push_back(
-          fmt::format("traffic: room for {} of {} vehicles; more or longer roads that lead on, or a larger "
-                      "radius, give more",
-                      found, wanted));
+      warnings_.push_back(fmt::format(
+          "traffic: room for {} of {} vehicles; more, longer or wider roads that lead on, smaller "
+          "vehicles, or a larger radius give more",
+          found, wanted));
   }
   for (int i = 0; i < warm_up_steps; ++i) simulation_->step();
 }
