@@ -64,6 +64,20 @@ TEST(Sky, ItsPictureStandsByTheCompass) {
   EXPECT_NEAR(irradiance(turned, south).x, irradiance(plain, east).x, 0.02f);
 }
 
+TEST(Sky, APictureIsEvenInAzimuthAndElevation) {
+  for (int row = 0; row <= 8; ++row)  // from the zenith to the nadir
+    for (int column = 1; column < 16; ++column) {
+      const float polar = pi_f * float(row) / 8.0f, azimuth = pi_f * float(column - 8) / 8.0f;
+      const vec3 direction(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth),
+                           std::cos(polar));
+      const vec2 uv = equirect_uv(direction, 0.0f);
+      EXPECT_NEAR(uv.y, float(row) / 8.0f, 1e-4f);
+      if (row > 0 && row < 8) {
+        EXPECT_NEAR(uv.x, float(column) / 16.0f, 1e-4f);
+      }
+    }
+}
+
 TEST(Sky, TheSunsDiscIsDimmed) {
   ImageF picture(128, 64, 3, 1.0f);
   for (int c = 0; c < 3; ++c) picture.at(64, 16)[c] = 50000.0f;
