@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/bounds.h"
+#include "scene/one_way_streets.h"
 #include "scene/path.h"
 #include "scene/road_network.h"
 #include "scene/skeleton.h"
@@ -179,8 +180,8 @@ std::optional<Road> road_of(const SkeletonBranch& branch, const Skeleton& skelet
   Road road;
   road.path = centre_line(branch, skeleton, ground);
   road.lanes_each_way = std::clamp(int(0.5f * width_m / 3.0f), 1, 3);
-  road.lane_width_m = std::clamp((0.5f * width_m - kerb_distance_m) / float(road.lanes_each_way),
-                                 narrowest_lane_m, widest_lane_m);
+  road.lane_width_m =
+      std::min((0.5f * width_m - kerb_distance_m) / float(road.lanes_each_way), widest_lane_m);
   return road.path.size() < 2 ? std::nullopt : std::optional(std::move(road));
 }
 
@@ -238,6 +239,7 @@ std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons) {
   });
   std::vector<Road> kept = without_narrow_dead_ends(roads);
   if (kept.empty()) kept = std::move(roads);
+  make_narrow_streets_one_way(kept, narrowest_lane_m);
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].name = fmt::format("road surface {}", i + 1);
   return kept;
 }

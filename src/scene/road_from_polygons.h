@@ -12,8 +12,9 @@ namespace parvis::scene {
 /// Centre lines, with widths and heights, of the drivable ones among `polygons` (footpaths, cycle paths,
 /// steps, parking spaces, railways are not): their union is drawn as cells of half a metre, thinned to a
 /// graph and smoothed. Roads meet exactly at junctions, so that build_road_graph joins them. What is too
-/// narrow for a car is left out, so are pieces that end after a few metres and dead ends in which no car
-/// could turn (unless there is nothing else). Nothing drivable gives no roads.
+/// narrow for a car is left out, what is too narrow for two becomes one-way where that cuts nothing off, and
+/// so are pieces that end after a few metres and dead ends in which no car could turn (unless there is
+/// nothing else). Nothing drivable gives no roads.
 std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons);
 
 /// Whether vehicles use a road surface with this description ("rijbaan lokale weg", "voetpad", ...).
