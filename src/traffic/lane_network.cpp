@@ -5,6 +5,7 @@
 
 #include "base/bounds.h"
 #include "base/parallel.h"
+#include "traffic/street_ends.h"
 
 namespace parvis::traffic {
 
@@ -14,6 +15,7 @@ constexpr float sweep_step_m = 1.0f;
 constexpr float sweep_margin_m = 0.12f;  // on each side of the largest vehicle
 constexpr float entry_margin_m = 1.4f;   // less than Vehicle remembers of the way behind its tail
 constexpr float exit_margin_m = 1.8f;    // less than Driver's standing gap
+constexpr float street_end_m = 8.0f;     // as far as a turning bus swings into it
 constexpr float slowest = 1.5f;          // m/s: however tight the bend
 constexpr float bridge_clearance_m = 3.0f;
 
@@ -67,14 +69,16 @@ VehicleShape largest(const std::vector<VehicleShape>& shapes) {
   return result;
 }
 
-/// A turning lane's vehicle reaches back and forth over the lane's ends. On a street it keeps from them: it
-/// holds the turning lane still when its tail enters, and holds the next when its front comes nearer than it
-/// would wait.
-Sweep sweep_along(const scene::MeasuredPath& path, bool is_turn, const VehicleShape& shape) {
+/// A turning lane's vehicle reaches back and forth over the lane's ends, and so it does over the cuts of a
+/// street. From crossings a street's vehicle keeps away: it holds the turning lane still when its tail
+/// enters, and holds the next when its front comes nearer than it would wait.
+Sweep sweep_along(const scene::MeasuredPath& path, LanePart part, const VehicleShape& shape) {
   const float half = 0.5f * shape.length_m();
-  const float middle_m = 0.5f * path.length();
-  const float from = is_turn ? -half : std::min(half + entry_margin_m, middle_m);
-  const float to = is_turn ? path.length() + half : std::max(path.length() - half - exit_margin_m, middle_m);
+  const bool leaves_crossing = part == LanePart::street || part == LanePart::first_metres;
+  const bool meets_crossing = part == LanePart::street || part == LanePart::last_metres;
+  float from = leaves_crossing ? half + entry_margin_m : -half;
+  float to = path.length() + (meets_crossing ? -half - exit_margin_m : half);
+  if (from > to) from = to = 0.5f * path.length();
   const int steps = std::max(1, int(std::ceil((to - from) / sweep_step_m)));
   Sweep sweep;
   for (int i = 0; i <= steps; ++i) {
@@ -103,34 +107,49 @@ bool touch(const Sweep& a, const Sweep& b) {
   return false;
 }
 
-bool contains(const std::vector<int>& list, std::size_t value) {
-  return std::ranges::find(list, int(value)) != list.end();
+/// Whether a vehicle that leaves lane `first` drives on `second`, at once or after some metres of a street's
+/// end: then they meet one behind the other, whom distance keeps apart.
+bool leads_on_to(const std::vector<DrivingLane>& lanes, const std::vector<LanePart>& parts, int first,
+                 int second) {
+  return std::ranges::any_of(lanes[std::size_t(first)].next, [&](int next) {
+    const LanePart part = parts[std::size_t(next)];
+    const bool is_end = part == LanePart::first_metres || part == LanePart::last_metres;
+    return next == second || (is_end && std::ranges::count(lanes[std::size_t(next)].next, second) > 0);
+  });
 }
 
-void find_conflicts(std::vector<DrivingLane>& lanes, const scene::RoadGraph& roads,
+void find_conflicts(std::vector<DrivingLane>& lanes, const std::vector<LanePart>& parts,
                     const VehicleShape& shape) {
   std::vector<Sweep> sweeps(lanes.size());
   parallel_for(lanes.size(), [&](std::size_t i) {
-    if (lanes[i].is_usable) sweeps[i] = sweep_along(lanes[i].path, roads.lanes[i].crossing >= 0, shape);
+    if (lanes[i].is_usable) sweeps[i] = sweep_along(lanes[i].path, parts[i], shape);
   });
   parallel_for(lanes.size(), [&](std::size_t i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
-      const bool follow_one_another = contains(lanes[i].next, j) || contains(lanes[j].next, i);
+      const bool follow_one_another =
+          leads_on_to(lanes, parts, int(i), int(j)) || leads_on_to(lanes, parts, int(j), int(i));
       if (i != j && !follow_one_another && touch(sweeps[i], sweeps[j])) lanes[i].conflicts.push_back(int(j));
     }
   });
   for (DrivingLane& lane : lanes) lane.is_shared = !lane.conflicts.empty();
 }
 
-/// A lane in a crossing is judged by where it leads to, since that is when the turn is chosen.
-void measure_ways_out(std::vector<DrivingLane>& lanes, const scene::RoadGraph& roads, const Area& area) {
-  for (DrivingLane& lane : lanes) lane.outside_m = area.outside_m(glm::vec2(lane.path.points().back()));
+/// A lane in a crossing is judged by the end of the street it leads to, since that is when the turn is
+/// chosen.
+void measure_ways_out(std::vector<DrivingLane>& lanes, const std::vector<LanePart>& parts, const Area& area) {
+  const auto street_end = [&](int lane) {
+    if (parts[std::size_t(lane)] == LanePart::first_metres)
+      for (int cut = 0; cut < 2; ++cut) lane = lanes[std::size_t(lane)].next.front();
+    return area.outside_m(glm::vec2(lanes[std::size_t(lane)].path.points().back()));
+  };
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    if (roads.lanes[i].crossing < 0 || lanes[i].next.empty()) continue;
+    if (!lanes[i].is_usable) continue;
     lanes[i].outside_m = std::numeric_limits<float>::max();
-    for (const int next : lanes[i].next)
-      lanes[i].outside_m = std::min(lanes[i].outside_m,
-                                    area.outside_m(glm::vec2(lanes[std::size_t(next)].path.points().back())));
+    if (parts[i] == LanePart::turn)
+      for (const int next : lanes[i].next)
+        lanes[i].outside_m = std::min(lanes[i].outside_m, street_end(next));
+    else
+      lanes[i].outside_m = street_end(int(i));
   }
 }
 
@@ -145,17 +164,18 @@ float DrivingLane::safe_speed_at(float distance_m) const {
 
 std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
                                        float comfortable_braking, const Area& area) {
-  std::vector<DrivingLane> lanes(roads.lanes.size());
+  const CutStreets cut = cut_streets(roads, street_end_m);
+  std::vector<DrivingLane> lanes(cut.roads.lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const scene::Lane& lane = roads.lanes[i];
+    const scene::Lane& lane = cut.roads.lanes[i];
     lanes[i].path = scene::MeasuredPath(scene::without_repeats(lane.points));
     lanes[i].next = lane.next;
     lanes[i].is_usable = true;
     lanes[i].safe_speeds = safe_speeds(lanes[i].path, lane.speed_limit, comfortable_braking);
   }
   keep_lanes_that_lead_on(lanes);
-  measure_ways_out(lanes, roads, area);
-  if (!shapes.empty()) find_conflicts(lanes, roads, largest(shapes));
+  measure_ways_out(lanes, cut.parts, area);
+  if (!shapes.empty()) find_conflicts(lanes, cut.parts, largest(shapes));
   return lanes;
 }
 

@@ -36,8 +36,8 @@ struct DrivingLane {
 /// Lateral acceleration that passengers find comfortable, m/s2: sets the speed in bends.
 inline constexpr float lateral_acceleration = 2.2f;
 
-/// Lanes with the indices of `roads`. `shapes` are the vehicles to come: two lanes conflict where the largest
-/// of them would touch one another.
+/// The lanes of `roads`, long streets cut before their crossings. `shapes` are the vehicles to come: two
+/// lanes conflict where the largest of them would touch one another.
 std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std::vector<VehicleShape>& shapes,
                                        float comfortable_braking, const Area& area);
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/path.h"
 #include "scene/road_builder.h"
+#include "traffic/street_ends.h"
 
 namespace parvis::traffic {
 namespace {
@@ -116,11 +118,52 @@ TEST(Traffic, VehiclesFollowTheGraph) {
     for (std::size_t v = 0; v < lanes.size(); ++v) {
       const int lane = traffic.simulation().vehicles()[v].lane();
       if (lane == lanes[v]) continue;
-      const std::vector<int>& next = scene.roads.lanes[std::size_t(lanes[v])].next;
+      const std::vector<int>& next = traffic.simulation().lanes()[std::size_t(lanes[v])].next;
       ASSERT_NE(std::ranges::find(next, lane), next.end());
       lanes[v] = lane;
     }
   }
+}
+
+// Buses swing across the streets beside theirs: whoever waits for a whole street to be free waits long.
+TEST(Traffic, BusesHoldNobodyUp) {
+  std::vector<scene::Road> roads = grid(4, 150.0f);
+  for (scene::Road& road : roads) road.lane_width_m = 3.4f;
+  scene::Scene scene = scene_of(roads, 30);
+  scene.traffic.models.push_back(car_model(12.0f, 2.5f));
+  scene.traffic.centre = {375.0f, 375.0f}, scene.traffic.radius_m = 250.0f;
+  Traffic traffic(scene);
+  ASSERT_EQ(traffic.vehicle_count(), 30u);
+  std::vector<float> standing_s(traffic.vehicle_count(), 0.0f);
+  float longest_s = 0.0f;
+  for (int tenth = 0; tenth < 6000; ++tenth) {
+    traffic.step(0.1f);
+    for (std::size_t i = 0; i < standing_s.size(); ++i) {
+      const bool stands = traffic.simulation().vehicles()[i].speed < 0.1f;
+      standing_s[i] = stands ? standing_s[i] + 0.1f : 0.0f;
+      longest_s = std::max(longest_s, standing_s[i]);
+    }
+  }
+  EXPECT_LT(longest_s, 40.0f);
+}
+
+TEST(Traffic, StreetsAreCutBeforeTheirCrossings) {
+  scene::RoadGraph roads;
+  roads.lanes = {{{{0, 0, 0}, {100, 0, 0}}, {1}},
+                 {{{100, 0, 0}, {110, 10, 0}}, {2}, 3.0f, 10.0f, 0},
+                 {{{110, 10, 0}, {110, 30, 0}}, {}}};
+  const CutStreets cut = cut_streets(roads, 8.0f);
+  ASSERT_EQ(cut.roads.lanes.size(), 5u);
+  EXPECT_EQ(cut.parts, (std::vector{LanePart::first_metres, LanePart::turn, LanePart::street,
+                                    LanePart::street, LanePart::last_metres}));
+  float length_m = 0.0f;
+  int lane = 0;
+  for (const int next : {3, 4, 1}) {
+    length_m += scene::MeasuredPath(cut.roads.lanes[std::size_t(lane)].points).length();
+    EXPECT_EQ(cut.roads.lanes[std::size_t(lane)].next, std::vector{next});
+    lane = next;
+  }
+  EXPECT_NEAR(length_m, 100.0f, 1e-3f);
 }
 
 TEST(Traffic, IsTheSameAtAnyFrameRate) {
