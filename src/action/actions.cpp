@@ -116,16 +116,21 @@ bool Actions::uses_key(const std::string& key) const {
 Status Actions::send(const std::string& target, const std::string& text) {
   const Node* node = live_.find(target);
   if (!node) return error("no node of the scene is called \"{}\"", target);
-  Result<scene::Message> message = parse_message(*node->schema, text, {});
+  return send(*node, text);
+}
+
+Status Actions::send(const Node& target, const std::string& text) {
+  Result<scene::Message> message = parse_message(*target.schema, text, {});
   if (!message) return message.errors();
   for (std::size_t i = 0; i < message->arguments.size(); ++i)
     if (message->schema->arguments[i].type == scene::AttributeType::child) {
       const auto& name = std::get<std::string>(message->arguments[i]);
-      const Node* child = find_node(node->children, name);
+      const Node* child = find_node(target.children, name);
       if (!child || !child->schema->find("visible"))
-        return error("\"{}\": {} holds nothing to be seen that is called \"{}\"", text, target, name);
+        return error("\"{}\": the {} holds nothing to be seen that is called \"{}\"", text,
+                     target.schema->type, name);
     }
-  queue_.post(steps_, steps_, {node, *std::move(message), {}, 0});
+  queue_.post(steps_, steps_, {&target, *std::move(message), {}, 0});
   return Done{};
 }
 

@@ -33,6 +33,8 @@ class Actions {
   bool uses_key(const std::string& key) const;
   /// A message from outside of the scene (a panel, the command line), delivered in the next step.
   Status send(const std::string& target, const std::string& message);
+  /// The same to a node of `live().nodes()`, which needs no name.
+  Status send(const scene::Node& target, const std::string& message);
 
   /// Lets `seconds` >= 0 pass. `visitor`: where the eye is, if anybody looks.
   void advance(scene::Scene& scene, double seconds, const std::optional<glm::vec3>& visitor);

@@ -11,6 +11,23 @@
 namespace parvis::gl {
 namespace {
 
+constexpr std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION,
+                                       4,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       5,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+#ifdef NDEBUG
+                                       EGL_NONE,
+                                       EGL_NONE,
+                                       EGL_NONE};
+#else
+                                       EGL_CONTEXT_OPENGL_DEBUG,
+                                       EGL_TRUE,
+                                       EGL_NONE};
+#endif
+constexpr std::array<EGLint, 1> whatever_there_is{EGL_NONE};
+
 bool is_software_device(EGLDeviceEXT device) {
   const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
   return extensions && std::strstr(extensions, "EGL_MESA_device_software");
@@ -32,7 +49,8 @@ std::vector<EGLDisplay> candidate_displays() {
   return displays;
 }
 
-EGLContext create_context(EGLDisplay display) {
+/// Makes a context of those attributes current.
+EGLContext create_context(EGLDisplay display, const EGLint* attributes) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
   const std::array<EGLint, 5> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
@@ -41,22 +59,7 @@ EGLContext create_context(EGLDisplay display) {
   EGLint configs = 0;
   if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &configs) || configs == 0)
     config = nullptr;  // EGL_KHR_no_config_context: none is needed without a surface
-  const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                         4,
-                                         EGL_CONTEXT_MINOR_VERSION,
-                                         5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-#ifdef NDEBUG
-                                         EGL_NONE,
-                                         EGL_NONE,
-                                         EGL_NONE};
-#else
-                                         EGL_CONTEXT_OPENGL_DEBUG,
-                                         EGL_TRUE,
-                                         EGL_NONE};
-#endif
-  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT) return EGL_NO_CONTEXT;
   if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
   eglDestroyContext(display, context);
@@ -74,17 +77,23 @@ void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, co
 }  // namespace
 
 Result<Context> Context::create_headless() {
-  for (EGLDisplay display : candidate_displays()) {
-    EGLContext context = create_context(display);
+  const std::vector<EGLDisplay> displays = candidate_displays();
+  for (EGLDisplay display : displays) {
+    EGLContext context = create_context(display, wanted.data());
     if (context == EGL_NO_CONTEXT) continue;
     Context made(display, context);
     if (Status status = check_current(); !status) return status.errors();
     return made;
   }
+  for (EGLDisplay display : displays) {  // what is there instead?
+    EGLContext context = create_context(display, whatever_there_is.data());
+    if (context == EGL_NO_CONTEXT) continue;
+    const Context found(display, context);
+    if (Status status = check_current(); !status) return status.errors();
+  }
   return error(
       "no OpenGL 4.5 context without a window: neither a GPU's EGL device nor Mesa's software renderer gave "
-      "one; "
-      "install a driver of OpenGL 4.5 or later, or libgl1-mesa-dri");
+      "one; install a driver of OpenGL 4.5 or later, or libgl1-mesa-dri");
 }
 
 Context::Context(Context&& other) noexcept
@@ -100,9 +109,11 @@ Status check_current() {
   const int version = epoxy_gl_version();
   if (!epoxy_is_desktop_gl() || version < 45)
     return error(
-        "the driver offers OpenGL {}.{}; Parvis needs 4.5 or later: update it, or use Mesa's software "
-        "renderer",
-        version / 10, version % 10);
+        "the driver offers OpenGL {}{}.{} ({}); Parvis needs OpenGL 4.5 or later: update the driver, or "
+        "install "
+        "Mesa's software renderer (libgl1-mesa-dri)",
+        epoxy_is_desktop_gl() ? "" : "ES ", version / 10, version % 10,
+        reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 #ifndef NDEBUG
   glEnable(GL_DEBUG_OUTPUT);

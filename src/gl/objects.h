@@ -77,11 +77,21 @@ struct SamplerTraits {
   static void destroy(GLuint n) { glDeleteSamplers(1, &n); }
 };
 
+struct QueryTraits {
+  static GLuint create(GLenum target) {
+    GLuint n = 0;
+    glCreateQueries(target, 1, &n);
+    return n;
+  }
+  static void destroy(GLuint n) { glDeleteQueries(1, &n); }
+};
+
 using Buffer = Owned<BufferTraits>;
 using Texture = Owned<TextureTraits>;
 using Framebuffer = Owned<FramebufferTraits>;
 using VertexArray = Owned<VertexArrayTraits>;
 using Sampler = Owned<SamplerTraits>;
+using Query = Owned<QueryTraits>;
 
 /// A buffer with these bytes that never change.
 template <class T>

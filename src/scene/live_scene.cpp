@@ -64,17 +64,24 @@ const NodeFrame& LiveScene::frame_of(const Node& node) const {
 /// All nodes are ours to change; others only read them.
 Node& LiveScene::writable(const Node& node) { return const_cast<Node&>(node); }
 
+/// The node, to be changed now and built again at the next refresh.
+Node& LiveScene::change(const Node& node) {
+  changed_.try_emplace(&node, node.attributes);
+  return writable(node);
+}
+
 void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value, std::string text) {
-  writable(node).set(attribute, std::move(value), std::move(text));
-  changed_.insert(&node);
+  Node& changing = change(node);
+  const std::vector<std::string>& replaced = node.schema->find(attribute)->in_place_of;
+  std::erase_if(changing.attributes, [&](const NodeAttribute& each) {
+    return std::find(replaced.begin(), replaced.end(), each.schema->name) != replaced.end();
+  });
+  changing.set(attribute, std::move(value), std::move(text));
 }
 
 bool LiveScene::receive(const Node& node, const Message& message) {
   const std::string& name = message.schema->name;
-  const auto show = [this](const Node& target, bool is_visible) {
-    set_visible(writable(target), is_visible);
-    changed_.insert(&target);
-  };
+  const auto show = [this](const Node& target, bool is_visible) { set_visible(change(target), is_visible); };
   if (name == "show" || name == "hide" || name == "toggle") {
     const Node* target =
         message.arguments.empty() ? &node : find(std::get<std::string>(message.arguments.front()));
@@ -105,18 +112,16 @@ std::vector<const Node*> LiveScene::scenarios() const {
 /// The scenario that it extends, then its own overrides and nodes.
 void LiveScene::change_by(const Node& scenario) {
   if (scenario.gives("extends")) change_by(*find(scenario.text("extends")));
-  Node& chosen = writable(scenario);
+  Node& chosen = change(scenario);
   as_written_.try_emplace(&chosen, chosen.attributes);
   chosen.set("chosen", true, "1");
-  changed_.insert(&chosen);
   for (const Node& child : scenario.children) {
     if (child.schema->takes_attributes_of.empty()) continue;
-    Node& target = writable(*find(child.text("of")));
+    Node& target = change(*find(child.text("of")));
     as_written_.try_emplace(&target, target.attributes);
     for (const NodeAttribute& attribute : child.overrides)
       std::erase_if(target.attributes, [&](const auto& each) { return each.schema == attribute.schema; });
     target.attributes.insert(target.attributes.end(), child.overrides.begin(), child.overrides.end());
-    changed_.insert(&target);
   }
 }
 
@@ -130,10 +135,7 @@ Status LiveScene::choose(Scene& scene, const std::string& wanted) {
     return error("the scene has no scenario \"{}\"; it has {}{}", name, fmt::join(known, ", "),
                  did_you_mean(name, known));
   }
-  for (auto& [node, attributes] : as_written_) {
-    node->attributes = std::move(attributes);
-    changed_.insert(node);
-  }
+  for (auto& [node, attributes] : as_written_) change(*node).attributes = std::move(attributes);
   as_written_.clear();
   scenario_ = name;
   if (chosen) change_by(*chosen);
@@ -170,8 +172,9 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
 
 Errors LiveScene::refresh(Scene& scene) {
   Errors errors;
-  for (const Node* node : std::exchange(changed_, {})) {
+  for (auto& [node, before] : std::exchange(changed_, {})) {
     const Errors met = build_again(scene, *node);
+    if (!met.empty()) writable(*node).attributes = std::move(before);
     errors.insert(errors.end(), met.begin(), met.end());
   }
   return errors;

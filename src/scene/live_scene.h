@@ -28,7 +28,8 @@ class LiveScene {
   std::vector<int> objects_of(const Node& node) const;
   const NodeFrame& frame_of(const Node& node) const;
 
-  /// Gives an attribute of the node another value; seen after the next `refresh`.
+  /// Gives an attribute of the node another value, in place of those that it replaces; seen after the next
+  /// `refresh`.
   void set(const Node& node, const std::string& attribute, AttributeValue value, std::string text);
   /// Does what a message that every node type of its kind takes says: sets a live attribute, shows or hides.
   /// False where the message is none of these.
@@ -45,11 +46,13 @@ class LiveScene {
   /// begins. All errors are told. To be called before the scene is drawn: it adds objects.
   Status prepare_scenarios(Scene& scene);
 
-  /// Builds again what changed. Errors tell which nodes stayed as they were.
+  /// Builds again what changed. A node that cannot be built gets back the attributes that it had; errors tell
+  /// which.
   Errors refresh(Scene& scene);
 
  private:
   Node& writable(const Node& node);
+  Node& change(const Node& node);
   void put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
                    const Node& node);
   void put_cameras(Scene& scene, const std::vector<NamedCamera>& built,
@@ -60,7 +63,7 @@ class LiveScene {
   Script script_;
   std::map<std::string, Node*> by_name_;
   std::map<const Node*, std::vector<int>> objects_, cameras_;  ///< made by each node
-  std::set<const Node*> changed_;
+  std::map<const Node*, std::vector<NodeAttribute>> changed_;  ///< and what they were at the last refresh
   std::map<Node*, std::vector<NodeAttribute>> as_written_;  ///< attributes of nodes that the scenario changed
   std::string scenario_;
 };

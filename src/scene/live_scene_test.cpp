@@ -195,5 +195,49 @@ TEST(Messages, TheShadowMapOfTheThesisUnderstandsBothSpellings) {
     EXPECT_FALSE(parse_message(schema, text, {})) << text;
 }
 
+/// Tells a node, as a panel does.
+void tell(LiveScene& live, const std::string& node, const std::string& text) {
+  const Result<Message> message = parse_message(*live.find(node)->schema, text, {});
+  ASSERT_TRUE(message) << to_string(message.errors());
+  EXPECT_TRUE(live.receive(*live.find(node), *message)) << text;
+}
+
+TEST_F(LiveSceneTest, AnAttributeTakesThePlaceOfThoseThatItReplaces) {
+  load("sun(direction=\"1 0 1\")\ncamera(name=eye, position=\"0 0 2\", heading_deg=90, pitch_deg=10)\n");
+  tell(live_, "%sun", "elevation_deg 90");
+  tell(live_, "eye", "target 0 10 2");
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_FALSE(live_.find("%sun")->gives("direction"));
+  EXPECT_NEAR(scene_.sun.direction_to_sun.z, 1.0f, 1e-6f);
+  EXPECT_FALSE(live_.find("eye")->gives("heading_deg"));
+  EXPECT_NEAR(scene_.cameras[0].camera.forward_in_world().y, 1.0f, 1e-6f);
+
+  tell(live_, "%sun", "direction 0 1 0");
+  tell(live_, "eye", "heading_deg 90");
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_NEAR(scene_.sun.direction_to_sun.y, 1.0f, 1e-6f);
+  EXPECT_NEAR(scene_.cameras[0].camera.forward_in_world().x, 1.0f, 1e-6f);
+}
+
+TEST_F(LiveSceneTest, ANodeThatCannotBeBuiltKeepsWhatItWas) {
+  load("camera(name=eye, position=\"0 0 2\", target=\"0 10 2\")\n");
+  tell(live_, "eye", "target 0 0 2");
+  const Errors errors = live_.refresh(scene_);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_TRUE(holds(errors[0].message, "the target lies in the eye")) << errors[0].message;
+  EXPECT_EQ(live_.find("eye")->vec3("target"), glm::vec3(0, 10, 2));
+  EXPECT_NEAR(scene_.cameras[0].camera.forward_in_world().y, 1.0f, 1e-6f);
+
+  tell(live_, "eye", "position 0 0 3");
+  EXPECT_TRUE(live_.refresh(scene_).empty()) << "later changes are not held up";
+}
+
+TEST_F(LiveSceneTest, TheMethodOfReflectionChanges) {
+  load("reflection(method=none)\n");
+  tell(live_, "%reflection", "method shared_cube_map");
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(scene_.reflection.method, ReflectionMethod::shared_cube_map);
+}
+
 }  // namespace
 }  // namespace parvis::scene

@@ -47,6 +47,7 @@ struct AttributeSchema {
   std::vector<std::string> refers_to = {};  ///< types of the nodes that a reference may name; empty: any name
   std::vector<std::string> spellings = {};  ///< other names that are understood
   bool is_live = false;                     ///< changes while the scene runs: a message of its name sets it
+  std::vector<std::string> in_place_of = {};  ///< attributes that it replaces: a message takes them back
   bool is_required = false;
   bool is_repeatable = false;
 };

@@ -13,12 +13,13 @@ const scene::NodeRegistry& node_registry() {
   return registry;
 }
 
-void Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
-  traffic.step(float(seconds));
+Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
+  if (!traffic_is_paused) traffic.step(float(seconds));
   traffic.place(scene);
   actions.advance(scene, seconds, visitor);
-  for (const Error& warning : actions.take_warnings())
-    fmt::print(stderr, "warning: {}\n", to_string(warning));
+  Errors warnings = actions.take_warnings();
+  for (const Error& warning : warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
+  return warnings;
 }
 
 Result<Camera> Play::camera(const std::string& name) const {
@@ -29,7 +30,7 @@ Result<Camera> Play::camera(const std::string& name) const {
 
 Play make_play(scene::Scene scene) {
   traffic::Traffic traffic(scene);
-  Play play{std::move(scene), std::move(traffic), {}};
+  Play play{std::move(scene), std::move(traffic), {}, false};
   for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
   play.traffic.add_vehicles(play.scene);
   return play;
@@ -71,10 +72,14 @@ void Stage::draw(const Camera& camera, int width, int height) {
   if (play_.scene.reflection != shown_reflection_)
     if (const Status status = set_reflection(play_.scene.reflection); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
+  pass_times_.begin_frame();
   renderer_->begin_frame(play_.scene, camera);
+  pass_times_.end_pass("shadows");
   renderer_->prepare_main_view(camera, width, height);
   reflections_->update(*renderer_, play_.scene, camera);
+  pass_times_.end_pass("reflections");
   renderer_->draw_main_view();
+  pass_times_.end_pass("picture");
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel) {

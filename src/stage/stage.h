@@ -9,6 +9,7 @@
 #include <string>
 
 #include "action/actions.h"
+#include "gl/pass_times.h"
 #include "probes/reflections.h"
 #include "reference/tracer.h"
 #include "render/renderer.h"
@@ -26,10 +27,11 @@ struct Play {
   scene::Scene scene;
   traffic::Traffic traffic;
   action::Actions actions;
+  bool traffic_is_paused = false;  ///< vehicles stand still; all else goes on
 
-  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it; tells warnings on standard
-  /// error.
-  void advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
+  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Gives warnings, which it
+  /// tells on standard error, too.
+  Errors advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
 
   /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
   /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
@@ -52,6 +54,8 @@ class Stage {
   const scene::Scene& scene() const { return play_.scene; }
   render::Renderer& renderer() { return *renderer_; }
   const probes::Reflections& reflections() const { return *reflections_; }
+  /// Of the passes of a frame: shadows, reflections, picture; those who draw more add theirs.
+  gl::PassTimes& pass_times() { return pass_times_; }
 
   /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
   Status choose_scenario(const std::string& name) { return play_.actions.live().choose(play_.scene, name); }
@@ -76,6 +80,7 @@ class Stage {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<probes::Reflections> reflections_;
   scene::Reflection shown_reflection_;
+  gl::PassTimes pass_times_;
 };
 
 }  // namespace parvis::stage
