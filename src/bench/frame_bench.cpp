@@ -2,7 +2,6 @@
 
 #include <epoxy/gl.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "base/random.h"
@@ -20,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int width = 1280, height = 720;
-
-double milliseconds(auto&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 Camera at(glm::vec3 eye, float heading_rad, float pitch_rad) {
   const glm::vec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad),
@@ -150,7 +143,7 @@ void measure_reference(stage::Stage& stage, Report& report) {
 
 void measure_denhaag(Report& report) {
   const auto file = shared_data("cities/DenHaag_01.city.json", fs::current_path());
-  if (!file) return report.note("load_ms_denhaag is skipped: the shared data is absent");
+  if (!file) return report.skip("load_ms_denhaag", "the shared data is absent");
   std::vector<double> samples(5);
   for (double& sample : samples)
     sample = milliseconds([&] {

@@ -1,12 +1,19 @@
 #include "bench/report.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 
 namespace parvis::bench {
+
+double milliseconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
 Median median(std::vector<double> samples) {
   if (samples.empty()) return {};
@@ -26,8 +33,14 @@ void Report::add(const std::string& key, const Median& median) {
                    median.high));
 }
 
+void Report::skip(const std::string& key, const std::string& why) {
+  skipped_.push_back(key);
+  note(fmt::format("{} is skipped: {}", key, why));
+}
+
 void Report::print() const {
   for (const auto& [key, value] : figures_) fmt::print("{:<36} {:>14.4f}\n", key, value);
+  for (const std::string& key : skipped_) fmt::print("{:<36} {:>14}\n", key, "skipped");
   for (const std::string& row : rows_) fmt::print("  {}\n", row);
 }
 

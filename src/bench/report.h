@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "base/result.h"
 
 namespace parvis::bench {
+
+/// The wall clock over `work`.
+double milliseconds(const std::function<void()>& work);
 
 /// A median with its 95 % interval (order statistics, binomial).
 struct Median {
@@ -23,6 +27,8 @@ class Report {
   void add(const std::string& key, double value) { figures_.emplace_back(key, value); }
   /// The median counts; its interval stands in a row.
   void add(const std::string& key, const Median& median);
+  /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
+  void skip(const std::string& key, const std::string& why);
   void note(std::string row) { rows_.push_back(std::move(row)); }
 
   void print() const;
@@ -32,6 +38,7 @@ class Report {
  private:
   std::string name_;
   std::vector<std::pair<std::string, double>> figures_;
+  std::vector<std::string> skipped_;
   std::vector<std::string> rows_;
 };
 
