@@ -4,17 +4,12 @@
 
 #include <cmath>
 
+#include "scene/test_scene.h"
+
 namespace parvis::reference {
 namespace {
 
-Mesh quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-  Mesh mesh;
-  mesh.positions = {a, b, c, d};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  mesh.normals.assign(4, glm::normalize(glm::cross(b - a, c - a)));
-  return mesh;
-}
+using scene::quad;
 
 scene::Material glowing(glm::vec3 light) {
   scene::Material material;
@@ -26,12 +21,14 @@ scene::Material glowing(glm::vec3 light) {
 
 /// One object of a part and a material; no sun.
 scene::Scene scene_of(Mesh mesh, const scene::Material& material, bool takes_reflection = false) {
-  auto model = std::make_shared<scene::Model>();
-  model->materials = {material};
-  model->parts = {{"part", std::move(mesh), 0, 0, true}};
   scene::Scene scene;
   scene.sun.irradiance = glm::vec3(0.0f);
-  scene.objects.push_back({"object", model, glm::mat4(1.0f), {}, takes_reflection, takes_reflection});
+  scene.objects.push_back({"object",
+                           scene::model_of(std::move(mesh), material),
+                           glm::mat4(1.0f),
+                           {},
+                           takes_reflection,
+                           takes_reflection});
   return scene;
 }
 
