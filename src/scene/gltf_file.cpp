@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/files.h"
+#include "scene/gltf_values.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
@@ -15,13 +16,8 @@ constexpr std::uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_
 constexpr std::size_t most_elements =
     20'000'000;  // no model of a city needs more; a hostile count must not allocate
 
-template <class... Args>
-[[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
-  throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
-}
-
 std::uint32_t word(const std::string& bytes, std::size_t at) {
-  if (at + 4 > bytes.size()) fail("the file is cut short at byte {}", bytes.size());
+  if (at + 4 > bytes.size()) gltf_fail("the file is cut short at byte {}", bytes.size());
   std::uint32_t value = 0;
   std::memcpy(&value, bytes.data() + at, 4);
   return value;
@@ -31,7 +27,7 @@ std::size_t size_of(const Json& object, const char* name, std::size_t otherwise 
   const auto found = object.find(name);
   if (found == object.end()) return otherwise;
   if (!found->is_number_unsigned())
-    fail("\"{}\" is {}; expected a whole number that is not negative", name, found->dump());
+    gltf_fail("\"{}\" is {}; expected a whole number that is not negative", name, found->dump());
   return found->get<std::size_t>();
 }
 
@@ -47,7 +43,7 @@ std::size_t component_bytes(std::size_t type) {
     case 5126:
       return 4;
     default:
-      fail("component type {} is none of glTF's", type);
+      gltf_fail("component type {} is none of glTF's", type);
   }
 }
 
@@ -56,7 +52,7 @@ int component_count(const std::string& type) {
       {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
   for (const auto& [name, count] : types)
     if (type == name) return count;
-  fail("accessor type \"{}\" is none of glTF's", type);
+  gltf_fail("accessor type \"{}\" is none of glTF's", type);
 }
 
 template <class T>
@@ -117,7 +113,7 @@ std::vector<std::uint8_t> base64_decoded(std::string_view text) {
     else if (c == '=')
       break;
     else
-      fail("a data URI holds a character that is not base64");
+      gltf_fail("a data URI holds a character that is not base64");
     group = (group << 6) | std::uint32_t(value);
     if ((bits += 6) >= 8) bytes.push_back(std::uint8_t(group >> (bits -= 8)));
   }
@@ -150,21 +146,21 @@ struct GltfFile::Access {
 
 GltfFile::GltfFile(const fs::path& file) : path_(file) {
   const Result<std::string> bytes = read_file(file);
-  if (!bytes) fail("cannot be opened for reading");
+  if (!bytes) gltf_fail("cannot be opened for reading");
   try {
     read_container(*bytes);
   } catch (const Json::exception& problem) {
-    fail("its JSON cannot be read: {}", problem.what());
+    gltf_fail("its JSON cannot be read: {}", problem.what());
   }
-  if (!json_.is_object() || !json_.contains("asset")) fail("this is no glTF: it has no \"asset\"");
+  if (!json_.is_object() || !json_.contains("asset")) gltf_fail("this is no glTF: it has no \"asset\"");
   const std::string version = json_["asset"].value("version", "");
-  if (version.empty() || version[0] != '2') fail("glTF version \"{}\"; only version 2 is read", version);
+  if (version.empty() || version[0] != '2') gltf_fail("glTF version \"{}\"; only version 2 is read", version);
   if (const auto required = json_.find("extensionsRequired"); required != json_.end() && required->is_array())
     for (const Json& name : *required)
       if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" &&
           name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength" &&
           name != "KHR_materials_transmission" && name != "KHR_materials_unlit")
-        fail("it requires the extension {}, which is not supported; export it without", name.dump());
+        gltf_fail("it requires the extension {}, which is not supported; export it without", name.dump());
   read_buffers();
 }
 
@@ -173,19 +169,19 @@ void GltfFile::read_container(const std::string& bytes) {
     json_ = Json::parse(bytes);
     return;
   }
-  if (word(bytes, 0) != glb_magic) fail("this is no .glb: its first bytes are not \"glTF\"");
-  if (word(bytes, 4) != 2) fail(".glb version {}; only version 2 is read", word(bytes, 4));
+  if (word(bytes, 0) != glb_magic) gltf_fail("this is no .glb: its first bytes are not \"glTF\"");
+  if (word(bytes, 4) != 2) gltf_fail(".glb version {}; only version 2 is read", word(bytes, 4));
   if (word(bytes, 8) > bytes.size())
-    fail("the file is cut short: it says that it has {} bytes and has {}", word(bytes, 8), bytes.size());
+    gltf_fail("the file is cut short: it says that it has {} bytes and has {}", word(bytes, 8), bytes.size());
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::size_t length = word(bytes, at), type = word(bytes, at + 4);
-    if (at + 8 + length > bytes.size()) fail("a chunk claims {} bytes, more than the file has", length);
+    if (at + 8 + length > bytes.size()) gltf_fail("a chunk claims {} bytes, more than the file has", length);
     const char* data = bytes.data() + at + 8;
     if (type == json_chunk && json_.is_null()) json_ = Json::parse(data, data + length);
     if (type == binary_chunk && binary_chunk_.empty()) binary_chunk_.assign(data, data + length);
     at += 8 + (length + 3) / 4 * 4;
   }
-  if (json_.is_null()) fail("this .glb has no JSON chunk");
+  if (json_.is_null()) gltf_fail("this .glb has no JSON chunk");
 }
 
 void GltfFile::read_buffers() {
@@ -196,8 +192,8 @@ void GltfFile::read_buffers() {
                                                    : binary_chunk_);
     const std::size_t claimed = size_of(description, "byteLength");
     if (claimed > buffers_.back().size())
-      fail("buffer {} claims {} bytes and there are {}; the file is cut short", i, claimed,
-           buffers_.back().size());
+      gltf_fail("buffer {} claims {} bytes and there are {}; the file is cut short", i, claimed,
+                buffers_.back().size());
   }
 }
 
@@ -205,42 +201,42 @@ const Json& GltfFile::list(const char* name) const {
   static const Json nothing = Json::array();
   const auto found = json_.find(name);
   if (found == json_.end()) return nothing;
-  if (!found->is_array()) fail("\"{}\" is no list", name);
+  if (!found->is_array()) gltf_fail("\"{}\" is no list", name);
   return *found;
 }
 
 int GltfFile::index(const Json& object, const char* name, const char* list_name) const {
-  if (!object.is_object()) fail("expected an object with \"{}\"", name);
+  if (!object.is_object()) gltf_fail("expected an object with \"{}\"", name);
   const auto found = object.find(name);
   if (found == object.end()) return -1;
   const std::size_t count = list(list_name).size();
   if (!found->is_number_unsigned() || found->get<std::size_t>() >= count)
-    fail("\"{}\" is {}, out of range; there are {} {}", name, found->dump(), count, list_name);
+    gltf_fail("\"{}\" is {}, out of range; there are {} {}", name, found->dump(), count, list_name);
   return found->get<int>();
 }
 
 std::vector<std::uint8_t> GltfFile::resource(const std::string& uri) const {
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos) fail("a data URI without data");
+    if (comma == std::string::npos) gltf_fail("a data URI without data");
     return base64_decoded(std::string_view(uri).substr(comma + 1));
   }
   const Result<fs::path> found = Roots(path_.parent_path()).find(percent_decoded(uri), {});
-  if (!found) fail("{}", found.errors().front().message);
+  if (!found) gltf_fail("{}", found.errors().front().message);
   const Result<std::string> bytes = read_file(*found);
-  if (!bytes) fail("{}", bytes.errors().front().message);
+  if (!bytes) gltf_fail("{}", bytes.errors().front().message);
   return {bytes->begin(), bytes->end()};
 }
 
 std::span<const std::uint8_t> GltfFile::buffer_view(int view) const {
   const Json& description = list("bufferViews")[std::size_t(view)];
   const int buffer = index(description, "buffer", "buffers");
-  if (buffer < 0) fail("buffer view {} names no buffer", view);
+  if (buffer < 0) gltf_fail("buffer view {} names no buffer", view);
   const std::vector<std::uint8_t>& bytes = buffers_[std::size_t(buffer)];
   const std::size_t offset = size_of(description, "byteOffset"), length = size_of(description, "byteLength");
   if (offset > bytes.size() || length > bytes.size() - offset)
-    fail("buffer view {} reaches from byte {} over {} bytes, beyond the {} of buffer {}", view, offset,
-         length, bytes.size(), buffer);
+    gltf_fail("buffer view {} reaches from byte {} over {} bytes, beyond the {} of buffer {}", view, offset,
+              length, bytes.size(), buffer);
   return std::span(bytes).subspan(offset, length);
 }
 
@@ -252,8 +248,8 @@ GltfFile::Access GltfFile::access(int accessor, int components) const {
   access.components = std::size_t(component_count(description.value("type", "SCALAR")));
   access.is_normalised = description.value("normalized", false);
   if (access.components != std::size_t(components))
-    fail("accessor {} has {} components; expected {}", accessor, access.components, components);
-  if (access.count > most_elements) fail("accessor {} claims {} elements", accessor, access.count);
+    gltf_fail("accessor {} has {} components; expected {}", accessor, access.components, components);
+  if (access.count > most_elements) gltf_fail("accessor {} claims {} elements", accessor, access.count);
   const int view = index(description, "bufferView", "bufferViews");
   const std::size_t element = component_bytes(access.type) * access.components;
   if (view < 0) return access;
@@ -264,8 +260,8 @@ GltfFile::Access GltfFile::access(int accessor, int components) const {
       access.stride >= element && access.stride <= 65536 && offset <= bytes.size() &&
       (access.count == 0 || offset + (access.count - 1) * access.stride + element <= bytes.size());
   if (!fits)
-    fail("accessor {} claims {} elements of {} bytes, more than its buffer view has", accessor, access.count,
-         element);
+    gltf_fail("accessor {} claims {} elements of {} bytes, more than its buffer view has", accessor,
+              access.count, element);
   access.first = bytes.data() + offset;
   return access;
 }
@@ -290,7 +286,7 @@ void GltfFile::read_elements(int accessor, int components, const Store& store) c
   const Json &indices = sparse.at("indices"), &values = sparse.at("values");
   const int index_view = index(indices, "bufferView", "bufferViews"),
             value_view = index(values, "bufferView", "bufferViews");
-  if (index_view < 0 || value_view < 0) fail("accessor {}: sparse without buffer views", accessor);
+  if (index_view < 0 || value_view < 0) gltf_fail("accessor {}: sparse without buffer views", accessor);
   const std::size_t index_type = size_of(indices, "componentType"), index_bytes = component_bytes(index_type);
   const std::size_t element = component_bytes(dense.type) * dense.components;
   const std::span<const std::uint8_t> all_indices = buffer_view(index_view),
@@ -299,11 +295,11 @@ void GltfFile::read_elements(int accessor, int components, const Store& store) c
                     value_offset = size_of(values, "byteOffset");
   if (count > dense.count || index_offset + count * index_bytes > all_indices.size() ||
       value_offset + count * element > all_values.size())
-    fail("accessor {}: its sparse part claims {} elements, more than there are", accessor, count);
+    gltf_fail("accessor {}: its sparse part claims {} elements, more than there are", accessor, count);
   for (std::size_t i = 0; i < count; ++i) {
     const double target = component(all_indices.data() + index_offset + i * index_bytes, index_type);
     if (!(target >= 0.0 && target < double(dense.count)))
-      fail("accessor {}: sparse index {} is out of range", accessor, target);
+      gltf_fail("accessor {}: sparse index {} is out of range", accessor, target);
     read_at(all_values.data() + value_offset + i * element, std::size_t(target));
   }
 }

@@ -2,16 +2,9 @@
 
 #include <cmath>
 
+#include "scene/gltf_values.h"
+
 namespace parvis::scene {
-namespace {
-
-template <class... Args>
-[[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
-  throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
-}
-
-}  // namespace
-
 GltfSkin read_skin(const GltfFile& file, int skin) {
   const GltfFile::Json& source = file.list("skins")[std::size_t(skin)];
   GltfSkin result;
@@ -19,17 +12,17 @@ GltfSkin read_skin(const GltfFile& file, int skin) {
   const std::size_t nodes = file.list("nodes").size();
   for (const GltfFile::Json& joint : source.value("joints", GltfFile::Json::array())) {
     if (!joint.is_number_unsigned() || joint.get<std::size_t>() >= nodes)
-      fail("skin \"{}\": joint {} is missing; there are {} nodes", result.name, joint.dump(), nodes);
+      gltf_fail("skin \"{}\": joint {} is missing; there are {} nodes", result.name, joint.dump(), nodes);
     result.joints.push_back(joint.get<int>());
   }
-  if (result.joints.empty()) fail("skin \"{}\" has no joints", result.name);
+  if (result.joints.empty()) gltf_fail("skin \"{}\" has no joints", result.name);
   result.joint_from_mesh.assign(result.joints.size(), glm::mat4(1.0f));
   const int accessor = file.index(source, "inverseBindMatrices", "accessors");
   if (accessor < 0) return result;
   const std::vector<float> values = file.floats(accessor, 16);
   if (values.size() < 16 * result.joints.size())
-    fail("skin \"{}\" has {} joints and {} inverse bind matrices", result.name, result.joints.size(),
-         values.size() / 16);
+    gltf_fail("skin \"{}\" has {} joints and {} inverse bind matrices", result.name, result.joints.size(),
+              values.size() / 16);
   for (std::size_t i = 0; i < 16 * result.joints.size(); ++i)
     result.joint_from_mesh[i / 16][int(i % 16 / 4)][int(i % 4)] = values[i];
   return result;
@@ -39,22 +32,22 @@ SkinWeights read_skin_weights(const GltfFile& file, const GltfFile::Json& attrib
                               std::size_t vertex_count) {
   const int joints = file.index(attributes, "JOINTS_0", "accessors"),
             weights = file.index(attributes, "WEIGHTS_0", "accessors");
-  if (joints < 0 || weights < 0) fail("skin \"{}\" bends a mesh without joints or weights", skin.name);
+  if (joints < 0 || weights < 0) gltf_fail("skin \"{}\" bends a mesh without joints or weights", skin.name);
   const std::vector<float> joint_values = file.floats(joints, 4), weight_values = file.floats(weights, 4);
   if (joint_values.size() != 4 * vertex_count || weight_values.size() != 4 * vertex_count)
-    fail("skin \"{}\": {} joints and {} weights for {} vertices", skin.name, joint_values.size() / 4,
-         weight_values.size() / 4, vertex_count);
+    gltf_fail("skin \"{}\": {} joints and {} weights for {} vertices", skin.name, joint_values.size() / 4,
+              weight_values.size() / 4, vertex_count);
   SkinWeights result{std::vector<glm::uvec4>(vertex_count), std::vector<glm::vec4>(vertex_count)};
   for (std::size_t i = 0; i < joint_values.size(); ++i) {
     if (!(joint_values[i] >= 0.0f && joint_values[i] < float(skin.joints.size())))
-      fail("skin \"{}\": vertex {} hangs on joint {}; there are {}", skin.name, i / 4, joint_values[i],
-           skin.joints.size());
+      gltf_fail("skin \"{}\": vertex {} hangs on joint {}; there are {}", skin.name, i / 4, joint_values[i],
+                skin.joints.size());
     result.joints[i / 4][int(i % 4)] = std::uint32_t(joint_values[i]);
     result.weights[i / 4][int(i % 4)] = weight_values[i];
   }
   for (glm::vec4& weight : result.weights) {
     const float sum = weight.x + weight.y + weight.z + weight.w;
-    if (!std::isfinite(sum)) fail("skin \"{}\" has a weight that is not finite", skin.name);
+    if (!std::isfinite(sum)) gltf_fail("skin \"{}\" has a weight that is not finite", skin.name);
     weight = sum > 0.0f ? weight / sum : glm::vec4(1, 0, 0, 0);
   }
   return result;
