@@ -115,7 +115,10 @@ std::vector<std::uint8_t> base64_decoded(std::string_view text) {
     else
       gltf_fail("a data URI holds a character that is not base64");
     group = (group << 6) | std::uint32_t(value);
-    if ((bits += 6) >= 8) bytes.push_back(std::uint8_t(group >> (bits -= 8)));
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes.push_back(std::uint8_t(group >> bits));
   }
   return bytes;
 }
