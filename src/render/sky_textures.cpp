@@ -7,13 +7,13 @@ namespace parvis::render {
 namespace {
 
 /// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
-shading::HeightField heights_of(const scene::Scene& scene) {
+shading::Heightfield heights_of(const scene::Scene& scene) {
   Bounds bounds;
   for_each_fixed_opaque_part(
       scene, [&](const scene::Object&, const scene::Part& part, const glm::mat4& world_from_mesh) {
         bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
       });
-  shading::HeightField heights(bounds);
+  shading::Heightfield heights(bounds);
   for_each_fixed_opaque_part(
       scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
         if (object.is_visible) heights.add(part.mesh, world_from_mesh);

@@ -9,7 +9,6 @@
 namespace parvis::shading {
 namespace {
 
-constexpr int most_squares_a_side = 2048;
 constexpr glm::vec3 cell_size_m{4.0f, 4.0f, 3.0f};
 constexpr float most_cells = 2e6f;
 constexpr int directions = 12;
@@ -72,7 +71,7 @@ Grid layout(const Bounds& bounds) {
   return grid;
 }
 
-void fill_column(Grid& grid, const HeightField& heights, int x, int y) {
+void fill_column(Grid& grid, const Heightfield& heights, int x, int y) {
   const glm::vec2 centre =
       glm::vec2(grid.origin) + (glm::vec2(grid.first + glm::ivec2(x, y)) + 0.5f) * glm::vec2(grid.cell_m);
   std::array<glm::vec2, directions> azimuths;
@@ -121,7 +120,7 @@ void fill_solid_cells(Grid& grid) {
   });
 }
 
-void fill(Grid& grid, const HeightField& heights) {
+void fill(Grid& grid, const Heightfield& heights) {
   const std::size_t count = grid.index(0, 0, grid.cells.z);
   grid.values.assign(count, vec4(0.0f));
   grid.is_air.assign(count, 0);
@@ -138,54 +137,7 @@ void store(const vec4& value, std::uint8_t* four_bytes) {
 
 }  // namespace
 
-HeightField::HeightField(const Bounds& bounds) : bounds_(bounds) {
-  if (bounds.empty()) return;
-  const vec3 size = bounds.size();
-  square_m_ = std::max(1.0f, std::max(size.x, size.y) / float(most_squares_a_side));
-  heights_ = ImageF(int(size.x / square_m_) + 1, int(size.y / square_m_) + 1, 1, bounds.min.z);
-}
-
-void HeightField::add(const Mesh& mesh, const glm::mat4& world_from_mesh) {
-  if (heights_.empty()) return;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    vec3 corners[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = world_from_mesh * vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
-    add_triangle(corners);
-  }
-}
-
-void HeightField::add_triangle(const vec3 (&corners)[3]) {
-  const auto square_of = [&](float metres, float origin, int count) {
-    return int(std::clamp((metres - origin) / square_m_, 0.0f, float(count - 1)));
-  };
-  const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-  const auto [south, north] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-  const glm::vec2 ab(corners[1] - corners[0]), ac(corners[2] - corners[0]);
-  const float twice_area = ab.x * ac.y - ac.x * ab.y;
-  if (std::abs(twice_area) < 1e-6f) return;  // upright: the roof above it counts
-  for (int y = square_of(south, bounds_.min.y, heights_.height);
-       y <= square_of(north, bounds_.min.y, heights_.height); ++y)
-    for (int x = square_of(west, bounds_.min.x, heights_.width);
-         x <= square_of(east, bounds_.min.x, heights_.width); ++x) {
-      const glm::vec2 p =
-          glm::vec2(bounds_.min) + square_m_ * (glm::vec2(x, y) + 0.5f) - glm::vec2(corners[0]);
-      const float b = (p.x * ac.y - ac.x * p.y) / twice_area, c = (ab.x * p.y - p.x * ab.y) / twice_area;
-      if (b < 0.0f || c < 0.0f || b + c > 1.0f) continue;
-      const float height =
-          corners[0].z + b * (corners[1].z - corners[0].z) + c * (corners[2].z - corners[0].z);
-      *heights_.at(x, y) = std::max(*heights_.at(x, y), height);
-    }
-}
-
-float HeightField::height_m(glm::vec2 position) const {
-  const glm::vec2 p = (position - glm::vec2(bounds_.min)) / square_m_;
-  if (p.x < 0.0f || p.y < 0.0f || p.x >= float(heights_.width) || p.y >= float(heights_.height))
-    return bounds_.min.z;
-  return *heights_.at(int(p.x), int(p.y));
-}
-
-SkyVisibility make_sky_visibility(const HeightField& heights) {
+SkyVisibility make_sky_visibility(const Heightfield& heights) {
   if (heights.bounds().empty()) return {};
   Grid grid = layout(heights.bounds());
   fill(grid, heights);
@@ -198,7 +150,7 @@ SkyVisibility make_sky_visibility(const HeightField& heights) {
   return result;
 }
 
-void renew_sky_visibility(SkyVisibility& visibility, const HeightField& heights, const Bounds& changed) {
+void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed) {
   if (heights.bounds().empty()) return;
   const Grid whole = layout(heights.bounds());
   if (whole.cells != visibility.cells || whole.origin != visibility.grid.origin) {

@@ -6,32 +6,11 @@
 #include <vector>
 
 #include "base/bounds.h"
-#include "base/image.h"
-#include "base/mesh.h"
 #include "shading/glsl.h"
+#include "shading/heightfield.h"
 
 namespace parvis::shading {
 #include "shading/sky_visibility.glsl"
-
-/// The highest point of what stands on each square of the ground.
-class HeightField {
- public:
-  /// Over the horizontal extent of `bounds`, squares of about a metre (larger where the place is huge).
-  explicit HeightField(const Bounds& bounds);
-  /// Raises the squares that a mesh covers. Leave out what light passes: leaves, railings.
-  void add(const Mesh& mesh, const glm::mat4& world_from_mesh);
-
-  /// Metres at a point of the ground; the place's lowest height outside of it.
-  float height_m(glm::vec2 position) const;
-  const Bounds& bounds() const { return bounds_; }
-
- private:
-  void add_triangle(const glm::vec3 (&corners)[3]);
-
-  Bounds bounds_;
-  float square_m_ = 1.0f;
-  ImageF heights_;  ///< row 0 is south
-};
 
 /// The grid that `sky_visibility_coordinates` addresses, x fastest, then y, then z.
 struct SkyVisibility {
@@ -44,10 +23,10 @@ struct SkyVisibility {
 };
 
 /// Cells of about 4 x 4 x 3 m. An empty place is open.
-SkyVisibility make_sky_visibility(const HeightField& heights);
+SkyVisibility make_sky_visibility(const Heightfield& heights);
 
 /// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless
 /// the place's bounds are others now.
-void renew_sky_visibility(SkyVisibility& visibility, const HeightField& heights, const Bounds& changed);
+void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed);
 
 }  // namespace parvis::shading

@@ -18,7 +18,7 @@ Mesh roof(float west, float east, float south, float north, float height_m) {
 
 /// A street 16 m wide along y between rows 20 m high.
 SkyVisibility street() {
-  HeightField heights({{-60, -100, 0}, {60, 100, 20}});
+  Heightfield heights({{-60, -100, 0}, {60, 100, 20}});
   heights.add(roof(-60, -8, -100, 100, 20), glm::mat4(1.0f));
   heights.add(roof(8, 60, -100, 100, 20), glm::mat4(1.0f));
   return make_sky_visibility(heights);
@@ -29,12 +29,12 @@ float share(const SkyVisibility& sky, vec3 position, vec3 normal) {
 }
 
 TEST(SkyVisibility, AnEmptyPlaceIsOpen) {
-  const SkyVisibility sky = make_sky_visibility(HeightField(Bounds{}));
+  const SkyVisibility sky = make_sky_visibility(Heightfield(Bounds{}));
   for (const vec3 normal : {up, -up, vec3(1, 0, 0)}) EXPECT_NEAR(share(sky, {3, 4, 5}, normal), 1.0f, 0.01f);
 }
 
 TEST(SkyVisibility, AFlatPlaceIsOpen) {
-  HeightField heights({{-50, -50, 0}, {50, 50, 0.5f}});
+  Heightfield heights({{-50, -50, 0}, {50, 50, 0.5f}});
   heights.add(roof(-50, 50, -50, 50, 0.2f), glm::mat4(1.0f));
   const SkyVisibility sky = make_sky_visibility(heights);
   EXPECT_NEAR(share(sky, {0, 0, 0.2f}, up), 1.0f, 0.02f);
@@ -51,7 +51,7 @@ TEST(SkyVisibility, AStreetSeesTheStripThatTheoryGives) {
 TEST(SkyVisibility, ARenewedGridIsThatOfThePlaceAsItIsNow) {
   const Bounds place{{-200, -300, 0}, {200, 300, 20}};
   const auto heights_with = [&](bool has_block) {
-    HeightField heights(place);
+    Heightfield heights(place);
     heights.add(roof(-200, -8, -300, 300, 20), glm::mat4(1.0f));
     if (has_block) heights.add(roof(20, 45, -30, 10, 12), glm::mat4(1.0f));
     return heights;
