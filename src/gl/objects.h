@@ -93,12 +93,13 @@ using VertexArray = Owned<VertexArrayTraits>;
 using Sampler = Owned<SamplerTraits>;
 using Query = Owned<QueryTraits>;
 
-/// A buffer with these bytes that never change.
+/// A buffer of these bytes, whose size never changes; nor do the bytes, but for what `flags` allow.
 template <class T>
-Buffer immutable_buffer(std::span<const T> values) {
+Buffer immutable_buffer(std::span<const T> values, GLbitfield flags = 0) {
   Buffer buffer = Buffer::create();
   // OpenGL refuses an empty store
-  glNamedBufferStorage(buffer.name(), GLsizeiptr(values.empty() ? 1 : values.size_bytes()), values.data(), 0);
+  glNamedBufferStorage(buffer.name(), GLsizeiptr(values.empty() ? 1 : values.size_bytes()), values.data(),
+                       flags);
   return buffer;
 }
 

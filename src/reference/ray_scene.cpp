@@ -67,7 +67,7 @@ bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* 
   return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments) >= 0.5f;
 }
 
-/// Embree calls this for each candidate hit; geometry belongs to a part, whose first place stands for its
+/// Embree calls this for each candidate hit; geometry belongs to a mesh, whose first place stands for its
 /// material.
 template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
@@ -81,7 +81,7 @@ void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
 }  // namespace
 
 glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v) {
-  const Mesh& mesh = place.part->mesh;
+  const Mesh& mesh = *place.mesh;
   const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(triangle);
   const glm::vec2 uv =
       (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
@@ -99,41 +99,44 @@ RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), 
       for (const scene::Texture& texture : model.textures) textures->emplace_back(texture);
     }
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
-    for (const scene::Part& part : model.parts)
-      place(part, object.world_from_model * pose[std::size_t(part.node)], int(o), object.takes_reflection,
-            model.materials[std::size_t(part.material)], *textures);
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const scene::Part& part = model.parts[p];
+      place(part, object.mesh(p), object.world_from_model * pose[std::size_t(part.node)], int(o),
+            object.takes_reflection, model.materials[std::size_t(part.material)], *textures);
+    }
   }
   rtcCommitScene(top_);
 }
 
 RayScene::~RayScene() {
   rtcReleaseScene(top_);
-  for (const auto& [part, scene] : part_scenes_) rtcReleaseScene(scene);
+  for (const auto& [mesh, scene] : mesh_scenes_) rtcReleaseScene(scene);
   rtcReleaseDevice(device_);
 }
 
-void RayScene::place(const scene::Part& part, const glm::mat4& world_from_mesh, int object,
+void RayScene::place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
                      bool takes_reflection, const scene::Material& material,
                      const std::vector<MipTexture>& textures) {
   const float volume = glm::determinant(glm::mat3(world_from_mesh));
-  if (part.mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
-  places_.push_back(std::make_unique<PlacedPart>(PlacedPart{
-      &part, &material, &textures, world_from_mesh, glm::transpose(glm::inverse(glm::mat3(world_from_mesh))),
-      object, takes_reflection && material.is_mirror_like, volume < 0.0f}));
-  triangle_count_ += part.mesh.triangle_count();
+  if (mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
+  places_.push_back(std::make_unique<PlacedPart>(
+      PlacedPart{&part, &mesh, &material, &textures, world_from_mesh,
+                 glm::transpose(glm::inverse(glm::mat3(world_from_mesh))), object,
+                 takes_reflection && material.is_mirror_like, volume < 0.0f}));
+  triangle_count_ += mesh.triangle_count();
 
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(instance, part_scene(*places_.back()));
+  rtcSetGeometryInstancedScene(instance, mesh_scene(*places_.back()));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
   rtcCommitGeometry(instance);
   rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
   rtcReleaseGeometry(instance);
 }
 
-RTCScene RayScene::part_scene(const PlacedPart& place) {
-  const auto [entry, is_new] = part_scenes_.try_emplace(place.part, nullptr);
+RTCScene RayScene::mesh_scene(const PlacedPart& place) {
+  const auto [entry, is_new] = mesh_scenes_.try_emplace(place.mesh, nullptr);
   if (!is_new) return entry->second;
-  const Mesh& mesh = place.part->mesh;
+  const Mesh& mesh = *place.mesh;
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(glm::vec3), mesh.positions.size());

@@ -1,4 +1,4 @@
-// The scene as rays see it: an Embree hierarchy for each part, placed once for each object. Holes of cutout
+// The scene as rays see it: an Embree hierarchy for each mesh, placed once for each object. Holes of cutout
 // parts and the backs of single-sided ones are passed through, as the renderer draws them.
 #pragma once
 
@@ -23,6 +23,7 @@ struct Ray {
 /// A part of an object in the world.
 struct PlacedPart {
   const scene::Part* part;
+  const Mesh* mesh;  ///< the part's, or the object's where it bends
   const scene::Material* material;
   const std::vector<MipTexture>* textures;  ///< of its model
   glm::mat4 world_from_mesh;
@@ -65,14 +66,14 @@ class RayScene {
  private:
   std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
   bool is_blocked(const Ray& ray, Passage* passage) const;
-  void place(const scene::Part& part, const glm::mat4& world_from_mesh, int object, bool takes_reflection,
-             const scene::Material& material, const std::vector<MipTexture>& textures);
-  RTCScene part_scene(const PlacedPart& place);
+  void place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
+             bool takes_reflection, const scene::Material& material, const std::vector<MipTexture>& textures);
+  RTCScene mesh_scene(const PlacedPart& place);
 
   RTCDevice device_;
   RTCScene top_;
   std::vector<std::unique_ptr<PlacedPart>> places_;
-  std::unordered_map<const scene::Part*, RTCScene> part_scenes_;
+  std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::size_t triangle_count_ = 0;
 };

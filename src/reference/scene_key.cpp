@@ -49,6 +49,10 @@ std::uint64_t scene_key(const scene::Scene& scene) {
     hash.add(entry->second);
     hash.add(object.world_from_model);
     hash.add(object.pose);
+    for (const Mesh& mesh : object.bent_meshes) {
+      hash.add(mesh.positions);
+      hash.add(mesh.normals);
+    }
     for (const bool choice : {object.is_visible, object.takes_reflection}) hash.add(choice);
   }
   for (const glm::vec3 v : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(v);

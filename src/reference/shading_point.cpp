@@ -16,7 +16,7 @@ struct Corners {
 
 Corners corners_of(const Hit& hit) {
   const PlacedPart& place = *hit.place;
-  const Mesh& mesh = place.part->mesh;
+  const Mesh& mesh = *place.mesh;
   const std::uint32_t* vertex = mesh.indices.data() + 3 * std::size_t(hit.triangle);
   Corners corners;
   for (int k = 0; k < 3; ++k) {

@@ -12,11 +12,6 @@
 namespace parvis::render {
 namespace {
 
-struct Vertex {
-  glm::vec3 position, normal;
-  glm::vec2 uv;
-};
-
 /// The uniform block of render/material.glsl, std140.
 struct MaterialBlock {
   glm::vec4 base_colour;              // rgb, alpha
@@ -88,10 +83,9 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &block_stride_);
   block_stride_ = (GLint(sizeof(MaterialBlock)) + block_stride_ - 1) / block_stride_ * block_stride_;
 
-  std::vector<const scene::Model*> models;
-  for (const scene::Object& object : scene.objects)
-    if (first_part_.try_emplace(object.model.get(), 0).second) models.push_back(object.model.get());
-  upload_geometry(models);
+  add_models(scene);
+  add_bent_parts(scene);
+  geometry_.upload();
   material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
   material_bytes_ = {};
   make_items(scene);
@@ -103,25 +97,41 @@ GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
   return textures_.back().name();
 }
 
-void GpuScene::upload_geometry(const std::vector<const scene::Model*>& models) {
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
-  for (const scene::Model* model : models) {
-    first_part_[model] = int(parts_.size());
+void GpuScene::add_models(const scene::Scene& scene) {
+  for (const scene::Object& object : scene.objects) {
+    const scene::Model& model = *object.model;
+    const auto [first, is_new] = first_part_of_model_.try_emplace(&model, int(parts_.size()));
+    first_part_.push_back(first->second);
+    if (!is_new) continue;
     const int first_material = int(materials_.size());
-    upload_model_materials(*model);
-    for (const scene::Part& part : model->parts) {
-      const Mesh& mesh = part.mesh;
-      parts_.push_back({std::uint32_t(indices.size()), std::uint32_t(mesh.indices.size()),
-                        std::int32_t(vertices.size()), first_material + part.material, part.node,
-                        mesh.bounds(), part.casts_shadow});
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
-      indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    upload_model_materials(model);
+    for (const scene::Part& part : model.parts)
+      parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
+                        part.mesh.bounds(), part.casts_shadow});
+  }
+}
+
+/// An object that bends has parts of its own: those of its model, with other vertices where a mesh bends.
+void GpuScene::add_bent_parts(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    if (object.bent_meshes.empty()) continue;
+    const std::size_t first = std::size_t(std::exchange(first_part_[o], int(parts_.size())));
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
+      parts_.push_back(PartRange(parts_[first + p]));
+      if (!object.model->parts[p].deformation) continue;
+      static_cast<MeshRange&>(parts_.back()) = geometry_.add_bending(object.mesh(p));
     }
   }
-  vertices_ = gl::immutable_buffer(std::span<const Vertex>(vertices));
-  indices_ = gl::immutable_buffer(std::span<const std::uint32_t>(indices));
+}
+
+void GpuScene::bend(const scene::Object& object, std::size_t o) {
+  for (std::size_t p = 0; p < object.bent_meshes.size(); ++p) {
+    if (!object.model->parts[p].deformation) continue;
+    PartRange& part = parts_[std::size_t(first_part_[o]) + p];
+    part.bounds = object.mesh(p).bounds();
+    geometry_.bend(part, object.mesh(p));
+  }
 }
 
 void GpuScene::upload_model_materials(const scene::Model& model) {
@@ -150,7 +160,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     is_moving_.push_back(object.is_dynamic);
     is_visible_.push_back(object.is_visible);
     rest_poses_.push_back(scene::rest_pose(*object.model));
-    const int first = first_part_[object.model.get()];
+    const int first = first_part_[o];
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
       const int part = first + int(p);
       const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
@@ -161,7 +171,10 @@ void GpuScene::make_items(const scene::Scene& scene) {
   first_item_.push_back(std::uint32_t(items_.size()));
   object_bounds_.resize(scene.objects.size());
   world_from_model_.resize(scene.objects.size());
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) place(scene, o);
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    bend(scene.objects[o], o);
+    place(scene, o);
+  }
 }
 
 void GpuScene::place(const scene::Scene& scene, std::size_t o) {
@@ -202,6 +215,7 @@ void GpuScene::update(const scene::Scene& scene) {
     const scene::Object& object = scene.objects[o];
     const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
     if (is_moving_[o]) {
+      if (object.is_visible) bend(object, o);
       place(scene, o);
       if (!object.is_visible) continue;
       moving_bounds_.push_back(object_bounds_[o]);
@@ -212,6 +226,7 @@ void GpuScene::update(const scene::Scene& scene) {
       if (object.is_visible) fixed_change_.add(object_bounds_[o]);
     }
   }
+  geometry_.upload_bent();
 }
 
 Bounds GpuScene::fixed_bounds() const {

@@ -1,5 +1,5 @@
-// The scene's models on the GPU: one vertex and one index buffer, a texture for each picture, a block for
-// each material; and its items: every part of every object, with bounds and transform, in flat arrays.
+// The scene's models on the GPU: their triangles, a texture for each picture, a block for each material; and
+// its items: every part of every object, with bounds and transform, in flat arrays.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,15 @@
 
 #include "base/bounds.h"
 #include "gl/objects.h"
+#include "render/gpu_geometry.h"
 #include "render/view.h"
 #include "scene/scene.h"
 #include "shading/body_shade.h"
 
 namespace parvis::render {
 
-/// A part of a model in the shared buffers.
-struct PartRange {
-  std::uint32_t first_index, index_count;
-  std::int32_t base_vertex;
+/// A part of a model, or of one object where it bends.
+struct PartRange : MeshRange {
   int material;  ///< of the GPU scene
   int node;
   Bounds bounds;  ///< in the node's frame
@@ -86,22 +85,26 @@ class GpuScene {
   /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
   void bind_material(int material) const;
   static void cull_faces(bool culls);
-  GLuint vertex_buffer() const { return vertices_.name(); }
-  GLuint index_buffer() const { return indices_.name(); }
+  GLuint vertex_buffer() const { return geometry_.vertex_buffer(); }
+  GLuint index_buffer() const { return geometry_.index_buffer(); }
 
  private:
-  void upload_geometry(const std::vector<const scene::Model*>& models);
+  void add_models(const scene::Scene& scene);
+  void add_bent_parts(const scene::Scene& scene);
+  void bend(const scene::Object& object, std::size_t o);
   void upload_model_materials(const scene::Model& model);
   void make_items(const scene::Scene& scene);
   void place(const scene::Scene& scene, std::size_t object);
   void add_body(const scene::Object& object, std::size_t o);
   GLuint plain_texture(glm::u8vec4 colour);
 
-  std::unordered_map<const scene::Model*, int> first_part_;  ///< of each model, in parts_
+  std::unordered_map<const scene::Model*, int> first_part_of_model_;
+  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it bends
+  GpuGeometry geometry_;
   std::vector<PartRange> parts_;
   std::vector<GpuMaterial> materials_;
   std::vector<gl::Texture> textures_;
-  gl::Buffer vertices_, indices_, material_blocks_;
+  gl::Buffer material_blocks_;
   std::vector<std::byte> material_bytes_;
   GLint block_stride_ = 256;
   GLuint white_ = 0, flat_normal_ = 0;

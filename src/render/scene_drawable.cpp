@@ -77,7 +77,8 @@ void SceneDrawable::keep_moving_shapes(const scene::Scene& scene) {
     for (const scene::Part& part : object.model->parts) {
       int& shape = shape_of_part_[std::size_t(gpu_.items()[item++].part)];
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      if (object.is_dynamic && material.alpha_mode == scene::Alpha::opaque && shape < 0)
+      const bool is_rigid = object.bent_meshes.empty() || !part.deformation;
+      if (object.is_dynamic && is_rigid && material.alpha_mode == scene::Alpha::opaque && shape < 0)
         shape = occlusion_.add_shape(part.mesh, material.is_double_sided);
     }
 }

@@ -1,4 +1,4 @@
-// Animations of glTF 2.0 (section 3.11): keyframes of nodes.
+// Animations of glTF 2.0 (section 3.11): keyframes of nodes and of the weights of morph targets.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace parvis::scene {
 
-/// All that move a node of the scene. Throws GltfProblem, which names the animation.
+/// All that move a node of the scene; channels that move nothing of it are left out. Throws GltfProblem,
+/// which names the animation.
 std::vector<Animation> read_animations(const GltfFile& file, const GltfNodes& nodes);
 
 }  // namespace parvis::scene

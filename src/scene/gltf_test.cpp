@@ -39,10 +39,9 @@ Model small_model() {
   triangle.uvs = {{0, 0}, {1, 0}, {0, 1}};
   triangle.indices = {0, 1, 2};
   model.parts = {{"body", triangle, 0, 0, true}, {"leaves", triangle, 1, 1, false}};
-  AnimationChannel spin{
-      1, AnimationChannel::Property::rotation, AnimationChannel::Interpolation::linear, {0, 1}, {}};
+  AnimationChannel spin{1, AnimationChannel::Property::rotation, Interpolation::linear, {0, 1}, {}};
   spin.values = {{0, 0, 0, 1}, {0, 0, 1, 0}};
-  model.animations.push_back({"spin", {spin}, 1.0f});
+  model.animations.push_back({"spin", {spin}, {}, 1.0f});
   return model;
 }
 

@@ -28,6 +28,13 @@ glm::vec<N, float> gltf_vector(const GltfFile::Json& object, const char* name, g
   return otherwise;
 }
 
+/// The morph targets of a primitive; an empty list where it has none.
+inline const GltfFile::Json& gltf_targets(const GltfFile::Json& primitive) {
+  static const GltfFile::Json nothing = GltfFile::Json::array();
+  const auto found = primitive.find("targets");
+  return found != primitive.end() && found->is_array() ? *found : nothing;
+}
+
 /// The object `name` inside `object`; an empty one where it is absent.
 inline const GltfFile::Json& gltf_member(const GltfFile::Json& object, const char* name) {
   static const GltfFile::Json nothing = GltfFile::Json::object();

@@ -189,7 +189,6 @@ Json meshes_json(const Model& model, Binary& binary, std::vector<int>& mesh_of_n
 
 Json animations_json(const Model& model, Binary& binary) {
   using Property = AnimationChannel::Property;
-  using Interpolation = AnimationChannel::Interpolation;
   Json animations = Json::array();
   for (const Animation& animation : model.animations) {
     Json json{{"channels", Json::array()}, {"samplers", Json::array()}};

@@ -214,7 +214,9 @@ void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::
   for (std::size_t i = 0; i < built.size(); ++i) {
     std::vector<int>& places = objects_[makers[i]];
     const auto place = std::find_if(places.begin(), places.end(), [&](int index) {
-      return free.count(index) != 0 && scene.objects[std::size_t(index)].model == built[i].model;
+      const Object& object = scene.objects[std::size_t(index)];
+      const bool both_play = (object.played.animation == no_index) == (built[i].played.animation == no_index);
+      return free.count(index) != 0 && object.model == built[i].model && both_play;
     });
     if (place == places.end()) {
       places.push_back(int(scene.objects.size()));
@@ -223,6 +225,7 @@ void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::
       Object& object = scene.objects[std::size_t(*place)];
       object.name = std::move(built[i].name);
       object.world_from_model = built[i].world_from_model;
+      object.played = built[i].played;
       object.is_visible = built[i].is_visible;
       free.erase(*place);
     }

@@ -54,6 +54,16 @@ Mesh extracted(const Mesh& mesh, const std::vector<bool>& takes, bool taken) {
   return result;
 }
 
+/// Of a mesh that bends all vertices stay: its deformation counts them.
+Mesh side_of(const Part& part, const std::vector<bool>& takes, bool taken) {
+  if (!part.deformation) return extracted(part.mesh, takes, taken);
+  Mesh side = part.mesh;
+  side.indices.clear();
+  for (std::size_t i = 0; i < part.mesh.indices.size(); ++i)
+    if (takes[i / 3] == taken) side.indices.push_back(part.mesh.indices[i]);
+  return side;
+}
+
 std::vector<bool> triangles_in(std::span<const MaterialMask> masks, const Model& model, const Part& part) {
   std::vector<bool> is_taken(part.mesh.triangle_count());
   for (std::size_t triangle = 0; triangle < is_taken.size(); ++triangle)
@@ -182,9 +192,9 @@ std::size_t change_material(Model& model, std::span<const std::size_t> parts,
     const Sides sides = sides_of[old];
     if (count < is_taken.size()) {
       Part rest = model.parts[index];
-      rest.mesh = extracted(rest.mesh, is_taken, false);
+      rest.mesh = side_of(rest, is_taken, false);
       rest.material = sides.outside;
-      model.parts[index].mesh = extracted(model.parts[index].mesh, is_taken, true);
+      model.parts[index].mesh = side_of(model.parts[index], is_taken, true);
       model.parts.push_back(std::move(rest));
     }
     model.parts[index].material = sides.inside;

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "base/mesh.h"
+#include "scene/animation.h"
+#include "scene/deformation.h"
 
 namespace parvis::scene {
 
@@ -57,10 +60,11 @@ struct Material {
 /// Triangles of one material that hang on one node.
 struct Part {
   std::string object;  ///< name of the object or group in the file: what material(target=...) matches
-  Mesh mesh;           ///< in the node's frame
+  Mesh mesh;           ///< in the node's frame, at rest
   int material = 0;
   int node = 0;
   bool casts_shadow = true;
+  std::shared_ptr<const Deformation> deformation = nullptr;  ///< null: the mesh is rigid
 };
 
 struct ModelNode {
@@ -69,24 +73,6 @@ struct ModelNode {
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< w, x, y, z
   glm::vec3 scale{1.0f};
-};
-
-/// Keyframes of one property of one node.
-struct AnimationChannel {
-  enum class Property : std::uint8_t { translation, rotation, scale };
-  enum class Interpolation : std::uint8_t { step, linear, cubic };
-  int node = 0;
-  Property property = Property::translation;
-  Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times_s;  ///< ascending
-  std::vector<glm::vec4>
-      values;  ///< xyz or quaternion xyzw; three a key (in-tangent, value, out-tangent) if cubic
-};
-
-struct Animation {
-  std::string name;
-  std::vector<AnimationChannel> channels;
-  float duration_s = 0.0f;
 };
 
 /// In metres, z up. Node 0 always exists.
@@ -104,7 +90,7 @@ struct Model {
 
 /// model_from_node of every node at rest.
 std::vector<glm::mat4> rest_pose(const Model& model);
-/// model_from_node of every node at `time_s` of an animation, which repeats.
+/// model_from_node of every node at `time_s` of an animation.
 std::vector<glm::mat4> pose_at(const Model& model, const Animation& animation, float time_s);
 
 /// Bounds of all parts at rest, in the model's frame.

@@ -15,6 +15,13 @@ Material with_textures_from(Material material, int first_texture) {
   return material;
 }
 
+std::shared_ptr<const Deformation> with_nodes_from(const Deformation& deformation, int first_node) {
+  auto moved = std::make_shared<Deformation>(deformation);
+  shift(moved->weights_node, first_node);
+  for (int& joint : moved->skin.joints) joint += first_node;
+  return moved;
+}
+
 /// Appends all of `other`, its roots below the node `parent`.
 void append(Model& model, const Model& other, int parent) {
   const int first_node = int(model.nodes.size()), first_material = int(model.materials.size()),
@@ -28,10 +35,12 @@ void append(Model& model, const Model& other, int parent) {
   }
   for (Part part : other.parts) {
     part.node += first_node, part.material += first_material;
+    if (part.deformation) part.deformation = with_nodes_from(*part.deformation, first_node);
     model.parts.push_back(std::move(part));
   }
   for (Animation animation : other.animations) {
     for (AnimationChannel& channel : animation.channels) channel.node += first_node;
+    for (WeightChannel& channel : animation.weights) channel.node += first_node;
     model.animations.push_back(std::move(animation));
   }
 }

@@ -1,10 +1,14 @@
 // model: a model file, placed.
+#include <algorithm>
+
 #include "scene/model_node.h"
 #include "scene/model_source.h"
 #include "scene/node_registry.h"
 #include "scene/nodes.h"
+#include "scene/object_animation.h"
 #include "scene/placement.h"
 #include "scene/scene_builder.h"
+#include "scene/spelling.h"
 
 namespace parvis::scene {
 namespace {
@@ -34,6 +38,22 @@ NodeSchema model_schema() {
             .type = AttributeType::flag,
             .help = "its paint, glass and chrome take the scene's reflection method",
             .fallback = "0"},
+           {.name = "animation",
+            .help =
+                "the one of the file's animations that it plays, over and over; else the first; \"none\": "
+                "it stands as at rest"},
+           {.name = "animation_speed",
+            .type = AttributeType::number,
+            .help = "how fast; 1: as the file says",
+            .fallback = "1",
+            .minimum = -100.0,
+            .maximum = 100.0},
+           {.name = "animation_start",
+            .type = AttributeType::number,
+            .help =
+                "how far the animation is when the scene begins; copies are further, each by another part",
+            .fallback = "0",
+            .unit = "s"},
            {.name = "positions",
             .type = AttributeType::points,
             .help = "many copies, one at each point (relative to position=)",
@@ -87,6 +107,33 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
   });
 }
 
+/// Which animation the node asks for; none where the model has none.
+PlayedAnimation animation_of(const Model& model, const Node& node, SceneBuilder& builder) {
+  PlayedAnimation played{no_index, float(node.number("animation_speed")), node.number("animation_start")};
+  const std::string wanted = node.gives("animation") ? node.text("animation") : "";
+  if (wanted == "none") return played;
+  std::vector<std::string> names;
+  for (const Animation& animation : model.animations) names.push_back(animation.name);
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found != names.end()) {
+    played.animation = int(found - names.begin());
+  } else if (wanted.empty() && !names.empty()) {
+    played.animation = 0;
+  } else if (!wanted.empty()) {
+    builder.fail(error_at(node.where_of("animation"), "the file has no animation \"{}\"{}", wanted,
+                          names.empty() ? "; it has none at all" : did_you_mean(wanted, names)));
+  }
+  return played;
+}
+
+/// The golden section spreads any number of copies over the animation: they do not keep step.
+PlayedAnimation of_copy(PlayedAnimation played, const Model& model, std::size_t copy) {
+  constexpr double golden_section = 0.61803398875;
+  played.start_s +=
+      double(copy) * golden_section * double(model.animations[std::size_t(played.animation)].duration_s);
+  return played;
+}
+
 void build_model(const Node& node, SceneBuilder& builder) {
   Object object;
   object.model = model_of(node, builder);
@@ -97,6 +144,7 @@ void build_model(const Node& node, SceneBuilder& builder) {
   const std::string name = node.gives("name") ? node.text("name") : node.file("file").stem().string();
   glm::mat4 placed_from_model(1.0f);
   placed_from_model[3] = glm::vec4(offset_in_scene(*object.model, node, builder), 1.0f);
+  const PlayedAnimation played = animation_of(*object.model, node, builder);
   std::vector<glm::vec3> positions = node.points("positions");
   if (positions.empty()) positions.emplace_back(0.0f);
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -105,6 +153,7 @@ void build_model(const Node& node, SceneBuilder& builder) {
     moved[3] = glm::vec4(positions[i], 1.0f);
     object.world_from_model = builder.world_from_parent() * moved * placement(node) * placed_from_model;
     builder.scene.objects.push_back(object);
+    if (played.animation != no_index) play(builder.scene.objects.back(), of_copy(played, *object.model, i));
   }
 }
 

@@ -17,6 +17,13 @@
 
 namespace parvis::scene {
 
+/// Which of its model's animations an object plays, over and over.
+struct PlayedAnimation {
+  int animation = no_index;  ///< of Model::animations; no_index: none
+  float speed = 1.0f;
+  double start_s = 0.0;  ///< how far the animation is when the scene begins
+};
+
 /// A placed model. Several objects may share one model: they are drawn together.
 struct Object {
   std::string name;
@@ -26,6 +33,14 @@ struct Object {
   bool is_dynamic = false;        ///< moves: has no part in baked things, throws its own shadow
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
   bool is_visible = true;         ///< is drawn, throws shadows, stands in reflections; may change at any time
+  PlayedAnimation played = {};    ///< `animate` writes the pose and bends the meshes
+  std::vector<Mesh> bent_meshes = {};  ///< of each part: as it is bent now; empty: the model's
+
+  /// Of one of the model's parts, as it is now.
+  const Mesh& mesh(std::size_t part) const {
+    const bool is_bent = !bent_meshes.empty() && model->parts[part].deformation;
+    return is_bent ? bent_meshes[part] : model->parts[part].mesh;
+  }
 };
 
 struct Sun {

@@ -1,6 +1,7 @@
 #include "stage/stage.h"
 
 #include "action/action_nodes.h"
+#include "scene/object_animation.h"
 
 namespace parvis::stage {
 
@@ -17,6 +18,8 @@ Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
   if (!traffic_is_paused) traffic.step(float(seconds));
   traffic.place(scene);
   actions.advance(scene, seconds, visitor);
+  time_s += seconds;
+  scene::animate(scene, time_s);
   Errors warnings = actions.take_warnings();
   for (const Error& warning : warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
   return warnings;
@@ -30,9 +33,10 @@ Result<Camera> Play::camera(const std::string& name) const {
 
 Play make_play(scene::Scene scene) {
   traffic::Traffic traffic(scene);
-  Play play{std::move(scene), std::move(traffic), {}, false};
+  Play play{std::move(scene), std::move(traffic), {}, false, 0.0};
   for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
   play.traffic.add_vehicles(play.scene);
+  scene::animate(play.scene, 0.0);
   return play;
 }
 

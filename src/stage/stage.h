@@ -28,6 +28,7 @@ struct Play {
   traffic::Traffic traffic;
   action::Actions actions;
   bool traffic_is_paused = false;  ///< vehicles stand still; all else goes on
+  double time_s = 0.0;             ///< since the scene began
 
   /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Gives warnings, which it
   /// tells on standard error, too.

@@ -7,6 +7,7 @@
 
 #include "gl/test_context.h"
 #include "reference/metrics.h"
+#include "scene/object_animation.h"
 #include "scene/test_scene.h"
 #include "shading/tone_curve.h"
 
@@ -93,6 +94,48 @@ TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
   const Result<reference::Difference> later = reference::compare((*stage)->picture(), traced);
   ASSERT_TRUE(later) << to_string(later.errors());
   EXPECT_GT(later->flip, 0.04);
+}
+
+/// A board that stands on the ground, whose only target lays its upper edge down to the east within a second.
+std::shared_ptr<scene::Model> falling_board() {
+  auto model = model_of(quad({0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {0, 0, 3}), matt({0.7f, 0.2f, 0.1f}));
+  model->materials[0].is_double_sided = true;
+  scene::Part& part = model->parts[0];
+  scene::Deformation falls;
+  falls.positions = part.mesh.positions;
+  falls.normals = part.mesh.normals;
+  falls.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {3, 0, -2.9f}, {3, 0, -2.9f}}, {}});
+  falls.weights = {0.0f};
+  falls.weights_node = 0;
+  part.deformation = std::make_shared<const scene::Deformation>(falls);
+  model->animations.push_back({"fall", {}, {{0, scene::Interpolation::linear, {0, 1}, {{0}, {1}}}}, 1.0f});
+  return model;
+}
+
+TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
+  constexpr int width = 240, height = 160;
+  scene::Scene place;
+  add(place, model_of(ground(40), matt(glm::vec3(0.25f))));
+  scene::play(place.objects[std::size_t(add(place, falling_board()))], {.animation = 0});
+  place.sun.direction_to_sun = glm::normalize(glm::vec3(-0.6f, -0.4f, 0.7f));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(std::move(place)));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({1.5f, -9, 2}, {1.5f, 0, 1.2f});
+  camera.vertical_fov = glm::radians(40.0f);
+  Image8 before;
+  for (const double step_s : {0.0, 0.6}) {
+    ASSERT_TRUE((*stage)->play().advance(step_s).empty());
+    (*stage)->draw(camera, width, height);
+    const Image8 drawn = (*stage)->picture();
+    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
+    const auto difference =
+        reference::compare(drawn, shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure));
+    ASSERT_TRUE(difference) << to_string(difference.errors());
+    EXPECT_LT(difference->flip, 0.02) << "after " << step_s << " s";  // edges alone differ
+    EXPECT_NE(drawn.pixels, before.pixels);
+    before = drawn;
+  }
 }
 
 }  // namespace
