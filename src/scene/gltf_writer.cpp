@@ -160,7 +160,8 @@ Json nodes_json(const Model& model, const std::vector<int>& mesh_of_node) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     nodes.push_back(node_json(model.nodes[i]));
     if (mesh_of_node[i] != no_index) nodes.back()["mesh"] = mesh_of_node[i];
-    nodes[std::size_t(model.nodes[i].parent + 1)]["children"].push_back(i + 1);
+    const int parent = model.nodes[i].parent + 1;
+    nodes[std::size_t(parent)]["children"].push_back(i + 1);
   }
   return nodes;
 }
@@ -242,6 +243,7 @@ std::string container(const Json& json, std::vector<std::uint8_t> binary) {
 
 Status write_gltf(const fs::path& file, const Model& model) {
   std::vector<std::string> names;
+  names.reserve(model.textures.size());
   for (std::size_t i = 0; i < model.textures.size(); ++i)
     names.push_back(picture_name(file, model.textures[i], i));
   if (Status status = write_pictures(file, model, names); !status) return status;
