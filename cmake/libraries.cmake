@@ -9,6 +9,8 @@ find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(EXPAT REQUIRED)
+find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/files.h"
+#include "scene/gltf_compression.h"
 #include "scene/gltf_values.h"
 
 namespace parvis::scene {
@@ -162,9 +163,13 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
     for (const Json& name : *required)
       if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" &&
           name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength" &&
-          name != "KHR_materials_transmission" && name != "KHR_materials_unlit")
-        gltf_fail("it requires the extension {}, which is not supported; export it without", name.dump());
+          name != "KHR_materials_transmission" && name != "KHR_materials_unlit" &&
+          name != "EXT_meshopt_compression" && name != "KHR_draco_mesh_compression")
+        gltf_fail(
+            "it requires the extension {}, which is not supported; {}", name.dump(),
+            name == "KHR_texture_basisu" ? "export it with pictures as PNG or JPEG" : "export it without");
   read_buffers();
+  decompress(*this, json_, buffers_);
 }
 
 void GltfFile::read_container(const std::string& bytes) {
@@ -191,6 +196,10 @@ void GltfFile::read_buffers() {
   const Json& descriptions = list("buffers");
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     const Json& description = descriptions[i];
+    if (is_fallback_buffer(description)) {
+      buffers_.emplace_back();
+      continue;
+    }
     buffers_.push_back(description.contains("uri") ? resource(description["uri"].get<std::string>())
                                                    : binary_chunk_);
     const std::size_t claimed = size_of(description, "byteLength");
