@@ -7,6 +7,7 @@ import base64
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import signal
 import struct
@@ -271,6 +272,55 @@ class Window(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
+    def test_mouse_and_keys_drive_it(self):
+        """The panel opened and a scenario switched by keys, a picture taken by a click; the window is golden."""
+        if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
+            self.skipTest("skipped: no xvfb-run or no xdotool here")
+        self.write("sail.glb", glb(*triangle(positions=(0, 0, 0, 4, 0, 0, 0, 4, 0))))
+        scene = self.write(
+            "scene.xp",
+            'sun(azimuth_deg=200, elevation_deg=40)\nmodel(name="sail", file="sail.glb", scale=1.5)\n'
+            'camera(name="a", position="2 -9 2", target="2 0 2")\n'
+            'scenario(name="turned", title="Turned sail") { override(of="sail", heading_deg=35) }\n',
+        )
+        last = self.folder / "last.png"
+        command = [PARVIS, "view", scene, "--size", "960x640", "--output", self.folder / "pictures", "--screenshot", last]
+        drive = self.write(
+            "drive.sh",
+            f"{shlex.join(map(str, command))} & parvis=$!\n"
+            "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
+            "xdotool mousemove --window $(cat window) 300 300 key F2 sleep 0.5 key Tab sleep 0.5\n"
+            "xdotool mousemove --window $(cat window) 674 617 sleep 0.5 click 1 sleep 0.5\n"  # the button "Picture"
+            "xdotool mousemove --window $(cat window) 300 300 sleep 6 key Escape\n"  # notices are gone by then
+            "wait $parvis\n",
+        )
+        done = subprocess.run(
+            ["xvfb-run", "-a", "-s", "-screen 0 960x640x24", "sh", str(drive)],
+            capture_output=True, text=True, timeout=120, cwd=self.folder,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        taken = self.folder / "pictures" / "scene-0001.png"
+        self.assertEqual(struct.unpack(">II", taken.read_bytes()[16:24]), (610, 640), "the picture beside the panel")
+        self.expect_golden(last, "window")
+
+    def expect_golden(self, picture, name):
+        """The picture looks like docs/goldens/NAME.png; fonts and edges are the machine's own."""
+        golden = pathlib.Path(__file__).resolve().parents[2] / "docs" / "goldens" / f"{name}.png"
+        if os.environ.get("PARVIS_UPDATE_GOLDENS"):
+            shutil.copyfile(picture, golden)
+        compared = run("compare", picture, golden)
+        self.assertEqual(compared.returncode, 0, compared.stderr)
+        self.assertLess(float(compared.stdout.split()[1]), 0.01, "FLIP: " + compared.stdout)
+
+    def test_a_driver_below_opengl_4_5_is_named(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        scene = self.write("scene.xp", "sun()\n")
+        done = run("view", scene, "--frames", "1", before=["xvfb-run", "-a"],
+                   environment={"MESA_GL_VERSION_OVERRIDE": "3.3"})
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("offers OpenGL 3.3", done.stderr)
+
     def test_without_a_display_it_says_so(self):
         scene = self.write("scene.xp", "sun()\n")
         self.expect_failure(
@@ -280,5 +330,5 @@ class Window(InAFolder):
 
 
 if __name__ == "__main__":
-    PARVIS = sys.argv.pop(1)
+    PARVIS = os.path.abspath(sys.argv.pop(1))
     unittest.main()

@@ -15,6 +15,10 @@ Status view(Arguments& arguments) {
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   window.camera = arguments.camera;
+  window.title = arguments.scene.stem().string();
+  window.pictures.name = window.title;
+  if (window.pictures.folder.empty())
+    window.pictures.folder = (arguments.scene.parent_path() / ".").lexically_normal();
   Result<stage::Play> play = arguments.open_play();
   if (!play) return play.errors();
   if (!arguments.tour.empty())
@@ -34,8 +38,11 @@ void add_view(CLI::App& app, Chosen& chosen) {
   command->add_option("--tour", arguments->tour, "Begin with a tour of the scene; moving ends it");
   command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
+  command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
+  command->add_option("--output", arguments->window.pictures.folder,
+                      "Folder of the pictures that the key P takes (default: the scene's)");
   command->add_option("--screenshot", arguments->window.screenshot,
-                      "Write the last frame when the window closes");
+                      "Write what the window shows last, panel and all, when it closes");
   command->footer("Example: parvis view out/paper/paper.xp --camera street");
   command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
 }

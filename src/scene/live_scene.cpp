@@ -183,6 +183,10 @@ Errors LiveScene::refresh(Scene& scene) {
 /// Only light and cameras are written in place; objects and cameras are built aside and then take their
 /// places.
 Errors LiveScene::build_again(Scene& scene, const Node& node) {
+  if (!is_built(node))
+    return {error_at(node.where,
+                     "the {} is part of the node around it and stays as it is while the scene runs",
+                     node.schema->type)};
   SceneBuilder builder(*script_.registry, std::move(script_.models));
   std::vector<Object> objects = std::exchange(scene.objects, {});
   std::vector<NamedCamera> cameras = std::exchange(scene.cameras, {});

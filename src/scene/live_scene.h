@@ -27,6 +27,9 @@ class LiveScene {
   /// The objects of the scene that the node and those inside it have made, hidden ones included.
   std::vector<int> objects_of(const Node& node) const;
   const NodeFrame& frame_of(const Node& node) const;
+  /// False for a node that is part of another's: a material, the key of a path, a kind of vehicle. It stays
+  /// as it was when the scene was loaded.
+  bool is_built(const Node& node) const { return script_.frames.count(&node) != 0; }
 
   /// Gives an attribute of the node another value, in place of those that it replaces; seen after the next
   /// `refresh`.

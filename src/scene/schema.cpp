@@ -223,7 +223,7 @@ std::string expectation(const AttributeSchema& schema) {
     case AttributeType::flag:
       return "1 or 0 (also true/false, yes/no, on/off)";
     case AttributeType::angle:
-      return "an angle in degrees" + limits();
+      return "an angle" + limits();
     case AttributeType::vec3:
       return "three numbers \"x y z\"" + limits();
     case AttributeType::colour:

@@ -1,17 +1,21 @@
-// The window in which one walks, flies and follows a vehicle.
+// The window in which one walks, flies and follows a vehicle, with the panel beside the picture.
 #pragma once
 
 #include <string>
 
 #include "stage/stage.h"
+#include "viewer/visit.h"
 
 namespace parvis::viewer {
 
 struct WindowOptions {
   int width = 1280, height = 720;
+  std::string title;       ///< of the scene
   std::string camera;      ///< where the visit begins; empty: the scene's first
+  bool has_panel = false;  ///< at first; F2 opens and closes it
+  PicturePlace pictures;   ///< where those go that the visitor takes
   int most_frames = 0;     ///< closes after so many; 0: when the visitor does (tests and screenshots)
-  std::string screenshot;  ///< written when the window closes; empty: none
+  std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 
 /// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is

@@ -1,0 +1,37 @@
+#include "viewer/frame_statistics.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace parvis::viewer {
+
+void FrameStatistics::add(double frame_s, std::span<const gl::PassTime> passes) {
+  constexpr double share_of_new = 0.1;
+  frames_ms_[count_++ % frames_kept] = float(1000.0 * frame_s);
+  const auto has_same_name = [](const gl::PassTime& a, const gl::PassTime& b) { return a.name == b.name; };
+  if (!std::equal(passes.begin(), passes.end(), passes_.begin(), passes_.end(), has_same_name)) {
+    passes_.assign(passes.begin(), passes.end());
+    return;
+  }
+  for (std::size_t i = 0; i < passes.size(); ++i)
+    passes_[i].seconds += share_of_new * (passes[i].seconds - passes_[i].seconds);
+}
+
+std::vector<float> FrameStatistics::frames_ms() const {
+  std::vector<float> all;
+  for (std::size_t i = count_ - std::min(count_, frames_kept); i < count_; ++i)
+    all.push_back(frames_ms_[i % frames_kept]);
+  return all;
+}
+
+double FrameStatistics::mean_ms() const {
+  const std::vector<float> all = frames_ms();
+  return all.empty() ? 0.0 : std::accumulate(all.begin(), all.end(), 0.0) / double(all.size());
+}
+
+double FrameStatistics::worst_ms() const {
+  const std::vector<float> all = frames_ms();
+  return all.empty() ? 0.0 : double(*std::max_element(all.begin(), all.end()));
+}
+
+}  // namespace parvis::viewer

@@ -1,0 +1,32 @@
+// How long frames take, for a person who watches: the last frames one by one, passes smoothed.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "gl/pass_times.h"
+
+namespace parvis::viewer {
+
+class FrameStatistics {
+ public:
+  static constexpr std::size_t frames_kept = 120;
+
+  /// A frame took that long; `passes` are what the GPU last told, of this frame or one before.
+  void add(double frame_s, std::span<const gl::PassTime> passes);
+
+  /// Milliseconds, the oldest first; fewer than `frames_kept` at first.
+  std::vector<float> frames_ms() const;
+  double mean_ms() const;
+  double worst_ms() const;
+  /// Smoothed over some ten frames.
+  const std::vector<gl::PassTime>& passes() const { return passes_; }
+
+ private:
+  std::array<float, frames_kept> frames_ms_{};
+  std::size_t count_ = 0;  ///< of all frames
+  std::vector<gl::PassTime> passes_;
+};
+
+}  // namespace parvis::viewer

@@ -1,0 +1,29 @@
+// The window's own keys, as people read them: in the help overlay, on the terminal, in docs/window.md.
+#pragma once
+
+#include <array>
+
+namespace parvis::viewer {
+
+struct KeyHelp {
+  const char* keys;
+  const char* does;
+};
+
+inline constexpr std::array key_help{KeyHelp{"W A S D", "move"},
+                                     KeyHelp{"Q  E", "down, up"},
+                                     KeyHelp{"Shift", "hurries"},
+                                     KeyHelp{"drag", "looks about"},
+                                     KeyHelp{"wheel", "changes speed, or distance when following"},
+                                     KeyHelp{"1", "walks"},
+                                     KeyHelp{"2", "flies"},
+                                     KeyHelp{"3", "follows the next vehicle"},
+                                     KeyHelp{"Tab", "shows the next scenario"},
+                                     KeyHelp{"Space", "halts the traffic, or lets it go on"},
+                                     KeyHelp{"N", "moves halted traffic on by a tenth of a second"},
+                                     KeyHelp{"P", "takes a picture"},
+                                     KeyHelp{"F1", "shows these keys"},
+                                     KeyHelp{"F2", "opens and closes the panel"},
+                                     KeyHelp{"Esc", "closes this, then the window"}};
+
+}  // namespace parvis::viewer

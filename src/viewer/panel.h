@@ -1,0 +1,48 @@
+// The panel beside the picture: how to move, scenarios, light, traffic; the scene's nodes; statistics. It
+// closes with a key, and the picture stands beside it, not below it.
+#pragma once
+
+#include <string>
+
+#include "viewer/frame_statistics.h"
+#include "viewer/imgui_context.h"
+#include "viewer/panel_nodes.h"
+#include "viewer/visit.h"
+
+namespace parvis::viewer {
+
+class Panel {
+ public:
+  /// `title` names the scene; the context outlives the panel.
+  Panel(const ImguiContext& imgui, std::string title);
+
+  bool is_open = false;
+  bool shows_keys = false;
+
+  /// Of the window, in ImGui's units; 0 where the panel is closed.
+  float width() const;
+  /// Between ImguiContext's begin_frame and draw: the panel if it is open, the keys if they are asked for,
+  /// and what the visitor is to be told.
+  void draw(Visit& visit, const FrameStatistics& statistics);
+
+  /// Of the last frame.
+  const Places& places() const { return rows_.places(); }
+
+ private:
+  void draw_panel(Visit& visit, const FrameStatistics& statistics);
+  void draw_visit(Visit& visit);
+  void draw_scenarios(Visit& visit);
+  void draw_light(Visit& visit);
+  void draw_traffic(Visit& visit);
+  void draw_statistics(Visit& visit, const FrameStatistics& statistics);
+  void draw_keys() const;
+  void draw_notices(const Visit& visit) const;
+
+  const ImguiContext& imgui_;
+  std::string title_, driver_;
+  bool draws_on_processor_;
+  PanelRows rows_;
+  PanelNodes nodes_;
+};
+
+}  // namespace parvis::viewer

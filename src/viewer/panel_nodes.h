@@ -1,0 +1,36 @@
+// The panel's page of the scene: its nodes as a tree, and the attributes of the chosen one, changed live.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "viewer/panel_rows.h"
+#include "viewer/visit.h"
+
+namespace parvis::viewer {
+
+class PanelNodes {
+ public:
+  /// Draws into ImGui's current window, to its end.
+  void draw(Visit& visit, PanelRows& rows);
+
+ private:
+  /// What an attribute did not take.
+  struct Refusal {
+    const scene::AttributeSchema* attribute = nullptr;
+    std::string message;
+  };
+
+  void draw_tree(Visit& visit, PanelRows& rows);
+  void draw_row(Visit& visit, PanelRows& rows, const NodeRow& row);
+  void draw_name(PanelRows& rows, const NodeRow& row);
+  void draw_attributes(Visit& visit, PanelRows& rows);
+  void draw_attribute(Visit& visit, PanelRows& rows, AttributeRow row);
+
+  std::string filter_;
+  std::set<const scene::Node*> open_;
+  const scene::Node* chosen_ = nullptr;
+  Refusal refusal_;
+};
+
+}  // namespace parvis::viewer

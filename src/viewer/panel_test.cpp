@@ -1,0 +1,313 @@
+// The panel driven by a synthetic mouse and keys, which go through Dear ImGui's own input; pictures of it are
+// goldens.
+#include "viewer/panel.h"
+
+#include <algorithm>
+
+#include "render/golden.h"
+#include "viewer/test_square.h"
+
+namespace parvis::viewer {
+namespace {
+
+constexpr int width = 960, height = 640;
+constexpr float frame_s = 1.0f / 60.0f;
+/// Where the test's keyboard has the keys that ImGui asks for by number.
+constexpr int enter_key = 1, backspace_key = 2, a_key = 3;
+
+/// A picture to draw into, in a window's place.
+struct Screen {
+  Screen() : colour(gl::texture_2d(GL_RGBA8, width, height)), framebuffer(gl::Framebuffer::create()) {
+    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, colour.name(), 0);
+  }
+  Image8 read() const {
+    Image8 picture(width, height, 4);
+    glGetTextureImage(colour.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(picture.pixels.size()),
+                      picture.pixels.data());
+    render::flip_rows(picture);
+    return picture;
+  }
+  gl::Texture colour;
+  gl::Framebuffer framebuffer;
+};
+
+class PanelTest : public SquareTest {
+ protected:
+  void SetUp() override {
+    SquareTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    put_up(1.0f);
+  }
+
+  void put_up(float scale) {
+    panel_.reset();
+    imgui_.reset();
+    imgui_ = std::make_unique<ImguiContext>(scale);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {float(width), float(height)};
+    io.DeltaTime = frame_s;
+    io.KeyMap[ImGuiKey_Enter] = enter_key;
+    io.KeyMap[ImGuiKey_Backspace] = backspace_key;
+    io.KeyMap[ImGuiKey_A] = a_key;
+    panel_ = std::make_unique<Panel>(*imgui_, "square");
+    panel_->is_open = true;
+    for (int i = 0; i < 3; ++i) frame();  // ImGui finds its sizes
+  }
+  void TearDown() override {
+    panel_.reset();
+    imgui_.reset();
+  }
+
+  /// A frame of panel and scene, without its picture.
+  void frame() {
+    imgui_->begin_frame();
+    panel_->draw(*visit_, statistics_);
+    ImGui::Render();
+    visit_->step({}, frame_s);
+  }
+  Image8 picture() {
+    for (int i = 0; i < 2; ++i) frame();
+    const Screen screen;
+    stage_->draw(visit_->camera(), width - int(panel_->width()), height);
+    stage_->renderer().display(screen.framebuffer.name(), stage_->scene().exposure);
+    imgui_->begin_frame();
+    panel_->draw(*visit_, statistics_);
+    glBindFramebuffer(GL_FRAMEBUFFER, screen.framebuffer.name());
+    glViewport(0, 0, width, height);
+    imgui_->draw();
+    return screen.read();
+  }
+  void expect_golden(const std::string& name) {
+    // The picture and the letters are the software renderer's, bit by bit but for the width of its vectors;
+    // on a GPU edges lie elsewhere: there only the whole counts.
+    const render::GoldenTolerance tolerance = gl::is_software() ? render::GoldenTolerance{32, 2, 0.002, 0.05}
+                                                                : render::GoldenTolerance{255, 16, 0.03, 1.5};
+    const Status status = render::matches_golden(picture(), name, tolerance, PARVIS_SOURCE_DIR);
+    EXPECT_TRUE(status) << to_string(status.errors());
+  }
+
+  Place place(const std::string& name) {
+    const auto found = panel_->places().find(name);
+    if (found != panel_->places().end()) return found->second;
+    ADD_FAILURE() << "nothing in the panel is called \"" << name << '"';
+    return {};
+  }
+  void point_at(ImVec2 position) {
+    ImGui::GetIO().MousePos = position;
+    frame();
+  }
+  /// `along`: from its left end to its right.
+  void point_at(const std::string& name, float along = 0.5f) {
+    const Place at = place(name);
+    point_at(ImVec2(at.low.x + along * (at.high.x - at.low.x), 0.5f * (at.low.y + at.high.y)));
+  }
+  void set_button(bool is_down) {
+    ImGui::GetIO().MouseDown[0] = is_down;
+    frame();
+  }
+  void click(const std::string& name, float along = 0.5f) {
+    point_at(name, along);
+    set_button(true);
+    set_button(false);
+    frame();
+  }
+  void drag(const std::string& name, float pixels) {
+    point_at(name);
+    set_button(true);
+    for (int i = 0; i < 10; ++i) {
+      ImVec2 position = ImGui::GetIO().MousePos;
+      position.x += pixels / 10.0f;
+      point_at(position);
+    }
+    set_button(false);
+    frame();
+  }
+  void press(int key) {
+    for (const bool is_down : {true, false}) {
+      ImGui::GetIO().KeysDown[key] = is_down;
+      frame();
+    }
+  }
+  /// Double-clicks a number and writes another in its place.
+  void write(const std::string& name, const std::string& text, float along = 0.5f) {
+    for (int i = 0; i < 30; ++i) frame();  // so that earlier clicks do not count
+    click(name, along);
+    click(name, along);
+    for (const char c : text) {
+      ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+      frame();
+    }
+    press(enter_key);
+    frame();
+  }
+  void choose(const std::string& row, const std::string& choice) {
+    click(row);
+    click(row + "/" + choice);
+  }
+
+  std::unique_ptr<ImguiContext> imgui_;
+  std::unique_ptr<Panel> panel_;
+  FrameStatistics statistics_;
+};
+
+TEST_F(PanelTest, ThePageOfTheVisitIsGolden) {
+  visit_->pause_traffic(true);
+  expect_golden("panel-visit");
+}
+
+TEST_F(PanelTest, AScenarioIsSwitchedByAClick) {
+  click("scenario green");
+  EXPECT_EQ(visit_->actions().live().scenario(), "green");
+  EXPECT_TRUE(sees("plane"));
+  visit_->pause_traffic(true);
+  expect_golden("panel-scenario");
+  click("scenario base");
+  EXPECT_EQ(visit_->actions().live().scenario(), "");
+  EXPECT_FALSE(sees("plane"));
+}
+
+TEST_F(PanelTest, TheVisitorIsMovedByButtonsAndLists) {
+  click("Fly");
+  EXPECT_EQ(visit_->mode(), Mode::fly);
+  click("Follow");
+  EXPECT_EQ(visit_->mode(), Mode::follow);
+  choose("Vehicle", "vehicle 2");
+  EXPECT_EQ(visit_->scene().objects[std::size_t(visit_->followed())].name, "vehicle 2");
+  choose("Camera", "roof");
+  EXPECT_NEAR(visit_->camera().position_in_world().z, 14.0f, 1e-3f);
+  click("Walk");
+  EXPECT_EQ(visit_->mode(), Mode::walk);
+  choose("Tour", "arrival");
+  EXPECT_TRUE(node("arrival").flag("running"));
+}
+
+TEST_F(PanelTest, LightIsDraggedAndWritten) {
+  const auto sun = [this] { return azimuth_and_elevation_deg(visit_->scene().sun.direction_to_sun); };
+  drag("Sun from", 40.0f);
+  EXPECT_NEAR(sun().x, 235.0f, 2.0f) << "40 pixels of half a degree";
+  EXPECT_NEAR(sun().y, 42.0f, 1e-3f) << "its height stays";
+  write("Sun's height", "10");
+  EXPECT_NEAR(sun().y, 10.0f, 1e-3f);
+  write("Exposure", "2");
+  EXPECT_NEAR(visit_->scene().exposure, 2.0f, 1e-5f);
+  choose("Reflections", "shared cube map");
+  EXPECT_EQ(visit_->scene().reflection.method, scene::ReflectionMethod::shared_cube_map);
+}
+
+TEST_F(PanelTest, TrafficIsHaltedAndMovedOn) {
+  click("Halt");
+  EXPECT_TRUE(visit_->traffic_is_paused());
+  const auto vehicle = [this] {
+    return visit_->scene().objects[std::size_t(visit_->vehicles()[0])].world_from_model;
+  };
+  const glm::mat4 halted = vehicle();
+  click("Step 0.1 s");
+  EXPECT_NE(vehicle(), halted);
+  click("Go on");
+  EXPECT_FALSE(visit_->traffic_is_paused());
+}
+
+TEST_F(PanelTest, NodesAreFoundHiddenAndChanged) {
+  click("Scene");
+  click("node trees/visible");
+  EXPECT_FALSE(sees("oak"));
+  click("node trees/visible");
+  EXPECT_TRUE(sees("oak"));
+
+  click("node trees", 0.03f);  // its arrow
+  click("node plane/visible");
+  EXPECT_TRUE(sees("plane"));
+  click("node oak");
+  drag("heading", 80.0f);
+  EXPECT_NEAR(glm::degrees(node("oak").angle("heading_deg")), 20.0f, 1.0f);
+  write("position", "-5", 0.1f);
+  EXPECT_EQ(node("oak").vec3("position"), glm::vec3(-5, 0, 0));
+  click("visible");
+  EXPECT_FALSE(sees("oak"));
+  click("visible");
+
+  visit_->pause_traffic(true);
+  point_at(ImVec2(300, 300));
+  expect_golden("panel-scene");
+}
+
+TEST_F(PanelTest, WhatIsOutOfRangeIsAnsweredAndChangesNothing) {
+  click("Scene");
+  click("node sun");
+  const glm::vec3 before = visit_->scene().sun.direction_to_sun;
+  write("elevation", "200");
+  EXPECT_EQ(visit_->scene().sun.direction_to_sun, before);
+  EXPECT_NEAR(glm::degrees(node("%sun").angle("elevation_deg")), 42.0, 1e-3);
+  visit_->pause_traffic(true);
+  point_at(ImVec2(300, 300));
+  expect_golden("panel-refusal");
+  write("elevation", "20");
+  EXPECT_NEAR(glm::degrees(node("%sun").angle("elevation_deg")), 20.0, 1e-3);
+}
+
+TEST_F(PanelTest, TheTreeIsSearched) {
+  click("Scene");
+  click("find");
+  for (const char c : std::string("oak")) {
+    ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+    frame();
+  }
+  EXPECT_TRUE(panel_->places().count("node oak"));
+  EXPECT_TRUE(panel_->places().count("node trees")) << "around it";
+  EXPECT_FALSE(panel_->places().count("node houses"));
+  EXPECT_TRUE(ImGui::GetIO().WantTextInput) << "letters do not walk";
+}
+
+TEST_F(PanelTest, StatisticsAreGolden) {
+  for (int i = 0; i < 90; ++i)
+    statistics_.add(
+        0.001 * (16.0 + 5.0 * ((i * 7) % 10 == 0) + 0.1 * (i % 13)),
+        std::vector<gl::PassTime>{
+            {"shadows", 0.0021}, {"reflections", 0.0052}, {"picture", 0.0064}, {"display", 0.0003}});
+  visit_->pause_traffic(true);
+  click("Statistics");
+  point_at(ImVec2(300, 300));
+  if (!gl::is_software()) GTEST_SKIP() << "skipped: the driver's name stands in the picture";
+  expect_golden("panel-statistics");
+}
+
+TEST_F(PanelTest, TheKeysAreShownOnDemand) {
+  visit_->pause_traffic(true);
+  click("Keys  F1");
+  EXPECT_TRUE(panel_->shows_keys);
+  point_at(ImVec2(5, 5));
+  expect_golden("panel-keys");
+  click("Keys  F1");
+  EXPECT_FALSE(panel_->shows_keys);
+}
+
+TEST_F(PanelTest, PicturesAreTakenByAButton) {
+  stage_->draw(visit_->camera(), 64, 48);
+  click("Picture  P");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures/square-0001.png")) << told();
+}
+
+TEST_F(PanelTest, ThePictureHasTheWholeWindowWhenItIsClosed) {
+  EXPECT_GT(panel_->width(), 200.0f);
+  click("Close  F2");
+  EXPECT_FALSE(panel_->is_open);
+  EXPECT_EQ(panel_->width(), 0.0f);
+  point_at(ImVec2(float(width) - 20.0f, 100.0f));
+  EXPECT_FALSE(ImGui::GetIO().WantCaptureMouse) << "the mouse is the visitor's again";
+}
+
+TEST_F(PanelTest, ItGrowsWithTheScaleOfTheScreenAndLeavesHalfOfANarrowWindow) {
+  const float at_1 = panel_->width();
+  const float line_at_1 = ImGui::GetTextLineHeight();
+  imgui_->rescale(1.25f, 1.0f);
+  frame();
+  EXPECT_NEAR(panel_->width(), 1.25f * at_1, 1.0f);
+  EXPECT_NEAR(ImGui::GetTextLineHeight(), 1.25f * line_at_1, 1.0f);
+  put_up(2.0f);
+  EXPECT_EQ(panel_->width(), 0.5f * float(width));
+  click("Fly");
+  EXPECT_EQ(visit_->mode(), Mode::fly);
+}
+
+}  // namespace
+}  // namespace parvis::viewer

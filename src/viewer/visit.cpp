@@ -1,0 +1,162 @@
+#include "viewer/visit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/image_io.h"
+#include "viewer/screenshots.h"
+
+namespace parvis::viewer {
+namespace {
+
+constexpr double notice_s = 5.0, error_notice_s = 12.0;
+constexpr std::size_t most_notices = 4;
+constexpr float traffic_step_s = 0.1f;
+
+}  // namespace
+
+glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
+  const glm::vec3 unit = glm::normalize(direction);
+  const float azimuth = glm::degrees(std::atan2(unit.x, unit.y));
+  return {azimuth < 0.0f ? azimuth + 360.0f : azimuth,
+          glm::degrees(std::asin(std::clamp(unit.z, -1.0f, 1.0f)))};
+}
+
+Visit::Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures)
+    : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {}
+
+void Visit::step(Controls controls, float seconds) {
+  time_s_ += double(seconds);
+  std::erase_if(notices_, [this](const Notice& notice) { return notice.ends_s < time_s_; });
+  for (const Error& warning : stage_.play().advance(double(seconds), camera().position_in_world()))
+    notice_error(to_string(warning));
+  follow_guidance(controls);
+  const bool has_vehicle = followed_ >= 0 && followed_ < int(scene().objects.size());
+  navigation_.step(controls, seconds,
+                   has_vehicle ? scene().objects[std::size_t(followed_)].world_from_model : glm::mat4(1.0f));
+}
+
+/// The view goes where a tour or a message leads it, until the visitor moves.
+void Visit::follow_guidance(const Controls& controls) {
+  if (controls.move != glm::vec3(0.0f) || controls.turn != glm::vec2(0.0f)) actions().release_view();
+  if (const std::optional<Camera> guided = actions().camera(scene())) navigation_.go_to(*guided);
+}
+
+void Visit::set_mode(Mode mode) {
+  actions().release_view();
+  navigation_.set_mode(mode == Mode::follow && followed_ < 0 ? Mode::fly : mode);
+}
+
+std::vector<int> Visit::vehicles() const {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < scene().objects.size(); ++i)
+    if (scene().objects[i].is_dynamic && scene().objects[i].is_visible) all.push_back(int(i));
+  return all;
+}
+
+void Visit::follow(int object) {
+  followed_ = object;
+  set_mode(Mode::follow);
+}
+
+void Visit::follow_next_vehicle() {
+  const std::vector<int> all = vehicles();
+  if (all.empty()) return notice("nothing in this scene moves");
+  const auto next = std::upper_bound(all.begin(), all.end(), followed_);
+  follow(next == all.end() ? all.front() : *next);
+  notice("following " + scene().objects[std::size_t(followed_)].name);
+}
+
+void Visit::look_from(const std::string& camera) {
+  if (const scene::Node* node = actions().live().find(camera); node && node->schema->type == "camera")
+    return report(actions().send(*node, "look"), "");
+  const Result<Camera> found = stage_.camera(camera);
+  if (!found) return notice_error(to_string(found.errors()));
+  actions().release_view();
+  navigation_.go_to(*found);
+}
+
+void Visit::start_tour(const std::string& name) {
+  if (const Result<double> length_s = actions().start_tour(name); !length_s)
+    notice_error(to_string(length_s.errors()));
+}
+
+void Visit::show_scenario(const std::string& name) {
+  report(stage_.choose_scenario(name), name.empty() ? "the base scene" : "scenario " + name);
+}
+
+void Visit::show_next_scenario() {
+  const std::vector<const scene::Node*> scenarios = actions().live().scenarios();
+  if (scenarios.empty()) return notice("this scene has no scenarios");
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < scenarios.size(); ++i)
+    if (scenarios[i]->text("name") == actions().live().scenario()) next = i + 1;
+  show_scenario(next < scenarios.size() ? scenarios[next]->text("name") : "");
+}
+
+Status Visit::tell(const scene::Node& node, const std::string& message) {
+  return actions().send(node, message);
+}
+
+void Visit::set_sun(float azimuth_deg, float elevation_deg) {
+  if (const scene::Node* node = actions().live().find("%sun")) {
+    report(tell(*node, fmt::format("azimuth_deg {:.7g}", azimuth_deg)), "");
+    report(tell(*node, fmt::format("elevation_deg {:.7g}", elevation_deg)), "");
+    return;
+  }
+  const float azimuth = glm::radians(azimuth_deg), elevation = glm::radians(elevation_deg);
+  stage_.play().scene.sun.direction_to_sun = {std::sin(azimuth) * std::cos(elevation),
+                                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
+}
+
+void Visit::set_exposure(float exposure) {
+  if (const scene::Node* node = actions().live().find("%exposure"))
+    report(tell(*node, fmt::format("value {:.7g}", exposure)), "");
+  else
+    stage_.play().scene.exposure = exposure;
+}
+
+void Visit::set_reflection(scene::ReflectionMethod method) {
+  if (const scene::Node* node = actions().live().find("%reflection"))
+    report(tell(*node, fmt::format("method {}", scene::reflection_method_names[std::size_t(method)])), "");
+  else
+    stage_.play().scene.reflection.method = method;
+}
+
+void Visit::step_traffic() {
+  pause_traffic(true);
+  stage_.play().traffic.step(traffic_step_s);
+}
+
+void Visit::take_picture() {
+  const Result<std::filesystem::path> file = write_numbered(
+      pictures_.folder, pictures_.name,
+      [this](const std::filesystem::path& path) { return write_image(path, stage_.picture()); });
+  if (file)
+    notice("picture " + file->string());
+  else
+    notice_error(to_string(file.errors()));
+}
+
+void Visit::report(const Status& status, const std::string& done) {
+  if (!status)
+    notice_error(to_string(status.errors()));
+  else if (!done.empty())
+    notice(done);
+}
+
+void Visit::notice(std::string text) { add_notice({std::move(text), false, time_s_ + notice_s}); }
+
+void Visit::notice_error(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  add_notice({std::move(text), true, time_s_ + error_notice_s});
+}
+
+/// Another word of the same takes the place of the first.
+void Visit::add_notice(Notice notice) {
+  std::erase_if(notices_, [&](const Notice& each) { return each.text == notice.text; });
+  if (notices_.size() == most_notices) notices_.erase(notices_.begin());
+  notices_.push_back(std::move(notice));
+}
+
+}  // namespace parvis::viewer

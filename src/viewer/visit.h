@@ -1,0 +1,94 @@
+// One visit to a stage: where the visitor stands, what they follow and have chosen, what they are told. All
+// that keys and the panel can do, without a window.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stage/stage.h"
+#include "viewer/navigation.h"
+
+namespace parvis::viewer {
+
+/// What a visitor is told for a while.
+struct Notice {
+  std::string text;
+  bool is_error = false;
+  double ends_s = 0.0;  ///< in the visit's time
+};
+
+/// Where pictures go, and what their names begin with.
+struct PicturePlace {
+  std::filesystem::path folder;
+  std::string name;
+};
+
+class Visit {
+ public:
+  /// The stage outlives the visit.
+  Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures);
+
+  /// Lets `seconds` pass in the scene and for the visitor.
+  void step(Controls controls, float seconds);
+  Camera camera() const { return navigation_.camera(); }
+
+  Mode mode() const { return navigation_.mode(); }
+  /// To follow without a vehicle to follow flies.
+  void set_mode(Mode mode);
+  /// The objects that can be followed: those that move and are to be seen.
+  std::vector<int> vehicles() const;
+  /// Index of the object; -1 where none has been followed yet.
+  int followed() const { return followed_; }
+  void follow(int object);
+  void follow_next_vehicle();
+
+  void look_from(const std::string& camera);
+  void start_tour(const std::string& name);
+  /// Empty: the base scene.
+  void show_scenario(const std::string& name);
+  /// Through the scene's scenarios in their order, then the base scene.
+  void show_next_scenario();
+
+  /// Tells a node; errors say what it expects, and nothing has changed then. What cannot be built is a
+  /// notice, a step later.
+  Status tell(const scene::Node& node, const std::string& message);
+  // Light and reflections; with or without a node of the script that stands for them.
+  void set_sun(float azimuth_deg, float elevation_deg);
+  void set_exposure(float exposure);
+  void set_reflection(scene::ReflectionMethod method);
+
+  bool traffic_is_paused() const { return stage_.play().traffic_is_paused; }
+  void pause_traffic(bool pauses) { stage_.play().traffic_is_paused = pauses; }
+  /// Moves paused traffic on by a tenth of a second.
+  void step_traffic();
+
+  /// Writes what was drawn last, without the panel, into a new file.
+  void take_picture();
+
+  void notice(std::string text);
+  void notice_error(std::string text);
+  /// Those that are to be read now, the oldest first.
+  const std::vector<Notice>& notices() const { return notices_; }
+
+  stage::Stage& stage() { return stage_; }
+  const scene::Scene& scene() const { return stage_.scene(); }
+  action::Actions& actions() { return stage_.play().actions; }
+
+ private:
+  void follow_guidance(const Controls& controls);
+  void report(const Status& status, const std::string& done);
+  void add_notice(Notice notice);
+
+  stage::Stage& stage_;
+  Navigation navigation_;
+  PicturePlace pictures_;
+  int followed_ = -1;
+  double time_s_ = 0.0;
+  std::vector<Notice> notices_;
+};
+
+/// Compass direction (0 north, 90 east) and height above the horizon of a direction, in degrees.
+glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction);
+
+}  // namespace parvis::viewer
