@@ -12,6 +12,7 @@ namespace {
 constexpr double notice_s = 5.0, error_notice_s = 12.0;
 constexpr std::size_t most_notices = 4;
 constexpr float traffic_step_s = 0.1f;
+constexpr float longest_step_s = 0.1f;
 
 }  // namespace
 
@@ -25,8 +26,9 @@ glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
 Visit::Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures)
     : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {}
 
-void Visit::step(Controls controls, float seconds) {
-  time_s_ += double(seconds);
+void Visit::step(const Controls& controls, float passed_s) {
+  time_s_ += double(passed_s);
+  const float seconds = std::min(passed_s, longest_step_s);
   std::erase_if(notices_, [this](const Notice& notice) { return notice.ends_s < time_s_; });
   for (const Error& warning : stage_.play().advance(double(seconds), camera().position_in_world()))
     notice_error(to_string(warning));

@@ -29,8 +29,9 @@ class Visit {
   /// The stage outlives the visit.
   Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures);
 
-  /// Lets `seconds` pass in the scene and for the visitor.
-  void step(Controls controls, float seconds);
+  /// Lets `passed_s` pass, for the scene and the visitor's motion at most a tenth of a second: after a halt,
+  /// life goes on where it stopped.
+  void step(const Controls& controls, float passed_s);
   Camera camera() const { return navigation_.camera(); }
 
   Mode mode() const { return navigation_.mode(); }

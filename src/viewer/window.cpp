@@ -16,8 +16,6 @@
 namespace parvis::viewer {
 namespace {
 
-constexpr float longest_step_s = 0.1f;  // after a halt, life goes on where it stopped
-
 /// Ends GLFW and its window when it goes.
 struct Glfw {
   GLFWwindow* window = nullptr;
@@ -106,7 +104,7 @@ class Frames {
       const float seconds = std::chrono::duration<float>(now - last).count();
       last = now;
       statistics_.add(double(seconds), visit_.stage().pass_times().latest());
-      visit_.step(input_.poll(), std::min(seconds, longest_step_s));
+      visit_.step(input_.poll(), seconds);
       draw();
       const bool is_last = glfwWindowShouldClose(window_) || frame == options_.most_frames;
       if (is_last && !options_.screenshot.empty())
