@@ -14,6 +14,7 @@
 #include "base/mesh.h"
 #include "scene/animation.h"
 #include "scene/deformation.h"
+#include "scene/road.h"
 
 namespace parvis::scene {
 
@@ -83,7 +84,8 @@ struct Model {
   std::vector<ModelNode> nodes{ModelNode{}};
   std::vector<Part> parts;
   std::vector<Animation> animations;
-  glm::dvec3 origin{0.0};  ///< georeferenced coordinates of the local origin, zero where there are none
+  std::vector<Road> roads;  ///< that the file gives as centre lines, in the model's frame
+  glm::dvec3 origin{0.0};   ///< georeferenced coordinates of the local origin, zero where there are none
 
   std::size_t triangle_count() const;
 };

@@ -4,6 +4,7 @@
 #include "scene/city_gml.h"
 #include "scene/city_json.h"
 #include "scene/gltf_reader.h"
+#include "scene/osm_reader.h"
 
 namespace parvis::scene {
 
@@ -12,6 +13,7 @@ Result<Model> model_from_file(const std::filesystem::path& file, const ModelRead
   const std::string extension = file.extension().string();
   if (extension == ".glb" || extension == ".gltf") return read_gltf(file, warnings);
   if (extension == ".json") return read_city_model(file, warnings, reading.most_detail);
+  if (extension == ".osm") return read_osm(file, warnings);
   if (extension == ".gml" || extension == ".citygml" || extension == ".xml")
     return read_city_gml(file, warnings, reading.most_detail);
   return read_with_assimp(file, reading.up, warnings);

@@ -142,9 +142,9 @@ NodeSchema streets_schema() {
   return {
       .type = "streets",
       .help =
-          "Roads along the middle of the road surfaces that a model has: of the parts that match target, "
-          "those whose "
-          "names do not speak of footpaths, cycle paths, parking or rails. Stands after the model.",
+          "Roads of a model: the centre lines that its file gives (OpenStreetMap), else along the middle of "
+          "its road surfaces: of the parts that match target, those whose names do not speak of footpaths, "
+          "cycle paths, parking or rails. Stands after the model.",
       .attributes = {{.name = "of", .help = "name of the model", .is_required = true},
                      {.name = "target",
                       .help =
@@ -154,7 +154,7 @@ NodeSchema streets_schema() {
                       .is_repeatable = true},
                      {.name = "speed_km_h",
                       .type = AttributeType::number,
-                      .help = "the limit",
+                      .help = "the limit where the file gives none",
                       .fallback = "30",
                       .unit = "km/h",
                       .minimum = 1,
@@ -183,12 +183,20 @@ void add_road_polygons(const Object& object, const std::string& target, std::vec
   }
 }
 
+void add_given_roads(const Object& object, SceneBuilder& builder) {
+  for (Road road : object.model->roads) {
+    for (glm::vec3& point : road.path) point = glm::vec3(object.world_from_model * glm::vec4(point, 1.0f));
+    builder.roads.push_back(std::move(road));
+  }
+}
+
 void build_streets(const Node& node, SceneBuilder& builder) {
   const std::string name = node.text("of");
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
   if (object == builder.scene.objects.end())
     return builder.fail(
         error_at(node.where_of("of"), "no model called \"{}\" stands before this node", name));
+  if (!object->model->roads.empty()) return add_given_roads(*object, builder);
 
   std::vector<RoadPolygon> polygons;
   if (!node.gives("target")) add_road_polygons(*object, node.text("target"), polygons);

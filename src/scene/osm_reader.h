@@ -1,0 +1,15 @@
+// OpenStreetMap files (.osm) to a Model: buildings, a level ground, and roads as centre lines.
+#pragma once
+
+#include <filesystem>
+
+#include "base/result.h"
+#include "scene/model.h"
+
+namespace parvis::scene {
+
+/// Metres on the map of the file's UTM zone, about the middle of its bounds: `Model::origin` says where that
+/// is. What is incomplete is told in `warnings` by its id, and the rest is read.
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings);
+
+}  // namespace parvis::scene
