@@ -175,6 +175,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     bend(scene.objects[o], o);
     place(scene, o);
   }
+  find_body_shapes(scene);
 }
 
 void GpuScene::place(const scene::Scene& scene, std::size_t o) {
@@ -195,15 +196,32 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
 }
 
 /// What light passes (leaves, glass) hides no sky.
+bool GpuScene::hides_sky(const PartRange& part) const {
+  return part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque;
+}
+
+void GpuScene::find_body_shapes(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Model& model = *scene.objects[o].model;
+    if (!is_moving_[o] || body_shapes_.contains(&model)) continue;
+    std::vector<shading::BodyMesh> meshes;
+    for (std::size_t p = 0; p < model.parts.size(); ++p)
+      if (hides_sky(parts_[std::size_t(first_part_[o]) + p]))
+        meshes.push_back({&model.parts[p].mesh, rest_poses_[o][std::size_t(model.parts[p].node)]});
+    body_shapes_[&model] = shading::body_shape(meshes);
+  }
+}
+
 void GpuScene::add_body(const scene::Object& object, std::size_t o) {
   const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
   Bounds in_model;
   for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
     const PartRange& part = parts_[std::size_t(items_[i].part)];
-    if (part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque)
-      in_model.add(transformed(pose[std::size_t(part.node)], part.bounds));
+    if (hides_sky(part)) in_model.add(transformed(pose[std::size_t(part.node)], part.bounds));
   }
-  if (const auto body = shading::body_of(in_model, object.world_from_model, int(o))) bodies_.push_back(*body);
+  const shading::BodyShape& shape = body_shapes_.at(object.model.get());
+  if (const auto body = shading::body_of(in_model, shape, object.world_from_model, int(o)))
+    bodies_.push_back(*body);
 }
 
 void GpuScene::update(const scene::Scene& scene) {

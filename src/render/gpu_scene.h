@@ -95,7 +95,9 @@ class GpuScene {
   void upload_model_materials(const scene::Model& model);
   void make_items(const scene::Scene& scene);
   void place(const scene::Scene& scene, std::size_t object);
+  void find_body_shapes(const scene::Scene& scene);
   void add_body(const scene::Object& object, std::size_t o);
+  bool hides_sky(const PartRange& part) const;
   GLuint plain_texture(glm::u8vec4 colour);
 
   std::unordered_map<const scene::Model*, int> first_part_of_model_;
@@ -115,6 +117,7 @@ class GpuScene {
   std::vector<std::uint8_t> is_moving_, is_visible_;
   std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
+  std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of what moves
   std::vector<shading::Body> bodies_;
   Bounds fixed_change_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model

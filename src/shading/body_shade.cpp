@@ -8,10 +8,8 @@ namespace {
 
 using glm::uint;
 
-constexpr float most_body_m = 60.0f;  // a long tram
-// Bodies are rounder than their bounds, which mirrors and bumpers set, and stand on wheels or feet.
-constexpr float hull_length = 0.93f, hull_width = 0.9f;  // of the bounds
-constexpr float open_below = 0.12f;                      // of the height
+constexpr float most_body_m = 60.0f;   // a long tram
+constexpr float fading_begins = 0.8f;  // of the distance to where bodies are left out
 
 glm::mat3 world_from_box(const Body& body) {  // the rows hold a rotation: its inverse is its transpose
   return {vec3(body.box_from_world[0]), vec3(body.box_from_world[1]), vec3(body.box_from_world[2])};
@@ -60,12 +58,11 @@ struct Lookup {
 
 }  // namespace
 
-std::optional<Body> body_of(const Bounds& in_model, const glm::mat4& world_from_model, int object) {
+std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, const glm::mat4& world_from_model,
+                            int object) {
   if (in_model.empty()) return std::nullopt;
-  Bounds hull = in_model;
-  const vec3 margin = 0.5f * vec3(1.0f - hull_length, 1.0f - hull_width, 0.0f) * hull.size();
-  hull.min += margin + vec3(0.0f, 0.0f, open_below * hull.size().z);
-  hull.max -= margin;
+  const Bounds hull{in_model.min + shape.box.min * in_model.size(),
+                    in_model.min + shape.box.max * in_model.size()};
   Body body{};
   glm::mat3 axes;  // of the box, in the world
   for (int i = 0; i < 3; ++i) {
@@ -79,6 +76,7 @@ std::optional<Body> body_of(const Bounds& in_model, const glm::mat4& world_from_
   const vec3 centre(world_from_model * vec4(hull.centre(), 1.0f));
   for (int i = 0; i < 3; ++i) body.box_from_world[i] = vec4(axes[i], -dot(axes[i], centre));
   body.half_size_m.w = float(object + 1);
+  body.coverage = vec4(shape.coverage, 0.0f);
   return body;
 }
 
@@ -93,8 +91,12 @@ BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer) {
     if (distance_m < half_m + most_body_m) near.emplace_back(distance_m, &body);
   }
   std::sort(near.begin(), near.end());
+  // Bodies fade before they are left out: at the border of the grid, or where there are too many.
+  float last_m = half_m - body_reach_m;
+  if (near.size() > std::size_t(most_bodies)) last_m = std::min(last_m, near[most_bodies].first);
   for (std::size_t i = 0; i < std::min(near.size(), std::size_t(most_bodies)); ++i) {
     shade.bodies[i] = *near[i].second;
+    shade.bodies[i].coverage *= 1.0f - smoothstep(fading_begins * last_m, last_m, near[i].first);
     enter(shade, int(i));
   }
   return shade;

@@ -5,15 +5,16 @@
 #include <span>
 
 #include "base/bounds.h"
+#include "shading/body_shape.h"
 #include "shading/glsl.h"
 
 namespace parvis::shading {
 #include "shading/body_shade.glsl"
 
-/// The body of an object with these bounds in its own frame. It is
-/// a little smaller: bodies are rounder, and below stand wheels or feet, not a hull. None where there is
+/// The body of an object with these bounds and this shape within them, in its own frame. None where there is
 /// nothing, or more than `most_body_m`, whose shape no box tells.
-std::optional<Body> body_of(const Bounds& in_model, const glm::mat4& world_from_model, int object);
+std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, const glm::mat4& world_from_model,
+                            int object);
 
 /// The bodies near a viewer, and which of them shade each cell of the ground: laid out as the std140 block of
 /// render/body_lookup.glsl.
@@ -24,7 +25,7 @@ struct BodyShade {
 };
 
 /// Of the bodies, those nearest to the viewer: `most_bodies` in all and `bodies_a_cell` in each cell, over a
-/// square of 156 m.
+/// square of 156 m. Toward its border, and toward the farthest where there are more, their shade fades.
 BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer);
 
 /// Share 0..1 of its sky that bodies leave to a surface; `object` does not shade itself.

@@ -33,11 +33,13 @@ float hidden_by_rays(vec3 p, vec3 normal, vec3 half_size) {
   return float(hits) / float(rays);
 }
 
+const BodyShape car_shape{{{0.03f, 0.05f, 0.12f}, {0.97f, 0.95f, 1.0f}}, vec3(1.0f)};
+
 Body car_at(vec3 place, float heading_rad, int object = 0) {
   const glm::mat4 world_from_model(vec4(std::cos(heading_rad), std::sin(heading_rad), 0, 0),
                                    vec4(-std::sin(heading_rad), std::cos(heading_rad), 0, 0),
                                    vec4(0, 0, 1, 0), vec4(place, 1));
-  return *body_of({{-2.2f, -0.9f, 0}, {2.2f, 0.9f, 1.5f}}, world_from_model, object);
+  return *body_of({{-2.2f, -0.9f, 0}, {2.2f, 0.9f, 1.5f}}, car_shape, world_from_model, object);
 }
 
 TEST(BodyShade, OnTheGroundItIsWhatRaysSay) {
@@ -91,6 +93,62 @@ TEST(BodyShade, ABodyDoesNotShadeItself) {
   EXPECT_LT(sky_share_beside_bodies(shade, {0, 0, 0}, up, 6), 0.1f);
 }
 
+/// A car that drives through a wall: along the wall its shade never jumps, and it leaves the wall some light.
+TEST(BodyShade, AWallThatABodyReachesIntoIsNotBlack) {
+  for (const vec3 normal : {vec3(-1, 0, 0), vec3(0, -1, 0)}) {
+    const Body car = car_at({0, 0, 0}, 0.0f);
+    const vec3 along(normal.y, normal.x, 0), start = vec3(0.2f, 0.2f, 0.7f) - 4.0f * along;
+    float before = 1.0f;
+    for (float way_m = 0.0f; way_m < 8.0f; way_m += 0.01f) {
+      const float share = sky_share_beside(car, start + way_m * along, normal);
+      EXPECT_NEAR(share, before, 0.03f) << way_m << " m along";
+      EXPECT_GT(share, 0.45f) << way_m << " m along";
+      before = share;
+    }
+  }
+}
+
+/// So does the road that a car's box dips into.
+TEST(BodyShade, AtABoxesFootTheShadeGoesOn) {
+  const Body car = car_at({0, 0, 0}, 0.0f);
+  float before = sky_share_beside(car, {0.1f, 0.1f, 0.1f}, up);
+  for (float height_m = 0.1f; height_m < 0.7f; height_m += 0.005f) {
+    const float share = sky_share_beside(car, {0.1f, 0.1f, height_m}, up);
+    EXPECT_NEAR(share, before, 0.03f) << height_m;
+    before = share;
+  }
+}
+
+TEST(BodyShade, BodiesFadeBeforeTheyAreLeftOut) {
+  float before = 0.0f;
+  for (float away_m = 0.0f; away_m < 90.0f; away_m += 0.5f) {
+    const Body car = car_at({away_m, 0, 0}, 0.0f);
+    const float share =
+        sky_share_beside_bodies(make_body_shade(std::span(&car, 1), {0, 0, 0}), {away_m, 0, 0}, up, -1);
+    EXPECT_NEAR(share, before, away_m > 0.0f ? 0.06f : 1.0f) << away_m;
+    before = share;
+  }
+  EXPECT_EQ(before, 1.0f);
+}
+
+TEST(BodyShade, AMultitudeFadesTowardItsFarthest) {
+  std::vector<Body> crowd;
+  for (int i = 0; i < most_bodies + 1; ++i) crowd.push_back(car_at({float(i), 0, 0}, 0.0f, i));
+  const BodyShade shade = make_body_shade(crowd, {0, 0, 0});
+  EXPECT_EQ(shade.bodies[0].coverage.z, 1.0f);
+  EXPECT_GT(shade.bodies[most_bodies - 1].coverage.z, 0.0f);
+  EXPECT_LT(shade.bodies[most_bodies - 1].coverage.z, 0.1f);
+}
+
+TEST(BodyShade, WhatIsHalfFilledHidesHalf) {
+  BodyShape half = car_shape;
+  half.coverage.z = 0.5f;
+  const Body full = car_at({0, 0, 0}, 0.0f);
+  const Body grid = *body_of({{-2.2f, -0.9f, 0}, {2.2f, 0.9f, 1.5f}}, half, glm::mat4(1.0f), 0);
+  const float hidden = 1.0f - sky_share_beside(full, {0, 0, 0}, up);
+  EXPECT_NEAR(1.0f - sky_share_beside(grid, {0, 0, 0}, up), 0.5f * hidden, 0.05f);
+}
+
 TEST(BodyShade, FarAwayAndWithoutBodiesAllIsOpen) {
   EXPECT_EQ(sky_share_beside_bodies(make_body_shade({}, {0, 0, 0}), {1, 2, 3}, up, -1), 1.0f);
   const Body car = car_at({0, 0, 0}, 0.0f);
@@ -99,9 +157,9 @@ TEST(BodyShade, FarAwayAndWithoutBodiesAllIsOpen) {
 }
 
 TEST(BodyShade, WhatNoBoxTellsIsNoBody) {
-  EXPECT_FALSE(body_of(Bounds{}, glm::mat4(1.0f), 0));
-  EXPECT_FALSE(body_of({{-100, -1, 0}, {100, 1, 1}}, glm::mat4(1.0f), 0));
-  EXPECT_FALSE(body_of({{-1, -1, 0}, {1, 1, 1}}, glm::mat4(0.0f), 0));
+  EXPECT_FALSE(body_of(Bounds{}, {}, glm::mat4(1.0f), 0));
+  EXPECT_FALSE(body_of({{-100, -1, 0}, {100, 1, 1}}, {}, glm::mat4(1.0f), 0));
+  EXPECT_FALSE(body_of({{-1, -1, 0}, {1, 1, 1}}, {}, glm::mat4(0.0f), 0));
 }
 
 }  // namespace
