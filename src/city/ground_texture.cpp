@@ -192,40 +192,4 @@ SurfacePictures gravel_pictures(std::uint32_t seed) {
   return canvas.pictures(1, 4);
 }
 
-/// Back yards from above: plots of grass, paving, gravel and planted beds between walls, with the crowns of
-/// shrubs.
-SurfacePictures courtyard_pictures(std::uint32_t seed) {
-  SurfaceCanvas canvas(1024, 1024, courtyard_sheet_m, courtyard_sheet_m);
-  const std::array<glm::vec3, 5> grounds{
-      linear_from_srgb8(0x6A, 0x76, 0x48), linear_from_srgb8(0xA0, 0x96, 0x86),
-      linear_from_srgb8(0x8C, 0x84, 0x66), linear_from_srgb8(0xB0, 0xA4, 0x8C),
-      linear_from_srgb8(0x92, 0x8C, 0x82)};
-  canvas.paint_all([&](float x, float y, Texel& t) {
-    const glm::vec2 p = glm::vec2(x, y) / courtyard_sheet_m;
-    const Cell plot = nearest_cell(p * 9.0f, {9, 9}, seed);
-    const float grain = fractal_noise(p * 240.0f, {240, 240}, 2, seed + 1);
-    const float patch = fractal_noise(p * 12.0f, {12, 12}, 5, seed + 2);
-    t.colour = grounds[std::size_t(plot.identity * 4.99f)] * (0.55f + 0.45f * grain + 0.4f * patch);
-    t.roughness = 0.95f;
-    if (plot.border < 0.04f)
-      t.colour = glm::vec3(0.3f, 0.26f, 0.2f) * (0.7f + 0.5f * grain);  // a wall between two
-    for (const int scale : {26, 52}) {                                  // trees, then shrubs
-      const Cell crown = nearest_cell(p * float(scale), {scale, scale}, seed + std::uint32_t(scale));
-      const float radius = 0.22f + 0.3f * crown.identity + 0.5f * (patch - 0.5f),
-                  wooded = patch + 0.35f * crown.identity;
-      if (wooded < 0.68f) continue;
-      const float leaf = fractal_noise(p * 200.0f, {200, 200}, 3, seed + 7);
-      if (crown.distance < radius + 0.12f * (leaf - 0.5f)) {
-        const float dome = 1.0f - crown.distance / radius;
-        t.colour = linear_from_srgb8(0x4A, 0x5E, 0x2E) * (0.3f + 0.6f * leaf + 0.6f * dome);
-        t.height_m = 60.0f / float(scale) * dome;
-        t.openness = 0.6f + 0.4f * dome;
-      } else {
-        t.openness *= 0.5f + 0.5f * glm::smoothstep(0.0f, 0.2f, crown.distance - radius);
-      }
-    }
-  });
-  return canvas.pictures(2, 4);
-}
-
 }  // namespace parvis::city
