@@ -127,6 +127,7 @@ void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
     sky_.renew_visibility(scene, changed);
     ++fixed_changes_;
   }
+  if (sky_.renew_light(scene.sky)) ++fixed_changes_;
   sun_ = scene.sun;
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;

@@ -53,8 +53,8 @@ class Renderer {
   int height() const { return target_.height(); }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }
   const GpuScene& gpu() const { return scene_.gpu(); }
-  /// How often fixed things have appeared, vanished or moved: what is kept of their pictures is then out of
-  /// date.
+  /// How often fixed things have appeared, vanished or moved, or the sky has changed: what is kept of their
+  /// pictures is then out of date.
   int fixed_changes() const { return fixed_changes_; }
 
   // The light that the ray tracer needs to agree with the picture.

@@ -159,6 +159,38 @@ TEST_F(RendererTest, FixedThingsMayVanishAppearAndMove) {
   EXPECT_EQ(renderer->read_radiance().pixels, at_first.pixels);
 }
 
+TEST_F(RendererTest, TheSkyMayTurnAndBrightenAndBeAnother) {
+  scene::Scene scene;
+  add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));
+  add(scene, model_of(box({-2, -0.2f, 0}, {2, 0.2f, 3}), matt(glm::vec3(0.5f))), true);
+  scene.sky.picture = ImageF(16, 8, 3, 0.2f);
+  for (int y = 0; y < 8; ++y) scene.sky.picture.at(3, y)[0] = 1.0f;  // light from the one side
+  Camera camera;
+  camera.world_from_camera = look_at({-6, -8, 3}, {0, 0, 1});
+  const auto renderer = renderer_of(scene);
+  draw(*renderer, scene, camera, 64, 48);
+  std::vector<float> last = renderer->read_radiance().pixels;
+  const auto expect_as_new = [&](const char* what) {
+    draw(*renderer, scene, camera, 64, 48);
+    const std::vector<float> changed = renderer->read_radiance().pixels;
+    EXPECT_NE(changed, last) << what;
+    last = changed;
+    const auto fresh = renderer_of(scene);
+    draw(*fresh, scene, camera, 64, 48);
+    EXPECT_EQ(changed, fresh->read_radiance().pixels) << what;
+  };
+  scene.sky.intensity = 2.0f;
+  expect_as_new("brighter");
+  scene.sky.heading = 1.5f;
+  expect_as_new("turned");
+  scene.sky.picture = ImageF(16, 8, 3, 0.1f);
+  scene.sky.file = "evening.hdr";
+  expect_as_new("another picture");
+  const int changes = renderer->fixed_changes();
+  draw(*renderer, scene, camera, 64, 48);
+  EXPECT_EQ(renderer->fixed_changes(), changes) << "nothing new";
+}
+
 TEST_F(RendererTest, TheSunMayMove) {
   scene::Scene scene;
   add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));

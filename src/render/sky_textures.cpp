@@ -55,13 +55,22 @@ Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
 }
 
 SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
-    : light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
+    : source_(source_of(scene.sky)),
+      light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
       visibility_(shading::make_sky_visibility(heights_of(scene))),
       program_(std::move(program)),
       picture_(upload(light_)),
       cells_(upload(visibility_)),
       no_attributes_(gl::VertexArray::create()) {
   program_.set("screen_depth", 0.0f);  // depth is reversed: the farthest
+}
+
+bool SkyTextures::renew_light(const scene::Sky& sky) {
+  if (source_of(sky) == source_) return false;
+  source_ = source_of(sky);
+  light_ = shading::make_sky_light(sky.picture, sky.intensity, sky.heading);
+  picture_ = upload(light_);
+  return true;
 }
 
 void SkyTextures::renew_visibility(const scene::Scene& scene, const Bounds& changed) {

@@ -14,6 +14,9 @@ class SkyTextures {
  public:
   static Result<SkyTextures> create(const scene::Scene& scene);
 
+  /// Takes over another sky: its picture (by the name of its file), strength or heading; false where it is
+  /// the same. Takes as long as when the scene was loaded.
+  bool renew_light(const scene::Sky& sky);
   /// Takes over fixed things that appeared, vanished or moved within `changed`.
   void renew_visibility(const scene::Scene& scene, const Bounds& changed);
 
@@ -28,6 +31,15 @@ class SkyTextures {
  private:
   SkyTextures(const scene::Scene& scene, gl::Program program);
 
+  /// What the light was made of.
+  struct Source {
+    std::filesystem::path file;
+    float intensity, heading;
+    bool operator==(const Source&) const = default;
+  };
+  static Source source_of(const scene::Sky& sky) { return {sky.file, sky.intensity, sky.heading}; }
+
+  Source source_;
   shading::SkyLight light_;
   shading::SkyVisibility visibility_;
   gl::Program program_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/image_io.h"
 #include "base/test_folder.h"
 #include "scene/gltf_writer.h"
 #include "scene/scene_loader.h"
@@ -230,6 +231,24 @@ TEST_F(LiveSceneTest, ANodeThatCannotBeBuiltKeepsWhatItWas) {
 
   tell(live_, "eye", "position 0 0 3");
   EXPECT_TRUE(live_.refresh(scene_).empty()) << "later changes are not held up";
+}
+
+TEST_F(LiveSceneTest, TheSkyTurnsAndAScenarioGivesAnother) {
+  for (const float light : {0.25f, 0.5f})
+    EXPECT_TRUE(write_image(folder_.path() / fmt::format("{}.exr", light), ImageF(4, 2, 3, light)));
+  load(
+      "sky(file=\"0.25.exr\")\n"
+      "scenario(name=noon) { override(of=\"%sky\", file=\"0.5.exr\", intensity=3) }\n");
+  tell(live_, "%sky", "heading_deg 90");
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_NEAR(scene_.sky.heading, glm::half_pi<float>(), 1e-6f);
+  EXPECT_EQ(scene_.sky.picture.at(0, 0)[0], 0.25f);
+  choose("noon");
+  EXPECT_EQ(scene_.sky.picture.at(0, 0)[0], 0.5f);
+  EXPECT_EQ(scene_.sky.intensity, 3.0f);
+  choose("");
+  EXPECT_EQ(scene_.sky.picture.at(0, 0)[0], 0.25f);
+  EXPECT_EQ(scene_.sky.intensity, 1.0f);
 }
 
 TEST_F(LiveSceneTest, TheMethodOfReflectionChanges) {

@@ -75,12 +75,14 @@ NodeSchema sky_schema() {
                       .help = "multiplies the picture",
                       .fallback = "1",
                       .minimum = 0,
-                      .maximum = 1e6},
+                      .maximum = 1e6,
+                      .is_live = true},
                      {.name = "heading_deg",
                       .type = AttributeType::angle,
                       .help = "turns the picture, clockwise from above; at 0 its middle lies north",
                       .fallback = "0",
-                      .unit = "degrees"}},
+                      .unit = "degrees",
+                      .is_live = true}},
       .example = "sky(file=\"hdri/park.hdr\", intensity=0.8, heading_deg=90)",
       .is_unique = true};
 }
@@ -89,10 +91,12 @@ void build_sky(const Node& node, SceneBuilder& builder) {
   Sky& sky = builder.scene.sky;
   sky.intensity = float(node.number("intensity"));
   sky.heading = node.angle("heading_deg");
-  if (!node.gives("file")) return;
-  Result<ImageF> picture = read_image_float(node.file("file"));
+  const std::filesystem::path file = node.file("file");
+  if (file == sky.file) return;  // built again
+  Result<ImageF> picture = file.empty() ? ImageF() : read_image_float(file);
   if (!picture) return builder.fail(picture.errors(), node.where_of("file"));
   sky.picture = std::move(*picture);
+  sky.file = file;
 }
 
 NodeSchema air_schema() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
@@ -50,8 +51,9 @@ struct Sun {
 
 struct Sky {
   ImageF picture;  ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
-  float intensity = 1.0f;  ///< multiplies the picture
-  float heading = 0.0f;    ///< radians, turns the picture about the zenith, clockwise from above
+  float intensity = 1.0f;      ///< multiplies the picture
+  float heading = 0.0f;        ///< radians, turns the picture about the zenith, clockwise from above
+  std::filesystem::path file;  ///< the picture's; empty: it was made in memory, and stays
 };
 
 struct NamedCamera {
