@@ -5,6 +5,7 @@
 #include "scene/city_json.h"
 #include "scene/gltf_reader.h"
 #include "scene/osm_reader.h"
+#include "scene/terrain.h"
 
 namespace parvis::scene {
 
@@ -13,6 +14,7 @@ Result<Model> model_from_file(const std::filesystem::path& file, const ModelRead
   const std::string extension = file.extension().string();
   if (extension == ".glb" || extension == ".gltf") return read_gltf(file, warnings);
   if (extension == ".json") return read_city_model(file, warnings, reading.most_detail);
+  if (extension == ".tif" || extension == ".tiff") return read_terrain(file, reading.cell_m, warnings);
   if (extension == ".osm") return read_osm(file, warnings);
   if (extension == ".gml" || extension == ".citygml" || extension == ".xml")
     return read_city_gml(file, warnings, reading.most_detail);

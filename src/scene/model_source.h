@@ -16,6 +16,7 @@ enum class UpAxis : unsigned char { file, y, z };
 struct ModelReading {
   UpAxis up = UpAxis::file;
   std::optional<double> most_detail = {};  ///< of city models: the level of detail; the highest there is
+  std::optional<double> cell_m = {};       ///< of grids of heights that have no place on the earth
 };
 
 /// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to

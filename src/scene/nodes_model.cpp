@@ -16,7 +16,9 @@ namespace {
 NodeSchema model_schema() {
   NodeSchema schema{
       .type = "model",
-      .help = "A model file (glTF, OBJ and others), placed. Its children change its materials or add wheels.",
+      .help =
+          "A model file (glTF, OBJ, CityJSON, CityGML, OpenStreetMap, GeoTIFF terrain and others), placed. "
+          "Its children change its materials or add wheels.",
       .attributes =
           {{.name = "name", .help = "by which other nodes refer to it"},
            {.name = "file", .type = AttributeType::file, .help = "the model file", .is_required = true},
@@ -30,6 +32,12 @@ NodeSchema model_schema() {
             .help = "of city models: the level of detail, or the next one below; else the highest",
             .minimum = 0.0,
             .maximum = 4.0},
+           {.name = "cell",
+            .type = AttributeType::number,
+            .help = "of a terrain grid (GeoTIFF) without a place on the earth: between its samples",
+            .unit = "m",
+            .minimum = 0.001,
+            .maximum = 10'000.0},
            {.name = "dynamic",
             .type = AttributeType::flag,
             .help = "it may move: stands in nothing that is computed once",
@@ -74,7 +82,8 @@ NodeSchema model_schema() {
 /// What decides how the node's file is read.
 std::string reading_key(const Node& node) {
   const std::string level = node.gives("lod") ? fmt::format("&lod={}", node.number("lod")) : "";
-  return node.file("file").string() + "?up=" + node.text("up") + level;
+  const std::string cell = node.gives("cell") ? fmt::format("&cell={}", node.number("cell")) : "";
+  return node.file("file").string() + "?up=" + node.text("up") + level + cell;
 }
 
 /// Georeferenced models stand as their coordinates say: the first one's origin is the scene's, and the others
@@ -97,6 +106,7 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
   ModelReading reading;
   reading.up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
   if (node.gives("lod")) reading.most_detail = node.number("lod");
+  if (node.gives("cell")) reading.cell_m = node.number("cell");
   return builder.shared_model(reading_key(node), [&]() -> std::shared_ptr<const Model> {
     Errors warnings;
     Result<Model> model = model_from_file(file, reading, warnings);
@@ -113,6 +123,7 @@ PlayedAnimation animation_of(const Model& model, const Node& node, SceneBuilder&
   const std::string wanted = node.gives("animation") ? node.text("animation") : "";
   if (wanted == "none") return played;
   std::vector<std::string> names;
+  names.reserve(model.animations.size());
   for (const Animation& animation : model.animations) names.push_back(animation.name);
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end()) {
