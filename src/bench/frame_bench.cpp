@@ -55,8 +55,8 @@ stage::Play play_with(const scene::Scene& scene, int vehicles) {
 int reflectors_seen(stage::Stage& stage, const Camera& camera) {
   stage.renderer().begin_frame(stage.scene(), camera);
   stage.renderer().prepare_main_view(camera, width, height);
-  std::vector<probes::Reflector> reflectors;
-  probes::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
+  std::vector<render::Reflector> reflectors;
+  render::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
   return int(reflectors.size());
 }
 

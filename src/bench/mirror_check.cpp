@@ -109,12 +109,12 @@ scene::Scene mirror_scene(Mesh mirror, float room_half_m) {
 }
 
 /// The re-rendered map with its -y and +x faces exchanged.
-class SwappedFaces final : public probes::Reflections {
+class SwappedFaces final : public probes::CubeMapReflections {
  public:
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<probes::Reflector>& reflectors) override {
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override {
     for (int face = 0; face < 6; ++face)
       map_.draw_face(renderer, face, reflectors.front().centre, reflectors.front().object);
     const gl::Texture kept = gl::texture_2d(GL_RGBA16F, map_resolution, map_resolution);
@@ -130,18 +130,18 @@ class SwappedFaces final : public probes::Reflections {
     map_.update_levels();
   }
 
-  probes::CubeMap map_{map_resolution};
+  render::CubeMap map_{map_resolution};
 };
 
 Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
-  std::unique_ptr<probes::Reflections> reflections;
+  std::unique_ptr<render::Reflections> reflections;
   if (swaps_faces) {
     reflections = std::make_unique<SwappedFaces>();
     if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
   } else {
-    Result<std::unique_ptr<probes::Reflections>> made = probes::Reflections::create(scene, **renderer);
+    Result<std::unique_ptr<render::Reflections>> made = probes::make_reflections(scene, **renderer);
     if (!made) return made.errors();
     reflections = *std::move(made);
   }

@@ -80,10 +80,11 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
       probe.position + glm::vec3(shift.x * probe.heading + shift.y * left, open_half_size_m - height_m);
 }
 
-void BoxProjectedProbe::update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) {
+void BoxProjectedProbe::update_maps(render::Renderer& renderer,
+                                    const std::vector<render::Reflector>& reflectors) {
   for (Probe& probe : probes_) ++probe.idle_frames;
   probe_of_object_.clear();
-  for (const Reflector& reflector : reflectors) {
+  for (const render::Reflector& reflector : reflectors) {
     Probe* nearest = nullptr;
     float least = std::numeric_limits<float>::max();
     for (Probe& probe : probes_)

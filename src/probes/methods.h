@@ -10,64 +10,64 @@
 namespace parvis::probes {
 
 /// The paper's "no reflection": shading by the lights alone.
-class NoReflection final : public Reflections {
+class NoReflection final : public render::Reflections {
  public:
   std::string fragment_shader() const override { return "probes/no_reflection.frag"; }
   void bind(const gl::Program&, int) override {}
 
  private:
-  void update_maps(render::Renderer&, const std::vector<Reflector>&) override {}
+  void update_maps(render::Renderer&, const std::vector<render::Reflector>&) override {}
 };
 
 /// A map for each reflector, drawn anew every frame. With level of detail its resolution follows the
 /// reflector's size on the screen, and those that are far share one map.
-class RerenderedCubeMap final : public Reflections {
+class RerenderedCubeMap final : public CubeMapReflections {
  public:
   explicit RerenderedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
   void bind(const gl::Program& program, int object) override;
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
-  CubeMap& take(int resolution);
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  render::CubeMap& take(int resolution);
 
   scene::Reflection settings_;
-  std::multimap<int, std::unique_ptr<CubeMap>> free_, used_;  ///< by resolution
-  std::map<int, const CubeMap*> map_of_object_;
+  std::multimap<int, std::unique_ptr<render::CubeMap>> free_, used_;  ///< by resolution
+  std::map<int, const render::CubeMap*> map_of_object_;
 };
 
 /// A map for each reflector, of which a few faces are drawn a frame, in turn.
-class TimeSlicedCubeMap final : public Reflections {
+class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
   explicit TimeSlicedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
   void bind(const gl::Program& program, int object) override;
 
  private:
   struct Sliced {
-    CubeMap map;
+    render::CubeMap map;
     int next_face = 0;
     int idle_frames = 0;
   };
-  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
 
   scene::Reflection settings_;
   std::map<int, Sliced> maps_;  ///< by object
 };
 
 /// One map for all reflectors, drawn every frame about the one that is largest on the screen.
-class SharedCubeMap final : public Reflections {
+class SharedCubeMap final : public CubeMapReflections {
  public:
   explicit SharedCubeMap(const scene::Reflection& reflection) : map_(reflection.resolution) {}
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
 
-  CubeMap map_;
+  render::CubeMap map_;
 };
 
 /// Maps at fixed places along the roads, drawn once without what moves, each looked up as the inside of a box
 /// fitted to the street around it.
-class BoxProjectedProbe final : public Reflections {
+class BoxProjectedProbe final : public CubeMapReflections {
  public:
   explicit BoxProjectedProbe(const scene::Scene& scene);
   void bind(const gl::Program& program, int object) override;
@@ -76,11 +76,11 @@ class BoxProjectedProbe final : public Reflections {
   struct Probe {
     glm::vec3 position;
     glm::vec2 heading;  ///< cosine and sine of the street's direction
-    std::optional<CubeMap> map;
+    std::optional<render::CubeMap> map;
     glm::vec3 box_centre{0.0f}, box_half_size{0.0f};
     int idle_frames = 0;
   };
-  void update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override;
   void bake(Probe& probe, render::Renderer& renderer);
 

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "gl/test_context.h"
-#include "probes/test_room.h"
+#include "render/test_room.h"
 
 namespace parvis::probes {
 namespace {
 
+using namespace render;  // the room with its walls
 using scene::ReflectionMethod;
 
 constexpr int width = 160, height = 120;
@@ -20,7 +21,7 @@ class Show {
     Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     renderer_ = *std::move(renderer);
-    Result<std::unique_ptr<Reflections>> reflections = Reflections::create(scene_, *renderer_);
+    Result<std::unique_ptr<render::Reflections>> reflections = make_reflections(scene_, *renderer_);
     EXPECT_TRUE(reflections) << to_string(reflections.errors());
     reflections_ = *std::move(reflections);
   }
@@ -41,7 +42,7 @@ class Show {
   scene::Scene scene_;
   Camera camera_;
   std::unique_ptr<render::Renderer> renderer_;
-  std::unique_ptr<Reflections> reflections_;
+  std::unique_ptr<render::Reflections> reflections_;
 };
 
 class ReflectionsTest : public gl::ContextTest {};

@@ -2,7 +2,8 @@
 
 namespace parvis::probes {
 
-void SharedCubeMap::update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) {
+void SharedCubeMap::update_maps(render::Renderer& renderer,
+                                const std::vector<render::Reflector>& reflectors) {
   if (!reflectors.empty()) draw_whole(map_, renderer, reflectors.front().centre, reflectors.front().object);
 }
 

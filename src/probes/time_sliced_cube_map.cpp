@@ -8,10 +8,11 @@ constexpr int forgotten_after = 120;  // frames unseen
 
 }  // namespace
 
-void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const std::vector<Reflector>& reflectors) {
+void TimeSlicedCubeMap::update_maps(render::Renderer& renderer,
+                                    const std::vector<render::Reflector>& reflectors) {
   for (auto& [object, sliced] : maps_) ++sliced.idle_frames;
-  for (const Reflector& reflector : reflectors) {
-    const auto [place, is_new] = maps_.try_emplace(reflector.object, CubeMap(settings_.resolution));
+  for (const render::Reflector& reflector : reflectors) {
+    const auto [place, is_new] = maps_.try_emplace(reflector.object, render::CubeMap(settings_.resolution));
     Sliced& sliced = place->second;
     sliced.idle_frames = 0;
     if (is_new) {  // a map with empty faces would be black

@@ -149,6 +149,13 @@ NodeSchema reflection_schema() {
                           .type = AttributeType::flag,
                           .help = "resolution by size on screen; far objects share one map",
                           .fallback = "1",
+                          .is_live = true},
+                         {.name = "maps",
+                          .type = AttributeType::integer,
+                          .help = "reference maps along the streets, of multiple_environment_maps",
+                          .fallback = "54",
+                          .minimum = 1,
+                          .maximum = 2000,
                           .is_live = true}},
           .example = "reflection(method=\"rerendered_cube_map\", resolution=128)",
           .is_unique = true};
@@ -160,6 +167,7 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
     if (node.text("method") == reflection_method_names[i]) reflection.method = ReflectionMethod(i);
   reflection.resolution = int(node.integer("resolution"));
   reflection.uses_level_of_detail = node.flag("level_of_detail");
+  reflection.most_maps = int(node.integer("maps"));
 }
 
 }  // namespace

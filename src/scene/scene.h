@@ -70,15 +70,21 @@ enum class ReflectionMethod : std::uint8_t {
   rerendered_cube_map,
   time_sliced_cube_map,
   shared_cube_map,
-  box_projected_probe
+  box_projected_probe,
+  multiple_environment_maps
 };
-inline constexpr std::array reflection_method_names{"none", "rerendered_cube_map", "time_sliced_cube_map",
-                                                    "shared_cube_map", "box_projected_probe"};
+inline constexpr std::array reflection_method_names{"none",
+                                                    "rerendered_cube_map",
+                                                    "time_sliced_cube_map",
+                                                    "shared_cube_map",
+                                                    "box_projected_probe",
+                                                    "multiple_environment_maps"};
 
 struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
   int resolution = 128;              ///< pixels along a face's edge
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
+  int most_maps = 54;                ///< reference maps, of multiple_environment_maps
 
   bool operator==(const Reflection&) const = default;
 };

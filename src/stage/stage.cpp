@@ -1,6 +1,8 @@
 #include "stage/stage.h"
 
 #include "action/action_nodes.h"
+#include "environment_maps/multiple_environment_maps.h"
+#include "probes/reflections.h"
 #include "scene/object_animation.h"
 
 namespace parvis::stage {
@@ -52,6 +54,13 @@ Result<Play> open_play(const std::filesystem::path& script,
   return play;
 }
 
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer) {
+  return scene.reflection.method == scene::ReflectionMethod::multiple_environment_maps
+             ? environment_maps::make_reflections(scene, renderer)
+             : probes::make_reflections(scene, renderer);
+}
+
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
     : play_(std::move(play)), renderer_(std::move(renderer)) {}
 
@@ -65,7 +74,7 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
 
 Status Stage::set_reflection(const scene::Reflection& reflection) {
   play_.scene.reflection = reflection;
-  Result<std::unique_ptr<probes::Reflections>> made = probes::Reflections::create(play_.scene, *renderer_);
+  Result<std::unique_ptr<render::Reflections>> made = make_reflections(play_.scene, *renderer_);
   if (!made) return made.errors();
   reflections_ = *std::move(made);
   shown_reflection_ = reflection;

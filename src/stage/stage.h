@@ -10,9 +10,8 @@
 
 #include "action/actions.h"
 #include "gl/pass_times.h"
-#include "probes/reflections.h"
 #include "reference/tracer.h"
-#include "render/renderer.h"
+#include "render/reflections.h"
 #include "scene/scene_loader.h"
 #include "stage/scene_camera.h"
 #include "traffic/traffic.h"
@@ -45,6 +44,10 @@ Play make_play(scene::Scene scene);
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
 
+/// The method of reflection that the scene names, handed to the renderer; both outlive it.
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer);
+
 /// Draws a play with an OpenGL context that is current.
 class Stage {
  public:
@@ -54,7 +57,7 @@ class Stage {
   Play& play() { return play_; }
   const scene::Scene& scene() const { return play_.scene; }
   render::Renderer& renderer() { return *renderer_; }
-  const probes::Reflections& reflections() const { return *reflections_; }
+  const render::Reflections& reflections() const { return *reflections_; }
   /// Of the passes of a frame: shadows, reflections, picture; those who draw more add theirs.
   gl::PassTimes& pass_times() { return pass_times_; }
 
@@ -79,7 +82,7 @@ class Stage {
 
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
-  std::unique_ptr<probes::Reflections> reflections_;
+  std::unique_ptr<render::Reflections> reflections_;
   scene::Reflection shown_reflection_;
   gl::PassTimes pass_times_;
 };

@@ -1,11 +1,11 @@
-#include "probes/cube_map.h"
+#include "render/cube_map.h"
 
 #include <gtest/gtest.h>
 
 #include "gl/test_context.h"
-#include "probes/test_room.h"
+#include "render/test_room.h"
 
-namespace parvis::probes {
+namespace parvis::render {
 namespace {
 
 constexpr float room_half_m = 8.0f;
@@ -25,7 +25,7 @@ class CubeMapTest : public gl::ContextTest {
   void SetUp() override {
     gl::ContextTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_);
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_);
     ASSERT_TRUE(made) << to_string(made.errors());
     renderer_ = *std::move(made);
     renderer_->begin_frame(scene_, Camera{});
@@ -33,7 +33,7 @@ class CubeMapTest : public gl::ContextTest {
   void TearDown() override { renderer_.reset(); }
 
   scene::Scene scene_ = room_scene(room_half_m);
-  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 /// From beside the middle of the room nearly every face shows parts of several walls: a face that is
@@ -84,4 +84,4 @@ TEST_F(CubeMapTest, TheSmallestLevelIsTheMeanOfEachFace) {
 }
 
 }  // namespace
-}  // namespace parvis::probes
+}  // namespace parvis::render

@@ -5,15 +5,17 @@
 #include "gl/objects.h"
 #include "render/renderer.h"
 
-namespace parvis::probes {
+namespace parvis::render {
+
+inline constexpr float cube_near_m = 0.2f, cube_far_m = 4000.0f;
 
 class CubeMap {
  public:
   explicit CubeMap(int resolution);
 
   /// Draws one face (0..5 in OpenGL's order), seen from `centre`, without the object `excluded` (-1: all).
-  void draw_face(render::Renderer& renderer, int face, glm::vec3 centre, int excluded,
-                 render::Subjects subjects = render::Subjects::all);
+  void draw_face(Renderer& renderer, int face, glm::vec3 centre, int excluded,
+                 Subjects subjects = Subjects::all);
   /// To be called when faces have changed.
   void update_levels();
 
@@ -23,6 +25,8 @@ class CubeMap {
 
   int resolution() const { return resolution_; }
   GLuint texture() const { return texture_.name(); }
+  /// Of the face drawn last; reversed: 1 at cube_near_m, 0 at cube_far_m.
+  GLuint depth_texture() const { return depth_.name(); }
 
  private:
   int resolution_;
@@ -31,6 +35,6 @@ class CubeMap {
 };
 
 /// The view of a face from `centre`.
-render::View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer);
+View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer);
 
-}  // namespace parvis::probes
+}  // namespace parvis::render

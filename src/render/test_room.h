@@ -6,7 +6,7 @@
 
 #include "scene/test_scene.h"
 
-namespace parvis::probes {
+namespace parvis::render {
 
 /// Radiance of the walls at +x, -x, +y, -y, +z, -z.
 inline constexpr std::array<glm::vec3, 6> wall_colours{
@@ -75,4 +75,4 @@ inline scene::Scene room_scene(float half_m) {
   return scene;
 }
 
-}  // namespace parvis::probes
+}  // namespace parvis::render

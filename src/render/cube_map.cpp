@@ -1,13 +1,11 @@
-#include "probes/cube_map.h"
+#include "render/cube_map.h"
 
 #include <array>
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace parvis::probes {
+namespace parvis::render {
 namespace {
-
-constexpr float near_m = 0.2f, far_m = 4000.0f;
 
 struct FaceFrame {
   glm::vec3 forward, up;
@@ -22,11 +20,11 @@ constexpr std::array<FaceFrame, 6> face_frames{{{{1, 0, 0}, {0, -1, 0}},
 
 }  // namespace
 
-render::View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer) {
+View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer) {
   const FaceFrame& frame = face_frames[std::size_t(face)];
-  render::View view;
-  view.kind = render::ViewKind::cube_face;
-  view.clip_from_world = glm::perspective(glm::radians(90.0f), 1.0f, near_m, far_m) *
+  View view;
+  view.kind = ViewKind::cube_face;
+  view.clip_from_world = glm::perspective(glm::radians(90.0f), 1.0f, cube_near_m, cube_far_m) *
                          glm::lookAt(centre, centre + frame.forward, frame.up);
   view.position_in_world = centre;
   view.framebuffer = framebuffer;
@@ -45,10 +43,9 @@ CubeMap::CubeMap(int resolution)
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
-void CubeMap::draw_face(render::Renderer& renderer, int face, glm::vec3 centre, int excluded,
-                        render::Subjects subjects) {
+void CubeMap::draw_face(Renderer& renderer, int face, glm::vec3 centre, int excluded, Subjects subjects) {
   glNamedFramebufferTextureLayer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), 0, face);
-  render::View view = face_view(face, centre, resolution_, framebuffer_.name());
+  View view = face_view(face, centre, resolution_, framebuffer_.name());
   view.excluded_object = excluded;
   view.subjects = subjects;
   renderer.draw_view(view);
@@ -73,4 +70,4 @@ void CubeMap::read_points(int face, glm::vec3 centre, std::vector<glm::vec3>& po
 
 void CubeMap::update_levels() { glGenerateTextureMipmap(texture_.name()); }
 
-}  // namespace parvis::probes
+}  // namespace parvis::render

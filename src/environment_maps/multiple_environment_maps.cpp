@@ -1,0 +1,117 @@
+#include "environment_maps/multiple_environment_maps.h"
+
+#include "render/bindings.h"
+#include "render/fixed_parts.h"
+
+namespace parvis::environment_maps {
+namespace {
+
+enum Unit : GLuint {
+  heights_unit = render::first_reflection_unit,
+  colours_unit,
+  distances_unit,
+  choice_unit,
+  places_unit
+};
+
+shading::Heightfield heights_of(const scene::Scene& scene) {
+  Bounds bounds;
+  const auto each_part = [&](auto&& visit) {
+    render::for_each_fixed_opaque_part(
+        scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+          if (object.is_visible) visit(part.mesh, world_from_mesh);
+        });
+  };
+  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+    bounds.add(transformed(world_from_mesh, mesh.bounds()));
+  });
+  shading::Heightfield heights(bounds);
+  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
+  return heights;
+}
+
+gl::Texture nearest_texture(GLenum format, int width, int height, int levels = 1) {
+  gl::Texture texture = gl::texture_2d(format, width, height, levels);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER,
+                      levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+gl::Texture upload(const HeightPyramid& heights) {
+  const std::vector<ImageF>& levels = heights.levels();
+  if (levels.empty()) return nearest_texture(GL_R32F, 1, 1);
+  gl::Texture texture =
+      nearest_texture(GL_R32F, levels.front().width, levels.front().height, int(levels.size()));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height, GL_RED,
+                        GL_FLOAT, levels[level].pixels.data());
+  return texture;
+}
+
+gl::Texture upload(const MapChoice& choice) {
+  gl::Texture texture = nearest_texture(GL_RGBA16UI, choice.cells().x, choice.cells().y);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, choice.cells().x, choice.cells().y, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_SHORT, choice.indices().data());
+  return texture;
+}
+
+gl::Texture upload(const std::vector<glm::vec3>& places) {
+  gl::Texture texture = nearest_texture(GL_RGB32F, int(places.size()), 1);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, GLsizei(places.size()), 1, GL_RGB, GL_FLOAT, places.data());
+  return texture;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
+                                                                                 render::Renderer& renderer) {
+  const HeightPyramid heights(heights_of(scene));
+  std::vector<glm::vec3> places = spread_places(scene, heights, scene.reflection.most_maps);
+  if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
+  renderer.begin_frame(scene, Camera{});  // light, for the maps
+  Result<ReferenceMaps> maps = ReferenceMaps::bake(renderer, std::move(places), scene.reflection.resolution);
+  if (!maps) return maps.errors();
+  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(heights, *std::move(maps)));
+}
+
+MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps)
+    : maps_(std::move(maps)),
+      origin_(heights.origin()),
+      cell_m_(heights.cell_m()),
+      cells_(heights.cells()),
+      top_level_(int(heights.levels().size()) - 1),
+      heights_(upload(heights)),
+      places_(upload(maps_.places())) {
+  const MapChoice choice(maps_.places(), heights);
+  choice_grid_ = glm::vec3(choice.origin(), choice.cell_m());
+  choice_ = upload(choice);
+}
+
+void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
+  glBindTextureUnit(heights_unit, heights_.name());
+  glBindTextureUnit(colours_unit, maps_.colours());
+  glBindTextureUnit(distances_unit, maps_.distances());
+  glBindTextureUnit(choice_unit, choice_.name());
+  glBindTextureUnit(places_unit, places_.name());
+  program.set("heights", int(heights_unit));
+  program.set("map_colours", int(colours_unit));
+  program.set("map_distances", int(distances_unit));
+  program.set("map_choice", int(choice_unit));
+  program.set("map_places", int(places_unit));
+  program.set("height_grid", glm::vec4(origin_, cell_m_, float(top_level_)));
+  program.set("height_cells", glm::vec2(cells_));
+  program.set("choice_grid", choice_grid_);
+  program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
+}
+
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer) {
+  Result<std::unique_ptr<MultipleEnvironmentMaps>> made = MultipleEnvironmentMaps::create(scene, renderer);
+  if (!made) return made.errors();
+  std::unique_ptr<render::Reflections> reflections = *std::move(made);
+  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
+  return reflections;
+}
+
+}  // namespace parvis::environment_maps

@@ -1,0 +1,132 @@
+#include "environment_maps/multiple_environment_maps.h"
+
+#include <gtest/gtest.h>
+
+#include "environment_maps/octahedral.h"
+#include "gl/test_context.h"
+#include "reference/metrics.h"
+#include "reference/tracer.h"
+#include "render/test_room.h"
+#include "shading/tone_curve.h"
+
+namespace parvis::environment_maps {
+namespace {
+
+constexpr float room_half_m = 8.0f;
+constexpr int width = 320, height = 240;
+
+class EnvironmentMapsTest : public gl::ContextTest {};
+
+TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
+  scene::Scene scene = render::room_scene(room_half_m);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  (*renderer)->begin_frame(scene, Camera{});
+  const std::vector<glm::vec3> places{{4, 2.5f, -3.5f}, {-3.5f, -4.5f, 2}};
+  const Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, places, 32);
+  ASSERT_TRUE(maps) << to_string(maps.errors());
+  const std::size_t side = std::size_t(maps->resolution());
+  std::vector<glm::vec3> colours(2 * side * side);
+  std::vector<float> distances(2 * side * side);
+  glGetTextureImage(maps->colours(), 0, GL_RGB, GL_FLOAT, GLsizei(colours.size() * sizeof(glm::vec3)),
+                    colours.data());
+  glGetTextureImage(maps->distances(), 0, GL_RED, GL_FLOAT, GLsizei(distances.size() * sizeof(float)),
+                    distances.data());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const glm::vec2 uv = (glm::vec2(i % side, i / side % side) + 0.5f) / float(side);
+    const glm::vec3 place = places[i / (side * side)];
+    const glm::vec3 direction = layer_direction(uv, float(side), float(ReferenceMaps::border));
+    const render::WallHit hit = render::wall_met(room_half_m, place, direction);
+    if (hit.lead_m < 3.0f) continue;  // a texel near an edge shows two walls
+    ASSERT_LT(glm::distance(colours[i], render::wall_colours[std::size_t(hit.wall)]), 0.02f);
+    const float side_m = hit.wall % 2 == 0 ? room_half_m : -room_half_m;
+    const float expected_m = (side_m - place[hit.wall / 2]) / direction[hit.wall / 2];
+    ASSERT_NEAR(distances[i], expected_m, 0.05f * expected_m);
+  }
+}
+
+/// A square with towers that shine in colours of their own, and a mirror box between them.
+scene::Scene tower_square() {
+  scene::Scene scene;
+  scene.sun.irradiance = glm::vec3(0.0f);
+  scene::add(scene, scene::model_of(scene::ground(60.0f), scene::matt(glm::vec3(0.4f))));
+  const auto tower = [&](glm::vec2 corner, glm::vec3 size, glm::vec3 colour) {
+    scene::Material lamp = scene::matt(glm::vec3(0.0f));
+    lamp.metallic = 1.0f;
+    lamp.emission = colour;
+    const glm::vec3 low(corner, 0.0f);
+    scene::add(scene, scene::model_of(scene::box(low, low + size), lamp));
+  };
+  tower({-20, -6}, {6, 4, 14}, {0.9f, 0.1f, 0.1f});
+  tower({-20, 2}, {6, 8, 9}, {0.1f, 0.8f, 0.1f});
+  tower({-4, 14}, {10, 6, 11}, {0.1f, 0.2f, 0.9f});
+  tower({14, 3}, {6, 9, 7}, {0.9f, 0.8f, 0.1f});
+  tower({13, -12}, {5, 8, 16}, {0.1f, 0.8f, 0.8f});
+  tower({-6, -20}, {14, 6, 10}, {0.8f, 0.1f, 0.8f});
+  render::add_mirror(scene, {1.5f, 0.5f, 1.6f}, 1.2f);
+  scene.reflection = {scene::ReflectionMethod::multiple_environment_maps, 128, false, 12};
+  return scene;
+}
+
+/// FLIP inside the mirror against the ray tracer.
+double flip_of(const scene::Scene& scene, bool uses_maps, glm::vec3 eye) {
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  EXPECT_TRUE(renderer) << to_string(renderer.errors());
+  std::unique_ptr<render::Reflections> reflections;
+  Camera camera;
+  camera.world_from_camera = look_at(eye, {1.5f, 0.5f, 1.6f});
+  if (uses_maps) {
+    Result<std::unique_ptr<render::Reflections>> made = make_reflections(scene, **renderer);
+    EXPECT_TRUE(made) << to_string(made.errors());
+    reflections = *std::move(made);
+  }
+  (*renderer)->begin_frame(scene, camera);
+  (*renderer)->prepare_main_view(camera, width, height);
+  if (reflections) reflections->update(**renderer, scene, camera);
+  (*renderer)->draw_main_view();
+
+  reference::TraceOptions options;
+  const shading::SunShadow shadow = (*renderer)->sun_shadow();
+  options.shadow = &shadow;
+  options.sky_visibility = &(*renderer)->sky_visibility();
+  options.body_shade = &(*renderer)->body_shade();
+  const reference::RayScene rays(scene);
+  const reference::TracedPicture truth =
+      reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);
+  const Result<reference::Difference> difference =
+      reference::compare((*renderer)->read_picture(scene.exposure),
+                         shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
+  EXPECT_TRUE(difference) << to_string(difference.errors());
+  return difference->flip;
+}
+
+TEST_F(EnvironmentMapsTest, AMirrorShowsTheSquareThatTheRayTracerShows) {
+  const scene::Scene scene = tower_square();
+  for (const glm::vec3 eye : {glm::vec3(-2.5f, -3.5f, 2.2f), glm::vec3(6.0f, -2.0f, 2.4f)}) {
+    EXPECT_LT(flip_of(scene, true, eye), 0.08);
+    EXPECT_GT(flip_of(scene, false, eye), 0.25) << "the sky alone";
+  }
+}
+
+TEST_F(EnvironmentMapsTest, ASceneWithoutAnythingFixedStillReflectsItsSky) {
+  scene::Scene scene;
+  render::add_mirror(scene, glm::vec3(0.0f, 0.0f, 1.5f), 1.0f);
+  scene.reflection = {scene::ReflectionMethod::multiple_environment_maps, 32, false, 4};
+  EXPECT_LT(flip_of(scene, true, {-3.0f, -2.0f, 3.5f}), 0.1);
+}
+
+TEST_F(EnvironmentMapsTest, PlacesAreApartAndOnTheStreets) {
+  scene::Scene scene;
+  scene.roads.lanes = {{{{0, 0, 0}, {200, 0, 0}}, {}}, {{{100, 2, 0}, {100, 150, 0}}, {}}};
+  const HeightPyramid nothing{shading::Heightfield(Bounds{})};
+  const std::vector<glm::vec3> few = spread_places(scene, nothing, 9);
+  ASSERT_EQ(few.size(), 9u);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_TRUE(std::abs(few[i].y) < 0.01f || std::abs(few[i].x - 100.0f) < 0.01f);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(glm::distance(few[i], few[j]), 25.0f);
+  }
+  EXPECT_LT(spread_places(scene, nothing, 1000).size(), 60u) << "near-duplicates are dropped";
+}
+
+}  // namespace
+}  // namespace parvis::environment_maps

@@ -1,0 +1,30 @@
+#include "render/reflections.h"
+
+#include <algorithm>
+
+namespace parvis::render {
+
+void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const Camera& camera,
+                     std::vector<Reflector>& reflectors) {
+  reflectors.clear();
+  const float pixels_at_1m = 0.5f * float(renderer.height()) / std::tan(0.5f * camera.vertical_fov);
+  for (const int object : renderer.visible_objects()) {
+    if (!scene.objects[std::size_t(object)].takes_reflection) continue;
+    const Bounds& bounds = renderer.gpu().object_bounds()[std::size_t(object)];
+    const float distance_m =
+        std::max(glm::distance(bounds.centre(), camera.position_in_world()), camera.near_m);
+    reflectors.push_back({object, bounds.centre(), 2.0f * bounds.radius() / distance_m * pixels_at_1m});
+  }
+  std::sort(reflectors.begin(), reflectors.end(),
+            [](const Reflector& a, const Reflector& b) { return a.size_px > b.size_px; });
+}
+
+void Reflections::update(Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
+  find_reflectors(renderer, scene, camera, reflectors_);
+  faces_drawn_ = 0;
+  if (fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
+  fixed_changes_ = renderer.fixed_changes();
+  update_maps(renderer, reflectors_);
+}
+
+}  // namespace parvis::render

@@ -1,0 +1,44 @@
+// What methods of reflection have in common: they make maps for the reflectors that a frame shows, before it
+// is drawn.
+#pragma once
+
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace parvis::render {
+
+/// What a method knows of a reflecting object.
+struct Reflector {
+  int object;        ///< index in the scene
+  glm::vec3 centre;  ///< of its bounds, in the world
+  float size_px;     ///< diameter on the screen
+};
+
+/// Reflectors that the prepared main view shows, the largest first.
+void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const Camera& camera,
+                     std::vector<Reflector>& reflectors);
+
+/// One method of reflection. Made for a renderer and a scene, both of which outlive it.
+class Reflections : public ReflectionSource {
+ public:
+  /// Draws what maps the method wants for the reflectors that the prepared main view shows.
+  void update(Renderer& renderer, const scene::Scene& scene, const Camera& camera);
+
+  /// Faces of surroundings drawn by the last update.
+  int faces_drawn() const { return faces_drawn_; }
+
+ protected:
+  /// `reflectors` are ordered from the largest on the screen to the smallest.
+  virtual void update_maps(Renderer& renderer, const std::vector<Reflector>& reflectors) = 0;
+  /// The fixed surroundings are others now.
+  virtual void forget_surroundings() {}
+
+  int faces_drawn_ = 0;
+
+ private:
+  int fixed_changes_ = 0;  ///< of the renderer, that the maps know of
+  std::vector<Reflector> reflectors_;
+};
+
+}  // namespace parvis::render
