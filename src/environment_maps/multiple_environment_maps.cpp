@@ -1,5 +1,7 @@
 #include "environment_maps/multiple_environment_maps.h"
 
+#include "environment_maps/map_choice.h"
+#include "environment_maps/placement.h"
 #include "render/bindings.h"
 #include "render/fixed_parts.h"
 

@@ -4,7 +4,7 @@
 // with one centre lacks.
 #pragma once
 
-#include "environment_maps/placement.h"
+#include "environment_maps/height_pyramid.h"
 #include "environment_maps/reference_maps.h"
 #include "render/reflections.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "environment_maps/octahedral.h"
+#include "environment_maps/placement.h"
 #include "gl/test_context.h"
 #include "reference/metrics.h"
 #include "reference/tracer.h"
