@@ -15,7 +15,7 @@ namespace {
 const glm::vec3 road_paint = linear_from_srgb8(0xD4, 0xD2, 0xCA);
 
 void paint_asphalt(SurfaceCanvas& canvas, std::uint32_t seed) {
-  const glm::vec3 colour = linear_from_srgb8(0x4A, 0x4A, 0x4C);
+  const glm::vec3 colour = linear_from_srgb8(0x5E, 0x5B, 0x57);
   const glm::vec2 size(canvas.width_m(), canvas.height_m());
   const glm::ivec2 stains = glm::max(glm::ivec2(size / 3.0f), 1), grains(size / 0.035f);
   canvas.paint_all([&](float x, float y, Texel& t) {
@@ -140,7 +140,7 @@ SurfacePictures zebra_pictures(float carriageway_m, std::uint32_t seed) {
 SurfacePictures paving_pictures(std::uint32_t seed) {
   SurfaceCanvas canvas(1024, 1024, paving_sheet_m, paving_sheet_m);
   const glm::vec3 granite = linear_from_srgb8(0xA7, 0x9F, 0x94);
-  const glm::ivec2 count(8, 12);
+  const glm::ivec2 count(12, 16);  // slabs of 0.6 x 0.45 m
   const glm::vec2 size = glm::vec2(paving_sheet_m) / glm::vec2(count);
   canvas.paint_all([&](float x, float y, Texel& t) {
     const glm::vec2 p = glm::vec2(x, y) / paving_sheet_m;

@@ -12,10 +12,10 @@ namespace {
 
 std::string light() {
   return fmt::format(
-      "sun(azimuth_deg={}, elevation_deg={}, irradiance=\"6.2 5.6 4.7\")\n"
+      "sun(azimuth_deg={}, elevation_deg={}, irradiance=\"10.2 8.8 6.9\")\n"
       "sky(file=\"sky.hdr\")\n"
       "air(haze_per_m=0.0002)\n"
-      "exposure(value=1.4)\n"
+      "exposure(value=1.15)\n"
       "reflection(method=\"rerendered_cube_map\", resolution=128)\n\n",
       sun_azimuth_deg, sun_elevation_deg);
 }
@@ -68,7 +68,7 @@ std::string cameras() {
          camera("crossing", at(9.3f, -13.5f, 1.6f), at(-18.0f, 15.0f, 1.6f), 65) +
          camera("avenue", at(-7.2f, 17.0f, 1.6f), at(2.0f, 80.0f, 1.6f), 60) +
          camera("park", at(14.0f, -70.0f, 1.75f), at(45.0f, -20.0f, 1.75f), 65) +
-         camera("balcony", at(-7.7f, 27.0f, 12.0f), at(14.0f, -30.0f, 5.5f), 65) +
+         camera("balcony", at(7.2f, 21.0f, 11.0f), at(0.0f, -30.0f, 4.5f), 65) +
          camera("roofs", at(-150.0f, -190.0f, 95.0f), at(20.0f, -10.0f, 0.0f), 55) +
          camera("plan", at(0.0f, 0.0f, 320.0f), at(0.0f, 0.0f, 0.0f), 60) +
          "camera(name=\"follow\", follows=\"vehicle 1\", offset=\"-6.5 -2.6 1.7\", fov_deg=65)\n";

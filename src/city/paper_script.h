@@ -7,7 +7,7 @@
 
 namespace parvis::city {
 
-inline constexpr float sun_azimuth_deg = 232.0f, sun_elevation_deg = 42.0f;
+inline constexpr float sun_azimuth_deg = 132.0f, sun_elevation_deg = 46.0f;
 /// Unit vector to the sun of the script.
 glm::vec3 to_sun();
 

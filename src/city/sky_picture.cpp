@@ -12,10 +12,10 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr float cloud_base_m = 1400.0f;
-const glm::vec3 horizon_radiance(0.62f, 0.72f, 0.84f);
+const glm::vec3 horizon_radiance(0.66f, 0.78f, 0.94f);
 
 glm::vec3 clear_sky(glm::vec3 direction, glm::vec3 to_sun) {
-  const glm::vec3 zenith(0.12f, 0.27f, 0.60f), middle(0.26f, 0.47f, 0.82f);
+  const glm::vec3 zenith(0.09f, 0.24f, 0.62f), middle(0.22f, 0.46f, 0.90f);
   const float up = std::max(direction.z, 0.0f), cosine = std::clamp(glm::dot(direction, to_sun), -1.0f, 1.0f);
   glm::vec3 radiance = glm::mix(middle, zenith, std::pow(up, 0.6f));
   radiance = glm::mix(radiance, horizon_radiance, std::exp(-6.5f * up));
@@ -27,7 +27,7 @@ glm::vec3 clear_sky(glm::vec3 direction, glm::vec3 to_sun) {
 /// Share of a point of the cloud layer that is cloud; `p` in kilometres.
 float cloud_density(glm::vec2 p, float height, std::uint32_t seed) {
   // Cumulus is flat below and rounded above: the threshold rises with height.
-  const float shape = fractal_noise(glm::vec3(0.8f * p, 0.35f * height), 3, seed) - 0.55f - 0.1f * height;
+  const float shape = fractal_noise(glm::vec3(0.8f * p, 0.35f * height), 3, seed) - 0.59f - 0.1f * height;
   constexpr float detail_share = 0.42f;
   if (shape < -0.5f * detail_share) return 0.0f;
   const float detail = fractal_noise(glm::vec3(2.3f * p, 1.3f * height), 4, seed + 20) - 0.5f;
@@ -43,7 +43,7 @@ struct Cloud {
 Cloud clouds(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
   if (direction.z < 0.02f) return {};
   constexpr int steps = 24;
-  const glm::vec3 sunlit(3.0f, 2.9f, 2.7f), shaded(0.55f, 0.63f, 0.76f);
+  const glm::vec3 sunlit(2.9f, 2.75f, 2.5f), shaded(0.62f, 0.70f, 0.84f);
   float through = 1.0f;
   glm::vec3 light(0.0f);
   for (int i = 0; i < steps && through > 0.03f; ++i) {
