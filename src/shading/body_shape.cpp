@@ -95,7 +95,7 @@ float coverage_along(int axis, const Bounds& box, const std::vector<Triangle>& t
         const float a = twice_area(p[0], p[1], cell), b = twice_area(p[1], p[2], cell),
                     c = twice_area(p[2], p[0], cell);
         if (std::min(a, std::min(b, c)) >= 0.0f || std::max(a, std::max(b, c)) <= 0.0f)
-          covered.set(std::size_t(y * cells_a_side + x));
+          covered.set(std::size_t(y) * cells_a_side + std::size_t(x));
       }
   }
   return float(covered.count()) / float(covered.size());
