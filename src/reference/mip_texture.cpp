@@ -9,13 +9,18 @@
 namespace parvis::reference {
 namespace {
 
-const std::array<float, 256>& linear_of_byte() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(float(i) / 255.0f);
-    return values;
+using ByteTable = std::array<float, 256>;
+
+const float* values_of_bytes(bool is_srgb) {
+  static const std::array<ByteTable, 2> tables = [] {
+    std::array<ByteTable, 2> both{};
+    for (std::size_t i = 0; i < 256; ++i) {
+      both[0][i] = float(i) / 255.0f;
+      both[1][i] = linear_from_srgb(both[0][i]);
+    }
+    return both;
   }();
-  return table;
+  return tables[is_srgb ? 1 : 0].data();
 }
 
 std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
@@ -23,7 +28,10 @@ std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::c
 }  // namespace
 
 MipTexture::MipTexture(const scene::Texture& texture)
-    : levels_{texture.image}, is_srgb_(texture.is_srgb), repeats_(texture.repeats) {
+    : levels_{texture.image},
+      value_of_byte_(values_of_bytes(texture.is_srgb)),
+      is_srgb_(texture.is_srgb),
+      repeats_(texture.repeats) {
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Image8& fine = levels_.back();
     Image8 coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), 4);
@@ -42,27 +50,28 @@ MipTexture::MipTexture(const scene::Texture& texture)
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
   const std::uint8_t* p = level.at(x, y);
-  const auto decoded = [&](std::uint8_t value) {
-    return is_srgb_ ? linear_of_byte()[value] : float(value) / 255.0f;
-  };
-  return {decoded(p[0]), decoded(p[1]), decoded(p[2]), float(p[3]) / 255.0f};
+  return {value_of_byte_[p[0]], value_of_byte_[p[1]], value_of_byte_[p[2]], float(p[3]) / 255.0f};
 }
 
 glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
+  // Coordinates lie in 0..1, and so x and y above -1.
   const auto wrapped = [&](int i, int size) {
-    return repeats_ ? (i % size + size) % size : std::clamp(i, 0, size - 1);
+    if (i >= 0 && i < size) return i;
+    return (i < 0) == repeats_ ? size - 1 : 0;
   };
-  if (repeats_) uv -= glm::floor(uv);  // far coordinates keep their precision
   const float x = uv.x * float(level.width) - 0.5f, y = uv.y * float(level.height) - 0.5f;
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int x0 = wrapped(int(fx), level.width), x1 = wrapped(int(fx) + 1, level.width);
-  const int y0 = wrapped(int(fy), level.height), y1 = wrapped(int(fy) + 1, level.height);
-  return glm::mix(glm::mix(texel(level, x0, y0), texel(level, x1, y0), x - fx),
-                  glm::mix(texel(level, x0, y1), texel(level, x1, y1), x - fx), y - fy);
+  const int left = int(x + 1.0f) - 1, top = int(y + 1.0f) - 1;
+  const int x0 = wrapped(left, level.width), x1 = wrapped(left + 1, level.width);
+  const int y0 = wrapped(top, level.height), y1 = wrapped(top + 1, level.height);
+  const float fx = x - float(left), fy = y - float(top);
+  return glm::mix(glm::mix(texel(level, x0, y0), texel(level, x1, y0), fx),
+                  glm::mix(texel(level, x0, y1), texel(level, x1, y1), fx), fy);
 }
 
 glm::vec4 MipTexture::sample(glm::vec2 uv, float texels) const {
   uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
+  // Where the picture does not repeat, its edge goes on.
+  uv = repeats_ ? uv - glm::vec2(std::floor(uv.x), std::floor(uv.y)) : glm::clamp(uv, 0.0f, 1.0f);
   const float level = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(levels_.size() - 1));
   const std::size_t fine = std::size_t(level), coarse = std::min(fine + 1, levels_.size() - 1);
   const float t = level - float(fine);

@@ -22,6 +22,7 @@ class MipTexture {
   glm::vec4 bilinear(const Image8& level, glm::vec2 uv) const;
 
   std::vector<Image8> levels_;
+  const float* value_of_byte_;  ///< of colour channels
   bool is_srgb_, repeats_;
 };
 

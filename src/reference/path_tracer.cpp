@@ -60,9 +60,11 @@ vec3 PathTracer::surroundings(const Path& path) const {
   const vec3 direction = path.ray.direction;
   const bool is_shared = path.density > 0.0f;  // chosen lights find it, too
   vec3 light(0.0f);
-  if (sky_sampler_.shines())
-    light += shading::sky_radiance(sky_, direction, 0.0f) *
-             (is_shared ? weight(path.density, sky_sampler_.density(direction), false) : 1.0f);
+  if (sky_sampler_.shines()) {
+    const glm::vec2 uv = shading::equirect_uv(direction, sky_.heading);
+    light += shading::sky_picture_at(sky_, uv) *
+             (is_shared ? weight(path.density, sky_sampler_.density(uv), false) : 1.0f);
+  }
   if (sun_.shines() && sun_.contains(direction))
     light += sun_.radiance() * (is_shared ? weight(path.density, SunDisc::density(), false) : 1.0f);
   return light;
@@ -88,9 +90,9 @@ vec3 PathTracer::light_at(const ShadingPoint& point, const Scatter& scatter, Pat
   if (sun_.shines())
     light += light_from(sun_.direction(on_sun), sun_.radiance(), SunDisc::density(), point, scatter, path);
   if (sky_sampler_.shines()) {
-    const vec3 direction = sky_sampler_.direction(on_sky);
-    light += light_from(direction, shading::sky_radiance(sky_, direction, 0.0f),
-                        sky_sampler_.density(direction), point, scatter, path);
+    const SkySampler::Choice chosen = sky_sampler_.choose(on_sky);
+    light += light_from(chosen.direction, shading::sky_picture_at(sky_, chosen.uv), chosen.density, point,
+                        scatter, path);
   }
   return light;
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int tile_side = 32;  // pixels: rays of a tile meet the same parts, and its textures stay at hand
 constexpr int values_a_pixel = 5;            // red, green, blue, alpha, depth
-constexpr std::uint32_t method_version = 1;  // to be raised whenever the same options give other pictures
+constexpr std::uint32_t method_version = 2;  // to be raised whenever the same options give other pictures
 
 struct Tile {
   int x0, y0, x1, y1;

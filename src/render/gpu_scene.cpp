@@ -229,6 +229,7 @@ void GpuScene::update(const scene::Scene& scene) {
   moving_bounds_.clear();
   bodies_.clear();
   fixed_change_ = {};
+  is_newcomer_.assign(scene.objects.size(), 0);
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
@@ -239,9 +240,11 @@ void GpuScene::update(const scene::Scene& scene) {
       moving_bounds_.push_back(object_bounds_[o]);
       add_body(object, o);
     } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
-      if (was_visible) fixed_change_.add(object_bounds_[o]);
+      if (was_visible) fixed_change_.gone.push_back(object_bounds_[o]);
+      fixed_change_.has_moved |= world_from_model_[o] != object.world_from_model;
       place(scene, o);
-      if (object.is_visible) fixed_change_.add(object_bounds_[o]);
+      if (object.is_visible) fixed_change_.come.push_back(object_bounds_[o]);
+      is_newcomer_[o] = object.is_visible;
     }
   }
   geometry_.upload_bent();

@@ -59,14 +59,25 @@ struct Item {
   bool is_mirror;  ///< takes the scene's reflection method
 };
 
+/// Fixed objects that appeared, vanished or were put elsewhere in one update.
+struct FixedChange {
+  std::vector<Bounds> gone;  ///< where one stood
+  std::vector<Bounds> come;  ///< where one stands now
+  bool has_moved = false;    ///< one stood elsewhere before
+
+  bool empty() const { return gone.empty() && come.empty(); }
+};
+
 class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
 
   /// Takes over where objects are and which are hidden. The scene has as many objects as at first.
   void update(const scene::Scene& scene);
-  /// Where fixed objects appeared, vanished or were put elsewhere in the last update; empty: all stayed.
-  const Bounds& fixed_change() const { return fixed_change_; }
+  /// Of the last update.
+  const FixedChange& fixed_change() const { return fixed_change_; }
+  /// Did a fixed object come in the last update?
+  bool is_newcomer(int object) const { return is_newcomer_[std::size_t(object)] != 0; }
 
   const std::vector<PartRange>& parts() const { return parts_; }
   const std::vector<GpuMaterial>& materials() const { return materials_; }
@@ -114,12 +125,12 @@ class GpuScene {
   std::vector<Item> items_;
   std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
   std::vector<Bounds> object_bounds_;
-  std::vector<std::uint8_t> is_moving_, is_visible_;
+  std::vector<std::uint8_t> is_moving_, is_visible_, is_newcomer_;
   std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
   std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of what moves
   std::vector<shading::Body> bodies_;
-  Bounds fixed_change_;
+  FixedChange fixed_change_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
 };
 

@@ -122,9 +122,9 @@ void Renderer::draw_view(const View& view) {
 
 void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   scene_.update(scene);
-  if (const Bounds& changed = scene_.gpu().fixed_change(); !changed.empty()) {
-    shadows_.renew(changed, scene_.gpu().fixed_bounds());
-    sky_.renew_visibility(scene, changed);
+  if (const FixedChange& change = scene_.gpu().fixed_change(); !change.empty()) {
+    shadows_.renew(change, scene_.gpu().fixed_bounds());
+    sky_.renew_visibility(scene, scene_.gpu());
     ++fixed_changes_;
   }
   if (sky_.renew_light(scene.sky)) ++fixed_changes_;

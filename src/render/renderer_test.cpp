@@ -191,6 +191,33 @@ TEST_F(RendererTest, TheSkyMayTurnAndBrightenAndBeAnother) {
   EXPECT_EQ(renderer->fixed_changes(), changes) << "nothing new";
 }
 
+/// The coarse map is brought up to date when the fine one leaves what changed, not before.
+TEST_F(RendererTest, WhatChangedNearTheViewerIsRightFromFarAway) {
+  scene::Scene scene;
+  add(scene, model_of(ground(400), matt(glm::vec3(0.5f))));
+  const int stays = add(scene, model_of(box({2, 0, 0}, {6, 4, 9}), matt(glm::vec3(0.5f))));
+  const int goes = add(scene, model_of(box({-6, 0, 0}, {-2, 4, 12}), matt(glm::vec3(0.5f))));
+  const int comes = add(scene, model_of(box({8, 3, 0}, {12, 7, 10}), matt(glm::vec3(0.5f))));
+  scene.sun.direction_to_sun = {0.3f, -0.5f, 0.6f};
+  scene.objects[std::size_t(comes)].is_visible = false;
+  Camera near_camera, far_camera;
+  near_camera.world_from_camera = look_at({0, -40, 6}, {0, 0, 1});
+  far_camera.world_from_camera = look_at({0, -180, 90}, {0, 0, 0});
+  const auto renderer = renderer_of(scene);
+  draw(*renderer, scene, near_camera, 100, 75);
+  scene.objects[std::size_t(goes)].is_visible = false;
+  scene.objects[std::size_t(comes)].is_visible = true;
+  draw(*renderer, scene, near_camera, 100, 75);
+  scene.objects[std::size_t(stays)].world_from_model[3] = {1, 2, 0, 1};
+  draw(*renderer, scene, near_camera, 100, 75);
+  draw(*renderer, scene, far_camera, 200, 150);
+  const auto fresh = renderer_of(scene);
+  draw(*fresh, scene, far_camera, 200, 150);
+  EXPECT_EQ(renderer->read_radiance().pixels, fresh->read_radiance().pixels);
+  const auto far_depth = [](const Renderer& of) { return of.sun_shadow().depth[shading::shadow_far_map]; };
+  EXPECT_EQ(far_depth(*renderer).pixels, far_depth(*fresh).pixels);
+}
+
 TEST_F(RendererTest, TheSunMayMove) {
   scene::Scene scene;
   add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));

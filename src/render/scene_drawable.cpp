@@ -29,8 +29,20 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   return array;
 }
 
-bool shows(Subjects subjects, bool is_moving) {
-  return subjects == Subjects::all || (subjects == Subjects::moving) == is_moving;
+bool shows(Subjects subjects, const GpuScene& gpu, int object) {
+  switch (subjects) {
+    case Subjects::all:
+      return true;
+    case Subjects::moving:
+      return gpu.is_moving(object);
+    case Subjects::fixed:
+      return !gpu.is_moving(object);
+    case Subjects::staying:
+      return !gpu.is_moving(object) && !gpu.is_newcomer(object);
+    case Subjects::newcomers:
+      return gpu.is_newcomer(object);
+  }
+  return true;
 }
 
 }  // namespace
@@ -147,7 +159,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
   const std::vector<Item>& items = gpu_.items();
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Item& item = items[i];
-    if (item.object == view.excluded_object || !shows(view.subjects, gpu_.is_moving(item.object))) continue;
+    if (item.object == view.excluded_object || !shows(view.subjects, gpu_, item.object)) continue;
     if (!gpu_.is_visible(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
     if (!frustum.may_see(item.bounds)) continue;

@@ -2,6 +2,7 @@
 
 #include "render/bindings.h"
 #include "render/fixed_parts.h"
+#include "render/regions.h"
 
 namespace parvis::render {
 namespace {
@@ -19,6 +20,22 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
         if (object.is_visible) heights.add(part.mesh, world_from_mesh);
       });
   return heights;
+}
+
+/// What has come is put onto the heights; where something has gone they are made anew. All objects stand
+/// where they stood, seen or hidden.
+void renew_heights(const scene::Scene& scene, const GpuScene& gpu, shading::Heightfield& heights) {
+  const std::vector<Bounds> places_left = united(gpu.fixed_change().gone, 0.0f);
+  for (const Bounds& place : places_left) heights.clear(place);
+  for_each_fixed_opaque_part(
+      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        if (!object.is_visible) return;
+        const int index = int(&object - scene.objects.data());
+        if (gpu.is_newcomer(index)) return heights.add(part.mesh, world_from_mesh);
+        for (const Bounds& place : places_left)
+          if (overlap_from_above(place, gpu.object_bounds()[std::size_t(index)]))
+            heights.add(part.mesh, world_from_mesh, &place);
+      });
 }
 
 gl::Texture upload(const shading::SkyLight& sky) {
@@ -57,7 +74,8 @@ Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
 SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
     : source_(source_of(scene.sky)),
       light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
-      visibility_(shading::make_sky_visibility(heights_of(scene))),
+      heights_(heights_of(scene)),
+      visibility_(shading::make_sky_visibility(heights_)),
       program_(std::move(program)),
       picture_(upload(light_)),
       cells_(upload(visibility_)),
@@ -73,8 +91,16 @@ bool SkyTextures::renew_light(const scene::Sky& sky) {
   return true;
 }
 
-void SkyTextures::renew_visibility(const scene::Scene& scene, const Bounds& changed) {
-  shading::renew_sky_visibility(visibility_, heights_of(scene), changed);
+void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gpu) {
+  const FixedChange& change = gpu.fixed_change();
+  if (change.has_moved)
+    heights_ = heights_of(scene);  // its bounds may be others, too
+  else
+    renew_heights(scene, gpu, heights_);
+  std::vector<Bounds> changed = change.gone;
+  changed.insert(changed.end(), change.come.begin(), change.come.end());
+  for (const Bounds& region : united(std::move(changed), shading::sky_visibility_reach_m))
+    shading::renew_sky_visibility(visibility_, heights_, region);
   cells_ = upload(visibility_);
 }
 

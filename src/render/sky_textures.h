@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gl/program.h"
+#include "render/gpu_scene.h"
 #include "render/view.h"
 #include "scene/scene.h"
 #include "shading/sky.h"
@@ -17,8 +18,8 @@ class SkyTextures {
   /// Takes over another sky: its picture (by the name of its file), strength or heading; false where it is
   /// the same. Takes as long as when the scene was loaded.
   bool renew_light(const scene::Sky& sky);
-  /// Takes over fixed things that appeared, vanished or moved within `changed`.
-  void renew_visibility(const scene::Scene& scene, const Bounds& changed);
+  /// Takes over fixed things that appeared, vanished or moved in the last update of `gpu`.
+  void renew_visibility(const scene::Scene& scene, const GpuScene& gpu);
 
   /// Texture units `sky_unit` and `sky_visibility_unit`.
   void bind() const;
@@ -41,6 +42,7 @@ class SkyTextures {
 
   Source source_;
   shading::SkyLight light_;
+  shading::Heightfield heights_;  ///< of what is fixed and seen
   shading::SkyVisibility visibility_;
   gl::Program program_;
   gl::Texture picture_, cells_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/bindings.h"
+#include "render/regions.h"
 
 namespace parvis::render {
 namespace {
@@ -109,33 +110,81 @@ void SunShadowMaps::draw_far(const std::function<void(const View&)>& draw) {
   far_view_ = aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
   draw(far_view_);
   far_is_drawn_ = true;
+  postponed_.clear();
 }
 
-void SunShadowMaps::renew(const Bounds& changed, const Bounds& fixed) {
+void SunShadowMaps::renew(const FixedChange& change, const Bounds& fixed) {
   Bounds all = fixed_;
   all.add(fixed);
   if (all.min != fixed_.min || all.max != fixed_.max) {
     fixed_ = all;
     turn_to(to_sun_);
   }
-  changed_.add(changed);
+  change_ = change;
 }
 
-/// Of the maps that are drawn already, the squares where fixed things changed.
-void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
-  const auto draw_part = [&](View view, const Square& square) {
-    view.part = glm::ivec4(square.corner, square.size);
+/// Is no point whose shadow the box may change looked up in the far map? Points are lifted by a texel or two
+/// before lookups, which filter over two more.
+bool SunShadowMaps::near_map_serves(const Bounds& box) const {
+  if (near_centre_.x >= 1e30f) return false;
+  const float margin_m = 8.0f * maps_.texel_m[shading::shadow_far_map];
+  const Bounds uv =
+      transformed(maps_.uvz_from_world[shading::shadow_near_map], {box.min - margin_m, box.max + margin_m});
+  return uv.min.x > 0.0f && uv.min.y > 0.0f && uv.max.x < 1.0f && uv.max.y < 1.0f;
+}
+
+/// Draws anew the squares of a map where the boxes fall, with all of the `subjects` there.
+void SunShadowMaps::redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
+                           const std::function<void(const View&)>& draw) const {
+  std::vector<Bounds> squares;  // in texels, flat
+  for (const Bounds& box : boxes) squares.push_back(texels_of(map, box));
+  view.subjects = subjects;
+  for (const Bounds& texels : united(std::move(squares), 0.0f)) {
+    view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
     if (view.has_part()) draw(view);
-  };
-  if (far_is_drawn_) draw_part(far_view_, square_of(shading::shadow_far_map, changed_));
+  }
+}
+
+/// Draws what came over what is there.
+void SunShadowMaps::draw_newcomers(View view, int map, std::span<const Bounds> boxes,
+                                   const std::function<void(const View&)>& draw) const {
+  Bounds texels;
+  for (const Bounds& box : boxes)
+    if (const Bounds square = texels_of(map, box); square.size().x > 0.0f && square.size().y > 0.0f)
+      texels.add(square);
+  if (texels.empty()) return;
+  view.subjects = Subjects::newcomers;
+  view.clears = false;
+  view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
+  draw(view);
+}
+
+void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
+  if (far_is_drawn_) {
+    std::vector<Bounds> gone, come;
+    for (const Bounds& box : change_.gone) (near_map_serves(box) ? postponed_ : gone).push_back(box);
+    for (const Bounds& box : change_.come) (near_map_serves(box) ? postponed_ : come).push_back(box);
+    redraw(far_view_, shading::shadow_far_map, gone, Subjects::staying, draw);
+    draw_newcomers(far_view_, shading::shadow_far_map, come, draw);
+  }
   if (near_centre_.x < 1e30f) {
-    const Square square = square_of(shading::shadow_near_map, changed_);
     View fixed_view = near_view_;
     fixed_view.framebuffer = near_fixed_framebuffer_.name();
-    draw_part(fixed_view, square);
-    if (square.size.x > 0 && square.size.y > 0) drawn_over_.push_back(square);
+    redraw(fixed_view, shading::shadow_near_map, change_.gone, Subjects::staying, draw);
+    draw_newcomers(fixed_view, shading::shadow_near_map, change_.come, draw);
+    for (const std::vector<Bounds>* boxes : {&change_.gone, &change_.come})
+      for (const Bounds& box : *boxes)
+        if (const Square square = square_of(shading::shadow_near_map, box);
+            square.size.x > 0 && square.size.y > 0)
+          drawn_over_.push_back(square);
   }
-  changed_ = {};
+  change_ = {};
+}
+
+/// The near map is about to serve another region.
+void SunShadowMaps::draw_postponed(const std::function<void(const View&)>& draw) {
+  redraw(far_view_, shading::shadow_far_map, postponed_, Subjects::fixed, draw);
+  postponed_.clear();
 }
 
 void SunShadowMaps::put_back(const Square& square) {
@@ -154,13 +203,21 @@ SunShadowMaps::Square SunShadowMaps::square_of(int map, const Bounds& box) const
   return {corner, glm::clamp(high, 0, map_size) - corner};
 }
 
+Bounds SunShadowMaps::texels_of(int map, const Bounds& box) const {
+  const Square square = square_of(map, box);
+  return {{square.corner, 0}, {square.corner + square.size, 0}};
+}
+
 void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
                            const std::function<void(const View&)>& draw) {
   if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
-  if (!changed_.empty()) draw_changed(draw);
+  if (!change_.empty()) draw_changed(draw);
   if (!far_is_drawn_) draw_far(draw);
   const glm::vec3 focus = focus_of(camera, fixed_);
-  if (glm::distance(focus, near_centre_) > near_stay_m) draw_near_fixed(focus, draw);
+  if (glm::distance(focus, near_centre_) > near_stay_m) {
+    draw_postponed(draw);
+    draw_near_fixed(focus, draw);
+  }
 
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();

@@ -11,6 +11,7 @@
 #include "base/bounds.h"
 #include "base/image.h"
 #include "gl/objects.h"
+#include "render/gpu_scene.h"
 #include "render/view.h"
 #include "shading/shadow.h"
 
@@ -21,9 +22,9 @@ class SunShadowMaps {
   /// `fixed` bounds all that does not move, in the world.
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
-  /// Fixed things appeared, vanished or moved within `changed`: the next update draws that part of the maps
-  /// again. `fixed` bounds all that does not move now.
-  void renew(const Bounds& changed, const Bounds& fixed);
+  /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
+  /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
+  void renew(const FixedChange& change, const Bounds& fixed);
 
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
   /// `moving` bounds each thing that moves.
@@ -45,8 +46,15 @@ class SunShadowMaps {
   void draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw);
   void draw_far(const std::function<void(const View&)>& draw);
   void draw_changed(const std::function<void(const View&)>& draw);
+  void draw_postponed(const std::function<void(const View&)>& draw);
+  void redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
+              const std::function<void(const View&)>& draw) const;
+  void draw_newcomers(View view, int map, std::span<const Bounds> boxes,
+                      const std::function<void(const View&)>& draw) const;
+  bool near_map_serves(const Bounds& box) const;
   void put_back(const Square& square);
   Square square_of(int map, const Bounds& box) const;
+  Bounds texels_of(int map, const Bounds& box) const;
 
   Bounds fixed_;
   glm::vec3 to_sun_;
@@ -60,7 +68,8 @@ class SunShadowMaps {
   View near_view_, far_view_;
   std::vector<Square> drawn_over_;  ///< of the near map, by what moved
   bool far_is_drawn_ = false;
-  Bounds changed_;  ///< since the last update
+  FixedChange change_;             ///< of this frame
+  std::vector<Bounds> postponed_;  ///< changed parts of the far map that nobody looks up: the near one serves
   glm::vec3 near_centre_{1e30f};
 };
 

@@ -18,7 +18,13 @@ enum class ViewKind : std::uint8_t {
 };
 
 /// Which of the scene's objects a view shows.
-enum class Subjects : std::uint8_t { all, fixed, moving };
+enum class Subjects : std::uint8_t {
+  all,
+  moving,
+  fixed,
+  staying,   ///< fixed, and not of the newcomers
+  newcomers  ///< fixed things that appeared, or were put where they are, in this frame
+};
 
 /// One picture to be drawn: from where, through what, onto which target.
 struct View {

@@ -12,29 +12,46 @@ Heightfield::Heightfield(const Bounds& bounds, float cell_m, int most_cells_a_si
   heights_ = ImageF(int(size.x / cell_m_) + 1, int(size.y / cell_m_) + 1, 1, bounds.min.z);
 }
 
-void Heightfield::add(const Mesh& mesh, const glm::mat4& world_from_mesh) {
+/// The cells that a box touches, seen from above; those at the rim where it lies outside.
+Heightfield::Cells Heightfield::cells_of(const Bounds& box) const {
+  const auto cell = [&](float metres, float origin, int count) {
+    return int(std::clamp((metres - origin) / cell_m_, 0.0f, float(count - 1)));
+  };
+  return {{cell(box.min.x, bounds_.min.x, heights_.width), cell(box.min.y, bounds_.min.y, heights_.height)},
+          {cell(box.max.x, bounds_.min.x, heights_.width), cell(box.max.y, bounds_.min.y, heights_.height)}};
+}
+
+void Heightfield::clear(const Bounds& region) {
+  if (heights_.empty() || region.max.x < bounds_.min.x || region.min.x > bounds_.max.x ||
+      region.max.y < bounds_.min.y || region.min.y > bounds_.max.y)
+    return;
+  const Cells cells = cells_of(region);
+  for (int y = cells.first.y; y <= cells.last.y; ++y)
+    std::fill(heights_.at(cells.first.x, y), heights_.at(cells.last.x, y) + 1, bounds_.min.z);
+}
+
+void Heightfield::add(const Mesh& mesh, const glm::mat4& world_from_mesh, const Bounds* region) {
   if (heights_.empty()) return;
+  const Cells allowed = cells_of(region ? *region : bounds_);
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     glm::vec3 corners[3];
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = world_from_mesh * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
-    add_triangle(corners);
+    add_triangle(corners, allowed);
   }
 }
 
-void Heightfield::add_triangle(const glm::vec3 (&corners)[3]) {
-  const auto cell_of = [&](float metres, float origin, int count) {
-    return int(std::clamp((metres - origin) / cell_m_, 0.0f, float(count - 1)));
-  };
-  const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-  const auto [south, north] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+void Heightfield::add_triangle(const glm::vec3 (&corners)[3], const Cells& allowed) {
+  const Cells touched = cells_of({glm::min(glm::min(corners[0], corners[1]), corners[2]),
+                                  glm::max(glm::max(corners[0], corners[1]), corners[2])});
+  const glm::ivec2 first = glm::max(touched.first, allowed.first),
+                   last = glm::min(touched.last, allowed.last);
+  if (first.x > last.x || first.y > last.y) return;
   const glm::vec2 ab(corners[1] - corners[0]), ac(corners[2] - corners[0]);
   const float twice_area = ab.x * ac.y - ac.x * ab.y;
   if (std::abs(twice_area) < 1e-6f) return;  // upright: the roof above it counts
-  for (int y = cell_of(south, bounds_.min.y, heights_.height);
-       y <= cell_of(north, bounds_.min.y, heights_.height); ++y)
-    for (int x = cell_of(west, bounds_.min.x, heights_.width);
-         x <= cell_of(east, bounds_.min.x, heights_.width); ++x) {
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) {
       const glm::vec2 p = glm::vec2(bounds_.min) + cell_m_ * (glm::vec2(x, y) + 0.5f) - glm::vec2(corners[0]);
       const float b = (p.x * ac.y - ac.x * p.y) / twice_area, c = (ab.x * p.y - p.x * ab.y) / twice_area;
       if (b < 0.0f || c < 0.0f || b + c > 1.0f) continue;

@@ -15,8 +15,11 @@ class Heightfield {
   /// Over the horizontal extent of `bounds`, square cells of `cell_m`, larger where more than
   /// `most_cells_a_side` of them would be needed.
   explicit Heightfield(const Bounds& bounds, float cell_m = 1.0f, int most_cells_a_side = 2048);
-  /// Raises the cells whose middle a mesh covers. Leave out what light passes: leaves, railings.
-  void add(const Mesh& mesh, const glm::mat4& world_from_mesh);
+  /// Raises the cells whose middle a mesh covers. Leave out what light passes: leaves, railings. `region`:
+  /// only cells that this box touches.
+  void add(const Mesh& mesh, const glm::mat4& world_from_mesh, const Bounds* region = nullptr);
+  /// Lowers the cells that a box touches to the place's lowest height.
+  void clear(const Bounds& region);
 
   /// Metres at a point of the ground; the place's lowest height outside of it.
   float height_m(glm::vec2 position) const;
@@ -26,7 +29,11 @@ class Heightfield {
   const ImageF& heights() const { return heights_; }
 
  private:
-  void add_triangle(const glm::vec3 (&corners)[3]);
+  struct Cells {
+    glm::ivec2 first, last;
+  };
+  Cells cells_of(const Bounds& box) const;
+  void add_triangle(const glm::vec3 (&corners)[3], const Cells& allowed);
 
   Bounds bounds_;
   float cell_m_ = 1.0f;

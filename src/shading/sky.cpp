@@ -28,10 +28,15 @@ vec3 pixel(const ImageF& picture, int x, int y) {
 
 vec3 bilinear(const ImageF& picture, vec2 uv) {
   const float x = uv.x * float(picture.width) - 0.5f, y = uv.y * float(picture.height) - 0.5f;
-  const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
-  const float fx = x - float(x0), fy = y - float(y0);
-  return mix(mix(pixel(picture, x0, y0), pixel(picture, x0 + 1, y0), fx),
-             mix(pixel(picture, x0, y0 + 1), pixel(picture, x0 + 1, y0 + 1), fx), fy);
+  const int left = int(x + 1.0f) - 1, top = int(y + 1.0f) - 1;  // floor, for they are above -1
+  const float fx = x - float(left), fy = y - float(top);
+  const int x0 = left < 0 ? picture.width - 1 : left, x1 = left + 1 < picture.width ? left + 1 : 0;
+  const int y0 = std::max(top, 0), y1 = std::min(top + 1, picture.height - 1);
+  const auto at = [&](int column, int row) {
+    const float* p = picture.at(column, row);
+    return vec3(p[0], p[1], p[2]);
+  };
+  return mix(mix(at(x0, y0), at(x1, y0), fx), mix(at(x0, y1), at(x1, y1), fx), fy);
 }
 
 ImageF plain_blue_sky() {
@@ -156,6 +161,8 @@ SkyLight make_sky_light(const ImageF& picture, float intensity, float heading) {
   sky.haze_radiance = mean_above_horizon(small);
   return sky;
 }
+
+vec3 sky_picture_at(const SkyLight& sky, vec2 uv) { return bilinear(sky.levels.front(), uv); }
 
 vec3 sky_radiance(const SkyLight& sky, vec3 direction, float level) {
   const vec2 uv = equirect_uv(direction, sky.heading);

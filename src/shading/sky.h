@@ -27,5 +27,7 @@ SkyLight make_sky_light(const ImageF& picture, float intensity, float heading);
 /// Radiance of the sky from a unit direction, at a level of blur (bilinear in the picture, linear between
 /// levels).
 glm::vec3 sky_radiance(const SkyLight& sky, glm::vec3 direction, float level);
+/// The same at level 0, where `equirect_uv` says that a direction lies: for those who know that already.
+glm::vec3 sky_picture_at(const SkyLight& sky, glm::vec2 uv);
 
 }  // namespace parvis::shading

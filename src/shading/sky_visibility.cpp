@@ -12,7 +12,8 @@ namespace {
 constexpr glm::vec3 cell_size_m{4.0f, 4.0f, 3.0f};
 constexpr float most_cells = 2e6f;
 constexpr int directions = 12;
-constexpr std::array<float, 10> distances_m{1.5f, 3.0f, 5.0f, 7.5f, 11.0f, 16.0f, 23.0f, 33.0f, 48.0f, 75.0f};
+constexpr std::array<float, 10> distances_m{1.5f,  3.0f,  5.0f,  7.5f,  11.0f,
+                                            16.0f, 23.0f, 33.0f, 48.0f, sky_visibility_reach_m};
 constexpr float pi_f = 3.14159265f;
 
 /// Walls throw some of the light back that they keep off: an albedo of city walls, themselves lit by the open

@@ -25,6 +25,9 @@ struct SkyVisibility {
 /// Cells of about 4 x 4 x 3 m. An empty place is open.
 SkyVisibility make_sky_visibility(const Heightfield& heights);
 
+/// As far as heights are looked at from a cell.
+inline constexpr float sky_visibility_reach_m = 75.0f;
+
 /// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless
 /// the place's bounds are others now.
 void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed);
