@@ -16,6 +16,7 @@ namespace {
 
 constexpr double tile_m = 60.0;            // parts of this size are culled one by one
 constexpr double smallest_area_m2 = 1e-9;  // below it a ring has no direction
+constexpr double farthest_m = 1e7;         // of a surface from the origin: no place on earth is as wide
 constexpr std::size_t most_warnings = 20;
 
 /// Newell's normal with the ring's first point as origin: far coordinates would cost it its digits.
@@ -57,6 +58,14 @@ float roughness_of(float shininess) {
 
 glm::vec3 linear(glm::vec3 srgb) { return linear_from_srgb(glm::clamp(srgb, 0.0f, 1.0f)); }
 
+bool reaches_too_far(const std::vector<std::vector<glm::dvec3>>& rings) {
+  return std::ranges::any_of(rings, [](const std::vector<glm::dvec3>& ring) {
+    return std::ranges::any_of(ring, [](glm::dvec3 p) {
+      return !(std::abs(p.x) < farthest_m && std::abs(p.y) < farthest_m && std::abs(p.z) < farthest_m);
+    });
+  });
+}
+
 }  // namespace
 
 int CityAssembly::add_material(const CityMaterial& m) {
@@ -84,6 +93,10 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   for (std::vector<glm::dvec3>& ring : rings)
     for (glm::dvec3& point : ring) point -= origin_;
   if (rings.empty() || rings.front().size() < 3) return;
+  if (reaches_too_far(rings))
+    return warn(
+        fmt::format("a surface of {} reaches {:.0f} km from the place's origin or farther; it is left out",
+                    object.name, farthest_m / 1000.0));
   const glm::dvec3 area = newell_about_first(rings.front());
   if (!(glm::length(area) > smallest_area_m2)) return;
   glm::dvec3 normal = glm::normalize(area);
