@@ -4,6 +4,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
 
 #include "base/colour.h"
 #include "base/files.h"
@@ -77,11 +79,22 @@ Status write(const fs::path& file, const BasicImage<T>& image, OIIO::TypeDesc ty
   });
 }
 
+/// One file at a time: a JPEG's colour profile is read by a converter that all threads of OpenImageIO 2.4
+/// share, and two that open pictures at once crash now and then. Only the header is read here; pixels are
+/// decoded side by side.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& file,
+                                               const OIIO::ImageSpec* configuration = nullptr,
+                                               OIIO::Filesystem::IOProxy* proxy = nullptr) {
+  static std::mutex opening;
+  const std::lock_guard lock(opening);
+  return OIIO::ImageInput::open(file, configuration, proxy);
+}
+
 }  // namespace
 
 Result<Image8> read_image8(const fs::path& file) {
   const OIIO::ImageSpec configuration = plain_colours();
-  auto input = OIIO::ImageInput::open(file.string(), &configuration);
+  auto input = open_picture(file.string(), &configuration);
   if (!input) return cannot_open(file.string());
   return read<std::uint8_t>(input.get(), file.string(), 4, 255);
 }
@@ -93,13 +106,13 @@ Result<Image8> read_image8(std::span<const std::uint8_t> bytes, const std::strin
   OIIO::Filesystem::IOProxy* proxy = &reader;
   OIIO::ImageSpec configuration = plain_colours();
   configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
-  auto input = OIIO::ImageInput::open(file_name, &configuration, proxy);
+  auto input = open_picture(file_name, &configuration, proxy);
   if (!input) return cannot_open(name);
   return read<std::uint8_t>(input.get(), name, 4, 255);
 }
 
 Result<ImageF> read_image_float(const fs::path& file) {
-  auto input = OIIO::ImageInput::open(file.string());
+  auto input = open_picture(file.string());
   if (!input) return cannot_open(file.string());
   const bool is_srgb = input->spec().format.basesize() == 1;
   Result<ImageF> image = read<float>(input.get(), file.string(), 3, 1.0f);

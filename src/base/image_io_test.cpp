@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <optional>
+
 #include "base/files.h"
+#include "base/parallel.h"
 #include "base/random.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 
 namespace parvis {
@@ -55,6 +60,22 @@ TEST(ImageIo, AnEvenJpegComesBackNearly) {
   ASSERT_TRUE(again) << to_string(again.errors());
   EXPECT_EQ(again->width, 32);
   EXPECT_NEAR(again->at(10, 10)[1], 120, 2);
+}
+
+TEST(ImageIo, PicturesWithColourProfilesAreReadSideBySide) {
+  // OpenImageIO 2.4 converts the profile's texts with one converter for all threads: without a lock this
+  // crashed.
+  const std::optional<fs::path> town = shared_data("cities/citygml/appearances", PARVIS_SOURCE_DIR);
+  if (!town) GTEST_SKIP() << "skipped: shared data absent";
+  std::vector<fs::path> pictures;
+  for (const fs::directory_entry& entry : fs::directory_iterator(*town))
+    if (entry.path().extension() == ".jpg") pictures.push_back(entry.path());
+  ASSERT_FALSE(pictures.empty());
+  std::atomic<int> read = 0;
+  parallel_for(pictures.size() * 40, [&](std::size_t i) {
+    if (read_image8(pictures[i % pictures.size()])) ++read;
+  });
+  EXPECT_EQ(read, int(pictures.size()) * 40);
 }
 
 TEST(ImageIo, RadianceOfDaylightComesBackFromHdr) {
