@@ -18,7 +18,7 @@ import time
 import unittest
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "format", "city", "bench"]
+SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "format", "export", "city", "bench"]
 SIZE = ["--size", "64x48"]
 
 
@@ -132,6 +132,26 @@ class Usage(InAFolder):
             self.assertEqual(done.returncode, 0, command)
             self.assertIn("Example: parvis " + command, done.stdout)
             self.assertIn(command, overview.stdout)
+
+    def test_a_scene_or_a_part_of_it_is_exported(self):
+        self.write("sail.glb", glb(*triangle()))
+        scene = self.write(
+            "scene.xp",
+            'model(name="a", file="sail.glb")\nmodel(name="b", file="sail.glb", position="9 0 0")\n'
+            'model(file="sail.glb", visible=false)\ncamera(name="eye", position="0 -9 2")\n',
+        )
+        for options, objects in [([], ["a", "b"]), (["--object", "b"], ["b"])]:
+            done = run("export", scene, *options, "-o", self.folder / "out.glb")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            data = (self.folder / "out.glb").read_bytes()
+            document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
+            nodes = [document["nodes"][child] for child in document["nodes"][0]["children"]]
+            self.assertEqual([node["name"] for node in nodes], objects + ["eye"])
+            self.assertEqual(len(document["meshes"]), 1, "objects of one model share its mesh")
+        (self.folder / "out.glb").unlink()
+        output = ["-o", self.folder / "new.glb"]
+        self.expect_failure("export", scene, "--object", "aa", *output, words=["aa", 'did you mean "a"'])
+        self.expect_failure("export", scene, "-o", self.folder / "new.obj", words=["new.obj", ".glb"])
 
     def test_bad_usage_is_status_2(self):
         for arguments in [

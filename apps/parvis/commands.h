@@ -17,10 +17,11 @@ void add_reference(CLI::App& app, Chosen& chosen);
 void add_compare(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_format(CLI::App& app, Chosen& chosen);
+void add_export(CLI::App& app, Chosen& chosen);
 void add_city(CLI::App& app, Chosen& chosen);
 void add_bench(CLI::App& app, Chosen& chosen);
 
 inline constexpr void (*command_table[])(CLI::App&, Chosen&) = {
-    add_view, add_render, add_reference, add_compare, add_check, add_format, add_city, add_bench};
+    add_view, add_render, add_reference, add_compare, add_check, add_format, add_export, add_city, add_bench};
 
 }  // namespace parvis

@@ -31,12 +31,16 @@ struct SceneArguments {
   void add_camera(CLI::App& command) {
     command.add_option("--camera", camera, "Name of the camera (default: the scene's first)");
   }
-  /// --scenario, --size, --time, --press and --reflection.
-  void add_picture(CLI::App& command) {
+  /// --scenario and --time.
+  void add_state(CLI::App& command) {
     command.add_option("--scenario", scenarios, "A state that the scene gives by this name; base: none");
-    command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
     command.add_option("--time", time_s, "Seconds that have passed in the scene before")
         ->check(CLI::Range(0.0, 86400.0));
+  }
+  /// --scenario, --size, --time, --press and --reflection.
+  void add_picture(CLI::App& command) {
+    add_state(command);
+    command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
     command.add_option("--press", presses,
                        "A key that a person presses so many seconds after: KEY@SECONDS; may repeat");
     command.add_option("--reflection", method, "Method of reflection in place of the scene's own");

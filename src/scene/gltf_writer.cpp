@@ -1,14 +1,16 @@
 #include "scene/gltf_writer.h"
 
-#include <algorithm>
-#include <cstring>
-#include <fstream>
-#include <mutex>
+#include <glm/gtx/matrix_decompose.hpp>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "base/image_io.h"
-#include "base/parallel.h"
+#include "scene/gltf_animation_writer.h"
+#include "scene/gltf_cameras.h"
+#include "scene/gltf_chunk.h"
+#include "scene/gltf_material_writer.h"
+#include "scene/gltf_mesh_writer.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
@@ -16,262 +18,172 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int float_type = 5126, unsigned_type = 5125;
-constexpr int vertex_target = 34962, index_target = 34963;
-
 Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
-/// Collects the binary chunk and the accessors into it.
-struct Binary {
-  std::vector<std::uint8_t> bytes{};
-  Json views = Json::array(), accessors = Json::array();
-
-  template <class T>
-  int add(const std::vector<T>& values, const char* type, int component_type, int target) {
-    while (bytes.size() % 4 != 0) bytes.push_back(0);
-    const std::size_t offset = bytes.size(), length = values.size() * sizeof(T);
-    bytes.resize(offset + length);
-    std::memcpy(bytes.data() + offset, values.data(), length);
-    Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}};
-    if (target != 0) view["target"] = target;
-    views.push_back(view);
-    accessors.push_back({{"bufferView", views.size() - 1},
-                         {"componentType", component_type},
-                         {"count", values.size()},
-                         {"type", type}});
-    return int(accessors.size()) - 1;
-  }
-
-  int add_positions(const std::vector<glm::vec3>& positions) {
-    const int accessor = add(positions, "VEC3", float_type, vertex_target);
-    Bounds bounds;
-    for (const glm::vec3& p : positions) bounds.add(p);
-    accessors.back()["min"] = array_of(bounds.min);
-    accessors.back()["max"] = array_of(bounds.max);
-    return accessor;
-  }
-};
-
-bool uses_alpha(const Image8& image) {
-  for (std::size_t i = 3; i < image.pixels.size(); i += 4)
-    if (image.pixels[i] != 255) return true;
-  return false;
-}
-
-/// Colour without alpha is stored as JPEG; data and alpha as PNG, which loses nothing.
-std::string picture_name(const fs::path& file, const Texture& texture, std::size_t index) {
-  const std::string name =
-      texture.name.empty() ? fmt::format("{}", index) : fs::path(texture.name).stem().string();
-  const bool as_jpeg = texture.is_srgb && !uses_alpha(texture.image);
-  return fmt::format("{}_{}.{}", file.stem().string(), name, as_jpeg ? "jpg" : "png");
-}
-
-Image8 without_alpha(const Image8& image) {
-  Image8 colour(image.width, image.height, 3);
-  for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c) colour.pixels[3 * i + c] = image.pixels[4 * i + c];
-  return colour;
-}
-
-Status write_pictures(const fs::path& file, const Model& model, const std::vector<std::string>& names) {
-  Errors errors;
-  std::mutex mutex;
-  parallel_for(names.size(), [&](std::size_t i) {
-    const Image8& image = model.textures[i].image;
-    const Status status =
-        write_image(file.parent_path() / names[i], uses_alpha(image) ? image : without_alpha(image));
-    if (status) return;
-    const std::scoped_lock lock(mutex);
-    errors.insert(errors.end(), status.errors().begin(), status.errors().end());
-  });
-  if (!errors.empty()) return errors;
-  return Done{};
-}
-
-void use(Json& used, const char* extension) {
-  if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
-}
-
-Json texture_info(int texture, const Material& material, Json& used) {
-  Json info{{"index", texture}};
-  const glm::mat3& m = material.texture_from_mesh_uv;
-  if (m == glm::mat3(1.0f)) return info;
-  use(used, "KHR_texture_transform");
-  const float scale_u = glm::length(glm::vec2(m[0])), scale_v = glm::length(glm::vec2(m[1]));
-  info["extensions"]["KHR_texture_transform"] = {
-      {"offset", {m[2].x, m[2].y}}, {"rotation", std::atan2(-m[0].y, m[0].x)}, {"scale", {scale_u, scale_v}}};
-  return info;
-}
-
-Json material_json(const Material& material, Json& used) {
-  Json json{{"name", material.name}};
-  Json& metal = json["pbrMetallicRoughness"];
-  const glm::vec3 base = glm::clamp(material.base_colour, glm::vec3(0.0f), glm::vec3(1.0f));
-  metal["baseColorFactor"] = {base.x, base.y, base.z, material.alpha};
-  metal["metallicFactor"] = material.metallic;
-  metal["roughnessFactor"] = material.roughness;
-  if (material.base_colour_texture != no_index)
-    metal["baseColorTexture"] = texture_info(material.base_colour_texture, material, used);
-  if (material.surface_texture != no_index)
-    metal["metallicRoughnessTexture"] = texture_info(material.surface_texture, material, used);
-  if (material.normal_texture != no_index) {
-    json["normalTexture"] = texture_info(material.normal_texture, material, used);
-    json["normalTexture"]["scale"] = material.normal_scale;
-  }
-  if (material.emission_texture != no_index)
-    json["emissiveTexture"] = texture_info(material.emission_texture, material, used);
-  const float strength = std::max({material.emission.x, material.emission.y, material.emission.z, 1.0f});
-  if (material.emission != glm::vec3(0.0f)) {
-    json["emissiveFactor"] = array_of(material.emission / strength);
-    if (strength > 1.0f) {
-      use(used, "KHR_materials_emissive_strength");
-      json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
-    }
-  }
-  if (material.clear_coat > 0.0f) {
-    use(used, "KHR_materials_clearcoat");
-    json["extensions"]["KHR_materials_clearcoat"] = {
-        {"clearcoatFactor", material.clear_coat},
-        {"clearcoatRoughnessFactor", material.clear_coat_roughness}};
-  }
-  if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
-  if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";
-  if (material.is_double_sided) json["doubleSided"] = true;
-  if (material.is_mirror_like) json["extras"]["parvis"]["mirror_like"] = true;
-  if (material.translucency > 0.0f) json["extras"]["parvis"]["translucency"] = material.translucency;
-  return json;
-}
-
 Json node_json(const ModelNode& node) {
-  Json json;
+  Json json = Json::object();
   if (!node.name.empty()) json["name"] = node.name;
   if (node.translation != glm::vec3(0.0f)) json["translation"] = array_of(node.translation);
   if (node.scale != glm::vec3(1.0f)) json["scale"] = array_of(node.scale);
   if (node.rotation != glm::quat(1, 0, 0, 0))
     json["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
-  return json.is_null() ? Json::object() : json;
+  return json;
 }
 
-/// The nodes of the model, shifted by one below the node that turns z up to y up.
-Json nodes_json(const Model& model, const std::vector<int>& mesh_of_node) {
-  Json nodes = Json::array();
-  const float half = std::sqrt(0.5f);
-  nodes.push_back({{"name", "z_up"}, {"rotation", {-half, 0.0f, 0.0f, half}}});
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    nodes.push_back(node_json(model.nodes[i]));
-    if (mesh_of_node[i] != no_index) nodes.back()["mesh"] = mesh_of_node[i];
-    const int parent = model.nodes[i].parent + 1;
-    nodes[std::size_t(parent)]["children"].push_back(i + 1);
+/// A node that stands in its parent as the matrix says.
+ModelNode node_of(const std::string& name, int parent, const glm::mat4& parent_from_node) {
+  ModelNode node{.name = name, .parent = parent};
+  glm::vec3 skew;
+  glm::vec4 perspective;
+  glm::decompose(parent_from_node, node.scale, node.rotation, node.translation, skew, perspective);
+  return node;
+}
+
+/// The nodes of an object as it is posed; its own if it plays an animation, which then poses it.
+std::vector<ModelNode> nodes_now(const Object& object) {
+  std::vector<ModelNode> nodes = object.model->nodes;
+  if (object.pose.empty() || object.played.animation != no_index) return nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int parent = nodes[i].parent;
+    const glm::mat4 model_from_parent =
+        parent == no_index ? glm::mat4(1.0f) : object.pose[std::size_t(parent)];
+    nodes[i] = node_of(nodes[i].name, parent, glm::inverse(model_from_parent) * object.pose[i]);
   }
   return nodes;
 }
 
-Json meshes_json(const Model& model, Binary& binary, std::vector<int>& mesh_of_node) {
-  Json meshes = Json::array();
-  mesh_of_node.assign(model.nodes.size(), no_index);
-  for (const Part& part : model.parts) {
-    int& mesh = mesh_of_node[std::size_t(part.node)];
-    if (mesh == no_index) {
-      mesh = int(meshes.size());
-      meshes.push_back({{"name", part.object}, {"primitives", Json::array()}});
-    }
-    Json primitive{{"attributes",
-                    {{"POSITION", binary.add_positions(part.mesh.positions)},
-                     {"NORMAL", binary.add(part.mesh.normals, "VEC3", float_type, vertex_target)},
-                     {"TEXCOORD_0", binary.add(part.mesh.uvs, "VEC2", float_type, vertex_target)}}},
-                   {"indices", binary.add(part.mesh.indices, "SCALAR", unsigned_type, index_target)},
-                   {"material", part.material},
-                   {"extras", {{"object", part.object}}}};
-    if (!part.casts_shadow) primitive["extras"]["casts_shadow"] = false;
-    meshes[std::size_t(mesh)]["primitives"].push_back(primitive);
+class Writer {
+ public:
+  Writer() {
+    const float half = std::sqrt(0.5f);
+    nodes_.push_back({{"name", "z_up"}, {"rotation", {-half, 0.0f, 0.0f, half}}});
   }
-  return meshes;
-}
 
-Json animations_json(const Model& model, Binary& binary) {
-  using Property = AnimationChannel::Property;
-  Json animations = Json::array();
-  for (const Animation& animation : model.animations) {
-    Json json{{"channels", Json::array()}, {"samplers", Json::array()}};
-    if (!animation.name.empty()) json["name"] = animation.name;
-    for (const AnimationChannel& channel : animation.channels) {
-      const bool is_rotation = channel.property == Property::rotation;
-      std::vector<float> values;
-      for (const glm::vec4& value : channel.values)
-        for (int c = 0; c < (is_rotation ? 4 : 3); ++c) values.push_back(value[c]);
-      const int input = binary.add(channel.times_s, "SCALAR", float_type, 0);
-      binary.accessors.back()["min"] = {channel.times_s.front()};
-      binary.accessors.back()["max"] = {channel.times_s.back()};
-      const int output = binary.add(values, is_rotation ? "VEC4" : "VEC3", float_type, 0);
-      binary.accessors.back()["count"] = channel.values.size();
-      const char* interpolation = channel.interpolation == Interpolation::step    ? "STEP"
-                                  : channel.interpolation == Interpolation::cubic ? "CUBICSPLINE"
-                                                                                  : "LINEAR";
-      json["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
-      const char* path = is_rotation                           ? "rotation"
-                         : channel.property == Property::scale ? "scale"
-                                                               : "translation";
-      json["channels"].push_back({{"sampler", json["samplers"].size() - 1},
-                                  {"target", {{"node", channel.node + 1}, {"path", path}}}});
+  /// All of `model` on nodes of an object, below the file's node `parent`.
+  Status add(const Model& model, const std::vector<ModelNode>& nodes, const std::string& name, int parent) {
+    Result<const WrittenModel*> shared = written(model);
+    if (!shared) return shared.errors();
+    const WrittenModel& parts = **shared;
+    WrittenObject object{name, int(nodes_.size()), {}};
+    for (const ModelNode& node : nodes)
+      append(node_json(node), node.parent == no_index ? parent : object.first_node + node.parent);
+    for (const WrittenMesh& mesh : parts.meshes) object.node_of_mesh.push_back(hang(mesh, object.first_node));
+    for (const WrittenAnimation& animation : parts.animations) {
+      const Json json = animation_json(animation, object, parts.meshes);
+      if (!json["channels"].empty()) animations_.push_back(json);
     }
-    animations.push_back(json);
+    return Done{};
   }
-  return animations;
-}
+
+  Status add(const Object& object) {
+    const int node = append(node_json(node_of(object.name, 0, object.world_from_model)), 0);
+    return add(*object.model, nodes_now(object), object.name, node);
+  }
+
+  void add(const NamedCamera& camera) {
+    append(gltf_camera_node(camera.name, camera.camera, cameras_.size()), 0);
+    cameras_.push_back(gltf_camera(camera.name, camera.camera));
+  }
+
+  Status write(const fs::path& file) const {
+    if (Status status = materials_.write_pictures(file); !status) return status;
+    Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}},
+              {"scene", 0},
+              {"scenes", {{{"nodes", {0}}}}},
+              {"nodes", nodes_}};
+    for (const auto& [name, list] : {std::pair{"meshes", &meshes_}, std::pair{"skins", &skins_},
+                                     std::pair{"animations", &animations_}, std::pair{"cameras", &cameras_}})
+      if (!list->empty()) json[name] = *list;
+    materials_.describe(json, file);
+    chunk_.describe(json);
+    return write_container(file, json);
+  }
+
+ private:
+  /// What objects of one model share.
+  struct WrittenModel {
+    std::vector<WrittenMesh> meshes;
+    std::vector<WrittenAnimation> animations;
+  };
+
+  Result<const WrittenModel*> written(const Model& model) {
+    if (const auto found = models_.find(&model); found != models_.end()) return &found->second;
+    Result<std::vector<WrittenMesh>> meshes = write_meshes(model, materials_.add(model), chunk_, meshes_);
+    if (!meshes) return meshes.errors();
+    return &models_.emplace(&model, WrittenModel{*std::move(meshes), write_keyframes(model, chunk_)})
+                .first->second;
+  }
+
+  int append(Json node, int parent) {
+    nodes_.push_back(std::move(node));
+    nodes_[std::size_t(parent)]["children"].push_back(nodes_.size() - 1);
+    return int(nodes_.size()) - 1;
+  }
+
+  /// Hangs a mesh on its node, or below it where another hangs there: glTF has one mesh a node.
+  int hang(const WrittenMesh& mesh, int first_node) {
+    int node = first_node + mesh.node;
+    if (nodes_[std::size_t(node)].contains("mesh")) node = append(Json::object(), node);
+    nodes_[std::size_t(node)]["mesh"] = mesh.mesh;
+    if (mesh.inverse_bind == no_index) return node;
+    Json skin{{"inverseBindMatrices", mesh.inverse_bind}, {"joints", Json::array()}};
+    for (const int joint : mesh.deformation->skin.joints) skin["joints"].push_back(first_node + joint);
+    nodes_[std::size_t(node)]["skin"] = skins_.size();
+    skins_.push_back(skin);
+    return node;
+  }
+
+  Status write_container(const fs::path& file, const Json& json) const;
+
+  GltfMaterialWriter materials_;
+  GltfChunk chunk_;
+  std::map<const Model*, WrittenModel> models_;
+  Json nodes_ = Json::array(), meshes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array(),
+       cameras_ = Json::array();
+};
 
 void append_word(std::string& bytes, std::size_t value) {
-  const std::uint32_t word = std::uint32_t(value);
+  const auto word = std::uint32_t(value);
   bytes.append(reinterpret_cast<const char*>(&word), 4);
 }
 
-std::string container(const Json& json, std::vector<std::uint8_t> binary) {
-  std::string text = json.dump();
-  while (text.size() % 4 != 0) text += ' ';
-  while (binary.size() % 4 != 0) binary.push_back(0);
+void append_chunk(std::string& bytes, const char* type, std::string_view data, char padding) {
+  const std::size_t padded = (data.size() + 3) / 4 * 4;
+  append_word(bytes, padded);
+  bytes.append(type, 4).append(data).append(padded - data.size(), padding);
+}
+
+Status Writer::write_container(const fs::path& file, const Json& json) const {
+  const std::string text = json.dump();
+  const std::string_view binary(reinterpret_cast<const char*>(chunk_.bytes().data()), chunk_.bytes().size());
+  std::string chunks;
+  append_chunk(chunks, "JSON", text, ' ');
+  if (!binary.empty()) append_chunk(chunks, "BIN\0", binary, '\0');
+  const std::size_t size = 12 + chunks.size();
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    return error("{}: a .glb holds 4 GB; this is {:.1f}: write it in parts", file.string(),
+                 double(size) * 1e-9);
   std::string bytes = "glTF";
   append_word(bytes, 2);
-  append_word(bytes, 12 + 8 + text.size() + 8 + binary.size());
-  append_word(bytes, text.size());
-  bytes += "JSON" + text;
-  append_word(bytes, binary.size());
-  bytes.append("BIN\0", 4);
-  bytes.append(binary.begin(), binary.end());
-  return bytes;
+  append_word(bytes, size);
+  return write_file(file, bytes + chunks);
 }
 
 }  // namespace
 
 Status write_gltf(const fs::path& file, const Model& model) {
-  std::vector<std::string> names;
-  names.reserve(model.textures.size());
-  for (std::size_t i = 0; i < model.textures.size(); ++i)
-    names.push_back(picture_name(file, model.textures[i], i));
-  if (Status status = write_pictures(file, model, names); !status) return status;
+  Writer writer;
+  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  return writer.write(file);
+}
 
-  Json json{
-      {"asset", {{"version", "2.0"}, {"generator", "Parvis"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
-  Json used = Json::array();
-  for (const Material& material : model.materials) json["materials"].push_back(material_json(material, used));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    json["images"].push_back({{"uri", names[i]}});
-    json["textures"].push_back({{"source", i}, {"sampler", model.textures[i].repeats ? 0 : 1}});
-  }
-  constexpr int linear = 9729, trilinear = 9987, repeat = 10497, clamp = 33071;
-  if (!names.empty())
-    for (const int wrap : {repeat, clamp})
-      json["samplers"].push_back(
-          {{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
-
-  Binary binary;
-  std::vector<int> mesh_of_node;
-  json["meshes"] = meshes_json(model, binary, mesh_of_node);
-  json["nodes"] = nodes_json(model, mesh_of_node);
-  if (!model.animations.empty()) json["animations"] = animations_json(model, binary);
-  json["accessors"] = binary.accessors;
-  json["bufferViews"] = binary.views;
-  json["buffers"] = {{{"byteLength", (binary.bytes.size() + 3) / 4 * 4}}};
-  if (!used.empty()) json["extensionsUsed"] = used;
-  return write_file(file, container(json, std::move(binary.bytes)));
+Status write_gltf(const fs::path& file, std::span<const Object* const> objects,
+                  std::span<const NamedCamera> cameras) {
+  Writer writer;
+  for (const Object* object : objects)
+    if (Status status = writer.add(*object); !status) return status;
+  for (const NamedCamera& camera : cameras) writer.add(camera);
+  return writer.write(file);
 }
 
 }  // namespace parvis::scene
