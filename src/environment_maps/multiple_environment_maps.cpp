@@ -1,9 +1,8 @@
 #include "environment_maps/multiple_environment_maps.h"
 
 #include "environment_maps/map_choice.h"
-#include "environment_maps/placement.h"
+#include "environment_maps/scene_maps.h"
 #include "render/bindings.h"
-#include "render/fixed_parts.h"
 
 namespace parvis::environment_maps {
 namespace {
@@ -15,22 +14,6 @@ enum Unit : GLuint {
   choice_unit,
   places_unit
 };
-
-shading::Heightfield heights_of(const scene::Scene& scene) {
-  Bounds bounds;
-  const auto each_part = [&](auto&& visit) {
-    render::for_each_fixed_opaque_part(
-        scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
-          if (object.is_visible) visit(part.mesh, world_from_mesh);
-        });
-  };
-  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
-    bounds.add(transformed(world_from_mesh, mesh.bounds()));
-  });
-  shading::Heightfield heights(bounds);
-  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
-  return heights;
-}
 
 gl::Texture nearest_texture(GLenum format, int width, int height, int levels = 1) {
   gl::Texture texture = gl::texture_2d(format, width, height, levels);
@@ -69,10 +52,7 @@ gl::Texture upload(const std::vector<glm::vec3>& places) {
 Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
                                                                                  render::Renderer& renderer) {
   const HeightPyramid heights(heights_of(scene));
-  std::vector<glm::vec3> places = spread_places(scene, heights, scene.reflection.most_maps);
-  if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
-  renderer.begin_frame(scene, Camera{});  // light, for the maps
-  Result<ReferenceMaps> maps = ReferenceMaps::bake(renderer, std::move(places), scene.reflection.resolution);
+  Result<ReferenceMaps> maps = bake_maps(scene, heights, renderer);
   if (!maps) return maps.errors();
   return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(heights, *std::move(maps)));
 }
