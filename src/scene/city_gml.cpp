@@ -18,9 +18,9 @@
 #include <set>
 #include <sstream>
 
-#include "base/files.h"
 #include "scene/city_assembly.h"
 #include "scene/city_lod.h"
+#include "scene/city_solid.h"
 #include "scene/xml_guard.h"
 
 namespace parvis::scene {
@@ -195,6 +195,7 @@ class Reader {
       for (const Shown& shown : all)
         if (shown.semantics.empty() != is_named && double(shown.geometry->getLOD()) == wanted)
           read_geometry(*shown.geometry, shown.semantics, shown.file_from_geometry);
+    add_surfaces();
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
       if (!is_boundary(object.getChildCityObject(i).getType())) read_object(object.getChildCityObject(i));
   }
@@ -216,7 +217,16 @@ class Reader {
     if (const auto material = polygon.getMaterialFor(theme_)) surface.material = material_of(*material);
     read_ring(polygon, polygon.exteriorRing(), matrix, surface);
     for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, matrix, surface);
-    city_.add(object_, surface);
+    surfaces_.push_back(std::move(surface));
+  }
+
+  void add_surfaces() {
+    const bool is_solid = bound_a_solid(surfaces_);
+    for (CitySurface& surface : surfaces_) {
+      surface.is_of_solid = is_solid;
+      city_.add(object_, surface);
+    }
+    surfaces_.clear();
   }
 
   /// Without the closing point, which repeats the first.
@@ -277,7 +287,8 @@ class Reader {
   std::string theme_;
   std::size_t object_count_ = 0;
   CityObject object_;                       ///< that is being read
-  std::set<const citygml::Polygon*> seen_;  ///< of the object that is being read
+  std::vector<CitySurface> surfaces_;       ///< of it
+  std::set<const citygml::Polygon*> seen_;  ///< of it
   std::map<std::string, int> pictures_;
 };
 
@@ -297,18 +308,15 @@ Status check_version(const FileLocation& where, const std::string& root) {
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> most_detail) {
   const FileLocation where{file.string(), 0, 0};
-  const Result<std::string> bytes = read_file(file);
-  if (!bytes) return bytes.errors();
-  std::string root;
-  if (Status status = check_xml(file, *bytes, [&](const std::string& name) { root = name; }); !status)
-    return status.errors();
-  if (Status status = check_version(where, root); !status) return status.errors();
+  const Result<XmlText> xml = read_xml(file);
+  if (!xml) return xml.errors();
+  if (Status status = check_version(where, xml->root); !status) return status.errors();
   const auto complaints = std::make_shared<Complaints>();
   citygml::ParserParams wanted;
   wanted.tesselate = false;  // rings are kept as they are; the assembly makes triangles
   wanted.keepVertices = true;
   try {
-    std::istringstream stream(*bytes);
+    std::istringstream stream(xml->bytes);
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
     return Reader(file, *city, warnings, most_detail).read();

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "scene/city_assembly.h"
+#include "scene/city_json_sequence.h"
 #include "scene/city_lod.h"
 
 namespace parvis::scene {
@@ -350,8 +351,10 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return bytes.errors();
   try {
-    const Json json = Json::parse(*bytes);
-    return Reader(file, json, warnings, most_detail).read();
+    const Result<Json> json = file.extension() == ".jsonl" ? city_json_of_sequence(file, *bytes)
+                                                           : Result<Json>(Json::parse(*bytes));
+    if (!json) return json.errors();
+    return Reader(file, *json, warnings, most_detail).read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {

@@ -1,5 +1,5 @@
 // CityJSON 0.2 to 2.0: buildings, terrain, roads and the rest as one model, in metres about a local origin
-// that is kept. What becomes of the polygons: scene/city_assembly.h.
+// that is kept; and its text sequences (.city.jsonl). What becomes of the polygons: scene/city_assembly.h.
 #pragma once
 
 #include <filesystem>

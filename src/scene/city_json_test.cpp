@@ -7,6 +7,7 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "scene/polygon_triangles.h"
+#include "scene/test_scene.h"
 
 namespace parvis::scene {
 namespace {
@@ -32,23 +33,12 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(at, from.size(), to);
 }
 
-double area(const Model& model, const std::string& name) {
-  double sum = 0.0;
-  for (const Part& part : model.parts)
-    if (part.object == name)
-      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
-        const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
-        sum += 0.5 * double(glm::length(glm::cross(at(1) - at(0), at(2) - at(0))));
-      }
-  return sum;
-}
-
 TEST(CityJson, AHouseKeepsItsSizeAndItsHole) {
   const Result<Model> city = read(house());
   ASSERT_TRUE(city) << to_string(city.errors());
-  EXPECT_NEAR(area(*city, "RoofSurface"), 76.0, 1e-3);  // 80 less the hole of 4
-  EXPECT_NEAR(area(*city, "WallSurface"), 216.0, 1e-3);
-  EXPECT_NEAR(area(*city, "GroundSurface"), 80.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);  // 80 less the hole of 4
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
 }
 
 TEST(CityJson, TheOriginIsKeptAndTheModelStandsAroundIt) {
@@ -111,7 +101,7 @@ std::string house_with_mast() {
 TEST(CityJson, TemplatesStandAtTheirPlaces) {
   const Result<Model> city = read(house_with_mast());
   ASSERT_TRUE(city) << to_string(city.errors());
-  EXPECT_NEAR(area(*city, "CityFurniture"), 16.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "CityFurniture"), 16.0, 1e-3);
   for (const Part& part : city->parts)
     if (part.object == "CityFurniture") {
       EXPECT_NEAR(part.mesh.bounds().min.x, 5.5f, 1e-4f);   // corner 6 lies at x 5 of the model
@@ -164,7 +154,7 @@ TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
                                   {"type":"RoofSurface"}]])");
   const Result<Model> city = read(old);
   ASSERT_TRUE(city) << to_string(city.errors());
-  EXPECT_NEAR(area(*city, "RoofSurface"), 60.0, 1e-3);  // what the list calls a roof
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 60.0, 1e-3);  // what the list calls a roof
 }
 
 TEST(CityJson, WithoutTransformVerticesAreMetres) {
@@ -194,10 +184,10 @@ TEST(CityJson, TheLevelOfDetailAskedFor) {
 TEST(CityJson, ExtensionsAreTakenByTheirGeometry) {
   const Result<Model> tower = read(with(house(), "\"Building\"", "\"+NoiseBuilding\""));
   ASSERT_TRUE(tower) << to_string(tower.errors());
-  EXPECT_NEAR(area(*tower, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*tower, "WallSurface"), 216.0, 1e-3);
   const Result<Model> thing = read(with(house(), "\"Building\"", "\"+Pavilion\""));
   ASSERT_TRUE(thing) << to_string(thing.errors());
-  EXPECT_NEAR(area(*thing, "GenericCityObject"), 372.0, 1e-3);
+  EXPECT_NEAR(area_m2(*thing, "GenericCityObject"), 372.0, 1e-3);
 }
 
 TEST(CityJson, SolidsOfManySolids) {
@@ -206,7 +196,7 @@ TEST(CityJson, SolidsOfManySolids) {
   text = with(text, "[[3,0,4,7]]]]", "[[3,0,4,7]]]]]");
   const Result<Model> city = read(text);
   ASSERT_TRUE(city) << to_string(city.errors());
-  EXPECT_NEAR(area(*city, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
 }
 
 TEST(CityJson, DamagedTextNeverCrashes) {
@@ -240,10 +230,58 @@ TEST(CityJson, ReadsRealCities) {
     const Result<Model> city = read_city_model(*file, warnings);
     ASSERT_TRUE(city) << to_string(city.errors());
     EXPECT_GT(city->triangle_count(), 50u) << name;
-    EXPECT_GT(area(*city, "WallSurface"), 100.0) << name;
-    EXPECT_GT(area(*city, "RoofSurface"), 100.0) << name;
+    EXPECT_GT(area_m2(*city, "WallSurface"), 100.0) << name;
+    EXPECT_GT(area_m2(*city, "RoofSurface"), 100.0) << name;
     EXPECT_NE(city->origin, glm::dvec3(0.0)) << name;
   }
+}
+
+/// A roof of 10 x 8 m `at` metres east, whose own vertices, picture and material have index 0.
+std::string feature(int at, const std::string& red) {
+  return fmt::format(
+      R"({{"type":"CityJSONFeature","id":"f{0}","CityObjects":{{"f{0}":{{"type":"Building","geometry":[
+      {{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]],"material":{{"all":{{"values":[0]}}}},
+      "semantics":{{"surfaces":[{{"type":"RoofSurface"}}],"values":[0]}}}}]}}}},
+      "appearance":{{"materials":[{{"name":"m","diffuseColor":[{1},0,0]}}]}},
+      "vertices":[[{0},0,3],[{2},0,3],[{2},8,3],[{0},8,3]]}})",
+      at, red, at + 10);
+}
+
+std::string one_line(std::string text) {
+  std::erase(text, '\n');
+  return text + "\n";
+}
+
+Result<Model> read_sequence(const std::string& text) {
+  const TestFolder folder;
+  Errors warnings;
+  return read_city_model(folder.write("city.jsonl", text), warnings);
+}
+
+TEST(CityJson, ASequenceOfFeaturesIsOneCity) {
+  const std::string head =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[80000,450000,0]},)"
+      R"("CityObjects":{},"vertices":[]})";
+  const std::string both = one_line(head) + one_line(feature(0, "1")) + "\n" + one_line(feature(20, "0"));
+  const Result<Model> city = read_sequence(both);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 160.0, 1e-3);
+  EXPECT_NEAR(bounds(*city).size().x, 30.0f, 1e-3f);
+  ASSERT_EQ(city->materials.size(), 2u) << "each feature counts its own materials from 0";
+  EXPECT_NE(city->materials[0].base_colour, city->materials[1].base_colour);
+
+  const auto expect_error = [](const std::string& text, const std::string& words, int line) {
+    const Result<Model> bad = read_sequence(text);
+    ASSERT_FALSE(bad) << words;
+    EXPECT_NE(to_string(bad.errors()).find(words), std::string::npos) << to_string(bad.errors());
+    EXPECT_EQ(bad.errors().front().where.line, line);
+  };
+  expect_error("", "empty", 0);
+  expect_error(one_line(feature(0, "1")), "expected \"CityJSON\"", 1);
+  expect_error(one_line(head) + one_line(head), "expected \"CityJSONFeature\"", 2);
+  expect_error(one_line(head) + "{\n", "no JSON object", 2);
+  std::string outside = feature(0, "1");
+  expect_error(one_line(head) + one_line(with(outside, "[0,1,2,3]", "[0,1,2,9]")), "vertex 9", 0);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ Result<Model> model_from_file(const std::filesystem::path& file, const ModelRead
                               Errors& warnings) {
   const std::string extension = file.extension().string();
   if (extension == ".glb" || extension == ".gltf") return read_gltf(file, warnings);
-  if (extension == ".json") return read_city_model(file, warnings, reading.most_detail);
+  if (extension == ".json" || extension == ".jsonl")
+    return read_city_model(file, warnings, reading.most_detail);
   if (extension == ".tif" || extension == ".tiff") return read_terrain(file, reading.cell_m, warnings);
   if (extension == ".osm") return read_osm(file, warnings);
   if (extension == ".gml" || extension == ".citygml" || extension == ".xml")

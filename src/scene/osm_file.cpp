@@ -7,7 +7,6 @@
 #include <memory>
 #include <string_view>
 
-#include "base/files.h"
 #include "scene/xml_guard.h"
 
 namespace parvis::scene {
@@ -53,7 +52,7 @@ class Reader {
         [](void* user, const char* name) { static_cast<Reader*>(user)->end(name); });
   }
 
-  /// The bytes are well-formed: check_xml says so.
+  /// The bytes are well-formed: read_xml says so.
   OsmFile read(const std::string& bytes) {
     constexpr std::size_t piece = 1 << 20;
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
@@ -166,15 +165,12 @@ const std::string& tag(const OsmTags& tags, const std::string& key) {
 
 Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
-  const Result<std::string> bytes = read_file(file);
-  if (!bytes) return bytes.errors();
-  std::string root;
-  if (Status status = check_xml(file, *bytes, [&](const std::string& name) { root = name; }); !status)
-    return status.errors();
-  if (root != "osm")
+  const Result<XmlText> xml = read_xml(file);
+  if (!xml) return xml.errors();
+  if (xml->root != "osm")
     return error_at(where, "this is no OpenStreetMap file: its outermost element is <{}>; expected <osm>",
-                    root);
-  OsmFile osm = Reader(file, warnings).read(*bytes);
+                    xml->root);
+  OsmFile osm = Reader(file, warnings).read(xml->bytes);
   if (osm.nodes.empty()) return error_at(where, "this OpenStreetMap file has no nodes");
   return osm;
 }

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/test_folder.h"
 #include "scene/road_builder.h"
+#include "scene/test_scene.h"
 #include "scene/utm.h"
 
 namespace parvis::scene {
@@ -52,16 +53,6 @@ Bounds bounds_of(const Model& model, const std::string& name) {
   for (const Part& part : model.parts)
     if (part.object == name) all.add(part.mesh.bounds());
   return all;
-}
-
-double area_m2(const Model& model, const std::string& name) {
-  double sum = 0.0;
-  for (const Part& part : model.parts)
-    for (std::size_t i = 0; part.object == name && i + 2 < part.mesh.indices.size(); i += 3) {
-      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
-      sum += 0.5 * double(glm::length(glm::cross(at(1) - at(0), at(2) - at(0))));
-    }
-  return sum;
 }
 
 // Of the footprint 1-2-3-4: 0.0002 by 0.0001 degrees at 52.16 north, on the ellipsoid and in UTM's scale.

@@ -69,6 +69,17 @@ inline std::shared_ptr<Model> model_of(Mesh mesh, const Material& material) {
   return model;
 }
 
+/// Of the parts of this name.
+inline double area_m2(const Model& model, const std::string& name) {
+  double sum = 0.0;
+  for (const Part& part : model.parts)
+    for (std::size_t i = 0; part.object == name && i + 2 < part.mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      sum += 0.5 * double(glm::length(glm::cross(at(1) - at(0), at(2) - at(0))));
+    }
+  return sum;
+}
+
 /// Adds an object; returns its index.
 inline int add(Scene& scene, std::shared_ptr<const Model> model, bool moves = false,
                const glm::mat4& world_from_model = glm::mat4(1.0f)) {

@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "base/files.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -39,8 +41,9 @@ void on_end(void* user, const char*) { --static_cast<Look*>(user)->depth; }
 
 }  // namespace
 
-Status check_xml(const std::filesystem::path& file, const std::string& bytes,
-                 const std::function<void(const std::string&)>& on_root) {
+Result<XmlText> read_xml(const std::filesystem::path& file) {
+  Result<std::string> bytes = read_file(file);
+  if (!bytes) return bytes.errors();
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
       XML_ParserCreate(nullptr), XML_ParserFree);
   Look look{parser.get(), 0, {}, {}};
@@ -48,17 +51,16 @@ Status check_xml(const std::filesystem::path& file, const std::string& bytes,
   XML_SetStartDoctypeDeclHandler(parser.get(), on_doctype);
   XML_SetElementHandler(parser.get(), on_start, on_end);
   constexpr std::size_t piece = 1 << 20;
-  for (std::size_t at = 0; at == 0 || at < bytes.size(); at += piece) {
-    const std::size_t length = std::min(piece, bytes.size() - at);
-    const bool is_last = at + length == bytes.size();
-    if (XML_Parse(parser.get(), bytes.data() + at, int(length), is_last) == XML_STATUS_OK) continue;
+  for (std::size_t at = 0; at == 0 || at < bytes->size(); at += piece) {
+    const std::size_t length = std::min(piece, bytes->size() - at);
+    const bool is_last = at + length == bytes->size();
+    if (XML_Parse(parser.get(), bytes->data() + at, int(length), is_last) == XML_STATUS_OK) continue;
     const FileLocation where{file.string(), int(XML_GetCurrentLineNumber(parser.get())),
                              int(XML_GetCurrentColumnNumber(parser.get())) + 1};
     if (!look.problem.empty()) return Error{look.problem, where};
     return error_at(where, "this is no well-formed XML: {}", XML_ErrorString(XML_GetErrorCode(parser.get())));
   }
-  on_root(look.root);
-  return Done{};
+  return XmlText{*std::move(bytes), look.root};
 }
 
 }  // namespace parvis::scene
