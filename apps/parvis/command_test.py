@@ -122,6 +122,16 @@ class InAFolder(unittest.TestCase):
         self.write(name, content)
         self.expect_bad_scene(f'sun()\nmodel(file="{name}")\n', name, *words)
 
+    def expect_told(self, name, content, *words):
+        """A model file that is read but for what a warning names; check and render tell it."""
+        self.write(name, content)
+        scene = self.write("scene.xp", f'model(file="{name}")\ncamera(name="a", position="0 -9 2")\n')
+        for command in [["check", scene], ["render", scene, *SIZE, "-o", self.folder / "out.png"]]:
+            done = run(*command)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for word in ["warning", name, *words]:
+                self.assertIn(word, done.stdout + done.stderr)
+
 
 class Usage(InAFolder):
     def test_every_subcommand_has_help_with_an_example(self):
@@ -209,14 +219,7 @@ class BadModels(InAFolder):
         document["textures"] = [{"source": 0}]
         document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
         document["meshes"][0]["primitives"][0]["material"] = 0
-        self.write("sail.gltf", gltf(document, data))
-        scene = self.write("scene.xp", 'model(file="sail.gltf")\ncamera(name="a", position="0 -9 2")\n')
-        checked = run("check", scene)
-        self.assertEqual(checked.returncode, 0, checked.stderr)
-        self.assertIn("lost.png", checked.stdout)
-        drawn = run("render", scene, *SIZE, "-o", self.folder / "out.png")
-        self.assertEqual(drawn.returncode, 0, drawn.stderr)
-        self.assertIn("lost.png", drawn.stdout + drawn.stderr)
+        self.expect_told("sail.gltf", gltf(document, data), "lost.png")
 
     def test_city_json(self):
         self.expect_bad_model("a.city.json", city(last_index=99), "roof")
@@ -225,7 +228,64 @@ class BadModels(InAFolder):
         self.expect_bad_model("d.city.json", city()[:-40])
 
 
+    def test_a_skin_with_missing_joints(self):
+        document, data = triangle()
+        document["nodes"][0]["skin"] = 0
+        document["skins"] = [{"name": "legs", "joints": [0, 7]}]
+        self.expect_bad_model("legs.gltf", gltf(document, data), 'skin "legs"', "joint 7")
+
+    def test_a_circle_of_nodes_is_named_and_the_rest_is_drawn(self):
+        document, data = triangle()
+        document["nodes"] = [{"mesh": 0, "children": [1]}, {"children": [0]}]
+        self.expect_told("circle.gltf", gltf(document, data), "node 0 is its own ancestor through node 1")
+
+    def test_ways_with_missing_nodes_are_named_and_the_rest_is_drawn(self):
+        corners = [(1, 52.16, 4.49), (2, 52.16, 4.4902), (3, 52.1601, 4.4902)]
+        nodes = "".join(f'<node id="{i}" lat="{lat}" lon="{lon}"/>' for i, lat, lon in corners)
+        way = '<way id="7">' + "".join(f'<nd ref="{i}"/>' for i in [1, 2, 3, 99, 1])
+        text = f'<osm version="0.6">{nodes}{way}<tag k="building" v="yes"/></way></osm>'
+        self.expect_told("block.osm", text, "way 7", "node 99")
+
+    def test_a_grid_of_heights_without_a_place_on_the_earth(self):
+        # a TIFF of 2 x 2 samples: little-endian, one directory of eight entries, samples behind it
+        entries = [(256, 2), (257, 2), (258, 8), (259, 1), (262, 1), (273, 110), (278, 2), (279, 4)]
+        directory = b"".join(struct.pack("<HHII", tag, 3, 1, value) for tag, value in entries)
+        grid = b"II*\0" + struct.pack("<IH", 8, len(entries)) + directory + struct.pack("<I", 0) + bytes([1, 2, 3, 4])
+        self.expect_bad_model("hill.tif", grid, "georeference", "cell=")
+        scene = self.write("scene.xp", 'model(file="hill.tif", cell=10)\ncamera(name="a", position="0 -9 2")\n')
+        self.assertEqual(run("check", scene).returncode, 0)
+
+    def test_a_doctype(self):
+        text = '<?xml version="1.0"?>\n<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]>\n<osm>&b;</osm>\n'
+        for name in ["a.osm", "a.gml"]:
+            self.expect_bad_model(name, text, name + ":2:", "DOCTYPE")
+
+
 class BadScripts(InAFolder):
+    def test_names_that_are_not_there_or_taken(self):
+        place = 'camera(name="a")\ngroup(name="trees") { }\n'
+        self.expect_bad_scene(
+            place + 'keys(onPress="button2, treess, show, 0.5", onPress="h, trees, dance")\n',
+            "scene.xp:3:14:", '"treess"', '"trees"', "scene.xp:3:52:", '"dance"', "toggle",
+        )
+        self.expect_bad_scene(
+            place + 'scenario(name="green") {\n  override(of="oaks", visible=1)\n  override(of="%sky", intensity=4)\n'
+            '  override(of="trees", visibel=1)\n}\n',
+            "scene.xp:4:15:", '"oaks"', "scene.xp:5:15:", "no sky", "scene.xp:6:24:", '"visibel"', '"visible"',
+        )
+        self.expect_bad_scene(place + 'group(name="trees") { }\n', "scene.xp:3:12:", '"trees"', "scene.xp:2")
+
+    def test_a_storm_of_events_spreads_over_steps(self):
+        storm = ", ".join(['onTime="1, trees, toggle"'] * 10_000)
+        scene = self.write("scene.xp", f'camera(name="a")\ngroup(name="trees") {{ }}\ntimer({storm})\n')
+        self.assertEqual(run("check", scene).returncode, 0)
+        done = run("render", scene, *SIZE, "--time", "2", "-o", self.folder / "out.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = done.stdout + done.stderr
+        self.assertEqual(told.count("warning"), 1, told[:2000])
+        for word in ["scene.xp:3:", "more than 1000 messages", '"toggle"', '"trees"']:
+            self.assertIn(word, told)
+
     def test_cyclic_includes(self):
         self.write("other.xp", 'include(file="scene.xp")\n')
         self.expect_bad_scene('sun()\ninclude(file="other.xp")\n', "other.xp", "scene.xp")

@@ -167,7 +167,7 @@ TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
        {"17:15: of=\"stoen\": no node of the scene has this name; did you mean \"stone\"?",
         "18:22: model \"stone\" has no attribute \"visibel\"; did you mean \"visible\"?",
         "19:31: position=\"1 2\": expected three numbers",
-        "20:15: of=\"%exposure\": no node of the scene has this name",
+        "20:15: of=\"%exposure\": the scene has no exposure node",
         "21:23: road \"street\" keeps, once the scene is loaded, its \"lanes\"", "22:27:", "none.glb",
         "24:26: extends=\"oakes\": no node of the scene has this name; did you mean \"oaks\"?",
         "25:15: the name \"oaks\" is taken"})

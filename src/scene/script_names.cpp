@@ -72,6 +72,9 @@ void NameResolver::resolve_reference(const AttributeSchema& schema, const std::s
   if (const auto other = nodes_.find(name); other != nodes_.end())
     return fail(error_at(where, "{}=\"{}\": this is a {}; expected {}{}", schema.name, shown,
                          other->second->schema->type, expectation(schema), did_you_mean(name, known)));
+  if (name.starts_with('%'))
+    return fail(error_at(where, "{}=\"{}\": the scene has no {} node{}", schema.name, shown, shown.substr(1),
+                         did_you_mean(name, known)));
   fail(error_at(where, "{}=\"{}\": no node of the scene has this name{}", schema.name, shown,
                 did_you_mean(name, known)));
 }
