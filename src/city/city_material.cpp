@@ -63,6 +63,12 @@ scene::Material material(std::string name, int sheet, glm::vec3 tint = glm::vec3
   return m;
 }
 
+/// The same, of a sheet with windows.
+scene::Material recessed(scene::Material m) {
+  m.relief_m = canvas_relief_m;
+  return m;
+}
+
 constexpr std::array<glm::vec3, facade_style_count> second_tints{{{1.0f, 0.82f, 0.66f},
                                                                   {0.86f, 0.88f, 0.92f},
                                                                   {1.0f, 0.93f, 0.8f},
@@ -76,11 +82,11 @@ std::vector<scene::Material> all_materials(const std::vector<Sheet>& sheets) {
   std::vector<scene::Material> materials;
   for (std::size_t style = 0; style < facade_style_count; ++style)
     for (int tint = 0; tint < wall_tints; ++tint)
-      materials.push_back(material(sheets[style].name + (tint == 0 ? "" : "_aged"), int(style),
-                                   tint == 0 ? glm::vec3(1.0f) : second_tints[style]));
+      materials.push_back(recessed(material(sheets[style].name + (tint == 0 ? "" : "_aged"), int(style),
+                                            tint == 0 ? glm::vec3(1.0f) : second_tints[style])));
   int sheet = facade_style_count;
   const auto add_next = [&](const char* name) { materials.push_back(material(name, sheet++)); };
-  add_next("ground_floor");
+  materials.push_back(recessed(material("ground_floor", sheet++)));
   add_next("trim");
   materials.push_back(material("cloth", sheet - 1));
   materials.back().is_double_sided = true;

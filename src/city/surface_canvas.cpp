@@ -41,12 +41,12 @@ std::uint8_t srgb_byte(float linear) {
   return table[std::size_t(std::lround(std::clamp(linear, 0.0f, 1.0f) * 4095.0f))];
 }
 
-/// Means over squares of `shrink` pixels, as bytes with alpha 1.
+/// Means over squares of `shrink` pixels, as bytes; without a fourth channel alpha is 1.
 Image8 shrunk(const ImageF& image, int shrink) {
   Image8 result(image.width / shrink, image.height / shrink, 4, 255);
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x)
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < image.channels; ++c) {
         float sum = 0.0f;
         for (int j = 0; j < shrink; ++j)
           for (int i = 0; i < shrink; ++i) sum += image.at(x * shrink + i, y * shrink + j)[c];
@@ -99,8 +99,8 @@ void SurfaceCanvas::shade_beside(const Rect& rect, float amount) {
   });
 }
 
-ImageF SurfaceCanvas::relief_normals() const {
-  ImageF normals(width_px_, height_px_, 3);
+ImageF SurfaceCanvas::relief() const {
+  ImageF relief(width_px_, height_px_, 4);
   const float x_m = width_m_ / float(width_px_), y_m = height_m_ / float(height_px_);
   // A step of 0.2 m between two pixels would stand upright and be lost in the mipmaps: slopes are held to 2.
   const auto slope = [](float rise, float run) { return std::clamp(rise / run, -2.0f, 2.0f); };
@@ -109,10 +109,11 @@ ImageF SurfaceCanvas::relief_normals() const {
       const float dx = slope(texel(x + 1, y).height_m - texel(x - 1, y).height_m, 2.0f * x_m);
       const float dy = slope(texel(x, y + 1).height_m - texel(x, y - 1).height_m, 2.0f * y_m);
       const glm::vec3 normal = glm::normalize(glm::vec3(-dx, -dy, 1.0f));
-      float* out = normals.at(x, height_px_ - 1 - y);
+      float* out = relief.at(x, height_px_ - 1 - y);
       for (int c = 0; c < 3; ++c) out[c] = 0.5f + 0.5f * normal[c];
+      out[3] = 1.0f + std::min(texel(x, y).height_m, 0.0f) / canvas_relief_m;
     }
-  return normals;
+  return relief;
 }
 
 SurfacePictures SurfaceCanvas::pictures(int normal_shrink, int surface_shrink) const {
@@ -130,7 +131,7 @@ SurfacePictures SurfaceCanvas::pictures(int normal_shrink, int surface_shrink) c
       float* values = surface.at(x, height_px_ - 1 - y);
       values[0] = t.openness, values[1] = t.roughness, values[2] = t.metallic;
     }
-  result.normal = shrunk(relief_normals(), normal_shrink);
+  result.normal = shrunk(relief(), normal_shrink);
   result.surface = shrunk(surface, surface_shrink);
   return result;
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/image.h"
-#include "scene/model.h"
 
 namespace parvis::city {
 
@@ -29,6 +28,9 @@ struct Rect {
   float height() const { return y1 - y0; }
   Rect inset(float by) const { return {x0 + by, y0 + by, x1 - by, y1 - by}; }
 };
+
+/// How deep the relief of a normal picture goes: its alpha is 0 so far below the sheet, 1 at it.
+inline constexpr float canvas_relief_m = 0.25f;
 
 /// The three pictures of glTF's metallic-roughness surface.
 struct SurfacePictures {
@@ -58,14 +60,14 @@ class SurfaceCanvas {
   /// The same from the left edge to the right (or back, for a negative amount).
   void shade_beside(const Rect& rect, float amount);
 
-  /// Colour (sRGB, with alpha), normals from the relief, and occlusion-roughness-metallic. `normal_shrink`
-  /// and `surface_shrink` divide the size of those pictures.
+  /// Colour (sRGB, with alpha), normals from the relief with its depth as alpha, and
+  /// occlusion-roughness-metallic. `normal_shrink` and `surface_shrink` divide the size of those pictures.
   SurfacePictures pictures(int normal_shrink, int surface_shrink) const;
 
  private:
   Texel& texel(int x, int y);
   const Texel& texel(int x, int y) const;
-  ImageF relief_normals() const;
+  ImageF relief() const;
 
   int width_px_, height_px_;
   float width_m_, height_m_;

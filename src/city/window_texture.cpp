@@ -31,6 +31,32 @@ void paint_blind(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
                [&](float, float y, Texel& t) { t.colour = cloth * (0.88f + 0.12f * std::sin(90.0f * y)); });
 }
 
+/// A net curtain: pale, thin, from the foot up, in folds.
+void paint_net(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
+  const float top = rect.y0 + random.uniform(0.45f, 1.0f) * rect.height();
+  const float thickness = random.uniform(0.45f, 0.75f), phase = random.uniform(0.0f, 6.0f);
+  const glm::vec3 cloth = random.uniform(0.2f, 0.34f) * glm::vec3(1.0f, 0.99f, 0.96f);
+  canvas.paint({rect.x0, rect.y0, rect.x1, top}, [&](float x, float y, Texel& t) {
+    const float fold = 0.86f + 0.14f * std::sin(75.0f * x + phase + 2.0f * std::sin(9.0f * x));
+    const float hem = y > top - 0.05f ? 1.1f : 1.0f;
+    t.colour = glm::mix(t.colour, cloth * fold * hem, thickness);
+  });
+}
+
+/// Of the room behind: a lighter ceiling, and the back wall's edge, each room from its own side.
+void paint_room(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
+  const float ceiling = rect.y1 - random.uniform(0.12f, 0.3f) * rect.height();
+  const float corner = rect.x0 + random.uniform(0.15f, 0.85f) * rect.width();
+  const float side = random.chance(0.5f) ? 1.0f : -1.0f, light = random.uniform(0.012f, 0.05f);
+  canvas.paint(rect, [&](float x, float y, Texel& t) {
+    const float slant = 0.35f * std::max(0.0f, side * (x - corner));  // the side wall's ceiling comes nearer
+    const bool is_ceiling = y > ceiling + slant;
+    const float wall = side * (x - corner) > 0.0f ? 0.55f : 1.0f;
+    t.colour += light * (is_ceiling ? 1.3f : wall * glm::mix(0.5f, 1.0f, (y - rect.y0) / rect.height())) *
+                glm::vec3(1.0f, 0.93f, 0.82f);
+  });
+}
+
 /// One leaf of louvres; `turned` is the share of its width that is seen (1: flat).
 void paint_shutter_leaf(SurfaceCanvas& canvas, const Rect& leaf, glm::vec3 colour, float height_m,
                         float turned) {
@@ -131,8 +157,11 @@ void paint_glass(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
     t = matt(dark * glm::vec3(1.0f + warm, 1.05f, 1.15f - warm) * (0.7f + 0.6f * up), depth_m,
              glass_roughness);
   });
+  paint_room(canvas, rect, random);
   const float kind = random.uniform();
+  if (kind > 0.55f && kind < 0.75f) paint_net(canvas, rect, random);
   if (kind < 0.5f) paint_curtains(canvas, rect, random);
+  if (kind < 0.2f) paint_net(canvas, rect, random);
   if (kind > 0.8f) paint_blind(canvas, rect, random);
 }
 
@@ -154,9 +183,9 @@ void paint_casement(SurfaceCanvas& canvas, const Rect& opening, int panes_across
     const float y = glass.y0 + glass.height() * float(i) / float(panes_up);
     bar({glass.x0, y - 0.02f, glass.x1, y + 0.02f});
   }
-  canvas.shade_below({opening.x0, opening.y1 - 0.45f, opening.x1, opening.y1}, 0.8f);
-  canvas.shade_beside({opening.x0, opening.y0, opening.x0 + 0.2f, opening.y1}, 0.55f);
-  canvas.shade_beside({opening.x1 - 0.2f, opening.y0, opening.x1, opening.y1}, -0.55f);
+  canvas.shade_below({opening.x0, opening.y1 - 0.35f, opening.x1, opening.y1}, 0.6f);
+  canvas.shade_beside({opening.x0, opening.y0, opening.x0 + 0.14f, opening.y1}, 0.35f);
+  canvas.shade_beside({opening.x1 - 0.14f, opening.y0, opening.x1, opening.y1}, -0.35f);
 }
 
 void paint_window(SurfaceCanvas& canvas, const WindowStyle& style, float x_m, float floor_m, Random& random) {

@@ -76,7 +76,8 @@ vec3 PathTracer::light_from(vec3 direction, vec3 radiance, float density, const 
   const float side = glm::dot(point.geometric_normal, direction);
   if (side * glm::dot(point.surface.normal, direction) <= 0.0f) return vec3(0.0f);
   const vec3 brought =
-      scatter.share(direction) * radiance * (weight(density, scatter.density(direction), true) / density);
+      scatter.share(direction) * radiance *
+      (point.relief.light_from(direction) * weight(density, scatter.density(direction), true) / density);
   if (!(brought.x + brought.y + brought.z > 0.0f)) return vec3(0.0f);
   ++path.ray_count;
   const vec3 origin = point.position + std::copysign(off_surface_m, side) * point.geometric_normal;
@@ -106,7 +107,7 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   if (is_mirror) way->direction = kept_above(way->direction, point.geometric_normal);
   const float side = glm::dot(point.geometric_normal, way->direction);
   if (side * glm::dot(point.surface.normal, way->direction) <= 0.0f) return false;
-  path.throughput *= way->weight;
+  path.throughput *= way->weight * point.relief.light_from(way->direction);
   const float survival =
       std::min(greatest_survival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
   if (!(choices.y < survival)) return false;

@@ -10,7 +10,7 @@ namespace {
 void add_material(ContentHash& hash, const scene::Material& m) {
   for (const glm::vec3 colour : {m.base_colour, m.emission}) hash.add(colour);
   for (const float value : {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness,
-                            m.translucency, m.normal_scale})
+                            m.translucency, m.normal_scale, m.relief_m})
     hash.add(value);
   for (const int texture : {m.base_colour_texture, m.normal_texture, m.surface_texture, m.emission_texture})
     hash.add(texture);

@@ -66,6 +66,11 @@ vec3 mapped_normal(vec3 normal, const Corners& corners, vec3 sampled, float scal
   return glm::normalize((tangent * n.x + bitangent * n.y) * scale + normal * std::max(n.z, 0.01f));
 }
 
+TextureEdges edges_of(const Corners& corners) {
+  return {corners.position[1] - corners.position[0], corners.position[2] - corners.position[0],
+          corners.uv[1] - corners.uv[0], corners.uv[2] - corners.uv[0]};
+}
+
 /// Texture coordinates that pass in a metre of the triangle: the mean of both directions.
 float uv_per_m(const Corners& corners, vec3 facet) {
   const vec2 t1 = corners.uv[1] - corners.uv[0], t2 = corners.uv[2] - corners.uv[0];
@@ -93,17 +98,29 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   if (glm::dot(facet, direction) > 0.0f) normal = -normal;  // seen from behind
 
   const float width_in_uv = width_m * uv_per_m(corners, facet);
+  const auto mips_of = [&](int texture) -> const MipTexture& {
+    return (*place.textures)[std::size_t(texture)];
+  };
+  const auto texels_of = [&](const MipTexture& mips) {
+    return width_in_uv * std::sqrt(mips.size().x * mips.size().y);
+  };
+  ShadingPoint point;
+  if (material.relief_m > 0.0f && material.normal_texture != scene::no_index) {
+    const MipTexture& mips = mips_of(material.normal_texture);
+    point.relief =
+        Relief(mips, texels_of(mips), material.relief_m, width_m, edges_of(corners), normal, direction, uv);
+    uv = point.relief.uv();
+  }
   const auto sampled = [&](int texture, vec4 plain) {
     if (texture == scene::no_index) return plain;
-    const MipTexture& mips = (*place.textures)[std::size_t(texture)];
-    return mips.sample(uv, width_in_uv * std::sqrt(mips.size().x * mips.size().y));
+    const MipTexture& mips = mips_of(texture);
+    return mips.sample(uv, texels_of(mips));
   };
   const vec4 white(1.0f);
   const vec4 base = sampled(material.base_colour_texture, white);
   const vec4 detail = sampled(material.surface_texture, white);
   const vec4 bump = sampled(material.normal_texture, vec4(0.5f, 0.5f, 1.0f, 1.0f));
 
-  ShadingPoint point;
   point.position = position;
   point.geometric_normal = normal;
   point.curvature_per_m = place.is_mirror ? curvature_per_m(corners, facet) : 0.0f;

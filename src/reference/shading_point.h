@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference/ray_scene.h"
+#include "reference/relief.h"
 #include "shading/surface.h"
 
 namespace parvis::reference {
@@ -12,6 +13,7 @@ struct ShadingPoint {
   glm::vec3 geometric_normal;  ///< interpolated over the triangle, on the viewer's side
   float curvature_per_m;       ///< how fast that normal turns, in radians a metre: spreads reflected cones
   float alpha;
+  Relief relief;
 };
 
 /// Looks the material's textures up at a hit of a ray in `direction` that sees `width_m` of the surface.

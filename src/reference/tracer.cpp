@@ -153,10 +153,12 @@ class Tracer {
   }
 
   float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
+    const float let_in = point.relief.light_from(light_.to_sun);
     if (shadow_)
-      return shading::sun_visibility(*shadow_, point.position, point.geometric_normal, light_.to_sun);
+      return let_in *
+             shading::sun_visibility(*shadow_, point.position, point.geometric_normal, light_.to_sun);
     ++ray_count;
-    return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : 1.0f;
+    return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : let_in;
   }
 
   const RayScene& rays_;

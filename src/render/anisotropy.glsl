@@ -2,9 +2,9 @@
 // a few trilinear ones along the longer side of the pixel's footprint stand in for it.
 #include "render/material.glsl"
 
-vec4 base_colour_at(vec2 at) {
+// `along_x`, `along_y`: by how much `at` changes to the neighbouring pixels, were the surface flat.
+vec4 base_colour_at(vec2 at, vec2 along_x, vec2 along_y) {
 #ifdef ANISOTROPY_BY_TAPS
-  vec2 along_x = dFdx(at), along_y = dFdy(at);
   vec2 size = vec2(textureSize(base_colour_texture, 0));
   float length_x = length(along_x * size), length_y = length(along_y * size);
   vec2 longer = length_x > length_y ? along_x : along_y;
@@ -17,6 +17,6 @@ vec4 base_colour_at(vec2 at) {
     sum += textureLod(base_colour_texture, at + ((float(i) + 0.5f) / float(taps) - 0.5f) * longer, level);
   return sum / float(taps);
 #else
-  return texture(base_colour_texture, at);
+  return textureGrad(base_colour_texture, at, along_x, along_y);
 #endif
 }

@@ -18,6 +18,7 @@ struct MaterialBlock {
   glm::vec4 emission;                 // rgb, normal scale
   glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
   glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
+  glm::vec4 relief;           // x: metres
 };
 
 MaterialBlock block_of(const scene::Material& material) {
@@ -26,7 +27,8 @@ MaterialBlock block_of(const scene::Material& material) {
           glm::vec4(material.emission, material.normal_scale),
           {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
           {glm::vec4(rows[0], material.translucency),
-           glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)}};
+           glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)},
+          glm::vec4(material.relief_m)};
 }
 
 Pass pass_of(scene::Alpha alpha) {
@@ -58,7 +60,10 @@ gl::Texture upload(const scene::Texture& source) {
 
 std::uint8_t features_of(const scene::Material& material) {
   std::uint8_t features = 0;
-  if (material.normal_texture != scene::no_index) features |= surface_has_normal_map;
+  if (material.normal_texture != scene::no_index) {
+    features |= surface_has_normal_map;
+    if (material.relief_m > 0.0f) features |= surface_has_relief;
+  }
   if (material.surface_texture != scene::no_index) features |= surface_has_surface_map;
   if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
   if (material.clear_coat > 0.0f) features |= surface_has_coat;

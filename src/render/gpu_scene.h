@@ -31,9 +31,10 @@ enum SurfaceFeature : std::uint8_t {
   surface_has_coat = 8,
   surface_has_backs = 16,
   surface_has_holes = 32,
-  surface_is_leaf = 64  ///< cut out and translucent: small, many, in many layers
+  surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
+  surface_has_relief = 128
 };
-inline constexpr std::size_t surface_feature_combinations = 128;
+inline constexpr std::size_t surface_feature_combinations = 256;
 
 /// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
 /// it.

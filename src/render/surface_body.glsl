@@ -27,11 +27,40 @@ vec4 surface_sky_cell;
 
 vec3 reflected_radiance(vec3 at, vec3 direction, float roughness);
 
+// Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
+#ifdef HAS_RELIEF
+vec4 looked_up(sampler2D picture, vec2 at, vec2 along_x, vec2 along_y) {
+  return textureGrad(picture, at, along_x, along_y);
+}
+#else
+#define looked_up(picture, at, along_x, along_y) texture(picture, at)
+#endif
+
+#ifdef HAS_RELIEF
+float relief_level;
+
+float relief_depth(vec2 at) { return 1.0f - textureLod(normal_texture, at, relief_level).a; }
+#include "shading/relief.glsl"
+
+// Moves `at` to where the view meets the relief; `sun` loses what the edge of the opening keeps out.
+vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 along_y, inout float sun) {
+  TextureFrame frame = TextureFrame(dFdx(position), dFdy(position), along_x, along_y);
+  float pixel_m = min(length(frame.step_1), length(frame.step_2));
+  float depth_m = material_relief_m * relief_share(pixel_m, material_relief_m);
+  if (depth_m <= 0.0f) return at;
+  vec2 size = vec2(textureSize(normal_texture, 0));
+  relief_level = 0.5f * log2(max(abs(along_x.x * along_y.y - along_x.y * along_y.x) * size.x * size.y, 1e-8f));
+  vec3 hit = relief_hit(at, uv_through_relief(frame, normal, -to_viewer, depth_m));
+  if (dot(normal, frame_to_sun.xyz) > 0.0f && hit.z > 0.0f)
+    sun *= relief_light(hit, uv_through_relief(frame, normal, frame_to_sun.xyz, depth_m));
+  return hit.xy;
+}
+#endif
+
 #ifdef HAS_NORMAL_MAP
 // The normal map turns the normal within the frame of the triangle's texture gradients: +x along u, +y against v.
-vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
+vec3 mapped_normal(vec3 normal, vec2 texture_uv, vec2 tx, vec2 ty) {
   vec3 px = dFdx(position), py = dFdy(position);
-  vec2 tx = dFdx(texture_uv), ty = dFdy(texture_uv);
   float determinant = tx.x * ty.y - tx.y * ty.x;
   vec3 along_u = (px * ty.y - py * tx.y) * sign(determinant);
   vec3 along_v = (py * tx.x - px * ty.x) * sign(determinant);
@@ -41,17 +70,30 @@ vec3 mapped_normal(vec3 normal, vec2 texture_uv) {
   tangent *= inversesqrt(size);
   vec3 bitangent = cross(normal, tangent);
   bitangent *= dot(bitangent, along_v) > 0.0f ? -1.0f : 1.0f;
-  vec3 n = texture(normal_texture, texture_uv).xyz * 2.0f - 1.0f;
+  vec3 n = looked_up(normal_texture, texture_uv, tx, ty).xyz * 2.0f - 1.0f;
   return normalize((tangent * n.x + bitangent * n.y) * material_emission.a + normal * max(n.z, 0.01f));
 }
 #endif
 
 void main() {
+  vec3 to_viewer = viewer_position.xyz - position;
+  float distance_m = length(to_viewer);
+  to_viewer /= distance_m;
+  vec3 normal = normalize(vertex_normal);
+#ifdef HAS_BACKS
+  if (!gl_FrontFacing) normal = -normal;
+#endif
+
   vec2 texture_uv = texture_coordinates(uv);
+  vec2 uv_along_x = dFdx(texture_uv), uv_along_y = dFdy(texture_uv);
+  float sun = 1.0f;
+#ifdef HAS_RELIEF
+  texture_uv = through_relief(texture_uv, to_viewer, normal, uv_along_x, uv_along_y, sun);
+#endif
 #ifdef IS_LEAF
   vec4 base = texture(base_colour_texture, texture_uv);
 #else
-  vec4 base = base_colour_at(texture_uv);
+  vec4 base = base_colour_at(texture_uv, uv_along_x, uv_along_y);
 #endif
   base = vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
 #ifdef HAS_HOLES
@@ -64,22 +106,15 @@ void main() {
 #endif
 #endif
 
-  vec3 to_viewer = viewer_position.xyz - position;
-  float distance_m = length(to_viewer);
-  to_viewer /= distance_m;
-  vec3 normal = normalize(vertex_normal);
-#ifdef HAS_BACKS
-  if (!gl_FrontFacing) normal = -normal;
-#endif
 #ifdef HAS_SURFACE_MAP
-  vec3 detail = texture(surface_texture, texture_uv).rgb;
+  vec3 detail = looked_up(surface_texture, texture_uv, uv_along_x, uv_along_y).rgb;
 #else
   vec3 detail = vec3(1.0f);
 #endif
 
   Surface s;
 #ifdef HAS_NORMAL_MAP
-  s.normal = mapped_normal(normal, texture_uv);
+  s.normal = mapped_normal(normal, texture_uv, uv_along_x, uv_along_y);
 #else
   s.normal = normal;
 #endif
@@ -96,7 +131,7 @@ void main() {
   s.occlusion = detail.r;
   s.emission = material_emission.rgb;
 #ifdef HAS_EMISSION_MAP
-  s.emission *= texture(emission_texture, texture_uv).rgb;
+  s.emission *= looked_up(emission_texture, texture_uv, uv_along_x, uv_along_y).rgb;
 #endif
 
   SceneLight light;
@@ -108,11 +143,11 @@ void main() {
 
 #ifdef IS_LEAF
   surface_sky_cell = leaf_sky_cell;
-  float sun = leaf_sun;
+  sun *= leaf_sun;
 #else
   surface_sky_cell = shaded_cell(sky_visibility_cell(position, normal),
                                  sky_share_beside_bodies(position, normal, object_of_surface));
-  float sun = visible_sun(position, normal);
+  sun *= visible_sun(position, normal);
 #endif
   vec3 mirrored = reflect(-to_viewer, s.normal);
   vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);

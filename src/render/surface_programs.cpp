@@ -9,6 +9,7 @@ namespace {
 gl::Defines defines_of(std::uint8_t features) {
   gl::Defines defines;
   if (features & surface_has_normal_map) defines.emplace_back("HAS_NORMAL_MAP", "");
+  if (features & surface_has_relief) defines.emplace_back("HAS_RELIEF", "");
   if (features & surface_has_surface_map) defines.emplace_back("HAS_SURFACE_MAP", "");
   if (features & surface_has_emission_map) defines.emplace_back("HAS_EMISSION_MAP", "");
   if (features & surface_has_coat) defines.emplace_back("HAS_COAT", "");

@@ -128,6 +128,7 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
   if (material.is_double_sided) json["doubleSided"] = true;
   if (material.is_mirror_like) json["extras"]["parvis"]["mirror_like"] = true;
   if (material.translucency > 0.0f) json["extras"]["parvis"]["translucency"] = material.translucency;
+  if (material.relief_m > 0.0f) json["extras"]["parvis"]["relief_m"] = material.relief_m;
   return json;
 }
 

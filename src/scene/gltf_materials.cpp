@@ -93,6 +93,7 @@ class MaterialReader {
     m.is_double_sided = source.value("doubleSided", false);
     const Json& parvis = gltf_member(gltf_member(source, "extras"), "parvis");
     m.translucency = gltf_number(parvis, "translucency", 0.0f);
+    m.relief_m = gltf_number(parvis, "relief_m", 0.0f);
     m.is_mirror_like = parvis.value("mirror_like", false);
     if (gltf_number(gltf_extension(source, "KHR_materials_transmission"), "transmissionFactor", 0.0f) >
         0.5f) {

@@ -30,6 +30,7 @@ Model small_model() {
   leaf.name = "leaf";
   leaf.alpha_mode = Alpha::cutout;
   leaf.translucency = 0.5f;
+  leaf.relief_m = 0.25f;
   leaf.is_double_sided = true;
   model.materials = {paint, leaf};
   model.nodes.push_back({"wheel_left", 0, {1, 2, 3}, glm::angleAxis(0.5f, glm::vec3(0, 0, 1)), glm::vec3(2)});
@@ -81,6 +82,7 @@ TEST(Gltf, WhatIsWrittenReadsTheSame) {
         1e-5f);
   EXPECT_EQ(leaf.alpha_mode, Alpha::cutout);
   EXPECT_EQ(leaf.translucency, 0.5f);
+  EXPECT_EQ(leaf.relief_m, 0.25f);
   EXPECT_TRUE(leaf.is_double_sided);
   EXPECT_EQ(again.textures[0].image.pixels, model.textures[0].image.pixels);
   ASSERT_EQ(again.animations.size(), 1u);

@@ -47,10 +47,11 @@ struct Material {
   float translucency = 0.0f;  ///< 0..1: diffuse light that comes through from the other side (leaves)
   glm::vec3 emission{0.0f};   ///< radiance, multiplies the emission texture
   int base_colour_texture = no_index;
-  int normal_texture = no_index;   ///< tangent space, +y toward -v (OpenGL convention of glTF)
+  int normal_texture = no_index;   ///< tangent space, +y toward -v (OpenGL convention of glTF); alpha: relief
   int surface_texture = no_index;  ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
   int emission_texture = no_index;
   float normal_scale = 1.0f;
+  float relief_m = 0.0f;  ///< depth below the surface where the normal texture's alpha is 0; 0: it is flat
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;
   bool is_double_sided = false;

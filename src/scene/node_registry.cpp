@@ -46,7 +46,6 @@ NodeRegistry core_nodes() {
   add_model_nodes(registry);
   add_material_nodes(registry);
   add_wheel_nodes(registry);
-  add_facade_nodes(registry);
   add_road_nodes(registry);
   add_light_nodes(registry);
   add_camera_nodes(registry);

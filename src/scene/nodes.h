@@ -12,7 +12,6 @@ void add_wheel_nodes(NodeRegistry& registry);     ///< wheels
 void add_light_nodes(NodeRegistry& registry);     ///< sun, sky, air, exposure, reflection
 void add_camera_nodes(NodeRegistry& registry);    ///< camera
 void add_scenario_nodes(NodeRegistry& registry);  ///< scenario, override
-void add_facade_nodes(NodeRegistry& registry);    ///< facades
 void add_road_nodes(NodeRegistry& registry);      ///< road, paving, traffic
 
 }  // namespace parvis::scene

@@ -1,6 +1,7 @@
 #include "stage/stage.h"
 
 #include "action/action_nodes.h"
+#include "city/city_nodes.h"
 #include "environment_maps/multiple_environment_maps.h"
 #include "probes/reflections.h"
 #include "scene/object_animation.h"
@@ -10,6 +11,7 @@ namespace parvis::stage {
 const scene::NodeRegistry& node_registry() {
   static const scene::NodeRegistry registry = [] {
     scene::NodeRegistry all = scene::core_nodes();
+    city::add_city_nodes(all);
     action::add_action_nodes(all);
     return all;
   }();

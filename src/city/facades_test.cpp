@@ -1,13 +1,13 @@
-#include "scene/facades.h"
+#include "city/facades.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/mesh.h"
-#include "scene/facade_pictures.h"
+#include "city/brick_texture.h"
 
-namespace parvis::scene {
+namespace parvis::city {
 namespace {
 
 void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
@@ -17,10 +17,10 @@ void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
 }
 
 /// Two walls that meet at a corner, and a roof, in one part.
-Model house(float width, float height) {
-  Model model;
+scene::Model house(float width, float height) {
+  scene::Model model;
   model.materials.emplace_back();
-  Part part;
+  scene::Part part;
   part.object = "building";
   add_quad(part.mesh, {0, 0, 2}, {width, 0, 2}, {width, 0, 2 + height}, {0, 0, 2 + height});
   add_quad(part.mesh, {width, 0, 2}, {width, 9, 2}, {width, 9, 2 + height}, {width, 0, 2 + height});
@@ -32,35 +32,35 @@ Model house(float width, float height) {
 }
 
 TEST(Facades, HoldWholeBaysAndStoreys) {
-  Model model = house(12.2f, 9.0f);
+  scene::Model model = house(12.2f, 9.0f);
   EXPECT_EQ(add_facades(model, "build*"), 4u);
   ASSERT_EQ(model.parts.size(), 2u);  // the roof, and walls of one kind of brick
   EXPECT_EQ(model.parts[0].mesh.triangle_count(), 2u);
   const Mesh& walls = model.parts[1].mesh;
   EXPECT_TRUE(check(walls, "walls").ok());
   for (const glm::vec2& uv : walls.uvs) {
-    EXPECT_NEAR(uv.x * picture_bays, std::round(uv.x * picture_bays), 1e-3f);
-    EXPECT_NEAR(uv.y * picture_storeys, std::round(uv.y * picture_storeys), 1e-3f);
+    EXPECT_NEAR(uv.x * brick_bays, std::round(uv.x * brick_bays), 1e-3f);
+    EXPECT_NEAR(uv.y * brick_storeys, std::round(uv.y * brick_storeys), 1e-3f);
   }
   EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].name, "facade");
 }
 
 TEST(Facades, SmallWallsArePlain) {
-  Model model = house(12.0f, 1.5f);
+  scene::Model model = house(12.0f, 1.5f);
   add_facades(model, "*");
   EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].name, "brick wall");
 }
 
 TEST(Facades, WithoutWallsNothingChanges) {
-  Model model = house(8.0f, 6.0f);
+  scene::Model model = house(8.0f, 6.0f);
   EXPECT_EQ(add_facades(model, "no such name"), 0u);
   EXPECT_EQ(model.parts.size(), 1u);
   EXPECT_TRUE(model.textures.empty());
 }
 
-TEST(FacadePictures, RepeatWithoutASeam) {
+TEST(BrickWalls, RepeatWithoutASeam) {
   // Neighbours across the border differ no more than neighbours elsewhere do on average.
-  const Image8 image = brick_wall_picture(brick_colours[0], true, 1).image;
+  const Image8 image = brick_wall_pictures(true, 1).colours[0];
   const auto difference = [&](int left, int right) {
     float sum = 0.0f;
     for (int y = 0; y < image.height; ++y)
@@ -73,4 +73,4 @@ TEST(FacadePictures, RepeatWithoutASeam) {
 }
 
 }  // namespace
-}  // namespace parvis::scene
+}  // namespace parvis::city

@@ -5,11 +5,11 @@
 
 #include "base/test_data.h"
 #include "scene/ground_raster.h"
-#include "scene/node_registry.h"
 #include "scene/scene_loader.h"
+#include "stage/stage.h"
 #include "traffic/traffic.h"
 
-namespace parvis::traffic {
+namespace parvis::stage {
 namespace {
 
 constexpr float near_m = 12.0f;  // of lanes, in which houses matter
@@ -39,7 +39,7 @@ scene::Mask built_on(const scene::Scene& scene) {
   return mask;
 }
 
-bool touches(const Footprint& footprint, const scene::Mask& mask) {
+bool touches(const traffic::Footprint& footprint, const scene::Mask& mask) {
   const glm::vec2 left(-footprint.forward.y, footprint.forward.x);
   for (float along = -1.0f; along <= 1.0f; along += 0.1f)
     for (const float aside : {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f}) {
@@ -55,25 +55,25 @@ void expect_orderly_traffic(const std::string& script, const std::string& city) 
   const auto file = shared_data(city, PARVIS_SOURCE_DIR);
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   const std::vector<std::filesystem::path> roots{file->parent_path().parent_path()};
-  Result<scene::LoadedScene> loaded = scene::load_scene(
-      std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / script, scene::core_nodes(), roots);
+  Result<scene::LoadedScene> loaded =
+      scene::load_scene(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / script, node_registry(), roots);
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   const scene::Mask houses = built_on(loaded->scene);
   ASSERT_GT(std::ranges::count(houses.cells, 1), 1000);
 
-  Traffic traffic(loaded->scene);
-  const Simulation& simulation = traffic.simulation();
+  traffic::Traffic traffic(loaded->scene);
+  const traffic::Simulation& simulation = traffic.simulation();
   ASSERT_GE(traffic.vehicle_count(), 9u);
   double travelled_m = 0.0;
-  for (const Vehicle& vehicle : simulation.vehicles()) travelled_m -= vehicle.travelled_m;
+  for (const traffic::Vehicle& vehicle : simulation.vehicles()) travelled_m -= vehicle.travelled_m;
   for (int tenth = 0; tenth < 3000; ++tenth) {
     traffic.step(0.1f);
-    for (const Vehicle& vehicle : simulation.vehicles()) {
-      const Footprint footprint = vehicle.footprint(0.0f, simulation.lanes());
+    for (const traffic::Vehicle& vehicle : simulation.vehicles()) {
+      const traffic::Footprint footprint = vehicle.footprint(0.0f, simulation.lanes());
       ASSERT_FALSE(touches(footprint, houses)) << "at " << footprint.centre.x << " " << footprint.centre.y;
     }
   }
-  for (const Vehicle& vehicle : simulation.vehicles()) travelled_m += vehicle.travelled_m;
+  for (const traffic::Vehicle& vehicle : simulation.vehicles()) travelled_m += vehicle.travelled_m;
   EXPECT_GT(travelled_m / double(traffic.vehicle_count()), 300.0);
 }
 
@@ -86,4 +86,4 @@ TEST(RealScenes, NobodyRunsIntoAHouseInDelft) {
 }
 
 }  // namespace
-}  // namespace parvis::traffic
+}  // namespace parvis::stage

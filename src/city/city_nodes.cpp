@@ -1,13 +1,13 @@
 // facades: for buildings that are bare volumes.
-#include "scene/facades.h"
-#include "scene/node_registry.h"
-#include "scene/nodes.h"
+#include "city/city_nodes.h"
+
+#include "city/facades.h"
 #include "scene/scene_builder.h"
 
-namespace parvis::scene {
+namespace parvis::city {
 namespace {
 
-NodeSchema facades_schema() {
+scene::NodeSchema facades_schema() {
   return {
       .type = "facades",
       .help =
@@ -26,7 +26,7 @@ NodeSchema facades_schema() {
           "}"};
 }
 
-void build_facades(const Node& node, Model& model, SceneBuilder& builder) {
+void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
   const std::string target = node.text("target");
   if (add_facades(model, target) == 0)
     builder.warn(error_at(node.where_of("target"), "facades: nothing that matches \"{}\" has walls", target));
@@ -34,6 +34,6 @@ void build_facades(const Node& node, Model& model, SceneBuilder& builder) {
 
 }  // namespace
 
-void add_facade_nodes(NodeRegistry& registry) { registry.add_change(facades_schema(), build_facades); }
+void add_city_nodes(scene::NodeRegistry& registry) { registry.add_change(facades_schema(), build_facades); }
 
-}  // namespace parvis::scene
+}  // namespace parvis::city

@@ -1,4 +1,4 @@
-#include "scene/facades.h"
+#include "city/facades.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "scene/facade_pictures.h"
+#include "city/brick_texture.h"
 #include "scene/material_change.h"
 
-namespace parvis::scene {
+namespace parvis::city {
 
 namespace {
 
@@ -29,11 +29,11 @@ struct WallTriangle {
 };
 
 /// Takes the wall triangles out of the parts.
-std::vector<WallTriangle> take_walls(Model& model, std::span<const std::size_t> parts) {
-  const std::vector<glm::mat4> model_from_node = rest_pose(model);
+std::vector<WallTriangle> take_walls(scene::Model& model, std::span<const std::size_t> parts) {
+  const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
   std::vector<WallTriangle> walls;
   for (const std::size_t index : parts) {
-    Part& part = model.parts[index];
+    scene::Part& part = model.parts[index];
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       WallTriangle wall;
@@ -89,30 +89,37 @@ std::vector<Panel> panels_of(const std::vector<WallTriangle>& walls) {
         .push_back(i);
   }
   std::vector<Panel> result;
+  result.reserve(panels.size());
   for (auto& [key, panel] : panels) result.push_back(std::move(panel));
   return result;
 }
 
+int add_texture(scene::Model& model, const char* name, Image8 image, bool is_srgb) {
+  scene::Texture texture;
+  texture.name = name, texture.image = std::move(image), texture.is_srgb = is_srgb;
+  model.textures.push_back(std::move(texture));
+  return int(model.textures.size()) - 1;
+}
+
 /// Materials 2 i (with windows) and 2 i + 1 (plain) from the first index, of brick colour i.
-int add_wall_materials(Model& model) {
+int add_wall_materials(scene::Model& model) {
   const int first = int(model.materials.size());
-  const int surface = int(model.textures.size());
-  model.textures.push_back(brick_wall_surface());
-  std::vector<Texture> pictures(2 * brick_colours.size());
-  parallel_for(pictures.size(), [&](std::size_t i) {
-    pictures[i] = brick_wall_picture(brick_colours[i / 2], i % 2 == 0, i + 1);
-  });
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const bool has_windows = i % 2 == 0;
-    Material material;
-    material.name = has_windows ? "facade" : "brick wall";
-    material.base_colour = glm::vec3(1.0f);
-    material.base_colour_texture = int(model.textures.size());
-    material.roughness = has_windows ? 1.0f : 0.9f;  // times the surface picture's
-    material.surface_texture = has_windows ? surface : no_index;
-    material.is_double_sided = true;
-    model.textures.push_back(std::move(pictures[i]));
-    model.materials.push_back(material);
+  model.materials.resize(model.materials.size() + std::size_t(2 * brick_colour_count));
+  std::array<BrickWalls, 2> sheets;
+  parallel_for(sheets.size(), [&](std::size_t i) { sheets[i] = brick_wall_pictures(i == 0, 1); });
+  for (std::size_t plain = 0; plain < 2; ++plain) {
+    const char* name = plain ? "brick wall" : "facade";
+    const int normal = add_texture(model, name, std::move(sheets[plain].normal), false);
+    const int surface = add_texture(model, name, std::move(sheets[plain].surface), false);
+    for (std::size_t i = 0; i < brick_colour_count; ++i) {
+      scene::Material& material = model.materials[std::size_t(first) + 2 * i + plain];
+      material.name = name;
+      material.base_colour = glm::vec3(1.0f), material.roughness = 1.0f, material.metallic = 1.0f;
+      material.base_colour_texture = add_texture(model, name, std::move(sheets[plain].colours[i]), true);
+      material.normal_texture = normal, material.surface_texture = surface;
+      material.relief_m = plain ? 0.0f : canvas_relief_m;
+      material.is_double_sided = true;
+    }
   }
   return first;
 }
@@ -120,12 +127,12 @@ int add_wall_materials(Model& model) {
 /// Parts by node and material.
 class WallParts {
  public:
-  explicit WallParts(Model& model) : model_(model) {}
+  explicit WallParts(scene::Model& model) : model_(model) {}
 
   Mesh& mesh(int node, int material) {
     const auto [known, is_new] = parts_.try_emplace({node, material}, model_.parts.size());
     if (is_new) {
-      Part part;
+      scene::Part part;
       part.object = "facade";
       part.node = node;
       part.material = material;
@@ -135,7 +142,7 @@ class WallParts {
   }
 
  private:
-  Model& model_;
+  scene::Model& model_;
   std::map<std::pair<int, int>, std::size_t> parts_;
 };
 
@@ -151,12 +158,13 @@ void add_panel(WallParts& parts, const std::vector<WallTriangle>& walls, const P
     }
   const glm::vec2 size = high - low;
   const bool has_windows = size.x >= narrowest_m && size.y >= lowest_m;
-  const glm::vec2 fitting = glm::max(glm::round(size / glm::vec2(bay_m, storey_m)), glm::vec2(1.0f));
-  const glm::vec2 bays = has_windows ? fitting : size / glm::vec2(bay_m, storey_m);
+  const glm::vec2 fitting =
+      glm::max(glm::round(size / glm::vec2(brick_bay_m, brick_storey_m)), glm::vec2(1.0f));
+  const glm::vec2 bays = has_windows ? fitting : size / glm::vec2(brick_bay_m, brick_storey_m);
 
   Random random(walls[panel.front()].building + 1);
-  const int colour = random.index(int(brick_colours.size()));
-  const glm::vec2 start(float(random.index(picture_bays)),
+  const int colour = random.index(brick_colour_count);
+  const glm::vec2 start(float(random.index(brick_bays)),
                         0.0f);  // so that not all begin with the same window
   for (const std::size_t i : panel) {
     const WallTriangle& wall = walls[i];
@@ -170,22 +178,22 @@ void add_panel(WallParts& parts, const std::vector<WallTriangle>& walls, const P
       mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
       mesh.positions.push_back(wall.corners_in_node[k]);
       mesh.normals.push_back(normal_in_node);
-      mesh.uvs.emplace_back(in_bays.x / float(picture_bays), -in_bays.y / float(picture_storeys));
+      mesh.uvs.emplace_back(in_bays.x / float(brick_bays), -in_bays.y / float(brick_storeys));
     }
   }
 }
 
 }  // namespace
 
-std::size_t add_facades(Model& model, std::string_view target) {
-  std::vector<WallTriangle> walls = take_walls(model, matching_parts(model, target));
+std::size_t add_facades(scene::Model& model, std::string_view target) {
+  std::vector<WallTriangle> walls = take_walls(model, scene::matching_parts(model, target));
   if (walls.empty()) return 0;
   find_buildings(walls);
   const int first_material = add_wall_materials(model);
   WallParts parts(model);
   for (const Panel& panel : panels_of(walls)) add_panel(parts, walls, panel, first_material);
-  std::erase_if(model.parts, [](const Part& part) { return part.mesh.indices.empty(); });
+  std::erase_if(model.parts, [](const scene::Part& part) { return part.mesh.indices.empty(); });
   return walls.size();
 }
 
-}  // namespace parvis::scene
+}  // namespace parvis::city
