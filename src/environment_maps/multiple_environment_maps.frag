@@ -21,12 +21,7 @@ const float texel_rad = 3.545f;  // the sphere's area over that of the square: a
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
 #include "environment_maps/heightfield_walk.glsl"
-
-// What a map saw lies nearer than the point: something hides it. Heights are known to a cell, distances to a share.
-float validity(float seen_m, float distance_m) {
-  float slack = 0.02f * distance_m + 0.75f * height_grid.z;
-  return clamp(2.0f - (distance_m - seen_m) / slack, 0.0f, 1.0f);
-}
+#include "environment_maps/validity.glsl"
 
 vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
   HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
@@ -53,7 +48,7 @@ vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
 
     vec3 away = place - at;
     float closeness = 1.0f / (1.0f + dot(away, away));
-    float weight = closeness * validity(seen_m, distance_m);
+    float weight = closeness * validity(seen_m, distance_m, height_grid.z);
     sum += weight * colour;
     weights += weight;
     if (closeness > highest) {

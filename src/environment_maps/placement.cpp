@@ -1,72 +1,133 @@
 #include "environment_maps/placement.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
-#include "scene/path.h"
+#include "base/parallel.h"
+#include "environment_maps/driving_area.h"
+#include "environment_maps/set_cover.h"
 
 namespace parvis::environment_maps {
 namespace {
 
-constexpr float height_m = 1.2f;  // of a map over the street: that of bodywork
-constexpr float candidates_apart_m = 4.0f;
-constexpr float beyond_area_m = 60.0f;  // traffic drives on to the next crossing
+constexpr float height_m = 1.2f;            // of a map over the street: that of bodywork
+constexpr float candidates_apart_m = 4.0f;  // along a lane
+constexpr float alike_m = 2.0f;             // lanes cross and run side by side: one candidate is enough
+constexpr std::size_t candidates_a_map = 16, least_candidates = 1024;
+constexpr std::size_t points_a_map = 160;  // fewer, and chance decides what a map is worth
+constexpr std::size_t least_points = 8192, most_points = 65536;
+// Other points are shown a little less well than those that choose, so that these must reach more.
+constexpr int attempts = 9;
+constexpr float attempt_step = 0.001f;
+constexpr float all_there_is = 2.0f;                  // a share that no maps reach
+constexpr std::uint64_t judging_seed = 0x6a75646765;  // of points that the choice does not see
 
-std::vector<glm::vec3> street_candidates(const scene::Scene& scene) {
-  std::vector<glm::vec3> candidates;
-  for (const scene::Lane& lane : scene.roads.lanes) {
-    const scene::MeasuredPath path(lane.points);
-    const int count = int(path.length() / candidates_apart_m) + 1;
-    for (int i = 0; i < count; ++i) {
-      const glm::vec3 at = path.at(float(i) * candidates_apart_m);
-      const float off_area_m = glm::distance(glm::vec2(at), scene.traffic.centre) - scene.traffic.radius_m;
-      if (off_area_m < beyond_area_m) candidates.push_back(at + glm::vec3(0, 0, height_m));
+/// One place of each cube of `side_m` that has any.
+std::vector<glm::vec3> thinned(const std::vector<glm::vec3>& places, float side_m) {
+  std::vector<glm::vec3> kept;
+  std::set<std::array<int, 3>> taken;
+  std::ranges::copy_if(places, std::back_inserter(kept), [&](glm::vec3 place) {
+    const glm::ivec3 cube(glm::round(place / side_m));
+    return taken.insert({cube.x, cube.y, cube.z}).second;
+  });
+  return kept;
+}
+
+std::vector<glm::vec3> candidate_places(const scene::Scene& scene, const HeightPyramid& heights,
+                                        std::size_t most_maps) {
+  std::vector<glm::vec3> candidates = driving_places(scene, heights, candidates_apart_m);
+  const std::size_t enough = std::max(candidates_a_map * most_maps, least_candidates);
+  float side_m = alike_m;
+  candidates = thinned(candidates, side_m);
+  while (candidates.size() > enough) candidates = thinned(candidates, side_m *= 1.25f);
+  for (glm::vec3& candidate : candidates) candidate.z += height_m;
+  return candidates;
+}
+
+/// What each place shows of the points: a point counts once for each sharpness.
+std::vector<SetCover::Elements> shown_from(const std::vector<glm::vec3>& places, const HeightPyramid& heights,
+                                           const std::vector<MirroredPoint>& points,
+                                           const std::vector<float>& sharpness) {
+  std::vector<SetCover::Elements> shown(places.size());
+  const float least_sharp = *std::ranges::max_element(sharpness);
+  parallel_for(places.size(), [&](std::size_t place) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!shows(heights, places[place], points[i], least_sharp)) continue;
+      const float times = footprint(places[place], points[i]) / points[i].vehicle_footprint;
+      for (std::size_t k = 0; k < sharpness.size(); ++k)
+        if (times <= sharpness[k]) shown[place].push_back(std::uint32_t(k * points.size() + i));
     }
-  }
-  return candidates;
+  });
+  return shown;
 }
 
-/// Middles of squares of the ground that nothing stands on.
-std::vector<glm::vec3> open_candidates(const HeightPyramid& heights) {
-  std::vector<glm::vec3> candidates;
-  if (heights.levels().empty()) return {glm::vec3(0, 0, height_m)};
-  const ImageF& field = heights.levels().front();
-  const int step = std::max(1, std::max(heights.cells().x, heights.cells().y) / 64);
-  std::vector<float> all;
-  for (int y = 0; y < heights.cells().y; y += step)
-    for (int x = 0; x < heights.cells().x; x += step) all.push_back(*field.at(x, y));
-  std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(all.size() / 4));
-  const float ground_m = all[all.size() / 4];
-  for (int y = 0; y < heights.cells().y; y += step)
-    for (int x = 0; x < heights.cells().x; x += step)
-      if (*field.at(x, y) < ground_m + height_m)
-        candidates.emplace_back(heights.origin() + heights.cell_m() * (glm::vec2(x, y) + 0.5f),
-                                *field.at(x, y) + height_m);
-  return candidates;
-}
-
-}  // namespace
-
-std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most) {
-  std::vector<glm::vec3> candidates = street_candidates(scene);
-  if (candidates.empty()) candidates = open_candidates(heights);
-  if (candidates.empty()) return {};
-
-  std::vector<glm::vec3> places;
+/// Indices of an even spread: each next one farthest from all before it.
+std::vector<std::size_t> even_spread(const std::vector<glm::vec3>& candidates, std::size_t most) {
+  std::vector<std::size_t> spread;
   std::vector<float> distances(candidates.size(), std::numeric_limits<float>::max());
   const glm::vec3 middle =
       std::accumulate(candidates.begin(), candidates.end(), glm::vec3(0.0f)) / float(candidates.size());
   std::size_t next = std::size_t(
       std::ranges::min_element(candidates, {}, [&](glm::vec3 p) { return glm::distance(p, middle); }) -
       candidates.begin());
-  while (int(places.size()) < most && (places.empty() || distances[next] >= least_apart_m)) {
-    places.push_back(candidates[next]);
+  while (spread.size() < most && (spread.empty() || distances[next] >= least_apart_m)) {
+    spread.push_back(next);
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      distances[i] = std::min(distances[i], glm::distance(candidates[i], places.back()));
+      distances[i] = std::min(distances[i], glm::distance(candidates[i], candidates[next]));
     next = std::size_t(std::ranges::max_element(distances) - distances.begin());
   }
+  return spread;
+}
+
+std::vector<glm::vec3> picked(const std::vector<glm::vec3>& candidates,
+                              const std::vector<std::size_t>& chosen) {
+  std::vector<glm::vec3> places;
+  places.reserve(chosen.size());
+  for (const std::size_t candidate : chosen) places.push_back(candidates[candidate]);
   return places;
+}
+
+}  // namespace
+
+Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
+                            const PlacementGoal& goal) {
+  const std::size_t most = std::size_t(std::max(goal.most, 0));
+  const std::vector<glm::vec3> candidates = candidate_places(scene, heights, most);
+  const std::size_t count = std::clamp(points_a_map * most, least_points, most_points);
+  const std::vector<MirroredPoint> points = mirrored_points(scene, heights, count, goal.seed);
+  const std::size_t elements = points.size() * goal.sharpness.size();
+  const SetCover cover(shown_from(candidates, heights, points, goal.sharpness), elements,
+                       [&](std::size_t a, std::size_t b) {
+                         return glm::distance(candidates[a], candidates[b]) >= least_apart_m;
+                       });
+  const std::vector<MirroredPoint> judges =
+      mirrored_points(scene, heights, most_points, goal.seed ^ judging_seed);
+
+  Placement placement;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const float share = goal.share_shown + float(attempt) * attempt_step;
+    const std::size_t enough = std::size_t(std::ceil(share * float(elements)));
+    const std::vector<std::size_t> chosen = cover.improved(cover.greedy(most, enough), enough);
+    placement.places = picked(candidates, chosen);
+    const std::vector<float> shares = coverage(heights, placement.places, judges, goal.sharpness.back());
+    placement.share_shown = shares.empty() ? 0.0f : shares.back();
+    if (placement.share_shown >= goal.share_shown || chosen.size() >= most || enough > elements) break;
+  }
+  return placement;
+}
+
+Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int most) {
+  return place_by_coverage(scene, heights, {most, all_there_is, {8.0f, 4.0f}});
+}
+
+std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most) {
+  const std::size_t count = std::size_t(std::max(most, 0));
+  const std::vector<glm::vec3> candidates = candidate_places(scene, heights, count);
+  return picked(candidates, even_spread(candidates, count));
 }
 
 }  // namespace parvis::environment_maps

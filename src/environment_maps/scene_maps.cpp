@@ -23,7 +23,7 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
 
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
                                 render::Renderer& renderer) {
-  std::vector<glm::vec3> places = spread_places(scene, heights, scene.reflection.most_maps);
+  std::vector<glm::vec3> places = place_for_pictures(scene, heights, scene.reflection.most_maps).places;
   if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
   renderer.begin_frame(scene, Camera{});  // light, for the maps
   return ReferenceMaps::bake(renderer, std::move(places), scene.reflection.resolution);
