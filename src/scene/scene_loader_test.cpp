@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "base/test_folder.h"
 #include "scene/script_checker.h"
+#include "scene/thesis_examples.h"
 
 namespace parvis::scene {
 namespace {
@@ -117,21 +118,12 @@ TEST_F(SceneLoader, TellsAllErrorsAtOnceWithTheirPlaces) {
 /// Appendix A of the thesis: its nodes come with the rooms that show them; until then each is named, with its
 /// line.
 TEST_F(SceneLoader, NodesOfTheThesisThatHaveNoRoomYetAreNamed) {
-  const std::string errors = errors_of(
-      "dayLight( lattitude=43.70, longitude=7.27,\nstandartMeridian=0, julianDay=130,\ntimeOfDay=16.00, "
-      "turbidy=4 "
-      ")\n"
-      "skyDome(texture=\"CapturedSky.jpg\")\n"
-      "litVirtualObject() {\n object (file=duck.pfb, grab=1, wall=0)\n}\n"
-      "vdobject(cleanModels=0, file=\"car.pfb\", camera=\"10 0 1 10 10 5.5 30 1\", file=\"car2.iv\",\n"
-      "  cameraFile=\"cameraIV.wrl\", file=\"car3.wrl\",cameraName=\"camera\")\n"
-      "%xpShadowMap()\n"
-      "group(name=trees) { }\nexposure(value=-1)\n");
+  const std::string errors =
+      errors_of(std::string(thesis_examples) + "group(name=trees) { }\nexposure(value=-1)\n");
   for (const char* expected :
-       {"scene.xp:1:1: unknown node type \"dayLight\"", "scene.xp:4:1: unknown node type \"skyDome\"",
-        "scene.xp:5:1: unknown node type \"litVirtualObject\"",
-        "scene.xp:8:1: unknown node type \"vdobject\"", "scene.xp:10:1: unknown node type \"%xpShadowMap\"",
-        "scene.xp:12:16: value=\"-1\""})
+       {"scene.xp:1:1: unknown node type \"vdobject\"", "scene.xp:3:1: unknown node type \"dayLight\"",
+        "scene.xp:7:1: unknown node type \"skyDome\"", "scene.xp:9:1: unknown node type \"litVirtualObject\"",
+        "scene.xp:14:1: unknown node type \"%xpShadowMap\"", "scene.xp:16:16: value=\"-1\""})
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
 

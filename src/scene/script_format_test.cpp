@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "scene/script_reader.h"
+#include "scene/thesis_examples.h"
 
 namespace parvis::scene {
 namespace {
@@ -131,11 +132,16 @@ TEST(ScriptFormat, RandomScriptsKeepTheirMeaningAndCommentsAndFormattingIsDoneOn
   }
 }
 
-TEST(ScriptFormat, TheScenesOfTheHouseKeepTheirMeaning) {
+TEST(ScriptFormat, TheScenesOfTheHouseKeepTheirMeaningAndStandInItsStyle) {
   const std::filesystem::path scenes = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes))
-    if (entry.path().extension() == ".xp") expect_kept(*read_file(entry.path()));
+    if (entry.path().extension() == ".xp") {
+      expect_kept(*read_file(entry.path()));
+      EXPECT_EQ(formatted(*read_file(entry.path())), *read_file(entry.path())) << entry.path();
+    }
 }
+
+TEST(ScriptFormat, TheExamplesOfTheThesisKeepTheirMeaning) { expect_kept(thesis_examples); }
 
 }  // namespace
 }  // namespace parvis::scene

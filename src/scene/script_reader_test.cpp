@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "scene/script_tokens.h"
+#include "scene/thesis_examples.h"
 
 namespace parvis::scene {
 namespace {
@@ -26,30 +27,19 @@ std::string repeated(std::string_view piece, std::size_t bytes) {
   return text;
 }
 
-TEST(ScriptReader, ReadsTheViewDependentObjectOfTheThesis) {
-  const auto nodes = parsed(
-      "vdobject(cleanModels=0, file=\"car.pfb\", camera=\"10 0 1 10 10 5.5 30 1\", file=\"car2.iv\", "
-      "cameraFile=\"cameraIV.wrl\", file=\"car3.wrl\",cameraName=\"camera\")");
-  ASSERT_EQ(nodes.size(), 1u);
+TEST(ScriptReader, ReadsTheExamplesOfTheThesis) {
+  const auto nodes = parsed(thesis_examples);
+  ASSERT_EQ(nodes.size(), 5u);
   EXPECT_EQ(nodes[0].type, "vdobject");
   std::string names;
   for (const ScriptAttribute& attribute : nodes[0].attributes) names += attribute.name + " ";
   EXPECT_EQ(names, "cleanModels file camera file cameraFile file cameraName ");
   EXPECT_EQ(nodes[0].attributes[2].value, "10 0 1 10 10 5.5 30 1");
-}
-
-TEST(ScriptReader, ReadsTheOtherExamplesOfTheThesis) {
-  const auto nodes = parsed(
-      "dayLight( lattitude=43.70, longitude=7.27,\nstandartMeridian=0, julianDay=130,\ntimeOfDay=16.00, "
-      "turbidy=4 )\n"
-      "skyDome(texture=\"CapturedSky.jpg\")\n"
-      "litVirtualObject() {\n object (file=duck.pfb, grab=1, wall=0)\n object (file=duck2.pfb, grab=1, "
-      "wall=0)\n}\n");
-  ASSERT_EQ(nodes.size(), 3u);
-  EXPECT_EQ(nodes[0].attributes.size(), 6u);
-  EXPECT_EQ(nodes[0].attributes[0].value, "43.70");
-  ASSERT_EQ(nodes[2].children.size(), 2u);
-  EXPECT_EQ(nodes[2].children[1].attributes[0].value, "duck2.pfb");
+  EXPECT_EQ(nodes[1].attributes.size(), 6u);
+  EXPECT_EQ(nodes[1].attributes[0].value, "43.70");
+  ASSERT_EQ(nodes[3].children.size(), 2u);
+  EXPECT_EQ(nodes[3].children[1].attributes[0].value, "duck2.pfb");
+  EXPECT_EQ(nodes[4].type, "%xpShadowMap");
 }
 
 TEST(ScriptReader, KnowsThePlaceOfEveryNodeAttributeAndValue) {
