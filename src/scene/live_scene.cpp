@@ -34,6 +34,7 @@ LiveScene::LiveScene(Script script) : script_(std::move(script)) {
   for_each_inside(script_.nodes, [this](Node& node) {
     if (node.schema->is_unique) by_name_.emplace("%" + node.schema->type, &node);
     if (node.schema->find("name") && node.gives("name")) by_name_.emplace(node.text("name"), &node);
+    for (const Node& child : node.children) parents_.emplace(&child, &node);
   });
   for (std::size_t i = 0; i < script_.object_makers.size(); ++i)
     if (const Node* maker = script_.object_makers[i]) objects_[maker].push_back(int(i));
@@ -170,11 +171,32 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
   return errors;
 }
 
+/// The node that is built again where this one changes: itself, or the model that a material is of. Null for
+/// what stays as it was when the scene was loaded.
+const Node* LiveScene::builder_of(const Node& node) const {
+  if (is_built(node)) return &node;
+  const auto parent = parents_.find(&node);
+  const bool changes_model = script_.registry->find(node.schema->type)->change != nullptr;
+  return changes_model && parent != parents_.end() && is_built(*parent->second) ? parent->second : nullptr;
+}
+
 Errors LiveScene::refresh(Scene& scene) {
   Errors errors;
-  for (auto& [node, before] : std::exchange(changed_, {})) {
-    const Errors met = build_again(scene, *node);
-    if (!met.empty()) writable(*node).attributes = std::move(before);
+  std::map<const Node*, std::vector<const Node*>> changed_by_builder;
+  auto before = std::exchange(changed_, {});
+  for (const auto& [node, attributes] : before) changed_by_builder[builder_of(*node)].push_back(node);
+  for (const auto& [builder, nodes] : changed_by_builder) {
+    Errors met;
+    if (builder) {
+      met = build_again(scene, *builder);
+    } else {
+      for (const Node* node : nodes)
+        met.push_back(error_at(node->where,
+                               "the {} is part of the node around it and stays as it is while the scene runs",
+                               node->schema->type));
+    }
+    if (!met.empty())
+      for (const Node* node : nodes) writable(*node).attributes = std::move(before[node]);
     errors.insert(errors.end(), met.begin(), met.end());
   }
   return errors;
@@ -183,10 +205,6 @@ Errors LiveScene::refresh(Scene& scene) {
 /// Only light and cameras are written in place; objects and cameras are built aside and then take their
 /// places.
 Errors LiveScene::build_again(Scene& scene, const Node& node) {
-  if (!is_built(node))
-    return {error_at(node.where,
-                     "the {} is part of the node around it and stays as it is while the scene runs",
-                     node.schema->type)};
   SceneBuilder builder(*script_.registry, std::move(script_.models));
   std::vector<Object> objects = std::exchange(scene.objects, {});
   std::vector<NamedCamera> cameras = std::exchange(scene.cameras, {});

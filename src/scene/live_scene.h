@@ -28,7 +28,7 @@ class LiveScene {
   std::vector<int> objects_of(const Node& node) const;
   const NodeFrame& frame_of(const Node& node) const;
   /// False for a node that is part of another's: a material, the key of a path, a kind of vehicle. It stays
-  /// as it was when the scene was loaded.
+  /// as it was when the scene was loaded; but scenarios change the materials of models.
   bool is_built(const Node& node) const { return script_.frames.count(&node) != 0; }
 
   /// Gives an attribute of the node another value, in place of those that it replaces; seen after the next
@@ -56,6 +56,7 @@ class LiveScene {
  private:
   Node& writable(const Node& node);
   Node& change(const Node& node);
+  const Node* builder_of(const Node& node) const;
   void put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
                    const Node& node);
   void put_cameras(Scene& scene, const std::vector<NamedCamera>& built,
@@ -65,6 +66,7 @@ class LiveScene {
 
   Script script_;
   std::map<std::string, Node*> by_name_;
+  std::map<const Node*, const Node*> parents_;                 ///< of nodes that stand in others
   std::map<const Node*, std::vector<int>> objects_, cameras_;  ///< made by each node
   std::map<const Node*, std::vector<NodeAttribute>> changed_;  ///< and what they were at the last refresh
   std::map<Node*, std::vector<NodeAttribute>> as_written_;  ///< attributes of nodes that the scenario changed

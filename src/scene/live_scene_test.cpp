@@ -168,8 +168,8 @@ TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
         "18:22: model \"stone\" has no attribute \"visibel\"; did you mean \"visible\"?",
         "19:31: position=\"1 2\": expected three numbers",
         "20:15: of=\"%exposure\": the scene has no exposure node",
-        "21:23: road \"street\" keeps, once the scene is loaded, its \"lanes\"", "22:27:", "none.glb",
-        "24:26: extends=\"oakes\": no node of the scene has this name; did you mean \"oaks\"?",
+        "21:23: road \"street\" is laid out once: its \"lanes\" is the same in all scenarios", "22:27:",
+        "none.glb", "24:26: extends=\"oakes\": no node of the scene has this name; did you mean \"oaks\"?",
         "25:15: the name \"oaks\" is taken"})
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
   EXPECT_TRUE(
@@ -179,6 +179,37 @@ TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
 }
 
 /// A node type of a later part: the thesis's shadow map, as appendix A.3 gives its messages.
+TEST_F(LiveSceneTest, WhatASceneHasOnceDoesNotStandInAScenario) {
+  const std::string errors =
+      errors_of("scenario(name=a) {\n  group() {\n    road(path=\"0 0, 100 0\")\n    sun()\n  }\n}\n");
+  for (const char* expected :
+       {"3:5: a road is laid out once, for all scenarios", "4:5: a scene has one sun", "of=\"%sun\""})
+    EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
+}
+
+TEST_F(LiveSceneTest, AScenarioPaintsAModelAnew) {
+  load(
+      "model(name=house, file=\"small.glb\") { material(name=paint, colour=\"1 0 0\", roughness=0.5) }\n"
+      "model(name=shed, file=\"small.glb\") { material(colour=\"1 0 0\", roughness=0.5) }\n"
+      "scenario(name=green) { override(of=paint, colour=\"0 1 0\") }\n"
+      "scenario(name=dull) { override(of=paint, roughness=1) override(of=house, position=\"5 0 0\") }\n");
+  const auto material = [&](const std::string& name) { return object(name).model->materials.back(); };
+  EXPECT_EQ(material("house").base_colour, glm::vec3(1, 0, 0));
+  const std::size_t objects = scene_.objects.size();
+  choose("green");
+  EXPECT_EQ(material("house").base_colour, glm::vec3(0, 1, 0));
+  EXPECT_EQ(material("shed").base_colour, glm::vec3(1, 0, 0)) << "the shed's material is another node";
+  choose("dull");
+  EXPECT_EQ(material("house").base_colour, glm::vec3(1, 0, 0));
+  EXPECT_EQ(material("house").roughness, 1.0f);
+  EXPECT_EQ(object("house").world_from_model[3].x, 5.0f);
+  choose("");
+  EXPECT_EQ(material("house").roughness, 0.5f);
+  EXPECT_EQ(object("house").world_from_model[3].x, 0.0f);
+  EXPECT_EQ(seen(), "house shed");
+  EXPECT_EQ(scene_.objects.size(), objects) << "scenarios are prepared: choosing one adds nothing";
+}
+
 TEST(Messages, TheShadowMapOfTheThesisUnderstandsBothSpellings) {
   NodeSchema schema{
       .type = "xpShadowMap",

@@ -27,7 +27,8 @@ NodeSchema material_schema() {
           "in "
           "a mask. Later nodes see what earlier ones have changed.",
       .attributes =
-          {{.name = "target",
+          {{.name = "name", .help = "by which scenarios refer to it"},
+           {.name = "target",
             .help = "name of objects, nodes or materials of the file; * and ? stand for any text and any "
                     "character",
             .fallback = "*"},

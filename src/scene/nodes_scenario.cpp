@@ -37,7 +37,7 @@ NodeSchema override_schema() {
           .help =
               "Attributes of a node while the scenario is chosen: beside of=, any that the node's own type "
               "has (of what "
-              "is laid out once, roads and traffic, only visible=).",
+              "is laid out once, roads and traffic, only visible=). Materials of models are nodes, too.",
           .attributes = {{.name = "of",
                           .type = AttributeType::reference,
                           .help = "the node; %TYPE for the one node of a type, as %sun",
@@ -51,7 +51,25 @@ NodeSchema override_schema() {
           .takes_attributes_of = "of"};
 }
 
+/// What a scene has once would be there in all scenarios.
+void refuse_what_stands_once(const std::vector<Node>& nodes, const std::string& scenario,
+                             SceneBuilder& builder) {
+  for (const Node& node : nodes) {
+    const std::string& type = node.schema->type;
+    if (node.schema->is_laid_out_once)
+      builder.fail(error_at(node.where,
+                            "a {} is laid out once, for all scenarios; it does not stand in \"{}\"", type,
+                            scenario));
+    else if (node.schema->is_unique)
+      builder.fail(error_at(node.where,
+                            "a scene has one {}; in scenario \"{}\" change it by override(of=\"%{}\", ...)",
+                            type, scenario, type));
+    refuse_what_stands_once(node.children, scenario, builder);
+  }
+}
+
 void build_scenario(const Node& node, SceneBuilder& builder) {
+  refuse_what_stands_once(node.children, node.text("name"), builder);
   builder.build(node.children, glm::mat4(1.0f), node.flag("chosen"));
 }
 

@@ -131,9 +131,13 @@ void NameResolver::resolve_override(Node& node) {
     for (const AttributeSchema& each : schema.attributes)
       if (each.name != "name" && (each.is_live || !schema.is_laid_out_once)) known.push_back(each.name);
     if (!attribute || std::find(known.begin(), known.end(), attribute->name) == known.end()) {
-      fail(error_at(at_name, "{} \"{}\" {} \"{}\"{}", schema.type, node.text(by),
-                    attribute ? "keeps, once the scene is loaded, its" : "has no attribute",
-                    written.name.substr(0, 40), did_you_mean(written.name, known)));
+      if (attribute && schema.is_laid_out_once)
+        fail(error_at(at_name, "{} \"{}\" is laid out once: its \"{}\" is the same in all scenarios",
+                      schema.type, node.text(by), attribute->name));
+      else
+        fail(error_at(at_name, "{} \"{}\" {} \"{}\"{}", schema.type, node.text(by),
+                      attribute ? "keeps, once the scene is loaded, its" : "has no attribute",
+                      written.name.substr(0, 40), did_you_mean(written.name, known)));
       continue;
     }
     Result<AttributeValue> value = parse_value(*attribute, written.value, roots_, at_value);
