@@ -1,4 +1,4 @@
-// The node types of this room: facades.
+// The node types of this room: facades, roofs, ground, greenery.
 #pragma once
 
 #include "scene/node_registry.h"

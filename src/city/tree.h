@@ -1,8 +1,9 @@
-// Trees of exactly the paper's 59,100 triangles: branches as tubes, leaves as cut-out quads that light shines
-// through.
+// Trees of exactly the paper's 59,100 triangles, and small ones for places with many: branches as tubes,
+// leaves as cut-out quads that light shines through.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/result.h"
 #include "scene/model.h"
@@ -13,5 +14,13 @@ inline constexpr std::size_t tree_triangles = 59100;  // the paper, section 7
 
 /// Species 0: a slender street tree; 1: a wide park tree. The foot is at the origin.
 scene::Model make_tree(int species, std::uint64_t seed);
+
+struct TreeSpot {
+  glm::vec3 foot;  ///< in the model's frame
+  float height_m;
+};
+
+/// Plants trees of about a thousand triangles each, every one its own, in the root of a model's nodes.
+void plant_small_trees(scene::Model& model, std::span<const TreeSpot> places, std::uint64_t seed);
 
 }  // namespace parvis::city

@@ -1,0 +1,45 @@
+// Triangles of a city model on their way to another material.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/model.h"
+
+namespace parvis::city {
+
+struct ModelTriangle {
+  std::array<glm::vec3, 3> corners;  ///< in the model's frame
+  glm::vec3 normal{0.0f};            ///< unit
+  int node = 0;
+  std::array<glm::vec3, 3> corners_in_node;
+  std::size_t building = 0;  ///< triangles that hang together have the same
+};
+
+/// Takes the triangles with a wanted normal out of the parts that match the pattern `target`, and numbers the
+/// buildings.
+std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view target,
+                                          const std::function<bool(glm::vec3 normal)>& is_wanted);
+
+/// Puts triangles back as parts of one name, by node and material.
+class DressedParts {
+ public:
+  DressedParts(scene::Model& model, std::string object) : model_(model), object_(std::move(object)) {}
+
+  void add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs);
+
+ private:
+  scene::Model& model_;
+  std::string object_;
+  std::map<std::pair<int, int>, std::size_t> parts_;
+};
+
+/// Adds a picture and returns its index.
+int add_texture(scene::Model& model, const std::string& name, Image8 image, bool is_srgb);
+
+}  // namespace parvis::city

@@ -1,0 +1,15 @@
+// Roofs of city models: tiles on those that slope, gravel on those that do not.
+#pragma once
+
+#include <string_view>
+
+#include "scene/model.h"
+
+namespace parvis::city {
+
+/// Covers the parts that match the pattern `target`. Courses of tiles run level; roofs that touch have one
+/// colour. Materials that later nodes can change: "roof tiles" and "flat roof". Returns the number of
+/// triangles changed.
+std::size_t add_roofs(scene::Model& model, std::string_view target);
+
+}  // namespace parvis::city
