@@ -23,7 +23,8 @@ GLSL_FUNCTION vec3 direction_on_face(vec2 place, int face) {
 
 // South-west corner of a face's tile in the picture, in texels.
 GLSL_FUNCTION vec2 tile_corner(int face, float tile) {
-  return vec2(float(face % 3) * tile, float(face / 3) * tile);
+  int row = face / 3;
+  return tile * vec2(float(face - 3 * row), float(row));
 }
 
 // Texels from the picture's corner of a direction.

@@ -41,12 +41,6 @@ gl::Texture upload(const MapChoice& choice) {
   return texture;
 }
 
-gl::Texture upload(const std::vector<glm::vec3>& places) {
-  gl::Texture texture = nearest_texture(GL_RGB32F, int(places.size()), 1);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, GLsizei(places.size()), 1, GL_RGB, GL_FLOAT, places.data());
-  return texture;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
@@ -63,8 +57,7 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, R
       cell_m_(heights.cell_m()),
       cells_(heights.cells()),
       top_level_(int(heights.levels().size()) - 1),
-      heights_(upload(heights)),
-      places_(upload(maps_.places())) {
+      heights_(upload(heights)) {
   const MapChoice choice(maps_.places(), heights);
   choice_grid_ = glm::vec3(choice.origin(), choice.cell_m());
   choice_ = upload(choice);
@@ -75,7 +68,7 @@ void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
   glBindTextureUnit(colours_unit, maps_.colours());
   glBindTextureUnit(distances_unit, maps_.distances());
   glBindTextureUnit(choice_unit, choice_.name());
-  glBindTextureUnit(places_unit, places_.name());
+  glBindTextureUnit(places_unit, maps_.place_texture());
   program.set("heights", int(heights_unit));
   program.set("map_colours", int(colours_unit));
   program.set("map_distances", int(distances_unit));

@@ -35,7 +35,7 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   glm::ivec2 cells_;
   int top_level_;
   glm::vec3 choice_grid_;  ///< south-west corner and metres a cell
-  gl::Texture heights_, choice_, places_;
+  gl::Texture heights_, choice_;
 };
 
 }  // namespace parvis::environment_maps

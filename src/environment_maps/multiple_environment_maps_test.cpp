@@ -4,17 +4,13 @@
 
 #include "environment_maps/octahedral.h"
 #include "environment_maps/placement.h"
+#include "environment_maps/test_square.h"
 #include "gl/test_context.h"
-#include "reference/metrics.h"
-#include "reference/tracer.h"
-#include "render/test_room.h"
-#include "shading/tone_curve.h"
 
 namespace parvis::environment_maps {
 namespace {
 
 constexpr float room_half_m = 8.0f;
-constexpr int width = 320, height = 240;
 
 class EnvironmentMapsTest : public gl::ContextTest {};
 
@@ -46,66 +42,11 @@ TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
   }
 }
 
-/// A square with towers that shine in colours of their own, and a mirror box between them.
-scene::Scene tower_square() {
-  scene::Scene scene;
-  scene.sun.irradiance = glm::vec3(0.0f);
-  scene::add(scene, scene::model_of(scene::ground(60.0f), scene::matt(glm::vec3(0.4f))));
-  const auto tower = [&](glm::vec2 corner, glm::vec3 size, glm::vec3 colour) {
-    scene::Material lamp = scene::matt(glm::vec3(0.0f));
-    lamp.metallic = 1.0f;
-    lamp.emission = colour;
-    const glm::vec3 low(corner, 0.0f);
-    scene::add(scene, scene::model_of(scene::box(low, low + size), lamp));
-  };
-  tower({-20, -6}, {6, 4, 14}, {0.9f, 0.1f, 0.1f});
-  tower({-20, 2}, {6, 8, 9}, {0.1f, 0.8f, 0.1f});
-  tower({-4, 14}, {10, 6, 11}, {0.1f, 0.2f, 0.9f});
-  tower({14, 3}, {6, 9, 7}, {0.9f, 0.8f, 0.1f});
-  tower({13, -12}, {5, 8, 16}, {0.1f, 0.8f, 0.8f});
-  tower({-6, -20}, {14, 6, 10}, {0.8f, 0.1f, 0.8f});
-  render::add_mirror(scene, {1.5f, 0.5f, 1.6f}, 1.2f);
-  scene.reflection = {scene::ReflectionMethod::multiple_environment_maps, 128, false, 12};
-  return scene;
-}
-
-/// FLIP inside the mirror against the ray tracer.
-double flip_of(const scene::Scene& scene, bool uses_maps, glm::vec3 eye) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
-  EXPECT_TRUE(renderer) << to_string(renderer.errors());
-  std::unique_ptr<render::Reflections> reflections;
-  Camera camera;
-  camera.world_from_camera = look_at(eye, {1.5f, 0.5f, 1.6f});
-  if (uses_maps) {
-    Result<std::unique_ptr<render::Reflections>> made = make_reflections(scene, **renderer);
-    EXPECT_TRUE(made) << to_string(made.errors());
-    reflections = *std::move(made);
-  }
-  (*renderer)->begin_frame(scene, camera);
-  (*renderer)->prepare_main_view(camera, width, height);
-  if (reflections) reflections->update(**renderer, scene, camera);
-  (*renderer)->draw_main_view();
-
-  reference::TraceOptions options;
-  const shading::SunShadow shadow = (*renderer)->sun_shadow();
-  options.shadow = &shadow;
-  options.sky_visibility = &(*renderer)->sky_visibility();
-  options.body_shade = &(*renderer)->body_shade();
-  const reference::RayScene rays(scene);
-  const reference::TracedPicture truth =
-      reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);
-  const Result<reference::Difference> difference =
-      reference::compare((*renderer)->read_picture(scene.exposure),
-                         shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
-  EXPECT_TRUE(difference) << to_string(difference.errors());
-  return difference->flip;
-}
-
 TEST_F(EnvironmentMapsTest, AMirrorShowsTheSquareThatTheRayTracerShows) {
   const scene::Scene scene = tower_square();
   for (const glm::vec3 eye : {glm::vec3(-2.5f, -3.5f, 2.2f), glm::vec3(6.0f, -2.0f, 2.4f)}) {
-    EXPECT_LT(flip_of(scene, true, eye), 0.08);
-    EXPECT_GT(flip_of(scene, false, eye), 0.25) << "the sky alone";
+    EXPECT_LT(flip_of(scene, make_reflections, eye), 0.08);
+    EXPECT_GT(flip_of(scene, nullptr, eye), 0.25) << "the sky alone";
   }
 }
 
@@ -113,7 +54,7 @@ TEST_F(EnvironmentMapsTest, ASceneWithoutAnythingFixedStillReflectsItsSky) {
   scene::Scene scene;
   render::add_mirror(scene, glm::vec3(0.0f, 0.0f, 1.5f), 1.0f);
   scene.reflection = {scene::ReflectionMethod::multiple_environment_maps, 32, false, 4};
-  EXPECT_LT(flip_of(scene, true, {-3.0f, -2.0f, 3.5f}), 0.1);
+  EXPECT_LT(flip_of(scene, make_reflections, {-3.0f, -2.0f, 3.5f}), 0.1);
 }
 
 TEST_F(EnvironmentMapsTest, PlacesAreApartAndOnTheStreets) {

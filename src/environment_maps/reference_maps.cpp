@@ -21,6 +21,14 @@ gl::Texture layers_of(GLenum format, int level_count, int resolution, std::size_
   return texture;
 }
 
+gl::Texture texture_of(const std::vector<glm::vec3>& places) {
+  gl::Texture texture = gl::texture_2d(GL_RGB32F, int(places.size()), 1);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, GLsizei(places.size()), 1, GL_RGB, GL_FLOAT, places.data());
+  return texture;
+}
+
 /// Draws single layers with a program.
 class LayerPainter {
  public:
@@ -55,7 +63,8 @@ ReferenceMaps::ReferenceMaps(std::vector<glm::vec3> places, int resolution)
     : places_(std::move(places)),
       resolution_(resolution),
       colours_(layers_of(GL_R11F_G11F_B10F, levels, resolution, places_.size())),
-      distances_(layers_of(GL_R16F, 1, resolution, places_.size())) {}
+      distances_(layers_of(GL_R16F, 1, resolution, places_.size())),
+      place_texture_(texture_of(places_)) {}
 
 Result<ReferenceMaps> ReferenceMaps::bake(render::Renderer& renderer, std::vector<glm::vec3> places,
                                           int face_resolution) {

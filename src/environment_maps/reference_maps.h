@@ -25,15 +25,16 @@ class ReferenceMaps {
   GLuint colours() const { return colours_.name(); }  ///< linear radiance, with mipmaps
   GLuint distances() const {
     return distances_.name();
-  }                           ///< metres from the place; as far as can be for the sky
-  std::size_t bytes() const;  ///< of graphics memory
+  }  ///< metres from the place; as far as can be for the sky
+  GLuint place_texture() const { return place_texture_.name(); }  ///< one row: each map's place in the world
+  std::size_t bytes() const;                                      ///< of graphics memory
 
  private:
   ReferenceMaps(std::vector<glm::vec3> places, int resolution);
 
   std::vector<glm::vec3> places_;
   int resolution_;
-  gl::Texture colours_, distances_;
+  gl::Texture colours_, distances_, place_texture_;
 };
 
 }  // namespace parvis::environment_maps

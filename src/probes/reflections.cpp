@@ -20,6 +20,8 @@ std::unique_ptr<render::Reflections> method_of(const scene::Scene& scene) {
     case scene::ReflectionMethod::box_projected_probe:
       return std::make_unique<BoxProjectedProbe>(scene);
     case scene::ReflectionMethod::multiple_environment_maps:
+    case scene::ReflectionMethod::local_environment_maps:
+    case scene::ReflectionMethod::simple_blend:
       break;
   }
   assert(false);  // another room's

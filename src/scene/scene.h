@@ -71,20 +71,33 @@ enum class ReflectionMethod : std::uint8_t {
   time_sliced_cube_map,
   shared_cube_map,
   box_projected_probe,
-  multiple_environment_maps
+  multiple_environment_maps,
+  local_environment_maps,
+  simple_blend
 };
 inline constexpr std::array reflection_method_names{"none",
                                                     "rerendered_cube_map",
                                                     "time_sliced_cube_map",
                                                     "shared_cube_map",
                                                     "box_projected_probe",
-                                                    "multiple_environment_maps"};
+                                                    "multiple_environment_maps",
+                                                    "local_environment_maps",
+                                                    "simple_blend"};
+
+/// What of a method is shown in place of its reflections, to look into it.
+enum class ReflectionView : std::uint8_t {
+  radiance,  ///< nothing else
+  mesh,      ///< of local maps, in red
+  weights    ///< of the two reference maps, red and green; blue where neither sees what is mirrored
+};
+inline constexpr std::array reflection_view_names{"radiance", "mesh", "weights"};
 
 struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
   int resolution = 128;              ///< pixels along a face's edge
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
-  int most_maps = 54;                ///< reference maps, of multiple_environment_maps
+  int most_maps = 54;                ///< reference maps, of the methods that have any
+  ReflectionView shown = ReflectionView::radiance;
 
   bool operator==(const Reflection&) const = default;
 };

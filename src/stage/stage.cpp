@@ -2,7 +2,9 @@
 
 #include "action/action_nodes.h"
 #include "city/city_nodes.h"
+#include "environment_maps/local_environment_maps.h"
 #include "environment_maps/multiple_environment_maps.h"
+#include "environment_maps/simple_blend.h"
 #include "probes/reflections.h"
 #include "scene/object_animation.h"
 
@@ -58,9 +60,16 @@ Result<Play> open_play(const std::filesystem::path& script,
 
 Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
                                                               render::Renderer& renderer) {
-  return scene.reflection.method == scene::ReflectionMethod::multiple_environment_maps
-             ? environment_maps::make_reflections(scene, renderer)
-             : probes::make_reflections(scene, renderer);
+  switch (scene.reflection.method) {
+    case scene::ReflectionMethod::multiple_environment_maps:
+      return environment_maps::make_reflections(scene, renderer);
+    case scene::ReflectionMethod::local_environment_maps:
+      return environment_maps::make_local_environment_maps(scene, renderer);
+    case scene::ReflectionMethod::simple_blend:
+      return environment_maps::make_simple_blend(scene, renderer);
+    default:
+      return probes::make_reflections(scene, renderer);
+  }
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
