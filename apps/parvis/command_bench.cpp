@@ -1,6 +1,7 @@
 // parvis bench: figures, as a table and as JSON.
 #include "bench/doors_bench.h"
 #include "bench/frame_bench.h"
+#include "bench/mem_bench.h"
 #include "commands.h"
 
 namespace parvis {
@@ -14,6 +15,7 @@ struct Arguments {
 
 Status measure(const Arguments& arguments) {
   const Result<bench::Report> report = arguments.name == "doors" ? bench::doors_bench(arguments.is_quick)
+                                       : arguments.name == "mem" ? bench::mem_bench(arguments.is_quick)
                                                                  : bench::frame_bench(arguments.is_quick);
   if (!report) return report.errors();
   report->print();
@@ -28,9 +30,9 @@ void add_bench(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("name", arguments->name,
                    "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
-                   "and leaves")
+                   "and leaves; mem: multiple environment maps, their cost and truth")
       ->required()
-      ->check(CLI::IsMember({"frame", "doors"}));
+      ->check(CLI::IsMember({"frame", "doors", "mem"}));
   command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: done within three minutes");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");

@@ -4,13 +4,12 @@
 
 #include <filesystem>
 
-#include "base/random.h"
 #include "base/test_data.h"
 #include "bench/mirror_check.h"
 #include "bench/scratch_folder.h"
+#include "bench/street_views.h"
 #include "city/paper_city.h"
 #include "render/culling_check.h"
-#include "render/frustum.h"
 #include "scene/city_json.h"
 #include "stage/stage.h"
 
@@ -19,75 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int width = 1280, height = 720;
-
-Camera at(glm::vec3 eye, float heading_rad, float pitch_rad) {
-  const glm::vec3 ahead(std::cos(heading_rad) * std::cos(pitch_rad),
-                        std::sin(heading_rad) * std::cos(pitch_rad), std::sin(pitch_rad));
-  Camera camera;
-  camera.vertical_fov = vertical_fov(glm::radians(65.0f), float(width) / float(height));
-  camera.world_from_camera = look_at(eye, eye + ahead);
-  return camera;
-}
-
-/// Points on the lanes where traffic drives, from which a visitor or a driver looks, in an order that a seed
-/// shuffles.
-std::vector<Camera> viewpoints(const scene::Scene& scene, std::size_t count, float eye_height_m,
-                               float pitch_rad) {
-  Random random(5);
-  std::vector<Camera> cameras;
-  while (cameras.size() < count) {
-    const scene::Lane& lane = scene.roads.lanes[std::size_t(random.index(int(scene.roads.lanes.size())))];
-    const std::size_t i = std::size_t(random.index(int(lane.points.size()) - 1));
-    const glm::vec3 along = lane.points[i + 1] - lane.points[i];
-    const glm::vec3 eye = lane.points[i] + random.uniform() * along + glm::vec3(0, 0, eye_height_m);
-    if (glm::distance(glm::vec2(eye), scene.traffic.centre) > scene.traffic.radius_m) continue;
-    cameras.push_back(at(eye, std::atan2(along.y, along.x), pitch_rad));
-  }
-  return cameras;
-}
-
-stage::Play play_with(const scene::Scene& scene, int vehicles) {
-  scene::Scene copy = scene;  // models are shared
-  copy.traffic.vehicles = vehicles;
-  return stage::make_play(std::move(copy));
-}
-
-int reflectors_seen(stage::Stage& stage, const Camera& camera) {
-  stage.renderer().begin_frame(stage.scene(), camera);
-  stage.renderer().prepare_main_view(camera, width, height);
-  std::vector<render::Reflector> reflectors;
-  render::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
-  return int(reflectors.size());
-}
-
-/// Vehicles in the frustum, hidden or not: a first sieve that draws nothing.
-int vehicles_ahead(const scene::Scene& scene, const Camera& camera) {
-  const render::Frustum frustum(render::camera_view(camera, 0, width, height).clip_from_world);
-  int count = 0;
-  for (const scene::Object& object : scene.objects) {
-    const glm::vec3 position(object.world_from_model[3]);
-    count += object.is_dynamic && frustum.may_see({position - 1.0f, position + 1.0f});
-  }
-  return count;
-}
-
-/// Lets traffic drive until some view, from a balcony or a roof, sees between `least` and `most` cars.
-Result<Camera> view_of_cars(stage::Stage& stage, int least, int most, Report& report) {
-  constexpr int longest_search_s = 120;
-  for (int second = 0; second < longest_search_s; ++second) {
-    for (const float height_m : {9.0f, 25.0f, 60.0f})
-      for (const Camera& camera : viewpoints(stage.scene(), 24, height_m, -0.004f * height_m)) {
-        if (vehicles_ahead(stage.scene(), camera) < least) continue;
-        const int seen = reflectors_seen(stage, camera);
-        if (seen < least || seen > most) continue;
-        report.note(fmt::format("{} cars, {} seen, from {} m above a street, after {} s",
-                                stage.play().traffic.vehicle_count(), seen, height_m, second));
-        return camera;
-      }
-    stage.play().advance(1.0);
-  }
-  return error("no view of {} to {} cars was found within {} s of traffic", least, most, longest_search_s);
-}
 
 struct Method {
   const char* key;
@@ -123,7 +53,7 @@ Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int rep
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
 void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
   render::CullingCheck all;
-  for (const Camera& camera : viewpoints(stage.scene(), views, 1.6f, 0.0f)) {
+  for (const Camera& camera : street_views(stage.scene(), views, 1.6f, 0.0f, width, height)) {
     stage.renderer().begin_frame(stage.scene(), camera);
     const render::CullingCheck one =
         render::check_culling(stage.renderer(), stage.scene(), camera, width, height);
@@ -136,7 +66,7 @@ void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
 }
 
 void measure_reference(stage::Stage& stage, Report& report) {
-  const Camera camera = viewpoints(stage.scene(), 1, 1.6f, 0.0f).front();
+  const Camera camera = street_views(stage.scene(), 1, 1.6f, 0.0f, width, height).front();
   const reference::TracedPicture traced = stage.trace(camera, 480, 270, 16);
   report.add("reference_mrays_s", 1e-6 * double(traced.rays) / traced.seconds);
 }
@@ -174,9 +104,9 @@ Result<Report> frame_bench(bool is_quick) {
   for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
     Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(loaded->scene, cars));
     if (!stage) return stage.errors();
-    const Result<Camera> camera = view_of_cars(**stage, least, most, report);
+    const Result<Camera> camera = view_of_cars(**stage, least, most, width, height, report);
     if (!camera) return camera.errors();
-    const int seen = reflectors_seen(**stage, *camera);
+    const int seen = reflectors_seen(**stage, *camera, width, height);
     std::vector<Median> medians;
     if (Status status = time_methods(**stage, *camera, cars, repeats, report, medians); !status)
       return status.errors();

@@ -10,6 +10,7 @@ namespace {
 enum Unit : GLuint {
   heights_unit = render::first_reflection_unit,
   colours_unit,
+  glosses_unit,
   distances_unit,
   choice_unit,
   places_unit
@@ -66,11 +67,13 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, R
 void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
   glBindTextureUnit(heights_unit, heights_.name());
   glBindTextureUnit(colours_unit, maps_.colours());
+  glBindTextureUnit(glosses_unit, maps_.glosses());
   glBindTextureUnit(distances_unit, maps_.distances());
   glBindTextureUnit(choice_unit, choice_.name());
   glBindTextureUnit(places_unit, maps_.place_texture());
   program.set("heights", int(heights_unit));
   program.set("map_colours", int(colours_unit));
+  program.set("map_glosses", int(glosses_unit));
   program.set("map_distances", int(distances_unit));
   program.set("map_choice", int(choice_unit));
   program.set("map_places", int(places_unit));

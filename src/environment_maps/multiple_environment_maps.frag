@@ -1,12 +1,14 @@
 // Reflections out of reference maps (Meyer and Loscos 2003, sections 4.1 to 4.3), for each pixel: the mirror ray is traced
-// through the city's heights from the surface itself, and the point that it meets is looked up in the maps about it that
-// see it.
+// through the city's heights from the surface itself, moved from there onto the surface that the maps saw, and looked up
+// in the two maps that see it best.
 #include "render/sky_lookup.glsl"
 #include "environment_maps/octahedral.glsl"
+#include "environment_maps/map_levels.glsl"
 #include "render/surface_body.glsl"
 
 uniform highp sampler2D heights;
 uniform highp sampler2DArray map_colours;
+uniform highp sampler2DArray map_glosses;
 uniform highp sampler2DArray map_distances;
 uniform highp usampler2D map_choice;  // four maps a cell of the ground
 uniform highp sampler2D map_places;
@@ -16,46 +18,153 @@ uniform vec3 choice_grid;   // south-west corner, metres a cell
 uniform vec2 layer_size;    // texels a side, and of its border
 
 const float reach_m = 1000.0f;
-const float texel_rad = 3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much
+const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
+const float most_taps = 4.0f;
+const float shade_reach_m = 25.0f;   // hits nearer than this may lie in the shade of moving bodies
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
 #include "environment_maps/heightfield_walk.glsl"
 #include "environment_maps/validity.glsl"
 
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
+// What the pixel's ray meets, as two maps show it.
+struct Sight {
+  vec3 to_met[2];    // from each map
+  float map[2];
+  float weight[2];
+  float distance;
+  vec3 across;       // how far the pixel's cone reaches there, the way that it is widest
+  float narrow;      // and the other way, metres
+  vec3 shade;        // what moving bodies leave of its light
+};
+Sight sight;
+
+float seen_distance(vec3 to_point, float map) {
+  return textureLod(map_distances, vec3(layer_uv(to_point, layer_size.x, layer_size.y), map), 0.0f).r;
+}
+
+// Two steps of the secant method (Szirmay-Kalos and others 2005, distance impostors) from the hit on the heights to where
+// the ray meets what the map saw.
+float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map) {
+  float near = distance;
+  vec3 to_near = at + near * direction - place;
+  float near_off = length(to_near) - seen_distance(normalize(to_near), map);
+  if (abs(near_off) > greatest_move_m) return distance;
+  float along = dot(direction, normalize(to_near));
+  float far = distance - near_off * sign(along) / max(abs(along), 0.4f);
+  for (int i = 0; i < 2; ++i) {
+    vec3 to_far = at + far * direction - place;
+    float far_off = length(to_far) - seen_distance(normalize(to_far), map);
+    float change = far_off - near_off;
+    if (abs(change) < 1e-4f) break;
+    float next = far - far_off * (far - near) / change;
+    near = far;
+    near_off = far_off;
+    far = clamp(next, distance - greatest_move_m, distance + greatest_move_m);
+  }
+  return max(far, 0.0f);
+}
+
+// Cars darken the street about them, but no map saw a car.
+vec3 share_left_by_bodies(vec3 met, vec3 normal) {
+  vec3 sh[9];
+  for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
+  vec3 sky = sky_share_of_normal(sky_visibility_cell(met, normal), normal) * sky_irradiance(sh, normal);
+  vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
+  float fixed_sun = visible_fixed_sun(met, normal);
+  float sun_share = min(visible_sun(met, normal), fixed_sun);
+  float sky_share = sky_share_beside_bodies(met, normal, -1);
+  return (sky_share * sky + sun_share * sun) / max(sky + fixed_sun * sun, vec3(1e-4f));
+}
+
+// Of the cell's top, or of the side through which the ray came in.
+vec3 normal_of(HeightHit hit, vec3 met, vec3 direction) {
+  if (hit.met == met_top) return vec3(0.0f, 0.0f, 1.0f);
+  vec2 in_cell = fract((met.xy - height_grid.xy) / height_grid.z);
+  vec2 to_side = min(in_cell, 1.0f - in_cell);
+  return to_side.x < to_side.y ? vec3(-sign(direction.x), 0.0f, 0.0f) : vec3(0.0f, -sign(direction.y), 0.0f);
+}
+
+void look_along(vec3 at, vec3 direction) {
   HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
   HeightHit hit = walk_pyramid(grid, at, direction, reach_m);
-  vec3 met = at + hit.distance * direction;
 
-  // The pixel's own cone: what it sees spreads with the distance.
-  float spread = max(length(dFdx(direction)), length(dFdy(direction)));
   ivec2 cells = textureSize(map_choice, 0);
   ivec2 cell = clamp(ivec2((at.xy - choice_grid.xy) / choice_grid.z), ivec2(0), cells - ivec2(1));
   uvec4 maps = texelFetch(map_choice, cell, 0);
-
-  vec3 sum = vec3(0.0f), nearest = vec3(0.0f);
-  float weights = 0.0f, highest = 0.0f;
+  vec3 met = at + hit.distance * direction;
+  float best[2] = float[2](-1.0f, -1.0f);
+  vec4 places[2];
   for (int k = 0; k < 4; ++k) {
-    int map = int(maps[k]);
-    vec3 place = texelFetch(map_places, ivec2(map, 0), 0).xyz;
-    vec3 to_met = met - place;
+    vec4 place = vec4(texelFetch(map_places, ivec2(int(maps[k]), 0), 0).xyz, float(maps[k]));
+    vec3 to_met = met - place.xyz;
     float distance_m = length(to_met);
-    vec3 uv = vec3(layer_uv(to_met / distance_m, layer_size.x, layer_size.y), float(map));
-    float seen_m = textureLod(map_distances, uv, 0.0f).r;
-    float texels = spread * hit.distance / distance_m * layer_size.x / texel_rad;
-    vec3 colour = textureLod(map_colours, uv, log2(max(texels, 1.0f)) + 4.0f * roughness).rgb;
-
-    vec3 away = place - at;
-    float closeness = 1.0f / (1.0f + dot(away, away));
-    float weight = closeness * validity(seen_m, distance_m, height_grid.z);
-    sum += weight * colour;
-    weights += weight;
-    if (closeness > highest) {
-      highest = closeness;
-      nearest = colour;
+    vec3 away = place.xyz - at;
+    float valid = validity(seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
+    // Section 4.3: where no map sees the point, the one that would count most.
+    float weight = (valid + 1e-4f) / (1.0f + dot(away, away));
+    if (weight > best[0]) {
+      best[1] = best[0];
+      places[1] = places[0];
+      best[0] = weight;
+      places[0] = place;
+    } else if (weight > best[1]) {
+      best[1] = weight;
+      places[1] = place;
     }
   }
-  // Section 4.3: where no map sees the point, the one that would count most.
-  return weights > 1e-3f * highest ? sum / weights : nearest;
+
+  vec3 normal = normal_of(hit, met, direction);
+  float distance = hit.met == met_side ? hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w)
+                                       : hit.met == met_top ? hit.distance : reach_m;
+  met = at + distance * direction;
+  for (int k = 0; k < 2; ++k) {
+    sight.to_met[k] = met - places[k].xyz;
+    sight.map[k] = places[k].w;
+    sight.weight[k] = best[k] / (best[0] + best[1]);
+  }
+  vec3 along_x = dFdx(direction), along_y = dFdy(direction);
+  bool is_wide_in_x = dot(along_x, along_x) > dot(along_y, along_y);
+  sight.distance = distance;
+  sight.across = distance * (is_wide_in_x ? along_x : along_y);
+  sight.narrow = distance * length(is_wide_in_x ? along_y : along_x);
+  sight.shade = vec3(1.0f);
+  if (hit.met != met_nothing && hit.distance < shade_reach_m)
+    sight.shade = share_left_by_bodies(met, normal);
+}
+
+// The footprint of a curved mirror is long and thin: lookups along it, each as wide as it is thin.
+vec3 sharp_radiance(int k, float lobe) {
+  float texels_a_m = layer_size.x / layer_rad / length(sight.to_met[k]);
+  float wide = length(sight.across) * texels_a_m;
+  float thin = sqrt(sight.narrow * sight.narrow * texels_a_m * texels_a_m + lobe * lobe);
+  float taps = clamp(ceil(wide / max(thin, 1.0f)), 1.0f, most_taps);
+  float level = log2(max(max(wide / taps, thin), 1.0f)) - 0.5f;
+  vec3 sum = vec3(0.0f);
+  for (float i = 0.5f; i < taps; ++i) {
+    vec3 to_point = sight.to_met[k] + (i / taps - 0.5f) * sight.across;
+    vec2 uv = layer_uv(normalize(to_point), layer_size.x, layer_size.y);
+    sum += textureLod(map_colours, vec3(uv, sight.map[k]), level).rgb;
+  }
+  return sum / taps;
+}
+
+vec3 glossy_radiance(int k, float roughness) {
+  vec3 tiles = gloss_tiles(roughness);
+  vec2 uv = layer_uv(normalize(sight.to_met[k]), gloss_side, gloss_border);
+  vec3 sharper = textureLod(map_glosses, vec3(gloss_uv(uv, tiles.x), sight.map[k]), 0.0f).rgb;
+  vec3 rougher = textureLod(map_glosses, vec3(gloss_uv(uv, tiles.y), sight.map[k]), 0.0f).rgb;
+  return mix(sharper, rougher, tiles.z);
+}
+
+vec3 reflected_radiance(float roughness) {
+  vec3 sum = vec3(0.0f);
+  for (int k = 0; k < 2; ++k) {
+    // A lobe that ends near the surface is narrow for a map that is farther away.
+    float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
+    sum += sight.weight[k] * (seen_roughness < least_gloss
+                                  ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
+                                  : glossy_radiance(k, seen_roughness));
+  }
+  return sight.shade * sum;
 }

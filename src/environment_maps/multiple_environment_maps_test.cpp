@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "environment_maps/octahedral.h"
 #include "environment_maps/placement.h"
 #include "environment_maps/test_square.h"
@@ -39,6 +40,54 @@ TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
     const float side_m = hit.wall % 2 == 0 ? room_half_m : -room_half_m;
     const float expected_m = (side_m - place[hit.wall / 2]) / direction[hit.wall / 2];
     ASSERT_NEAR(distances[i], expected_m, 0.05f * expected_m);
+  }
+}
+
+TEST_F(EnvironmentMapsTest, AGlossyTileIsTheMeanOverTheLobe) {
+  const scene::Scene scene = render::room_scene(room_half_m);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  (*renderer)->begin_frame(scene, Camera{});
+  const glm::vec3 place(4, 2.5f, -3.5f);
+  const Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, {place}, 32);
+  ASSERT_TRUE(maps) << to_string(maps.errors());
+  const int row = int(gloss_tile_count * gloss_side);
+  std::vector<glm::vec3> radiances(std::size_t(row) * std::size_t(gloss_side));
+  glGetTextureImage(maps->glosses(), 0, GL_RGB, GL_FLOAT, GLsizei(radiances.size() * sizeof(glm::vec3)),
+                    radiances.data());
+  Random random(3);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int tile = random.index(int(gloss_tile_count)), x = random.index(int(gloss_side)),
+              y = random.index(int(gloss_side));
+    const glm::vec3 normal = layer_direction((glm::vec2(x, y) + 0.5f) / gloss_side, gloss_side, gloss_border);
+    const float alpha = gloss_of_tile(float(tile)) * gloss_of_tile(float(tile));
+    const glm::vec3 across = glm::normalize(
+        glm::cross(std::abs(normal.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0), normal));
+    glm::vec3 mean(0.0f);
+    int counted = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const float u = random.uniform(), phi = 6.2831853f * random.uniform();
+      const float cosine = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
+      const float sine = std::sqrt(1.0f - cosine * cosine);
+      const glm::vec3 half =
+          sine * std::cos(phi) * across + sine * std::sin(phi) * glm::cross(normal, across) + cosine * normal;
+      const glm::vec3 direction = glm::reflect(-normal, half);
+      if (glm::dot(direction, normal) <= 0.0f) continue;
+      mean += render::wall_colours[std::size_t(render::wall_met(room_half_m, place, direction).wall)];
+      ++counted;
+    }
+    mean /= float(counted);
+    const glm::vec3 baked =
+        radiances[std::size_t(y) * std::size_t(row) + std::size_t(tile * int(gloss_side) + x)];
+    EXPECT_LT(glm::distance(baked, mean), 0.05f) << "tile " << tile << ", texel " << x << ' ' << y;
+  }
+}
+
+TEST(MapLevels, RoughnessRunsThroughTheTilesWithoutAGap) {
+  for (float roughness = least_gloss; roughness <= 1.0f; roughness += 0.01f) {
+    const glm::vec3 tiles = gloss_tiles(roughness);
+    EXPECT_NEAR(glm::mix(gloss_of_tile(tiles.x), gloss_of_tile(tiles.y), tiles.z), roughness, 1e-4f);
+    EXPECT_LT(tiles.y, gloss_tile_count);
   }
 }
 

@@ -21,10 +21,14 @@ GLSL_FUNCTION vec3 octahedral_direction(vec2 uv) {
   return normalize(vec3(p.x, p.y, z));
 }
 
-// Texture coordinates in a layer of `resolution` texels a side whose outermost `border` texels repeat what lies across
+// From the square without a border into a layer of `resolution` texels a side whose outermost `border` texels repeat what lies across
 // the sides, so that filters find their neighbours.
+GLSL_FUNCTION vec2 uv_in_layer(vec2 uv, float resolution, float border) {
+  return (uv * (resolution - 2.0f * border) + vec2(border)) / resolution;
+}
+
 GLSL_FUNCTION vec2 layer_uv(vec3 direction, float resolution, float border) {
-  return (octahedral_uv(direction) * (resolution - 2.0f * border) + vec2(border)) / resolution;
+  return uv_in_layer(octahedral_uv(direction), resolution, border);
 }
 
 GLSL_FUNCTION vec3 layer_direction(vec2 uv, float resolution, float border) {

@@ -5,5 +5,6 @@
 
 namespace parvis::environment_maps {
 using namespace shading;  // vec2, sign and the like, which shared files take for granted
+#include "environment_maps/map_levels.glsl"
 #include "environment_maps/octahedral.glsl"
 }  // namespace parvis::environment_maps

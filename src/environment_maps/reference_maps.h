@@ -23,6 +23,7 @@ class ReferenceMaps {
   const std::vector<glm::vec3>& places() const { return places_; }
   int resolution() const { return resolution_; }      ///< texels a side of a layer
   GLuint colours() const { return colours_.name(); }  ///< linear radiance, with mipmaps
+  GLuint glosses() const { return glosses_.name(); }  ///< blurred for roughness, map_levels.glsl
   GLuint distances() const {
     return distances_.name();
   }  ///< metres from the place; as far as can be for the sky
@@ -34,7 +35,7 @@ class ReferenceMaps {
 
   std::vector<glm::vec3> places_;
   int resolution_;
-  gl::Texture colours_, distances_, place_texture_;
+  gl::Texture colours_, glosses_, distances_, place_texture_;
 };
 
 }  // namespace parvis::environment_maps

@@ -25,7 +25,9 @@ Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& 
                                 render::Renderer& renderer) {
   std::vector<glm::vec3> places = place_for_pictures(scene, heights, scene.reflection.most_maps).places;
   if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
-  renderer.begin_frame(scene, Camera{});  // light, for the maps
+  scene::Scene still = scene;  // models are shared; what moves throws neither shadow nor shade into a map
+  for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
+  renderer.begin_frame(still, Camera{});
   return ReferenceMaps::bake(renderer, std::move(places), scene.reflection.resolution);
 }
 

@@ -13,13 +13,19 @@ uniform vec2 box_heading;  // cosine and sine
 
 const float most_taps = 4.0f;  // each way
 
+vec3 looked_up_direction;
+
+void look_along(vec3 at, vec3 direction) {
+  looked_up_direction = direction;
+  if (box_is_used > 0.5f)
+    looked_up_direction = box_projected_direction(at, direction, map_centre, box_centre, box_half_size, box_heading);
+}
+
 // Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
 // pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur. Half a level less
 // keeps edges as sharp as many rays a pixel show them.
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
-  vec3 d = direction;
-  if (box_is_used > 0.5f)
-    d = box_projected_direction(at, direction, map_centre, box_centre, box_half_size, box_heading);
+vec3 reflected_radiance(float roughness) {
+  vec3 d = looked_up_direction;
   vec3 along_x = dFdx(d), along_y = dFdy(d);
   float texels_a_unit = 0.5f * exp2(reflection_levels) / max(abs(d.x), max(abs(d.y), abs(d.z)));
   float size_x = texels_a_unit * length(along_x), size_y = texels_a_unit * length(along_y);

@@ -2,4 +2,8 @@
 #include "render/sky_lookup.glsl"
 #include "render/surface_body.glsl"
 
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) { return sky_radiance(direction, 1.0f); }
+vec3 mirrored_direction;
+
+void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
+
+vec3 reflected_radiance(float roughness) { return sky_radiance(mirrored_direction, 1.0f); }

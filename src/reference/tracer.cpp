@@ -191,23 +191,26 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
   const float spread =  // of a sample's share of the pixel
       2.0f * std::tan(0.5f * camera.vertical_fov) / float(height) / float(side);
 
+  const PixelWindow window = options.window.width > 0 ? options.window : PixelWindow{0, 0, width, height};
+
   TracedPicture picture;
-  picture.radiance = ImageF(width, height, 3);
-  picture.mirror_mask = Image8(width, height, 1);
+  picture.radiance = ImageF(window.width, window.height, 3);
+  picture.mirror_mask = Image8(window.width, window.height, 1);
   std::atomic<std::uint64_t> all_rays = 0;
   const auto start = std::chrono::steady_clock::now();
-  Progress progress(options.progress, std::size_t(height));
-  parallel_for(std::size_t(height), [&](std::size_t row) {
+  Progress progress(options.progress, std::size_t(window.height));
+  parallel_for(std::size_t(window.height), [&](std::size_t row) {
     std::uint64_t ray_count = 0;
-    for (int x = 0; x < width; ++x) {
-      Random random(options.seed, row * std::size_t(width) + std::size_t(x));
+    for (int column = 0; column < window.width; ++column) {
+      const int x = window.x + column, y = window.y + int(row);
+      Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
       vec3 sum(0.0f);
       float weights = 0.0f;
       int mirrors = 0;
       for (int i = 0; i < samples; ++i) {
         const int column_in_pixel = i % side, row_in_pixel = i / side;
         const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
-        const float py = float(row) + (float(row_in_pixel) + random.uniform()) / float(side);
+        const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
         const Ray ray = camera_ray(camera, width, height, {px, py});
         bool is_mirror = false;
         const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, random, ray_count, &is_mirror);
@@ -216,8 +219,8 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
         weights += weight;
         mirrors += is_mirror;
       }
-      for (int c = 0; c < 3; ++c) picture.radiance.at(x, int(row))[c] = sum[c] / weights;
-      *picture.mirror_mask.at(x, int(row)) = std::uint8_t(255 * mirrors / samples);
+      for (int c = 0; c < 3; ++c) picture.radiance.at(column, int(row))[c] = sum[c] / weights;
+      *picture.mirror_mask.at(column, int(row)) = std::uint8_t(255 * mirrors / samples);
     }
     all_rays += ray_count;
     progress.advance();

@@ -12,6 +12,11 @@
 
 namespace parvis::reference {
 
+/// A part of a picture, in pixels from its top left.
+struct PixelWindow {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 struct TraceOptions {
   int samples_a_pixel = 16;  ///< rounded up to a square number
   std::uint64_t seed = 1;
@@ -19,7 +24,8 @@ struct TraceOptions {
   const shading::SkyVisibility* sky_visibility = nullptr;  ///< the renderer's; null: open everywhere
   const shading::BodyShade* body_shade = nullptr;  ///< the renderer's; null: moving things hide no sky
   bool mirrors_see_themselves = true;              ///< else a reflection passes through its own object
-  std::string progress = "tracing";                ///< what the progress bar says
+  PixelWindow window;                ///< traces this part alone, which is then the whole result; empty: all
+  std::string progress = "tracing";  ///< what the progress bar says
 };
 
 struct TracedPicture {

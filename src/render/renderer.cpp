@@ -141,10 +141,11 @@ void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-void Renderer::prepare_main_view(const Camera& camera, int width, int height) {
+void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects) {
   target_.resize(width, height);
   main_view_ = camera_view(camera, target_.framebuffer(), width, height);
   main_view_.culls_hidden = true;
+  main_view_.subjects = subjects;
   for (Drawable* drawable : drawables_) drawable->prepare(main_view_);
 }
 

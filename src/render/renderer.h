@@ -32,8 +32,9 @@ class Renderer {
 
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera);
-  /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for.
-  void prepare_main_view(const Camera& camera, int width, int height);
+  /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for. A
+  /// bench may leave out what stands still.
+  void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   /// Draws the view that was prepared, four samples a pixel, into `radiance_texture`.
   void draw_main_view();

@@ -2,6 +2,10 @@
 // Walls that hide the sky dim its reflection.
 #include "render/surface_body.glsl"
 
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
-  return sky_share_of_direction(surface_sky_cell, direction) * sky_radiance(direction, roughness);
+vec3 mirrored_direction;
+
+void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
+
+vec3 reflected_radiance(float roughness) {
+  return sky_share_of_direction(surface_sky_cell, mirrored_direction) * sky_radiance(mirrored_direction, roughness);
 }

@@ -1,7 +1,7 @@
 // The fragment shader of all surfaces. A file that includes it defines
-//   vec3 reflected_radiance(vec3 position, vec3 direction, float roughness)
-// the radiance that arrives at `position` from the mirror direction, blurred for the roughness. It may use
-// `surface_sky_cell`, what the place sees of the sky.
+//   void look_along(vec3 position, vec3 direction)   finds what lies in the mirror direction
+//   vec3 reflected_radiance(float roughness)         what comes from there, blurred; asked for each layer of a surface
+// They may use `surface_sky_cell`, what the place sees of the sky.
 #include "render/frame.glsl"
 #include "render/anisotropy.glsl"
 #include "render/body_lookup.glsl"
@@ -25,7 +25,8 @@ out vec4 radiance;
 
 vec4 surface_sky_cell;
 
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness);
+void look_along(vec3 at, vec3 direction);
+vec3 reflected_radiance(float roughness);
 
 // Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
 #ifdef HAS_RELIEF
@@ -150,9 +151,10 @@ void main() {
   sun *= visible_sun(position, normal);
 #endif
   vec3 mirrored = reflect(-to_viewer, s.normal);
-  vec3 base_reflection = reflected_radiance(position, mirrored, s.roughness);
+  look_along(position, mirrored);
+  vec3 base_reflection = reflected_radiance(s.roughness);
 #ifdef HAS_COAT
-  vec3 coat_reflection = reflected_radiance(position, mirrored, s.clear_coat_roughness);
+  vec3 coat_reflection = reflected_radiance(s.clear_coat_roughness);
 #else
   vec3 coat_reflection = vec3(0.0f);
 #endif

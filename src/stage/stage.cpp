@@ -106,11 +106,13 @@ void Stage::draw(const Camera& camera, int width, int height) {
   pass_times_.end_pass("picture");
 }
 
-reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel) {
+reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel,
+                                      const reference::PixelWindow& window) {
   renderer_->begin_frame(play_.scene, camera);
   const shading::SunShadow shadow = renderer_->sun_shadow();
   reference::TraceOptions options;
   options.samples_a_pixel = samples_a_pixel;
+  options.window = window;
   options.shadow = &shadow;
   options.sky_visibility = &renderer_->sky_visibility();
   options.body_shade = &renderer_->body_shade();

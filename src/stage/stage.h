@@ -74,8 +74,9 @@ class Stage {
   void draw(const Camera& camera, int width, int height);
   /// What was drawn last, tone-mapped with the scene's exposure.
   Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
-  /// The same by the ray tracer, with the renderer's own shadow maps.
-  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_a_pixel);
+  /// The same by the ray tracer, with the renderer's own shadow maps; all of it or a window.
+  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_a_pixel,
+                                 const reference::PixelWindow& window = {});
 
  private:
   Stage(Play play, std::unique_ptr<render::Renderer> renderer);

@@ -1,0 +1,131 @@
+#include "bench/mem_bench.h"
+
+#include <numeric>
+
+#include "bench/mem_quality.h"
+#include "bench/reflection_cost.h"
+#include "bench/scratch_folder.h"
+#include "bench/street_views.h"
+#include "city/paper_city.h"
+#include "environment_maps/multiple_environment_maps.h"
+#include "gl/context.h"
+
+namespace parvis::bench {
+namespace {
+
+using scene::ReflectionMethod;
+
+constexpr int width = 1280, height = 720;
+
+/// The configuration that every key speaks of.
+scene::Reflection shipped() {
+  scene::Reflection reflection;
+  reflection.method = ReflectionMethod::multiple_environment_maps;
+  return reflection;
+}
+
+scene::Reflection usual(ReflectionMethod method, bool uses_level_of_detail = false) {
+  return {method, 128, uses_level_of_detail};
+}
+
+/// Makes methods for a stage.
+Result<std::vector<JudgedMethod>> make(stage::Stage& stage,
+                                       const std::vector<std::pair<const char*, scene::Reflection>>& wanted) {
+  std::vector<JudgedMethod> methods;
+  for (const auto& [name, reflection] : wanted) {
+    Result<JudgedMethod> method = judged_method(stage, name, reflection);
+    if (!method) return method.errors();
+    methods.push_back(*std::move(method));
+  }
+  return methods;
+}
+
+double mean_flip(const std::vector<ViewFlips>& views, std::size_t method) {
+  return std::accumulate(views.begin(), views.end(), 0.0,
+                         [&](double sum, const ViewFlips& view) { return sum + view.of_method[method]; }) /
+         double(std::max(views.size(), std::size_t{1}));
+}
+
+std::vector<ViewFlips> those_at(const std::vector<ViewFlips>& views, bool is_at_crossing) {
+  std::vector<ViewFlips> some;
+  std::ranges::copy_if(views, std::back_inserter(some),
+                       [&](const ViewFlips& view) { return view.is_at_crossing == is_at_crossing; });
+  return some;
+}
+
+Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
+  const Result<std::vector<JudgedMethod>> methods =
+      make(stage, {{"mem", shipped()},
+                   {"none", usual(ReflectionMethod::none)},
+                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
+                   {"box", usual(ReflectionMethod::box_projected_probe)}});
+  if (!methods) return methods.errors();
+  const Result<std::vector<ViewFlips>> views =
+      is_quick ? flips_of_methods(stage, *methods, 20, width / 2, height / 2)
+               : flips_of_methods(stage, *methods, 20, width, height);
+  if (!views) return views.errors();
+  for (std::size_t m = 0; m < methods->size(); ++m) {
+    std::string row = fmt::format("FLIP {}: mean {:.4f}, views", (*methods)[m].name, mean_flip(*views, m));
+    for (const ViewFlips& view : *views) row += fmt::format(" {:.3f}", view.of_method[m]);
+    report.note(row);
+  }
+  const double mem = mean_flip(*views, 0);
+  double worst = 0.0;
+  for (const ViewFlips& view : *views) worst = std::max(worst, view.of_method[0] / view.of_method[2]);
+  report.add("flip_ratio_mem_over_rerendered", mem / mean_flip(*views, 2));
+  report.add("flip_ratio_mem_over_rerendered_worst", worst);
+  for (const bool is_at_crossing : {false, true}) {
+    const std::vector<ViewFlips> some = those_at(*views, is_at_crossing);
+    report.note(fmt::format("{} views {}", some.size(), is_at_crossing ? "at crossings" : "in streets"));
+    report.add(is_at_crossing ? "flip_ratio_mem_over_box_crossing" : "flip_ratio_mem_over_box_street",
+               mean_flip(some, 0) / mean_flip(some, 3));
+  }
+  return Done{};
+}
+
+Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
+  constexpr int cars_seen = 30;
+  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(city, 120));
+  if (!stage) return stage.errors();
+  const Result<Camera> camera = view_of_cars(**stage, cars_seen, cars_seen, width, height, report);
+  if (!camera) return camera.errors();
+  const Result<std::vector<JudgedMethod>> methods =
+      make(**stage, {{"none", usual(ReflectionMethod::none)},
+                     {"mem", shipped()},
+                     {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
+                     {"rerendered_lod", usual(ReflectionMethod::rerendered_cube_map, true)}});
+  if (!methods) return methods.errors();
+  const Result<std::vector<ReflectionCost>> costs =
+      reflection_costs(**stage, *methods, *camera, width, height, is_quick ? 20 : 30);
+  if (!costs) return costs.errors();
+  const auto cost = [&](std::size_t m) { return median((*costs)[m].ms); };
+  for (std::size_t m = 0; m < methods->size(); ++m)
+    report.note(fmt::format("{}: reflections of {} cars {:.2f} ms ({:.2f} to {:.2f}), frame {:.1f} ms",
+                            (*methods)[m].name, cars_seen, cost(m).value, cost(m).low, cost(m).high,
+                            median((*costs)[m].frame_ms).value));
+  report.add("cost_ratio_rerendered_over_mem_30", ratio(cost(2), cost(1)));
+  report.add("cost_ratio_rerendered_over_mem_lod_30", ratio(cost(3), cost(1)));
+  report.add("frame_ratio_mem_over_none_30",
+             ratio(median((*costs)[1].frame_ms), median((*costs)[0].frame_ms)));
+  return Done{};
+}
+
+}  // namespace
+
+Result<Report> mem_bench(bool is_quick) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  Report report("mem");
+  report.note("machine: " + gl::driver_name());
+  const ScratchFolder folder;
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
+  const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", stage::node_registry());
+  if (!city) return city.errors();
+  if (Status status = measure_cost(city->scene, is_quick, report); !status) return status.errors();
+  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(stage::make_play(city->scene));
+  if (!stage) return stage.errors();
+  if (Status status = measure_quality(**stage, is_quick, report); !status) return status.errors();
+  return report;
+}
+
+}  // namespace parvis::bench

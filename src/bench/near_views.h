@@ -1,0 +1,31 @@
+// Views from the pavement of cars that pass: where reflections are looked at.
+#pragma once
+
+#include "base/random.h"
+#include "reference/tracer.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+/// A car near the eye, as the scene stands now.
+struct NearView {
+  Camera camera;
+  glm::vec3 car;                  ///< middle of its bounds, in the world
+  reference::PixelWindow window;  ///< the car's pixels and a margin
+};
+
+/// Views of cars that nothing hides, at different times and from all sides: the same for the same scene.
+class NearViews {
+ public:
+  NearViews(stage::Stage& stage, int width, int height) : stage_(stage), width_(width), height_(height) {}
+
+  /// Lets traffic drive on to the next one. An error where it shows no near car for long.
+  Result<NearView> next();
+
+ private:
+  stage::Stage& stage_;
+  int width_, height_;
+  Random random_{23};
+};
+
+}  // namespace parvis::bench

@@ -1,0 +1,45 @@
+#include "bench/reflection_cost.h"
+
+namespace parvis::bench {
+namespace {
+
+double finished_ms(const std::function<void()>& work) {
+  glFinish();
+  return milliseconds([&] {
+    work();
+    glFinish();
+  });
+}
+
+}  // namespace
+
+Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
+                                                     const std::vector<JudgedMethod>& methods,
+                                                     const Camera& camera, int width, int height,
+                                                     int repeats) {
+  std::vector<ReflectionCost> costs(methods.size());
+  std::vector<double> passes_ms(methods.size()), cars_ms(methods.size());
+  render::Renderer& renderer = stage.renderer();
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (std::size_t turn = 0; turn < methods.size(); ++turn) {
+      const std::size_t m = repeat % 2 == 0 ? turn : methods.size() - 1 - turn;
+      if (Status status = draw(stage, methods[m], camera, width, height, render::Subjects::moving); !status)
+        return status.errors();  // makes what is made once
+      passes_ms[m] = finished_ms([&] { methods[m].reflections->update(renderer, stage.scene(), camera); });
+      cars_ms[m] = finished_ms([&] { renderer.draw_main_view(); });
+      renderer.prepare_main_view(camera, width, height);
+      costs[m].frame_ms.push_back(passes_ms[m] + finished_ms([&] { renderer.draw_main_view(); }));
+    }
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      costs[m].ms.push_back(passes_ms[m] + cars_ms[m] - cars_ms.front());
+  }
+  return costs;
+}
+
+Median ratio(const Median& over, const Median& under) {
+  constexpr double least_ms = 1e-3;
+  return {over.value / std::max(under.value, least_ms), over.low / std::max(under.high, least_ms),
+          over.high / std::max(under.low, least_ms)};
+}
+
+}  // namespace parvis::bench

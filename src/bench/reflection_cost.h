@@ -1,0 +1,29 @@
+// What reflections cost: the passes that make them, timed alone, and what the pass of the cars takes longer
+// with them than without.
+#pragma once
+
+#include <vector>
+
+#include "bench/judged_method.h"
+#include "bench/report.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+/// Milliseconds of one method, one sample a repetition.
+struct ReflectionCost {
+  std::vector<double> ms;        ///< reflections alone
+  std::vector<double> frame_ms;  ///< whole frames, shadows kept
+};
+
+/// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn; the
+/// first must be the method without reflections, whose cost is nothing.
+Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
+                                                     const std::vector<JudgedMethod>& methods,
+                                                     const Camera& camera, int width, int height,
+                                                     int repeats);
+
+/// Ratio of two medians; its interval is the widest that both of theirs allow.
+Median ratio(const Median& over, const Median& under);
+
+}  // namespace parvis::bench

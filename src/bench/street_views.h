@@ -1,0 +1,24 @@
+// Views along the streets where traffic drives, and those that show many cars at once.
+#pragma once
+
+#include <vector>
+
+#include "bench/report.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+/// Points on the lanes where traffic drives, from which a visitor or a driver looks, in an order that a seed
+/// shuffles.
+std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, float eye_height_m,
+                                 float pitch_rad, int width, int height);
+
+/// The scene with so many vehicles.
+stage::Play play_with(const scene::Scene& scene, int vehicles);
+
+int reflectors_seen(stage::Stage& stage, const Camera& camera, int width, int height);
+
+/// Lets traffic drive until some view, from a balcony or a roof, sees between `least` and `most` cars.
+Result<Camera> view_of_cars(stage::Stage& stage, int least, int most, int width, int height, Report& report);
+
+}  // namespace parvis::bench
