@@ -12,6 +12,8 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr float cloud_base_m = 1400.0f;
+constexpr float haze_per_km =
+    0.45f;  // somewhat more than over the city: what lies beyond must not stand out darker
 const glm::vec3 horizon_radiance(0.66f, 0.78f, 0.94f);
 
 glm::vec3 clear_sky(glm::vec3 direction, glm::vec3 to_sun) {
@@ -77,7 +79,7 @@ float skyline(float azimuth, std::uint32_t seed) {
 
 float hills(float azimuth, std::uint32_t seed) {
   const float turn = azimuth / (2.0f * pi) + 0.5f;
-  return 0.018f + 0.06f * std::pow(fractal_noise(glm::vec2(turn * 7.0f, 0.5f), {7, 1}, 5, seed), 1.5f);
+  return 0.008f + 0.05f * std::pow(fractal_noise(glm::vec2(turn * 7.0f, 0.5f), {7, 1}, 5, seed), 1.5f);
 }
 
 /// Fields and woods below, as seen from a few storeys up, paling with the distance.
@@ -95,18 +97,22 @@ glm::vec3 ground_radiance(glm::vec3 direction, std::uint32_t seed) {
   const glm::vec3 town = 0.17f * glm::vec3(1.0f, 0.96f, 0.88f);  // underfoot: it lights the place from below
   const float near = glm::smoothstep(-0.15f, -0.45f, direction.z);
   return glm::mix(horizon_radiance, detail * glm::mix(1.6f * colour, town, near),
-                  std::exp(-0.3f * distance_km));
+                  std::exp(-haze_per_km * distance_km));
 }
 
 glm::vec3 radiance_from(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
   const float azimuth = std::atan2(direction.x, direction.y);
   if (direction.z < 0.0f) return ground_radiance(direction, seed + 30);
   if (direction.z < skyline(azimuth, seed))
-    return glm::mix(linear_from_srgb8(0x9C, 0x94, 0x84), horizon_radiance, 0.6f);
-  if (direction.z < hills(azimuth, seed + 3))
-    return glm::mix(linear_from_srgb8(0x5E, 0x74, 0x78), horizon_radiance, 0.55f);
+    return glm::mix(linear_from_srgb8(0x9C, 0x94, 0x84), horizon_radiance, 0.75f);
   const Cloud cloud = clouds(direction, to_sun, seed + 7);
-  return glm::mix(clear_sky(direction, to_sun), cloud.radiance, cloud.cover);
+  const glm::vec3 above = glm::mix(clear_sky(direction, to_sun), cloud.radiance, cloud.cover);
+  // Hills rise out of the haze that lies at their feet, and have no hard edge: no band round the horizon.
+  const float crest = hills(azimuth, seed + 3);
+  const float height = glm::smoothstep(0.0f, 0.05f, direction.z);
+  const glm::vec3 slope =
+      glm::mix(linear_from_srgb8(0x5E, 0x74, 0x78), horizon_radiance, glm::mix(0.95f, 0.55f, height));
+  return glm::mix(above, slope, glm::smoothstep(crest + 0.0015f, crest - 0.0015f, direction.z));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "scene/mip_levels.h"
 
 namespace parvis::reference {
 namespace {
@@ -23,30 +24,12 @@ const float* values_of_bytes(bool is_srgb) {
   return tables[is_srgb ? 1 : 0].data();
 }
 
-std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
-
 }  // namespace
 
-MipTexture::MipTexture(const scene::Texture& texture)
-    : levels_{texture.image},
+MipTexture::MipTexture(const scene::Texture& texture, bool is_cutout)
+    : levels_(scene::mip_levels(texture, is_cutout)),
       value_of_byte_(values_of_bytes(texture.is_srgb)),
-      is_srgb_(texture.is_srgb),
-      repeats_(texture.repeats) {
-  while (levels_.back().width > 1 || levels_.back().height > 1) {
-    const Image8& fine = levels_.back();
-    Image8 coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), 4);
-    for (int y = 0; y < coarse.height; ++y)
-      for (int x = 0; x < coarse.width; ++x) {
-        const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
-        const int x0 = std::min(2 * x, fine.width - 1), y0 = std::min(2 * y, fine.height - 1);
-        const glm::vec4 mean =
-            0.25f * (texel(fine, x0, y0) + texel(fine, x1, y0) + texel(fine, x0, y1) + texel(fine, x1, y1));
-        for (int c = 0; c < 4; ++c)
-          coarse.at(x, y)[c] = byte(is_srgb_ && c < 3 ? srgb_from_linear(mean[c]) : mean[c]);
-      }
-    levels_.push_back(std::move(coarse));
-  }
-}
+      repeats_(texture.repeats) {}
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
   const std::uint8_t* p = level.at(x, y);

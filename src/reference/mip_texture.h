@@ -10,7 +10,8 @@ namespace parvis::reference {
 
 class MipTexture {
  public:
-  explicit MipTexture(const scene::Texture& texture);
+  /// The same levels as the renderer's (scene/mip_levels.h).
+  MipTexture(const scene::Texture& texture, bool is_cutout);
 
   /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in
   /// texels of the finest level.
@@ -23,7 +24,7 @@ class MipTexture {
 
   std::vector<Image8> levels_;
   const float* value_of_byte_;  ///< of colour channels
-  bool is_srgb_, repeats_;
+  bool repeats_;
 };
 
 }  // namespace parvis::reference

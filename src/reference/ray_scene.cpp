@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "scene/mip_levels.h"
+
 namespace parvis::reference {
 namespace {
 
@@ -96,7 +98,9 @@ RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), 
     auto& textures = textures_[&model];
     if (!textures) {
       textures = std::make_unique<std::vector<MipTexture>>();
-      for (const scene::Texture& texture : model.textures) textures->emplace_back(texture);
+      const std::vector<char> is_cutout = scene::cutout_textures(model);
+      for (std::size_t t = 0; t < model.textures.size(); ++t)
+        textures->emplace_back(model.textures[t], is_cutout[t] != 0);
     }
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
     for (std::size_t p = 0; p < model.parts.size(); ++p) {

@@ -1,13 +1,13 @@
 #include "render/gpu_scene.h"
 
-#include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
 #include <utility>
 
+#include "base/parallel.h"
 #include "gl/context.h"
+#include "scene/mip_levels.h"
 
 namespace parvis::render {
 namespace {
@@ -43,14 +43,12 @@ Pass pass_of(scene::Alpha alpha) {
   return Pass::opaque;
 }
 
-gl::Texture upload(const scene::Texture& source) {
-  const Image8& image = source.image;
-  const int levels = int(std::bit_width(unsigned(std::max(image.width, image.height))));
-  gl::Texture texture =
-      gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width, image.height, levels);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                      image.pixels.data());
-  glGenerateTextureMipmap(texture.name());
+gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& levels) {
+  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, source.image.width,
+                                       source.image.height, int(levels.size()));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height,
+                        GL_RGBA, GL_UNSIGNED_BYTE, levels[level].pixels.data());
   glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, has_fast_anisotropy() ? 16.0f : 1.0f);
   const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
@@ -141,7 +139,11 @@ void GpuScene::bend(const scene::Object& object, std::size_t o) {
 
 void GpuScene::upload_model_materials(const scene::Model& model) {
   const std::size_t first_texture = textures_.size();
-  for (const scene::Texture& texture : model.textures) textures_.push_back(upload(texture));
+  const std::vector<char> is_cutout = scene::cutout_textures(model);
+  std::vector<std::vector<Image8>> levels(model.textures.size());
+  parallel_for(levels.size(),
+               [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], is_cutout[i] != 0); });
+  for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
   const auto texture_or = [&](int index, GLuint plain) {
     return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
   };

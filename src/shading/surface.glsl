@@ -1,5 +1,5 @@
-// What light does at a surface: Lambert and GGX (Walter 2007, Karis 2013) under a clear coat (glTF
-// KHR_materials_clearcoat), translucent leaves. Shared by shaders and ray tracer.
+// What light does at a surface: Lambert and GGX (Walter 2007) with all bounces between facets (Kulla and Conty 2017)
+// under a clear coat (glTF KHR_materials_clearcoat), translucent leaves. Shared by shaders and ray tracer.
 
 struct Surface {
   vec3 normal;        // unit, on the viewer's side
@@ -24,10 +24,6 @@ GLSL_FUNCTION float schlick_weight(float cosine) {
   return (m * m) * (m * m) * m;
 }
 
-GLSL_FUNCTION float fresnel_of_coat(Surface s, float n_dot_v) {
-  return s.clear_coat * (0.04f + 0.96f * schlick_weight(n_dot_v));
-}
-
 GLSL_FUNCTION float ggx_alpha(float roughness) {
   return max(roughness, min_roughness) * max(roughness, min_roughness);
 }
@@ -38,42 +34,110 @@ GLSL_FUNCTION float ggx_distribution(float alpha, float n_dot_h) {
   return a2 / (pi * d * d);
 }
 
-// GGX distribution times the Smith visibility term (Hammon's approximation).
+// GGX distribution times the visibility of Smith's correlated masking and shadowing (Heitz 2014).
 GLSL_FUNCTION float ggx_specular(float roughness, float n_dot_l, float n_dot_v, float n_dot_h) {
   float alpha = ggx_alpha(roughness);
-  float visibility = 0.5f / mix(2.0f * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha);
+  float a2 = alpha * alpha;
+  float visibility = 0.5f / (n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2) +
+                             n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0f - a2) + a2));
   return ggx_distribution(alpha, n_dot_h) * visibility;
 }
 
-// Share of the radiance from the mirror direction that goes to the viewer, for the base layer: the split sum with
-// Karis' polynomial for mobile (2014) in place of its table.
+// What that lobe gives back of light from everywhere, each fitted to the integral: the share that would bounce again
+// between facets and is lost (to 0.010), and the share that Schlick's weight has in the rest (to 0.006).
+struct LobeShares {
+  float lost;
+  float grazing;
+};
+
+GLSL_FUNCTION LobeShares lobe_shares(float roughness, float n_dot_v) {
+  float r = max(roughness, min_roughness);
+  float u = n_dot_v / (n_dot_v + r * r);  // grazing is where facets are: the shares change little along it
+  LobeShares shares;
+  float l0 = 0.188377f + r * (-1.93355f + r * (7.7252f + r * (-14.5446f + r * (12.7403f - 4.14738f * r))));
+  float l1 = -0.365997f + r * (3.03626f + r * (-6.50722f + r * (11.1926f - 4.69095f * r)));
+  float l2 = 1.05228f + r * (-4.55133f + r * (-2.67824f + 0.533914f * r));
+  float l3 = 0.769625f + r * (8.02479f + 0.982778f * r);
+  float l4 = -4.69094f - 4.38752f * r;
+  shares.lost = clamp(l0 + u * (l1 + u * (l2 + u * (l3 + u * (l4 + u * 3.04714f)))), 0.0f, 1.0f);
+  float g0 = 1.18003f + r * (-3.71956f + r * (4.25935f + r * (-1.63303f - 0.0461515f * r)));
+  float g1 = -0.327583f + r * (5.34836f + r * (-10.0836f + 4.99311f * r));
+  float g2 = -1.17042f + r * (-4.43852f + 5.24253f * r);
+  float g3 = 2.78988f + 3.44565f * r;
+  shares.grazing =
+      clamp(schlick_weight(n_dot_v) * (g0 + u * (g1 + u * (g2 + u * (g3 - 1.50824f * u)))), 0.0f, 1.0f - shares.lost);
+  return shares;
+}
+
+// Their means over the hemisphere, weighted by the cosine: fitted to those of lobe_shares.
+GLSL_FUNCTION LobeShares mean_lobe_shares(float roughness) {
+  float r = max(roughness, min_roughness);
+  LobeShares shares;
+  shares.lost = 0.00043645f +
+                r * (0.231088f + r * (-2.8266f + r * (12.2797f + r * (-19.7938f + r * (15.7166f - 5.01274f * r)))));
+  shares.grazing = 0.0436666f + r * (0.107383f + r * (-0.793991f + r * (1.38353f + r * (-1.00881f + 0.271954f * r))));
+  return shares;
+}
+
+// Share of the light lost between facets that leaves them after more bounces, coloured by each (Kulla and Conty 2017,
+// Hill 2018); `mean` of mean_lobe_shares.
+GLSL_FUNCTION vec3 returned_share(vec3 f0, LobeShares mean) {
+  vec3 fresnel = f0 + (vec3(1.0f) - f0) / 21.0f;
+  return fresnel * fresnel * (1.0f - mean.lost) / (vec3(1.0f) - fresnel * mean.lost);
+}
+
+GLSL_FUNCTION vec3 reflected_share(vec3 f0, LobeShares shares, vec3 returned) {
+  return f0 * (1.0f - shares.lost - shares.grazing) + vec3(shares.grazing) + returned * shares.lost;
+}
+
+// Share of the radiance from around the mirror direction that goes to the viewer, for the base layer and for the coat.
 GLSL_FUNCTION vec3 base_reflectance(Surface s, float n_dot_v) {
-  float r = s.roughness;
-  float a = min((1.0f - r) * (1.0f - r), exp2(-9.28f * n_dot_v)) * (1.0f - r) + (0.0425f - 0.0275f * r);
-  float scale = -1.04f * a + 1.04f - 0.572f * r;
-  float bias = 1.04f * a - 0.04f + 0.022f * r;
-  return specular_f0(s) * max(scale, 0.0f) + vec3(clamp(bias, 0.0f, 1.0f));
+  vec3 f0 = specular_f0(s);
+  return reflected_share(f0, lobe_shares(s.roughness, n_dot_v), returned_share(f0, mean_lobe_shares(s.roughness)));
+}
+
+GLSL_FUNCTION float coat_share(float coat, LobeShares shares) {
+  return coat * (0.04f * (1.0f - shares.lost - shares.grazing) + shares.grazing);
+}
+
+GLSL_FUNCTION float fresnel_of_coat(Surface s, float n_dot_v) {
+  if (s.clear_coat <= 0.0f) return 0.0f;
+  return coat_share(s.clear_coat, lobe_shares(s.clear_coat_roughness, n_dot_v));
 }
 
 // Share of the light from `to_light` that goes to the viewer: BRDF times cosine. What a layer reflects does not reach
-// the ones below, on the way in or out, whichever is lower: then no surface gives more light than it gets. The highlights
-// of base and coat count by their weights: 1, or 0 where a path follows their mirror ray instead.
+// the ones below, on the way in or out; what comes out of them in all directions is scaled so that light is kept (Kelemen
+// and Szirmay-Kalos 2001, Kulla and Conty 2017), and their highlight loses by the lower of the two directions. The
+// highlights of base and coat count by their weights: 1, or 0 where a path follows their mirror ray instead.
 GLSL_FUNCTION vec3 scattered_share(Surface s, vec3 to_viewer, vec3 to_light, float base_weight, float coat_weight) {
   float n_dot_l = dot(s.normal, to_light);
-  vec3 diffuse = (1.0f - s.metallic) * s.base_colour / pi;
-  if (n_dot_l <= 0.0f) return s.translucency * diffuse * max(-n_dot_l, 0.0f);
-  float n_dot_v = max(dot(s.normal, to_viewer), 1e-4f);
-  float lower = min(n_dot_l, n_dot_v);
+  vec3 colour = (1.0f - s.metallic) * s.base_colour;
+  if (n_dot_l <= 0.0f) return s.translucency * colour / pi * max(-n_dot_l, 0.0f);
+  float n_dot_v = clamp(dot(s.normal, to_viewer), 1e-4f, 1.0f);
+  float lit = min(n_dot_l, 1.0f);
   vec3 h = normalize(to_viewer + to_light);
   float n_dot_h = clamp(dot(s.normal, h), 0.0f, 1.0f);
   float facing = schlick_weight(clamp(dot(to_viewer, h), 0.0f, 1.0f));
+
   vec3 f0 = specular_f0(s);
-  vec3 fresnel = f0 + (vec3(1.0f) - f0) * facing;
-  float highlight = base_weight * ggx_specular(s.roughness, n_dot_l, n_dot_v, n_dot_h);
-  vec3 base = (vec3(1.0f) - base_reflectance(s, lower)) * diffuse + fresnel * highlight;
+  LobeShares seen = lobe_shares(s.roughness, n_dot_v);
+  LobeShares met = lobe_shares(s.roughness, lit);
+  LobeShares mean = mean_lobe_shares(s.roughness);
+  vec3 returned = returned_share(f0, mean);
+  vec3 kept = (vec3(1.0f) - reflected_share(f0, seen, returned)) * (vec3(1.0f) - reflected_share(f0, met, returned)) /
+              max(vec3(1.0f) - reflected_share(f0, mean, returned), vec3(1e-3f));
+  vec3 spread = (kept * colour + returned * seen.lost * met.lost / max(mean.lost, 1e-3f)) / pi;
+  vec3 highlight = (f0 + (vec3(1.0f) - f0) * facing) * (base_weight * ggx_specular(s.roughness, lit, n_dot_v, n_dot_h));
+  if (s.clear_coat <= 0.0f) return (spread + highlight) * n_dot_l;
+
+  float coat_seen = 1.0f - fresnel_of_coat(s, n_dot_v);
+  float coat_met = 1.0f - fresnel_of_coat(s, lit);
+  // Base and coat both reflect most at grazing angles: what one keeps out the other would have, too.
+  float coat_mean = 1.0f - coat_share(s.clear_coat, mean_lobe_shares(s.clear_coat_roughness)) + 0.01f * s.clear_coat;
   float coat = s.clear_coat * (0.04f + 0.96f * facing);
-  float coat_highlight = coat * coat_weight * ggx_specular(s.clear_coat_roughness, n_dot_l, n_dot_v, n_dot_h);
-  return ((1.0f - fresnel_of_coat(s, lower)) * base + vec3(coat_highlight)) * n_dot_l;
+  float coat_highlight = coat * coat_weight * ggx_specular(s.clear_coat_roughness, lit, n_dot_v, n_dot_h);
+  return (spread * (coat_seen * coat_met / coat_mean) + highlight * min(coat_seen, coat_met) + vec3(coat_highlight)) *
+         n_dot_l;
 }
 
 // Radiance toward the viewer from light of `irradiance` (on a plane that faces it) from `to_light`.

@@ -14,14 +14,17 @@ Surface surface(float base, float metallic, float roughness, float coat = 0.0f) 
 vec3 at_angle(float cosine) { return {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine}; }
 
 /// What a surface sends to the viewer when light of radiance 1 comes from everywhere above it: integrated
-/// over the hemisphere at the middles of cells of equal solid angle.
+/// over the hemisphere at the middles of cells that are small near the normal and opposite to the viewer,
+/// where highlights are.
 float furnace(const Surface& s, vec3 to_viewer) {
-  constexpr int rings = 512, sectors = 1024;
-  const float solid_angle = 2.0f * pi / (rings * sectors);
+  constexpr int rings = 400, sectors = 400;
   double sum = 0.0;
   for (int r = 0; r < rings; ++r)
     for (int a = 0; a < sectors; ++a) {
-      const float z = (float(r) + 0.5f) / rings, azimuth = 2.0f * pi * (float(a) + 0.5f) / sectors;
+      const float outward = (float(r) + 0.5f) / rings, z = 1.0f - outward * outward;
+      const float aside = 2.0f * (float(a) + 0.5f) / sectors - 1.0f,
+                  azimuth = pi + pi * aside * aside * aside;
+      const float solid_angle = 2.0f * outward * 3.0f * aside * aside * 2.0f * pi / (rings * sectors);
       const float across = std::sqrt(1.0f - z * z);
       const vec3 to_light(across * std::cos(azimuth), across * std::sin(azimuth), z);
       sum += double(direct_radiance(s, to_viewer, to_light, vec3(solid_angle)).x);
@@ -29,67 +32,68 @@ float furnace(const Surface& s, vec3 to_viewer) {
   return float(sum);
 }
 
-/// One bounce between facets is modelled: light that would bounce again is lost, the more the rougher, up to
-/// seven tenths of it (Heitz 2016).
-TEST(WhiteFurnace, MetalReflectsAllButWhatBouncesAgain) {
-  for (const float cosine : {1.0f, 0.7f, 0.4f}) {
-    float smoother = 1.02f;
-    for (const float roughness : {0.3f, 0.5f, 0.7f, 1.0f}) {
-      const float reflected = furnace(surface(1, 1, roughness), at_angle(cosine));
-      EXPECT_LT(reflected, smoother) << roughness << ", " << cosine;
-      EXPECT_GT(reflected, roughness < 0.6f ? 0.7f : 0.3f) << roughness << ", " << cosine;
-      smoother = reflected;
-    }
-  }
+constexpr float roughnesses[]{0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
+constexpr float cosines[]{1.0f, 0.7f, 0.4f, 0.2f};
+
+/// What bounces between facets again comes back, too. Tolerance: the residual of the fitted shares, 0.01, and
+/// that of their means.
+TEST(WhiteFurnace, WhiteMetalReflectsAll) {
+  for (const float cosine : cosines)
+    for (const float roughness : roughnesses)
+      EXPECT_NEAR(furnace(surface(1, 1, roughness), at_angle(cosine)), 1.0f, 0.015f)
+          << roughness << ", " << cosine;
 }
 
-/// Of the roughest metal seen from straight above, Smith's integral has a closed form: of l / (1 + l), 0
-/// to 1.
-TEST(WhiteFurnace, TheRoughestMetalReflectsWhatSmithsIntegralSays) {
-  EXPECT_NEAR(furnace(surface(1, 1, 1), {0, 0, 1}), 1.0f - std::log(2.0f), 1e-3f);
+TEST(WhiteFurnace, WhitePaintGivesBackAll) {
+  for (const float cosine : cosines)
+    for (const float roughness : roughnesses)
+      EXPECT_NEAR(furnace(surface(1, 0, roughness), at_angle(cosine)), 1.0f, 0.015f)
+          << roughness << ", " << cosine;
 }
 
-/// Layers share light by Fresnel's weight of the half vector, which makes up to six percent of light under a
-/// coat.
-TEST(WhiteFurnace, WhiteThingsGiveBackMostLightAndMakeLittle) {
-  for (const float coat : {0.0f, 1.0f})
-    for (const float cosine : {1.0f, 0.7f, 0.4f}) {
-      const float reflected = furnace(surface(1, 0, 0.6f, coat), at_angle(cosine));
-      EXPECT_LT(reflected, coat > 0.0f ? 1.07f : 1.03f) << coat << ", " << cosine;
-      EXPECT_GT(reflected, 0.85f) << coat << ", " << cosine;
-    }
+/// The base's highlight loses by the lower direction, and so somewhat too much where it is wide.
+TEST(WhiteFurnace, CoatsKeepLight) {
+  for (const float metallic : {0.0f, 1.0f})
+    for (const float cosine : cosines)
+      for (const float roughness : roughnesses) {
+        const float reflected = furnace(surface(1, metallic, roughness, 1.0f), at_angle(cosine));
+        EXPECT_LT(reflected, 1.02f) << metallic << ", " << roughness << ", " << cosine;
+        EXPECT_GT(reflected, metallic > 0.0f ? 0.96f : 0.98f)
+            << metallic << ", " << roughness << ", " << cosine;
+      }
 }
 
 /// The same furnace for light from the surroundings: irradiance pi, radiance 1 in every mirror direction.
 TEST(WhiteFurnace, TheSurroundingsLightMakesNoLight) {
   for (const float coat : {0.0f, 0.5f, 1.0f})
     for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f})
-      for (const float cosine : {1.0f, 0.7f, 0.4f, 0.1f}) {
-        const auto seen = [&](float metallic) {
-          return ambient_radiance(surface(1, metallic, roughness, coat), at_angle(cosine), vec3(pi), vec3(pi),
-                                  vec3(1), vec3(1))
-              .x;
-        };
-        EXPECT_NEAR(seen(0.0f), 1.0f, 1e-3f) << coat << ", " << roughness << ", " << cosine;
-        EXPECT_LT(seen(1.0f), 1.001f) << coat << ", " << roughness << ", " << cosine;
-        EXPECT_GT(seen(1.0f), 0.4f) << coat << ", " << roughness << ", " << cosine;
-      }
+      for (const float cosine : {1.0f, 0.7f, 0.4f, 0.1f})
+        for (const float metallic : {0.0f, 1.0f})
+          EXPECT_NEAR(ambient_radiance(surface(1, metallic, roughness, coat), at_angle(cosine), vec3(pi),
+                                       vec3(pi), vec3(1), vec3(1))
+                          .x,
+                      1.0f, 1e-3f)
+              << coat << ", " << roughness << ", " << cosine << ", " << metallic;
 }
 
-/// The polynomial of the split sum stands for the integral of the lobe that the sun's light takes. It was
-/// fitted to dielectrics: of metals it loses up to a fifth (roughness 0.4).
+/// Of the roughest lobe seen from straight above, Smith's integral has a closed form: of l / (1 + l), 0 to 1.
+TEST(Surface, TheRoughestLobeLosesWhatSmithsIntegralSays) {
+  EXPECT_NEAR(lobe_shares(1.0f, 1.0f).lost, std::log(2.0f), 0.01f);
+}
+
 TEST(Surface, TheSurroundingsReflectanceIsThatOfTheSunsLobe) {
-  for (const float roughness : {0.4f, 0.7f, 1.0f})
-    for (const float cosine : {1.0f, 0.7f, 0.4f}) {
-      const Surface metal = surface(1, 1, roughness);
-      EXPECT_NEAR(base_reflectance(metal, cosine).x, furnace(metal, at_angle(cosine)), 0.2f)
-          << roughness << ", " << cosine;
-    }
+  for (const float base : {0.04f, 0.5f, 1.0f})
+    for (const float roughness : roughnesses)
+      for (const float cosine : cosines) {
+        const Surface metal = surface(base, 1, roughness);
+        EXPECT_NEAR(base_reflectance(metal, cosine).x, furnace(metal, at_angle(cosine)), 0.015f)
+            << base << ", " << roughness << ", " << cosine;
+      }
 }
 
 TEST(Surface, APerfectMirrorReflectsAll) {
   for (const float cosine : {1.0f, 0.5f, 0.05f})
-    EXPECT_NEAR(base_reflectance(surface(1, 1, 0), cosine).x, 1.0f, 1e-3f);
+    EXPECT_NEAR(base_reflectance(surface(1, 1, 0), cosine).x, 1.0f, 2e-3f);
 }
 
 TEST(Surface, LightAndViewMayBeExchanged) {
