@@ -13,6 +13,7 @@ using Chosen = std::function<Status()>;
 
 void add_view(CLI::App& app, Chosen& chosen);
 void add_render(CLI::App& app, Chosen& chosen);
+void add_bake(CLI::App& app, Chosen& chosen);
 void add_reference(CLI::App& app, Chosen& chosen);
 void add_compare(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
@@ -22,6 +23,7 @@ void add_city(CLI::App& app, Chosen& chosen);
 void add_bench(CLI::App& app, Chosen& chosen);
 
 inline constexpr void (*command_table[])(CLI::App&, Chosen&) = {
-    add_view, add_render, add_reference, add_compare, add_check, add_format, add_export, add_city, add_bench};
+    add_view,  add_render, add_bake,   add_reference, add_compare,
+    add_check, add_format, add_export, add_city,      add_bench};
 
 }  // namespace parvis

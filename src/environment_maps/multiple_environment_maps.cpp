@@ -49,11 +49,16 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
   const HeightPyramid heights(heights_of(scene));
   Result<ReferenceMaps> maps = bake_maps(scene, heights, renderer);
   if (!maps) return maps.errors();
-  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(heights, *std::move(maps)));
+  Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
+  if (!renewal) return renewal.errors();
+  return std::unique_ptr<MultipleEnvironmentMaps>(
+      new MultipleEnvironmentMaps(heights, *std::move(maps), *std::move(renewal)));
 }
 
-MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps)
+MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps,
+                                                 MapRenewal renewal)
     : maps_(std::move(maps)),
+      renewal_(std::move(renewal)),
       origin_(heights.origin()),
       cell_m_(heights.cell_m()),
       cells_(heights.cells()),
@@ -62,6 +67,12 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, R
   const MapChoice choice(maps_.places(), heights);
   choice_grid_ = glm::vec3(choice.origin(), choice.cell_m());
   choice_ = upload(choice);
+}
+
+void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer,
+                                          const std::vector<render::Reflector>& reflectors) {
+  if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
+    faces_drawn_ += 6;
 }
 
 void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {

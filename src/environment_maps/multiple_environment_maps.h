@@ -5,7 +5,7 @@
 #pragma once
 
 #include "environment_maps/height_pyramid.h"
-#include "environment_maps/reference_maps.h"
+#include "environment_maps/map_renewal.h"
 #include "render/reflections.h"
 
 namespace parvis::environment_maps {
@@ -26,10 +26,12 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   const ReferenceMaps& maps() const { return maps_; }
 
  private:
-  MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps);
-  void update_maps(render::Renderer&, const std::vector<render::Reflector>&) override {}
+  MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps, MapRenewal renewal);
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
 
   ReferenceMaps maps_;
+  MapRenewal renewal_;
   glm::vec2 origin_;
   float cell_m_;
   glm::ivec2 cells_;

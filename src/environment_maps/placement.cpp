@@ -130,4 +130,10 @@ std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyra
   return picked(candidates, even_spread(candidates, count));
 }
 
+std::vector<glm::vec3> spread_over_roads(const scene::Scene& scene, const HeightPyramid& heights, int most) {
+  scene::Scene everywhere;
+  everywhere.roads = scene.roads;
+  return spread_places(everywhere, heights, most);
+}
+
 }  // namespace parvis::environment_maps

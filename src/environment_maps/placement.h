@@ -42,4 +42,7 @@ inline constexpr float least_apart_m = 8.0f;
 /// coverage is compared with.
 std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most);
 
+/// The same over all of the scene's roads, driven on or not: figure 8 of the paper has 54 on 8 km.
+std::vector<glm::vec3> spread_over_roads(const scene::Scene& scene, const HeightPyramid& heights, int most);
+
 }  // namespace parvis::environment_maps

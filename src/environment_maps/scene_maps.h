@@ -1,4 +1,4 @@
-// What every method of this room starts from: a scene's heights, and reference maps along its streets.
+// What every method of this room starts from: a scene's heights, and its reference maps.
 #pragma once
 
 #include "environment_maps/height_pyramid.h"
@@ -10,9 +10,19 @@ namespace parvis::environment_maps {
 /// The highest point over each cell of the ground of what stands still, is visible and lets no light through.
 shading::Heightfield heights_of(const scene::Scene& scene);
 
-/// Places as `place_for_pictures` finds them, one at least, and their maps; begins a frame for the light.
-/// Fails only if a shader does.
+/// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
+/// least.
+std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights);
+
+/// Edge of a cube map's face that is as sharp as the scene's reference maps.
+int map_resolution(const scene::Scene& scene);
+
+/// Maps that are drawn are kept beside the scene, too.
+enum class Keep : bool { no, yes };
+
+/// The scene's reference maps: those that are baked are read, the others drawn; begins a frame for the light.
+/// Tells on standard error which baked ones are unfit. Fails if a shader does, or if a map cannot be kept.
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
-                                render::Renderer& renderer);
+                                render::Renderer& renderer, Keep keep = Keep::no);
 
 }  // namespace parvis::environment_maps

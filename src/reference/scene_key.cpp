@@ -38,12 +38,12 @@ std::uint64_t model_key(const scene::Model& model) {
   return hash.value();
 }
 
-}  // namespace
-
-std::uint64_t scene_key(const scene::Scene& scene) {
+template <class Counts>
+std::uint64_t key_of(const scene::Scene& scene, Counts&& counts) {
   ContentHash hash;
   std::unordered_map<const scene::Model*, std::uint64_t> models;
   for (const scene::Object& object : scene.objects) {
+    if (!counts(object)) continue;
     const auto [entry, is_new] = models.try_emplace(object.model.get(), 0);
     if (is_new) entry->second = model_key(*object.model);
     hash.add(entry->second);
@@ -60,6 +60,16 @@ std::uint64_t scene_key(const scene::Scene& scene) {
   hash.add(scene.sky.picture.pixels);
   for (const float value : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m}) hash.add(value);
   return hash.value();
+}
+
+}  // namespace
+
+std::uint64_t scene_key(const scene::Scene& scene) {
+  return key_of(scene, [](const scene::Object&) { return true; });
+}
+
+std::uint64_t fixed_scene_key(const scene::Scene& scene) {
+  return key_of(scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; });
 }
 
 }  // namespace parvis::reference

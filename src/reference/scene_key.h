@@ -11,4 +11,7 @@ namespace parvis::reference {
 /// alone.
 std::uint64_t scene_key(const scene::Scene& scene);
 
+/// The same without what moves and what is hidden: what a picture of the fixed surroundings depends on.
+std::uint64_t fixed_scene_key(const scene::Scene& scene);
+
 }  // namespace parvis::reference

@@ -22,7 +22,7 @@ void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const 
 void Reflections::update(Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
   find_reflectors(renderer, scene, camera, reflectors_);
   faces_drawn_ = 0;
-  if (fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
+  if (fixed_changes_ && fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
   fixed_changes_ = renderer.fixed_changes();
   update_maps(renderer, reflectors_);
 }

@@ -2,6 +2,7 @@
 // is drawn.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/renderer.h"
@@ -37,7 +38,7 @@ class Reflections : public ReflectionSource {
   int faces_drawn_ = 0;
 
  private:
-  int fixed_changes_ = 0;  ///< of the renderer, that the maps know of
+  std::optional<int> fixed_changes_;  ///< of the renderer, that the maps know of; none: they are new
   std::vector<Reflector> reflectors_;
 };
 

@@ -39,6 +39,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene) {
 
 Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target)
     : sky_(std::move(sky)),
+      sun_(scene.sun),
+      haze_per_m_(scene.haze_per_m),
       scene_(std::move(drawable)),
       shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()),
       drawables_{&scene_},
@@ -120,23 +122,27 @@ void Renderer::draw_view(const View& view) {
   draw_prepared(view);
 }
 
-void Renderer::begin_frame(const scene::Scene& scene, const Camera& camera) {
+void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade) {
   scene_.update(scene);
   if (const FixedChange& change = scene_.gpu().fixed_change(); !change.empty()) {
     shadows_.renew(change, scene_.gpu().fixed_bounds());
     sky_.renew_visibility(scene, scene_.gpu());
     ++fixed_changes_;
   }
-  if (sky_.renew_light(scene.sky)) ++fixed_changes_;
+  const bool has_new_light = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
+  if (sky_.renew_light(scene.sky) || has_new_light) ++fixed_changes_;
   sun_ = scene.sun;
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;
-  body_shade_ = shading::make_body_shade(scene_.gpu().bodies(), camera.position_in_world());
+  body_shade_ = shading::make_body_shade(
+      has_moving_shade ? std::span(scene_.gpu().bodies()) : std::span<const shading::Body>(),
+      camera.position_in_world());
   const GLintptr bodies =
       body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
-  shadows_.update(camera, scene.sun.direction_to_sun, scene_.gpu().moving_bounds(),
+  shadows_.update(camera, scene.sun.direction_to_sun,
+                  has_moving_shade ? std::span(scene_.gpu().moving_bounds()) : std::span<const Bounds>(),
                   [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
 }

@@ -31,7 +31,9 @@ class Renderer {
   Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
 
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
-  void begin_frame(const scene::Scene& scene, const Camera& camera);
+  void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
+  /// The same for pictures of what stands still: what moves throws no shade.
+  void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
   /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for. A
   /// bench may leave out what stands still.
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
@@ -66,6 +68,7 @@ class Renderer {
 
  private:
   Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target);
+  void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
   void begin_view(const View& view);
   void draw_prepared(const View& view);
   void bind_frame(const View& view);

@@ -221,6 +221,7 @@ void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<con
 
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();
+  if (moving.empty()) return;
   for (const Bounds& box : moving)
     if (const Square square = square_of(shading::shadow_near_map, box);
         square.size.x > 2 && square.size.y > 2)

@@ -47,6 +47,8 @@ struct Object {
 struct Sun {
   glm::vec3 direction_to_sun{0.45f, -0.55f, 0.70f};  ///< unit length after loading
   glm::vec3 irradiance{3.0f, 2.75f, 2.35f};          ///< on a plane that faces it, W/m2 in each channel
+
+  bool operator==(const Sun&) const = default;
 };
 
 struct Sky {
@@ -102,6 +104,13 @@ struct Reflection {
   bool operator==(const Reflection&) const = default;
 };
 
+/// Where and how reference maps are taken, as far as the script says.
+struct ReferenceMapPlan {
+  std::vector<glm::vec3> places;  ///< in the world; empty: they place themselves
+  int most = 0, resolution = 0;   ///< 0: as Reflection has them
+  bool is_compressed = false;
+};
+
 /// Traffic to be put on the road graph.
 struct TrafficDemand {
   int vehicles = 0;
@@ -120,9 +129,11 @@ struct Scene {
   float exposure = 1.0f;    ///< multiplies radiance before the tone curve
   float haze_per_m = 0.0f;  ///< extinction of the air
   Reflection reflection;
+  ReferenceMapPlan reference_maps;
   RoadGraph roads;
   TrafficDemand traffic;
-  glm::dvec3 origin{0.0};  ///< georeferenced coordinates of the world's origin, zero where there are none
+  glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
+  std::filesystem::path file;  ///< the script; empty: the scene was made in memory
 
   const NamedCamera* find_camera(const std::string& name) const;
   /// Where a camera is now: it may stay with an object, which must be there to be seen.

@@ -21,7 +21,9 @@ Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRe
   SceneBuilder builder(registry);
   builder.build(*nodes);
   Result<LoadedScene> loaded = std::move(builder).finish();
-  if (loaded) loaded->script.nodes = *std::move(nodes);
+  if (!loaded) return loaded;
+  loaded->script.nodes = *std::move(nodes);
+  loaded->scene.file = script;
   return loaded;
 }
 

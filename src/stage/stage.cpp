@@ -4,6 +4,7 @@
 #include "city/city_nodes.h"
 #include "environment_maps/local_environment_maps.h"
 #include "environment_maps/multiple_environment_maps.h"
+#include "environment_maps/reference_map_node.h"
 #include "environment_maps/simple_blend.h"
 #include "probes/reflections.h"
 #include "scene/object_animation.h"
@@ -15,6 +16,7 @@ const scene::NodeRegistry& node_registry() {
     scene::NodeRegistry all = scene::core_nodes();
     city::add_city_nodes(all);
     action::add_action_nodes(all);
+    environment_maps::add_reference_map_node(all);
     return all;
   }();
   return registry;

@@ -1,0 +1,83 @@
+// parvis bake: what takes long and stays the same is made once and kept beside the scene.
+#include "base/image_io.h"
+#include "commands.h"
+#include "environment_maps/map_cache.h"
+#include "environment_maps/placement.h"
+#include "environment_maps/placement_plan.h"
+#include "environment_maps/scene_maps.h"
+#include "scene_arguments.h"
+
+namespace parvis {
+namespace {
+
+constexpr double megabyte = 1e6;
+constexpr int plan_side_px = 1200;
+
+struct Arguments : SceneArguments {
+  std::filesystem::path plan;
+};
+
+/// Bakes one state of the scene, which `arguments` name.
+Result<environment_maps::MapCache> bake_state(const Arguments& arguments) {
+  const Result<stage::Play> play = arguments.open_play();
+  if (!play) return play.errors();
+  const scene::Scene& scene = play->scene;
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  if (!renderer) return renderer.errors();
+  const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
+  const Result<environment_maps::ReferenceMaps> maps =
+      environment_maps::bake_maps(scene, heights, **renderer, environment_maps::Keep::yes);
+  if (!maps) return maps.errors();
+  environment_maps::MapCache cache(scene);
+  fmt::print("{} reference maps of {} x {} texels, {:.1f} MB of graphics memory: {}\n", maps->places().size(),
+             maps->resolution(), maps->resolution(), double(maps->bytes()) / megabyte,
+             cache.folder().string());
+  if (!arguments.plan.empty()) {
+    const std::vector<glm::vec3> even =
+        environment_maps::spread_over_roads(scene, heights, int(maps->places().size()));
+    if (Status status = write_image(
+            arguments.plan,
+            environment_maps::placement_plan(**renderer, scene, maps->places(), even, plan_side_px));
+        !status)
+      return status.errors();
+  }
+  return cache;
+}
+
+Status bake(const Arguments& arguments) {
+  if (!arguments.plan.empty())
+    if (Status status = arguments.expect_one_scenario(); !status) return status;
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  std::vector<environment_maps::MapCache> baked;
+  for (const std::string& scenario :
+       arguments.scenarios.empty() ? std::vector<std::string>{"base"} : arguments.scenarios) {
+    Arguments state = arguments;
+    state.scenarios = {scenario};
+    Result<environment_maps::MapCache> cache = bake_state(state);
+    if (!cache) return cache.errors();
+    baked.push_back(*std::move(cache));
+  }
+  environment_maps::forget_other_states(baked);
+  return Done{};
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, Chosen& chosen) {
+  CLI::App* command =
+      app.add_subcommand("bake", "Draws reference maps beforehand and keeps them beside the scene");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->add_scene(*command);
+  arguments->add_state(*command);
+  command->add_option("--plan", arguments->plan,
+                      "Also write where the maps stand, seen from above (.png): discs; rings where as many "
+                      "stand spread evenly over all roads");
+  command->footer(
+      "Example: parvis bake out/paper/paper.xp --plan places.png\n"
+      "NAME.baked beside the script holds the maps; view and render read them. Interrupted work goes on when "
+      "the same command is given again. States that are not given (--scenario) are forgotten.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return bake(*arguments); }; });
+}
+
+}  // namespace parvis
