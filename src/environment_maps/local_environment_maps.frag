@@ -19,9 +19,14 @@ vec3 local_radiance(vec3 direction, float level) {
   return textureLod(local_maps, texel / picture_size, min(level, coarsest_level)).rgb;
 }
 
+vec3 mirrored_direction;
+
+void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
+
 // Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
 // pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur.
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) {
+vec3 reflected_radiance(float roughness) {
+  vec3 direction = mirrored_direction;
   if (local_map.z < 1.0f) return simple_blend(direction, roughness);
   vec3 along_x = dFdx(direction), along_y = dFdy(direction);
   float reach = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));

@@ -4,4 +4,8 @@
 #include "environment_maps/simple_blend.glsl"
 #include "render/surface_body.glsl"
 
-vec3 reflected_radiance(vec3 at, vec3 direction, float roughness) { return simple_blend(direction, roughness); }
+vec3 mirrored_direction;
+
+void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
+
+vec3 reflected_radiance(float roughness) { return simple_blend(mirrored_direction, roughness); }
