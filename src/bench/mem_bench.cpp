@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "bench/map_figures.h"
 #include "bench/mem_quality.h"
 #include "bench/reflection_cost.h"
 #include "bench/scratch_folder.h"
@@ -58,7 +59,9 @@ Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
       make(stage, {{"mem", shipped()},
                    {"none", usual(ReflectionMethod::none)},
                    {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
-                   {"box", usual(ReflectionMethod::box_projected_probe)}});
+                   {"box", usual(ReflectionMethod::box_projected_probe)},
+                   {"simple_blend", usual(ReflectionMethod::simple_blend)},
+                   {"local", usual(ReflectionMethod::local_environment_maps)}});
   if (!methods) return methods.errors();
   const Result<std::vector<ViewFlips>> views =
       is_quick ? flips_of_methods(stage, *methods, 20, width / 2, height / 2)
@@ -74,6 +77,8 @@ Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
   for (const ViewFlips& view : *views) worst = std::max(worst, view.of_method[0] / view.of_method[2]);
   report.add("flip_ratio_mem_over_rerendered", mem / mean_flip(*views, 2));
   report.add("flip_ratio_mem_over_rerendered_worst", worst);
+  report.add("local_flip_ratio", mean_flip(*views, 5) / mean_flip(*views, 2));
+  report.add("flip_ratio_mem_over_simple_blend", mem / mean_flip(*views, 4));
   for (const bool is_at_crossing : {false, true}) {
     const std::vector<ViewFlips> some = those_at(*views, is_at_crossing);
     report.note(fmt::format("{} views {}", some.size(), is_at_crossing ? "at crossings" : "in streets"));
@@ -93,7 +98,8 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
       make(**stage, {{"none", usual(ReflectionMethod::none)},
                      {"mem", shipped()},
                      {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
-                     {"rerendered_lod", usual(ReflectionMethod::rerendered_cube_map, true)}});
+                     {"rerendered_lod", usual(ReflectionMethod::rerendered_cube_map, true)},
+                     {"local", usual(ReflectionMethod::local_environment_maps)}});
   if (!methods) return methods.errors();
   const Result<std::vector<ReflectionCost>> costs =
       reflection_costs(**stage, *methods, *camera, width, height, is_quick ? 20 : 30);
@@ -105,6 +111,7 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
                             median((*costs)[m].frame_ms).value));
   report.add("cost_ratio_rerendered_over_mem_30", ratio(cost(2), cost(1)));
   report.add("cost_ratio_rerendered_over_mem_lod_30", ratio(cost(3), cost(1)));
+  report.add("local_cost_ratio_30", ratio(cost(2), cost(4)));
   report.add("frame_ratio_mem_over_none_30",
              ratio(median((*costs)[1].frame_ms), median((*costs)[0].frame_ms)));
   return Done{};
@@ -121,6 +128,9 @@ Result<Report> mem_bench(bool is_quick) {
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
   const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", stage::node_registry());
   if (!city) return city.errors();
+  measure_memory(shipped().resolution, report);
+  measure_rays(city->scene, report);
+  measure_placement(city->scene, report);
   if (Status status = measure_cost(city->scene, is_quick, report); !status) return status.errors();
   Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(stage::make_play(city->scene));
   if (!stage) return stage.errors();
