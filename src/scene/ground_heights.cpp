@@ -63,31 +63,15 @@ void GroundHeights::note_object(const Object& object) {
 }
 
 void GroundHeights::note_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-  const glm::vec3 normal = glm::cross(b - a, c - a);
-  if (!(std::abs(normal.z) > 0.7f * glm::length(normal)) || std::abs(normal.z) < 1e-9f) return;
-  const std::vector<std::vector<glm::vec3>> rings{{a, b, c}};
-  for (const glm::ivec2 cell : cells_inside(heights_m_, rings)) {
+  each_height(heights_m_, a, b, c, [this](glm::ivec2 cell, float height_m) {
     const float lane_m = lane_heights_m_.at(cell.x, cell.y);
-    const glm::vec2 away = heights_m_.centre_of(cell) - glm::vec2(a);
-    const float height_m = a.z - (normal.x * away.x + normal.y * away.y) / normal.z;
     float& known_m = heights_m_.at(cell.x, cell.y);
     if (std::abs(height_m - lane_m) < above_or_below_m && !(known_m >= height_m)) known_m = height_m;
-  }
+  });
 }
 
 float GroundHeights::at(glm::vec2 point, float fallback) const {
-  // Bilinear between the four nearest cells, as far as they are known.
-  const glm::vec2 place = (point - heights_m_.origin) / heights_m_.cell_m - 0.5f;
-  const glm::ivec2 cell(glm::floor(place));
-  const glm::vec2 share = place - glm::vec2(cell);
-  float sum = 0.0f, weights = 0.0f;
-  for (int i = 0; i < 4; ++i) {
-    const int x = cell.x + i % 2, y = cell.y + i / 2;
-    if (!heights_m_.contains(x, y) || std::isnan(heights_m_.at(x, y))) continue;
-    const float weight = (i % 2 ? share.x : 1.0f - share.x) * (i / 2 ? share.y : 1.0f - share.y);
-    sum += weight * heights_m_.at(x, y), weights += weight;
-  }
-  return weights > 1e-3f ? sum / weights : fallback;
+  return height_at(heights_m_, point).value_or(fallback);
 }
 
 }  // namespace parvis::scene

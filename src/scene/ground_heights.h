@@ -1,7 +1,7 @@
 // How high the ground lies along lanes.
 #pragma once
 
-#include "scene/ground_raster.h"
+#include "scene/height_raster.h"
 #include "scene/scene.h"
 
 namespace parvis::scene {
@@ -20,8 +20,8 @@ class GroundHeights {
   void note_object(const Object& object);
   void note_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
 
-  GroundRaster<float> lane_heights_m_;  ///< of the nearest lane; NaN beyond reach
-  GroundRaster<float> heights_m_;       ///< NaN where unknown
+  HeightRaster lane_heights_m_;  ///< of the nearest lane; NaN beyond reach
+  HeightRaster heights_m_;
 };
 
 }  // namespace parvis::scene

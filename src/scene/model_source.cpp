@@ -16,7 +16,7 @@ Result<Model> model_from_file(const std::filesystem::path& file, const ModelRead
   if (extension == ".json" || extension == ".jsonl")
     return read_city_model(file, warnings, reading.most_detail);
   if (extension == ".tif" || extension == ".tiff") return read_terrain(file, reading.cell_m, warnings);
-  if (extension == ".osm") return read_osm(file, warnings);
+  if (extension == ".osm") return read_osm(file, warnings, reading.ground);
   if (extension == ".gml" || extension == ".citygml" || extension == ".xml")
     return read_city_gml(file, warnings, reading.most_detail);
   return read_with_assimp(file, reading.up, warnings);

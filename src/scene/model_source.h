@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/result.h"
+#include "scene/ground_on_map.h"
 #include "scene/model.h"
 
 namespace parvis::scene {
@@ -17,6 +18,7 @@ struct ModelReading {
   UpAxis up = UpAxis::file;
   std::optional<double> most_detail = {};  ///< of city models: the level of detail; the highest there is
   std::optional<double> cell_m = {};       ///< of grids of heights that have no place on the earth
+  GroundOnMap ground = {};                 ///< on which a file without heights (OpenStreetMap) stands
 };
 
 /// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to

@@ -9,6 +9,7 @@
 #include "scene/placement.h"
 #include "scene/scene_builder.h"
 #include "scene/spelling.h"
+#include "scene/terrain_heights.h"
 
 namespace parvis::scene {
 namespace {
@@ -38,6 +39,12 @@ NodeSchema model_schema() {
             .unit = "m",
             .minimum = 0.001,
             .maximum = 10'000.0},
+           {.name = "ground",
+            .type = AttributeType::reference,
+            .help =
+                "of OpenStreetMap: the terrain, a model before it, on which buildings and roads stand, by "
+                "their coordinates; else they stand on a level ground",
+            .refers_to = {"model"}},
            {.name = "dynamic",
             .type = AttributeType::flag,
             .help = "it may move: stands in nothing that is computed once",
@@ -83,7 +90,35 @@ NodeSchema model_schema() {
 std::string reading_key(const Node& node) {
   const std::string level = node.gives("lod") ? fmt::format("&lod={}", node.number("lod")) : "";
   const std::string cell = node.gives("cell") ? fmt::format("&cell={}", node.number("cell")) : "";
-  return node.file("file").string() + "?up=" + node.text("up") + level + cell;
+  const std::string ground = node.gives("ground") ? "&ground=" + node.text("ground") : "";
+  return node.file("file").string() + "?up=" + node.text("up") + level + cell + ground;
+}
+
+/// The ground of ground=, which tells where a place lies beyond it. Empty, with the errors in `builder`,
+/// where there is none.
+GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& places_beyond) {
+  const std::string name = node.text("ground");
+  if (node.file("file").extension() != ".osm") {
+    builder.fail(error_at(node.where_of("ground"),
+                          "ground= is for OpenStreetMap (.osm); this file has heights of its own"));
+    return {};
+  }
+  const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
+  if (object == builder.scene.objects.end()) {
+    builder.fail(error_at(node.where_of("ground"), "no model called \"{}\" stands before this node", name));
+    return {};
+  }
+  const auto heights = std::make_shared<const TerrainHeights>(*object->model);
+  const std::optional<double> lowest_m = heights->lowest();
+  if (!lowest_m) {
+    builder.fail(error_at(node.where_of("ground"), "the model \"{}\" has no terrain to stand on", name));
+    return {};
+  }
+  return [heights, lowest = *lowest_m, &places_beyond](glm::dvec2 on_map) {
+    const std::optional<double> height_m = heights->at(on_map);
+    if (!height_m) ++places_beyond;
+    return height_m.value_or(lowest);
+  };
 }
 
 /// Georeferenced models stand as their coordinates say: the first one's origin is the scene's, and the others
@@ -109,8 +144,18 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
   if (node.gives("cell")) reading.cell_m = node.number("cell");
   return builder.shared_model(reading_key(node), [&]() -> std::shared_ptr<const Model> {
     Errors warnings;
+    std::size_t places_beyond = 0;
+    if (node.gives("ground")) {
+      reading.ground = ground_below(node, builder, places_beyond);
+      if (!reading.ground) return nullptr;
+    }
     Result<Model> model = model_from_file(file, reading, warnings);
     for (const Error& warning : warnings) builder.warn(warning);
+    if (places_beyond > 0)
+      builder.warn(error_at(node.where_of("ground"),
+                            "{} corners and road points lie beyond \"{}\" or in its holes; they stand at its "
+                            "lowest height",
+                            places_beyond, node.text("ground")));
     if (model) return std::make_shared<const Model>(std::move(*model));
     builder.fail(model.errors(), node.where_of("file"));
     return nullptr;

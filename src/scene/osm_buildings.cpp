@@ -19,6 +19,7 @@ constexpr double roof_slope = 0.6;  // of gables and hips without a height: 31 d
 struct Footprint {
   std::vector<Ring> rings;
   const OsmTags* tags;
+  double ground_m = 0.0;  ///< on which it stands
 };
 
 double area_m2(const Ring& ring) {
@@ -64,7 +65,7 @@ double metres_or(const OsmTags& tags, const char* height, const char* levels, do
 class Building {
  public:
   Building(const Footprint& footprint, const CityObject& object, CityAssembly& city)
-      : rings_(footprint.rings), object_(object), city_(city) {
+      : rings_(footprint.rings), ground_m_(footprint.ground_m), object_(object), city_(city) {
     const OsmTags& tags = *footprint.tags;
     shape_ = tag(tags, "roof:shape");
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
@@ -138,6 +139,8 @@ class Building {
   }
 
   void add(const char* semantics, std::vector<std::vector<dvec3>> rings) {
+    for (std::vector<dvec3>& ring : rings)
+      for (dvec3& point : ring) point.z += ground_m_;
     CitySurface surface;
     surface.rings = std::move(rings);
     surface.semantics = semantics;
@@ -146,10 +149,11 @@ class Building {
   }
 
   const std::vector<Ring>& rings_;
+  double ground_m_;
   const CityObject& object_;
   CityAssembly& city_;
   std::string shape_;
-  double base_m_, eaves_m_, top_m_;
+  double base_m_, eaves_m_, top_m_;  ///< above the ground
 };
 
 /// Finds the footprints of a file.
@@ -259,16 +263,29 @@ class Footprints {
   CityAssembly& city_;
 };
 
+double lowest_m(const Ring& ring, const GroundOnMap& ground) {
+  if (!ground) return 0.0;
+  double least_m = ground(ring.front());
+  for (const dvec2& point : ring) least_m = std::min(least_m, ground(point));
+  return least_m;
+}
+
 }  // namespace
 
-std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city) {
+std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+                              CityAssembly& city) {
   Footprints footprints(osm, place, city);
-  const std::vector<Footprint> parts = footprints.with("building:part");
-  std::vector<Footprint> drawn = parts;
+  std::vector<Footprint> drawn = footprints.with("building:part");
+  const std::size_t parts = drawn.size();
+  for (Footprint& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
   for (Footprint& outline : footprints.with("building")) {
-    const bool has_parts = std::any_of(parts.begin(), parts.end(), [&](const Footprint& part) {
-      return part.tags != outline.tags && holds(outline.rings[0], middle(part.rings[0]));
-    });
+    outline.ground_m = lowest_m(outline.rings[0], ground);
+    bool has_parts = false;
+    for (std::size_t i = 0; i < parts; ++i) {
+      if (drawn[i].tags == outline.tags || !holds(outline.rings[0], middle(drawn[i].rings[0]))) continue;
+      has_parts = true;
+      drawn[i].ground_m = outline.ground_m;  // the parts of a building stand level with each other
+    }
     if (!has_parts) drawn.push_back(std::move(outline));
   }
   for (const Footprint& footprint : drawn) Building(footprint, {"building", "Building", ""}, city).draw();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/city_assembly.h"
+#include "scene/ground_on_map.h"
 #include "scene/osm_file.h"
 
 namespace parvis::scene {
@@ -13,10 +14,12 @@ namespace parvis::scene {
 /// Where a node stands on the map, metres; nothing where it is not in the file.
 using OsmPlaces = std::function<std::optional<glm::dvec2>(OsmId)>;
 
-/// Adds every building of ways and multipolygon relations to `city`, standing on z = 0. Outlines that hold
+/// Adds every building of ways and multipolygon relations to `city`, each standing on the lowest ground below
+/// its outline. Outlines that hold
 /// building:part areas give way to these. Heights come from height, else building:levels; roofs that are
 /// pyramidal, or gabled or hipped over four corners, get their shape, others are flat. Members and nodes that
 /// are missing are told by their ids, and the rest is drawn. Returns how many buildings there are.
-std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city);
+std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+                              CityAssembly& city);
 
 }  // namespace parvis::scene

@@ -25,7 +25,7 @@ void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, Ci
 
 }  // namespace
 
-Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings) {
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground) {
   const FileLocation where{file.string(), 0, 0};
   const Result<OsmFile> osm = read_osm_file(file, warnings);
   if (!osm) return osm.errors();
@@ -45,13 +45,15 @@ Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings) {
     return place;
   };
   CityAssembly city(file, origin, warnings);
-  const std::size_t buildings = add_osm_buildings(*osm, on_map, city);
+  const std::size_t buildings = add_osm_buildings(*osm, on_map, ground, city);
   const auto about_origin = [&](OsmId node) -> std::optional<glm::dvec2> {
     const std::optional<glm::dvec2> place = on_map(node);
     return place ? std::optional(*place - glm::dvec2(origin)) : std::nullopt;
   };
-  std::vector<Road> roads = osm_roads(*osm, about_origin, file, city);
-  add_ground(*osm, utm, origin, city);
+  GroundOnMap ground_about_origin;
+  if (ground) ground_about_origin = [&](glm::dvec2 point) { return ground(point + glm::dvec2(origin)); };
+  std::vector<Road> roads = osm_roads(*osm, about_origin, ground_about_origin, file, city);
+  if (!ground) add_ground(*osm, utm, origin, city);
   Result<Model> model = city.finish(buildings);
   if (model) model->roads = std::move(roads);
   return model;

@@ -100,6 +100,30 @@ TEST(Osm, RoofsHaveTheirShapes) {
   }
 }
 
+TEST(Osm, BuildingsAndRoadsStandOnTheGroundThatIsGiven) {
+  const TestFolder folder;
+  const auto file = folder.write(
+      "hill.osm", osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9"}}) +
+                      way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "5"}}) +
+                      way(102, "11 12 13", {{"highway", "residential"}}) +
+                      way(103, "5 6 7 8 5", {{"building", "yes"}, {"height", "4"}, {"min_height", "1"}})));
+  const double middle_m = Utm({4.49, 52.16})({4.4905, 52.16}).x;
+  const auto ground = [&](glm::dvec2 on_map) {
+    return 100.0 + 0.1 * (on_map.x - middle_m);
+  };  // rises eastward
+  Errors warnings;
+  const Result<Model> model = read_osm(file, warnings, ground);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_EQ(bounds_of(*model, "LandUse").min.x, Bounds().min.x) << "no level ground of its own";
+  const Bounds walls = bounds_of(*model, "WallSurface");
+  const double west_m = 100.0 + 0.1 * (double(walls.min.x) + model->origin.x - middle_m);
+  EXPECT_NEAR(walls.min.z, west_m, 0.8) << "on the lowest ground below it";
+  ASSERT_EQ(model->roads.size(), 1u);
+  EXPECT_GT(model->roads[0].path.size(), 10u) << "with points between its own";
+  for (const glm::vec3& point : model->roads[0].path)
+    EXPECT_NEAR(point.z, ground(glm::dvec2(point) + glm::dvec2(model->origin)), 1e-3);
+}
+
 TEST(Osm, RelationsHaveCourtyards) {
   const Read block = read(osm(way(100, "1 2 3", {}) + way(101, "1 4 3", {}) + way(102, "5 6 7 8 5", {}) +
                               R"(<relation id="200"><member type="way" ref="100" role="outer"/>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -12,7 +13,8 @@ namespace parvis::scene {
 namespace {
 
 constexpr float m_s_per_km_h = 1.0f / 3.6f;
-constexpr float layer_m = 5.0f;  // a bridge above what it crosses
+constexpr float layer_m = 5.0f;         // a bridge above what it crosses
+constexpr float ground_step_m = 10.0f;  // between points of a road on uneven ground
 
 struct Kind {
   const char* name;
@@ -60,8 +62,9 @@ int layer_of(const OsmWay& way) {
 
 class Roads {
  public:
-  Roads(const OsmFile& osm, const OsmPlaces& place, const std::filesystem::path& file, CityAssembly& city)
-      : osm_(osm), place_(place), file_(file), city_(city) {
+  Roads(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+        const std::filesystem::path& file, CityAssembly& city)
+      : osm_(osm), place_(place), ground_(ground), file_(file), city_(city) {
     for (const OsmWay& way : osm.ways) {
       if (!kind_of(way)) continue;
       for (const OsmId node : way.nodes) {
@@ -90,6 +93,7 @@ class Roads {
       else
         city_.warn(fmt::format("{}: its node {} is not in the file; it is drawn without", road.name, node));
     }
+    if (ground_) road.path = laid_on_ground(road.path);
     const std::string& one_way = tag(way.tags, "oneway");
     if (one_way == "-1") std::reverse(road.path.begin(), road.path.end());
     road.is_one_way = one_way == "yes" || one_way == "1" || one_way == "true" || one_way == "-1" ||
@@ -105,8 +109,22 @@ class Roads {
     return road;
   }
 
+  /// With points between its own, for the ground rises and falls between them.
+  std::vector<glm::vec3> laid_on_ground(const std::vector<glm::vec3>& path) const {
+    std::vector<glm::vec3> laid;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const glm::vec3 next = path[std::min(i + 1, path.size() - 1)];
+      const int steps = std::max(1, int(std::ceil(glm::distance(path[i], next) / ground_step_m)));
+      for (int step = 0; step < (i + 1 < path.size() ? steps : 1); ++step)
+        laid.push_back(glm::mix(path[i], next, float(step) / float(steps)));
+    }
+    for (glm::vec3& point : laid) point.z += float(ground_(glm::dvec2(point)));
+    return laid;
+  }
+
   const OsmFile& osm_;
   const OsmPlaces& place_;
+  const GroundOnMap& ground_;
   const std::filesystem::path& file_;
   CityAssembly& city_;
   std::unordered_map<OsmId, int> layer_at_;  ///< the lowest of the roads that meet there
@@ -129,9 +147,9 @@ void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
 
 }  // namespace
 
-std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const std::filesystem::path& file,
-                            CityAssembly& city) {
-  std::vector<Road> roads = Roads(osm, place, file, city).read();
+std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+                            const std::filesystem::path& file, CityAssembly& city) {
+  std::vector<Road> roads = Roads(osm, place, ground, file, city).read();
   leave_out_unbuildable(roads, city);
   return roads;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/test_folder.h"
+#include "scene/terrain_heights.h"
 #include "scene/utm.h"
 
 namespace parvis::scene {
@@ -115,6 +116,24 @@ TEST(Terrain, OtherFilesAndEmptyGridsAreRefused) {
   write_grid(folder.path() / "holes.tif", nullptr, 0,
              std::vector<float>(std::size_t(width * height), float(nothing)));
   EXPECT_NE(told(folder.path() / "holes.tif").find("all holes"), std::string::npos);
+}
+
+TEST(Terrain, TellsItsHeightAtPlacesOnTheMap) {
+  const TestFolder folder;
+  const double transform[]{600'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
+  write_grid(folder.path() / "slope.tif", transform, 32631);
+  Errors warnings;
+  const Result<Model> model = read_terrain(folder.path() / "slope.tif", std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  const TerrainHeights heights(*model);
+  EXPECT_NEAR(heights.lowest().value_or(0.0), 10.0, 0.2) << "half a cell of the raster";
+  for (const double east_m : {5.0, 33.3, 150.0}) {
+    const std::optional<double> height_m = heights.at({600'000.0 + east_m, 5'699'950.0});
+    ASSERT_TRUE(height_m) << east_m;
+    EXPECT_NEAR(*height_m, 10.0 + 0.25 * (east_m - 1.0), 1e-3);  // the first sample lies 1 m in
+  }
+  EXPECT_FALSE(heights.at({599'990.0, 5'699'950.0}));
+  EXPECT_FALSE(TerrainHeights(Model()).lowest());
 }
 
 }  // namespace
