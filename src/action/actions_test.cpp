@@ -321,7 +321,7 @@ TEST_F(ActionsTest, BadEventsAreToldAtLoadWithTheirPlaces) {
         "7:14: onPress: \"show oks\": trees holds nothing to be seen that is called \"oks\"; did you mean "
         "\"oaks\"?",
         "8:14: onPress, its source=\"buton2\": expected one of", "did you mean \"button2\"?",
-        "9:14: onPress: \"trees\": message \"position\": position=\"1 2\": expected three numbers",
+        "9:14: onPress: \"trees\": position=\"1 2\": expected three numbers",
         "10:14: onPress: the delay \"soon\" is no number", "11:14: onTime, its source=\"-1\"",
         "11:51: onEnter=\"visitr\": no node of the scene has this name; did you mean \"visitor\"?",
         "12:14: onPress=\"a, trees\": expected \"SOURCE, TARGET, MESSAGE, DELAY\""})

@@ -37,8 +37,9 @@ void GroundHeights::note_lanes(const RoadGraph& roads, float reach_m) {
   GroundRaster<float> distances(lane_heights_m_, reach_m);
   for (const Lane& lane : roads.lanes) {
     const MeasuredPath path(lane.points);
-    for (float along = 0.0f; along < path.length() + 1.0f; along += 1.0f) {
-      const glm::vec3 p = path.at(std::min(along, path.length()));
+    const int steps = int(std::ceil(path.length()));  // of a metre at most
+    for (int step = 0; step <= steps; ++step) {
+      const glm::vec3 p = path.at(std::min(float(step), path.length()));
       const glm::ivec2 low = glm::max(distances.cell_at(glm::vec2(p) - reach_m), glm::ivec2(0));
       const glm::ivec2 high = glm::min(distances.cell_at(glm::vec2(p) + reach_m), cells - 1);
       for (int y = low.y; y <= high.y; ++y)

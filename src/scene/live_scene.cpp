@@ -56,6 +56,24 @@ std::vector<int> LiveScene::objects_of(const Node& node) const {
   return all;
 }
 
+const Node* LiveScene::maker_of(const Scene& scene, int object) const {
+  for (const auto& [node, made] : objects_)
+    if (std::find(made.begin(), made.end(), object) != made.end()) return node;
+  const std::string& name = scene.objects[std::size_t(object)].name;
+  const Node* maker = nullptr;
+  for_each_inside(script_.nodes, [&](const Node& node) {
+    if (!node.schema->names_made) return;
+    const std::vector<std::string> names = node.schema->names_made(node);
+    if (std::find(names.begin(), names.end(), name) != names.end()) maker = &node;
+  });
+  return maker;
+}
+
+const Node* LiveScene::parent_of(const Node& node) const {
+  const auto parent = parents_.find(&node);
+  return parent == parents_.end() ? nullptr : parent->second;
+}
+
 const NodeFrame& LiveScene::frame_of(const Node& node) const {
   static const NodeFrame world;
   const auto found = script_.frames.find(&node);
@@ -175,9 +193,9 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
 /// what stays as it was when the scene was loaded.
 const Node* LiveScene::builder_of(const Node& node) const {
   if (is_built(node)) return &node;
-  const auto parent = parents_.find(&node);
+  const Node* parent = parent_of(node);
   const bool changes_model = script_.registry->find(node.schema->type)->change != nullptr;
-  return changes_model && parent != parents_.end() && is_built(*parent->second) ? parent->second : nullptr;
+  return changes_model && parent && is_built(*parent) ? parent : nullptr;
 }
 
 Errors LiveScene::refresh(Scene& scene) {

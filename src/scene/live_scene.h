@@ -26,6 +26,11 @@ class LiveScene {
   const Node* find(const std::string& name) const;
   /// The objects of the scene that the node and those inside it have made, hidden ones included.
   std::vector<int> objects_of(const Node& node) const;
+  /// The node that made an object of the scene, or that has vehicles made of this name; null where there is
+  /// none.
+  const Node* maker_of(const Scene& scene, int object) const;
+  /// The node that it stands in; null at the top level.
+  const Node* parent_of(const Node& node) const;
   const NodeFrame& frame_of(const Node& node) const;
   /// False for a node that is part of another's: a material, the key of a path, a kind of vehicle. It stays
   /// as it was when the scene was loaded; but scenarios change the materials of models.

@@ -210,6 +210,16 @@ TEST_F(LiveSceneTest, AScenarioPaintsAModelAnew) {
   EXPECT_EQ(scene_.objects.size(), objects) << "scenarios are prepared: choosing one adds nothing";
 }
 
+TEST_F(LiveSceneTest, AKindOfVehicleStaysAsItIs) {
+  load("road(path=\"0 0, 100 0\")\ntraffic(vehicles=0) { model(file=\"small.glb\") }\n");
+  const Node& kind = live_.find("%traffic")->children[0];
+  live_.set(kind, "scale", 2.0, "2");
+  const Errors errors = live_.refresh(scene_);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_TRUE(holds(errors[0].message, "part of the node around it"));
+  EXPECT_EQ(kind.number("scale"), 1.0);
+}
+
 TEST(Messages, TheShadowMapOfTheThesisUnderstandsBothSpellings) {
   NodeSchema schema{
       .type = "xpShadowMap",

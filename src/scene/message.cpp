@@ -46,13 +46,16 @@ Result<Message> parse_message(const NodeSchema& schema, const std::string& text,
   for (const AttributeSchema& argument : found->arguments) {
     const bool is_last = &argument == &found->arguments.back();
     const std::string words = take_words(rest, is_last ? text.size() : word_count(argument));
+    const bool sets_attribute = argument.name == found->name;  // its name says what the message is
     if (words.empty()) {
       if (!argument.is_required) break;
-      return error_at(where, "message \"{}\" needs {}: {}", found->name, argument.name,
-                      expectation(argument));
+      return error_at(where, "message \"{}\" needs {}{}", found->name,
+                      sets_attribute ? "" : argument.name + ": ", expectation(argument));
     }
     Result<AttributeValue> value = parse_value(argument, words, Roots(""), where);
-    if (!value) return error_at(where, "message \"{}\": {}", found->name, value.errors().front().message);
+    if (!value)
+      return error_at(where, "{}{}", sets_attribute ? "" : fmt::format("message \"{}\": ", found->name),
+                      value.errors().front().message);
     message.arguments.push_back(*std::move(value));
   }
   if (const std::string more = take_words(rest, text.size()); !more.empty())

@@ -11,6 +11,7 @@ namespace parvis::viewer {
 namespace {
 
 constexpr float radians_a_pixel = 0.0025f;
+constexpr double farthest_click = 4.0;  // from press to release, in the window's units: beyond, it is a drag
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
@@ -88,7 +89,20 @@ void Input::press(int key) {
 void Input::on_button(int button, int action) {
   if (ImGui::GetIO().WantCaptureMouse && action == GLFW_PRESS) return;
   if (tell_scene(mouse_button_name(button), action)) return;
-  if (button == GLFW_MOUSE_BUTTON_LEFT) is_dragging_ = action == GLFW_PRESS;
+  if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  const bool was_dragging = std::exchange(is_dragging_, action == GLFW_PRESS);
+  if (is_dragging_)
+    pressed_at_ = cursor_;
+  else if (was_dragging && panel_.is_open && glm::distance(cursor_, pressed_at_) < farthest_click)
+    choose_what_is_below_the_cursor();
+}
+
+void Input::choose_what_is_below_the_cursor() {
+  glm::ivec2 points(0), pixels(0);
+  glfwGetWindowSize(window_, &points.x, &points.y);
+  glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
+  const glm::ivec2 pixel(glm::floor(cursor_ * glm::dvec2(pixels) / glm::dvec2(glm::max(points, 1))));
+  if (const scene::Node* node = visit_.node_at(pixel)) panel_.choose(visit_.actions().live(), *node);
 }
 
 void Input::on_cursor(double x, double y) {

@@ -30,6 +30,7 @@ class Input {
  private:
   bool tell_scene(const std::string& key, int action);
   void press(int key);
+  void choose_what_is_below_the_cursor();
   void poll_controller();
 
   GLFWwindow* window_;
@@ -37,7 +38,7 @@ class Input {
   Panel& panel_;
   Controls controls_;
   bool is_dragging_ = false;
-  glm::dvec2 cursor_{0.0};
+  glm::dvec2 cursor_{0.0}, pressed_at_{0.0};  ///< in the window's units
   std::array<unsigned char, 15> controller_buttons_{};
 };
 

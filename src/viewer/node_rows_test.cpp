@@ -129,16 +129,6 @@ TEST_F(NodeRowsTest, EditsAreMessagesThatTheNodeTakes) {
   EXPECT_EQ(row("trees", "visible").numbers[0], 1.0);
 }
 
-TEST_F(NodeRowsTest, WhatIsPartOfAnotherNodeStaysAsItIs) {
-  const std::size_t objects = play_->scene.objects.size();
-  live().set(node("oak").children[0], "preset", std::string("glass"), "glass");
-  const Errors errors = live().refresh(play_->scene);
-  ASSERT_EQ(errors.size(), 1u);
-  EXPECT_NE(errors[0].message.find("part of the node around it"), std::string::npos);
-  EXPECT_EQ(node("oak").children[0].text("preset"), "paint");
-  EXPECT_EQ(play_->scene.objects.size(), objects);
-}
-
 /// The panel can edit whatever is live in any node type there is.
 TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
   for (const scene::NodeType& type : stage::node_registry().types())

@@ -1,6 +1,8 @@
 #include "viewer/panel.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "gl/context.h"
 #include "viewer/keys.h"
@@ -10,6 +12,7 @@ namespace {
 
 constexpr float panel_width = 350.0f;  // at scale 1
 constexpr float largest_share = 0.5f;  // of a narrow window
+constexpr const char* page_of_nodes = "Scene";
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
@@ -59,8 +62,11 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
   const float footer = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("page", {0.0f, -footer});
   if (ImGui::BeginTabBar("pages")) {
+    const bool turns_to_nodes = std::exchange(turns_to_nodes_, false);
     const auto page = [&](const char* name, const auto& draw_page) {
-      const bool is_shown = ImGui::BeginTabItem(name);
+      const bool turns_here = turns_to_nodes && std::string_view(name) == page_of_nodes;
+      const bool is_shown =
+          ImGui::BeginTabItem(name, nullptr, turns_here ? ImGuiTabItemFlags_SetSelected : 0);
       rows_.note_place(name);
       if (!is_shown) return;
       draw_page();
@@ -72,7 +78,7 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
       draw_light(visit);
       draw_traffic(visit);
     });
-    page("Scene", [&] { nodes_.draw(visit, rows_); });
+    page(page_of_nodes, [&] { nodes_.draw(visit, rows_); });
     page("Statistics", [&] { draw_statistics(visit, statistics); });
     ImGui::EndTabBar();
   }
@@ -84,6 +90,11 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
   if (pressed == 1u) shows_keys = !shows_keys;
   if (pressed == 2u) is_open = false;
   ImGui::End();
+}
+
+void Panel::choose(const scene::LiveScene& live, const scene::Node& node) {
+  nodes_.choose(live, node);
+  turns_to_nodes_ = true;
 }
 
 void Panel::draw_visit(Visit& visit) {

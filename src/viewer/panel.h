@@ -25,6 +25,10 @@ class Panel {
   /// and what the visitor is to be told.
   void draw(Visit& visit, const FrameStatistics& statistics);
 
+  /// Turns to the page of the scene's nodes, and to this one.
+  void choose(const scene::LiveScene& live, const scene::Node& node);
+  const scene::Node* chosen() const { return nodes_.chosen(); }
+
   /// Of the last frame.
   const Places& places() const { return rows_.places(); }
 
@@ -43,6 +47,7 @@ class Panel {
   bool draws_on_processor_;
   PanelRows rows_;
   PanelNodes nodes_;
+  bool turns_to_nodes_ = false;  ///< in the next frame
 };
 
 }  // namespace parvis::viewer

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace parvis::viewer {
 namespace {
@@ -51,6 +52,14 @@ void draw_fixed(PanelRows& rows, const AttributeRow& row) {
 
 }  // namespace
 
+void PanelNodes::choose(const scene::LiveScene& live, const scene::Node& node) {
+  filter_.clear();
+  for (const scene::Node* around = live.parent_of(node); around; around = live.parent_of(*around))
+    open_.insert(around);
+  chosen_ = &node, refusal_ = {};
+  scrolls_to_chosen_ = true;
+}
+
 void PanelNodes::draw(Visit& visit, PanelRows& rows) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::InputTextWithHint("##find", "find by name or kind", &filter_);
@@ -73,6 +82,12 @@ void PanelNodes::draw_tree(Visit& visit, PanelRows& rows) {
                                 : "No node has such a name or kind.");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 1.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 2.0f});
+  if (std::exchange(scrolls_to_chosen_, false)) {
+    const auto row =
+        std::find_if(nodes.begin(), nodes.end(), [&](const NodeRow& each) { return each.node == chosen_; });
+    const float row_height = ImGui::GetFrameHeightWithSpacing(), shown = ImGui::GetWindowHeight();
+    ImGui::SetScrollY(row_height * float(row - nodes.begin()) - 0.5f * shown);
+  }
   ImGuiListClipper clipper;
   clipper.Begin(int(nodes.size()));
   while (clipper.Step())

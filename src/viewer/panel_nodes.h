@@ -13,6 +13,9 @@ class PanelNodes {
  public:
   /// Draws into ImGui's current window, to its end.
   void draw(Visit& visit, PanelRows& rows);
+  /// Shows a node's attributes, and opens the tree down to it.
+  void choose(const scene::LiveScene& live, const scene::Node& node);
+  const scene::Node* chosen() const { return chosen_; }
 
  private:
   /// What an attribute did not take.
@@ -30,6 +33,7 @@ class PanelNodes {
   std::string filter_;
   std::set<const scene::Node*> open_;
   const scene::Node* chosen_ = nullptr;
+  bool scrolls_to_chosen_ = false;  ///< in the next frame
   Refusal refusal_;
 };
 

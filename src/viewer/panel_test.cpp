@@ -281,6 +281,37 @@ TEST_F(PanelTest, TheKeysAreShownOnDemand) {
   EXPECT_FALSE(panel_->shows_keys);
 }
 
+TEST_F(PanelTest, WhatIsClickedInThePictureIsChosenInTheTree) {
+  visit_->pause_traffic(true);
+  stage_->draw(visit_->camera(), 320, 240);
+  const render::ObjectPicture objects = stage_->renderer().pick(visit_->camera(), 320, 240, false);
+  const auto node_of = [&](const std::string& object) -> const scene::Node* {
+    for (int y = 0; y < objects.height; ++y)
+      for (int x = 0; x < objects.width; ++x)
+        if (const std::uint32_t seen = *objects.at(x, y);
+            seen != 0 && visit_->scene().objects[seen - 1].name == object)
+          return visit_->node_at({x, y});
+    ADD_FAILURE() << object << " is not in the picture";
+    return nullptr;
+  };
+  EXPECT_EQ(node_of("corner"), &node("corner"));
+  EXPECT_EQ(node_of("oak"), &node("oak"));
+  const auto& all = visit_->scene().objects;
+  const auto vehicle =
+      std::find_if(all.begin(), all.end(), [](const auto& each) { return each.name == "vehicle 1"; });
+  EXPECT_EQ(visit_->actions().live().maker_of(visit_->scene(), int(vehicle - all.begin())),
+            &node("%traffic"));
+  EXPECT_EQ(visit_->node_at({160, 0}), nullptr) << "the sky";
+  EXPECT_EQ(visit_->node_at({-1, 999}), nullptr);
+
+  panel_->choose(visit_->actions().live(), node("oak"));
+  for (int i = 0; i < 3; ++i) frame();
+  EXPECT_EQ(panel_->chosen(), &node("oak"));
+  EXPECT_TRUE(panel_->places().contains("node oak")) << "its group is open";
+  write("position", "-2", 0.1f);
+  EXPECT_EQ(node("oak").vec3("position"), glm::vec3(-2, 0, 0)) << told();
+}
+
 TEST_F(PanelTest, PicturesAreTakenByAButton) {
   stage_->draw(visit_->camera(), 64, 48);
   click("Picture  P");

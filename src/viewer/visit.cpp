@@ -96,6 +96,15 @@ void Visit::show_next_scenario() {
   show_scenario(next < scenarios.size() ? scenarios[next]->text("name") : "");
 }
 
+const scene::Node* Visit::node_at(glm::ivec2 pixel) {
+  render::Renderer& renderer = stage_.renderer();
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= renderer.width() || pixel.y >= renderer.height())
+    return nullptr;
+  const render::ObjectPicture objects = renderer.pick(camera(), renderer.width(), renderer.height(), false);
+  const std::uint32_t object_and_one = *objects.at(pixel.x, pixel.y);
+  return object_and_one == 0 ? nullptr : actions().live().maker_of(scene(), int(object_and_one) - 1);
+}
+
 Status Visit::tell(const scene::Node& node, const std::string& message) {
   return actions().send(node, message);
 }

@@ -51,6 +51,9 @@ class Visit {
   /// Through the scene's scenarios in their order, then the base scene.
   void show_next_scenario();
 
+  /// The node that made what stands at a pixel of the picture drawn last; null where it is the sky, or what
+  /// no node made.
+  const scene::Node* node_at(glm::ivec2 pixel);
   /// Tells a node; errors say what it expects, and nothing has changed then. What cannot be built is a
   /// notice, a step later.
   Status tell(const scene::Node& node, const std::string& message);
