@@ -101,7 +101,8 @@ void LiveScene::set(const Node& node, const std::string& attribute, AttributeVal
 bool LiveScene::receive(const Node& node, const Message& message) {
   const std::string& name = message.schema->name;
   const auto show = [this](const Node& target, bool is_visible) { set_visible(change(target), is_visible); };
-  if (name == "show" || name == "hide" || name == "toggle") {
+  const bool can_hide = node.schema->find("visible") != nullptr;
+  if (can_hide && (name == "show" || name == "hide" || name == "toggle")) {
     const Node* target =
         message.arguments.empty() ? &node : find(std::get<std::string>(message.arguments.front()));
     show(*target, name == "toggle" ? !target->flag("visible") : name == "show");

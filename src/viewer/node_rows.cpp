@@ -41,7 +41,7 @@ struct Rows {
       row.node = &node, row.depth = depth, row.has_children = !node.children.empty();
       row.kind = node.schema->type, row.name = name_of(node);
       if (!node.attributes.empty()) row.says = shortened(node.attributes.front().text);
-      row.can_hide = node.schema->find_message("show") != nullptr;
+      row.can_hide = node.schema->find("visible") != nullptr;
       row.is_visible = !row.can_hide || node.flag("visible");
       row.is_in_sight = is_in_sight && row.is_visible;
       row.is_open = row.has_children && (!filter.empty() || open.count(&node) != 0);
