@@ -14,6 +14,7 @@
 #include "city/sky_picture.h"
 #include "city/street_furniture.h"
 #include "city/tree.h"
+#include "city/walker.h"
 #include "scene/gltf_writer.h"
 
 namespace parvis::city {
@@ -45,6 +46,15 @@ std::vector<Job> writing_jobs(std::uint64_t seed) {
       return write_gltf(folder / (car.name + ".glb"), car);
     });
   }
+  std::vector<std::string> walker_files;
+  for (scene::Model& walker : city_walkers()) {
+    walker_files.push_back(walker.name + ".glb");
+    jobs.push_back([walker = std::move(walker)](const fs::path& folder) {
+      return write_gltf(folder / (walker.name + ".glb"), walker);
+    });
+  }
+  jobs.push_back(
+      [=](const fs::path& folder) { return write_file(folder / "people.xp", people_script(walker_files)); });
   jobs.push_back([=](const fs::path& folder) {
     return write_file(folder / "paper.xp", paper_script(vehicle_files, seed));
   });

@@ -11,6 +11,10 @@ inline constexpr float sun_azimuth_deg = 132.0f, sun_elevation_deg = 46.0f;
 /// Unit vector to the sun of the script.
 glm::vec3 to_sun();
 
+/// The same city with people who walk along its pavements and across the crossing, where a car's side is
+/// seen.
+std::string people_script(std::span<const std::string> walker_files);
+
 /// `vehicle_files` are the models of the traffic.
 std::string paper_script(std::span<const std::string> vehicle_files, std::uint64_t seed);
 

@@ -46,9 +46,10 @@ LocalEnvironmentMaps::LocalEnvironmentMaps(const scene::Scene& scene, HeightPyra
       heights_(std::move(heights)),
       maps_(std::move(maps)),
       choice_(maps_.places(), heights_),
-      picture_(std::move(picture)) {}
+      picture_(std::move(picture)),
+      budget_(double(settings_.budget_ms)) {}
 
-LocalMapLevel LocalEnvironmentMaps::level_of(const render::Reflector& reflector, float radius_m) const {
+LocalMapLevel LocalEnvironmentMaps::best_level_of(const render::Reflector& reflector, float radius_m) const {
   if (!settings_.uses_level_of_detail) return full_level(settings_.resolution);
   const float moved_m =
       glm::distance(used_[std::size_t(reflector.object)].centre.value_or(reflector.centre), reflector.centre);
@@ -56,11 +57,34 @@ LocalMapLevel LocalEnvironmentMaps::level_of(const render::Reflector& reflector,
   return level_for(reflector.size_px, speed_px, settings_.resolution);
 }
 
+/// The best for each by its size and speed, or what of it the budget allows.
+void LocalEnvironmentMaps::choose_levels(const render::Renderer& renderer,
+                                         const std::vector<render::Reflector>& reflectors) {
+  ladders_.clear();
+  wishes_.clear();
+  for (const render::Reflector& reflector : reflectors) {
+    Used& used = used_[std::size_t(reflector.object)];
+    used.level =
+        best_level_of(reflector, renderer.gpu().object_bounds()[std::size_t(reflector.object)].radius());
+    ladders_.push_back(ladder_below(used.level));
+  }
+  if (settings_.budget_ms <= 0.0f) return;
+  for (std::size_t i = 0; i < reflectors.size(); ++i)
+    wishes_.push_back({reflectors[i].size_px, std::span(ladders_[i].qualities).first(ladders_[i].rungs),
+                       used_[std::size_t(reflectors[i].object)].rung});
+  budget_.choose(wishes_);
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
+    Used& used = used_[std::size_t(reflectors[i].object)];
+    used.rung = wishes_[i].level;
+    used.level = ladders_[i].levels[std::size_t(used.rung)];
+  }
+}
+
 /// One that is there already, one that is to be drawn, or none.
 void LocalEnvironmentMaps::choose_map(const render::Renderer& renderer, const render::Reflector& reflector) {
   Used& used = used_[std::size_t(reflector.object)];
   const float radius_m = renderer.gpu().object_bounds()[std::size_t(reflector.object)].radius();
-  const LocalMapLevel level = level_of(reflector, radius_m);
+  const LocalMapLevel level = used.level;
   used.pair = pair_about(reflector.centre, maps_.places(), choice_);
   used.centre = reflector.centre;
   used.place.reset();
@@ -116,6 +140,7 @@ void LocalEnvironmentMaps::update_maps(render::Renderer& renderer,
   tasks_.clear();
   const bool are_new = picture_.reserve(int(reflectors.size()));
   slots_.begin_frame(picture_.slots(), are_new);
+  choose_levels(renderer, reflectors);
   for (const render::Reflector& reflector : reflectors) choose_map(renderer, reflector);
 
   make_meshes();

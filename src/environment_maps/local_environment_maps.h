@@ -25,6 +25,7 @@ class LocalEnvironmentMaps final : public render::Reflections {
 
   std::string fragment_shader() const override { return "environment_maps/local_environment_maps.frag"; }
   void bind(const gl::Program& program, int object) override;
+  void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
 
   const ReferenceMaps& maps() const { return maps_; }
   const LocalMapPicture& picture() const { return picture_; }
@@ -35,6 +36,8 @@ class LocalEnvironmentMaps final : public render::Reflections {
   /// What a body looks up in this frame.
   struct Used {
     std::optional<LocalMapPlace> place;  ///< nothing: simply blended maps
+    LocalMapLevel level;
+    int rung = 0;  ///< of the ladder of levels that the budget chooses from
     MapPair pair;
     std::optional<glm::vec3> centre;  ///< in the frame in which it was seen last
   };
@@ -49,8 +52,9 @@ class LocalEnvironmentMaps final : public render::Reflections {
                        LocalMapPicture picture);
   void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { slots_.forget(); }
+  void choose_levels(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void choose_map(const render::Renderer& renderer, const render::Reflector& reflector);
-  LocalMapLevel level_of(const render::Reflector& reflector, float radius_m) const;
+  LocalMapLevel best_level_of(const render::Reflector& reflector, float radius_m) const;
   void make_meshes();
   void draw_others(render::Renderer& renderer, const Drawn& drawn) const;
 
@@ -60,6 +64,9 @@ class LocalEnvironmentMaps final : public render::Reflections {
   MapChoice choice_;
   LocalMapPicture picture_;
   LocalMapSlots slots_;
+  render::QualityBudget budget_;
+  std::vector<LevelLadder> ladders_;
+  std::vector<render::QualityWish> wishes_;
   std::vector<Used> used_;  ///< of each object
   std::vector<Drawn> drawn_;
   std::vector<LocalMapPlace> drawn_places_;

@@ -213,6 +213,22 @@ TEST_F(LocalMapsTest, FarBodiesAreSimplyBlended) {
   EXPECT_FALSE(court_of_maps.reflections->place_of(mirror));
 }
 
+TEST_F(LocalMapsTest, ABudgetTakesTexelsAwayButNeverTheReflection) {
+  int last_tile = 0;
+  for (const float budget_ms : {0.001f, 0.3f, 1.0f, 10.0f}) {
+    scene::Scene scene = court();
+    scene.reflection.budget_ms = budget_ms;
+    Court court_of_maps(std::move(scene));
+    court_of_maps.draw();
+    const std::optional<LocalMapPlace> place = court_of_maps.reflections->place_of(mirror);
+    const int tile = place ? place->tile : 0;
+    EXPECT_EQ(tile == 0, last_tile == 0 && budget_ms < 0.1f);
+    EXPECT_GE(tile, last_tile);
+    last_tile = tile;
+  }
+  EXPECT_EQ(last_tile, 128);
+}
+
 TEST_F(LocalMapsTest, TheMeshAndTheWeightsCanBeLookedAt) {
   scene::Scene scene = court();
   scene.reflection.shown = scene::ReflectionView::mesh;

@@ -14,6 +14,12 @@ constexpr float texels_a_pixel =
     0.5f;  // a face spans a quarter turn, of which a body shows a part in half its width
 constexpr float blurs_from_px = 16.0f;  // a frame: an eye that stays sees no more of such a body than a smear
 
+// The declared costs: of a map, and of each of its texels, mesh included.
+constexpr double map_ms = 0.1, texel_ms = 30e-6;
+constexpr double blend_ms = 0.01;
+// How much of the best a map of half or a quarter as many texels a side is worth, and simple blending.
+constexpr std::array<double, LevelLadder::most_rungs> worths{0.4, 0.75, 0.9, 1.0};
+
 }  // namespace
 
 int tile_of(int resolution) {
@@ -30,6 +36,20 @@ LocalMapLevel level_for(float size_px, float speed_px, int resolution) {
   const int tile = std::min(tile_of(int(std::lround(wanted))), tile_of(resolution));
   const float texels_of_a_pixel = std::exp2(std::floor(std::log2(std::max(float(tile) / size_px, 1.0f))));
   return {tile, texels_of_a_pixel * (is_smeared ? 2.0f : 1.0f)};
+}
+
+LevelLadder ladder_below(const LocalMapLevel& best) {
+  LevelLadder ladder{};
+  ladder.qualities[0] = {blend_ms, worths[0]};
+  ladder.rungs = 1;
+  for (std::size_t rung = 1; rung < LevelLadder::most_rungs; ++rung) {
+    const int tile = best.tile >> (LevelLadder::most_rungs - 1 - rung);
+    if (tile < least_tile) continue;
+    ladder.levels[ladder.rungs] = {tile, best.smallest_texels};
+    ladder.qualities[ladder.rungs] = {map_ms + texel_ms * 6.0 * tile * tile, worths[rung]};
+    ++ladder.rungs;
+  }
+  return ladder;
 }
 
 }  // namespace parvis::environment_maps

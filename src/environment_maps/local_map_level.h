@@ -1,6 +1,10 @@
 // Level of detail of local maps (Meyer and Loscos 2003, section 5).
 #pragma once
 
+#include <array>
+
+#include "render/quality_budget.h"
+
 namespace parvis::environment_maps {
 
 struct LocalMapLevel {
@@ -18,5 +22,15 @@ inline LocalMapLevel full_level(int resolution) { return {tile_of(resolution), 1
 
 /// For a body `size_px` wide on the screen, whose picture moves by `speed_px` a frame.
 LocalMapLevel level_for(float size_px, float speed_px, int resolution);
+
+/// The levels that a budget may choose from for a body whose best is `best`, the cheapest first, and what
+/// they cost on the two cores of a software renderer.
+struct LevelLadder {
+  static constexpr std::size_t most_rungs = 4;
+  std::array<LocalMapLevel, most_rungs> levels;
+  std::array<render::QualityLevel, most_rungs> qualities;
+  std::size_t rungs;
+};
+LevelLadder ladder_below(const LocalMapLevel& best);
 
 }  // namespace parvis::environment_maps

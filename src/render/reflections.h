@@ -26,6 +26,10 @@ class Reflections : public ReflectionSource {
   /// Draws what maps the method wants for the reflectors that the prepared main view shows.
   void update(Renderer& renderer, const scene::Scene& scene, const Camera& camera);
 
+  /// What the last update took by the clock, and all the rest of its frame: for methods that hold a budget.
+  /// Told in windows alone, so that pictures and films can be repeated.
+  virtual void frame_took(double /*update_ms*/, double /*rest_ms*/) {}
+
   /// Faces of surroundings drawn by the last update.
   int faces_drawn() const { return faces_drawn_; }
 

@@ -129,46 +129,55 @@ NodeSchema exposure_schema() {
 }
 
 NodeSchema reflection_schema() {
-  return {
-      .type = "reflection",
-      .help = "How the mirror-like parts of moving things see their surroundings.",
-      .attributes = {{.name = "method",
-                      .type = AttributeType::choice,
-                      .help = "how reflections are made",
-                      .fallback = reflection_method_names[std::size_t(Reflection().method)],
-                      .choices = {reflection_method_names.begin(), reflection_method_names.end()},
-                      .is_live = true},
-                     {.name = "resolution",
-                      .type = AttributeType::integer,
-                      .help = "edge of one face of a cube map",
-                      .fallback = "128",
-                      .unit = "pixels",
-                      .minimum = 8,
-                      .maximum = 4096,
-                      .is_live = true},
-                     {.name = "level_of_detail",
-                      .type = AttributeType::flag,
-                      .help = "resolution by size on screen; far objects share one map",
-                      .fallback = "1",
-                      .is_live = true},
-                     {.name = "maps",
-                      .type = AttributeType::integer,
-                      .help = "reference maps along the streets, of the methods with environment_maps and of "
-                              "simple_blend",
-                      .fallback = "54",
-                      .minimum = 1,
-                      .maximum = 2000,
-                      .is_live = true},
-                     {.name = "show",
-                      .type = AttributeType::choice,
-                      .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
-                              "the weights of the two reference maps in red and green, blue where neither "
-                              "sees what is mirrored",
-                      .fallback = reflection_view_names[0],
-                      .choices = {reflection_view_names.begin(), reflection_view_names.end()},
-                      .is_live = true}},
-      .example = "reflection(method=\"rerendered_cube_map\", resolution=128)",
-      .is_unique = true};
+  return {.type = "reflection",
+          .help = "How the mirror-like parts of moving things see their surroundings.",
+          .attributes =
+              {{.name = "method",
+                .type = AttributeType::choice,
+                .help = "how reflections are made",
+                .fallback = reflection_method_names[std::size_t(Reflection().method)],
+                .choices = {reflection_method_names.begin(), reflection_method_names.end()},
+                .is_live = true},
+               {.name = "resolution",
+                .type = AttributeType::integer,
+                .help = "edge of one face of a cube map",
+                .fallback = "128",
+                .unit = "pixels",
+                .minimum = 8,
+                .maximum = 4096,
+                .is_live = true},
+               {.name = "level_of_detail",
+                .type = AttributeType::flag,
+                .help = "resolution by size on screen; far objects share one map",
+                .fallback = "1",
+                .is_live = true},
+               {.name = "maps",
+                .type = AttributeType::integer,
+                .help = "reference maps along the streets, of the methods with environment_maps and of "
+                        "simple_blend",
+                .fallback = "54",
+                .minimum = 1,
+                .maximum = 2000,
+                .is_live = true},
+               {.name = "budget_ms",
+                .type = AttributeType::number,
+                .help = "of local_environment_maps: the time of a frame that is held by making less of small "
+                        "reflections; in pictures and films by what they are known to cost; 0: none",
+                .fallback = "0",
+                .unit = "ms",
+                .minimum = 0,
+                .maximum = 1000,
+                .is_live = true},
+               {.name = "show",
+                .type = AttributeType::choice,
+                .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
+                        "the weights of the two reference maps in red and green, blue where neither "
+                        "sees what is mirrored",
+                .fallback = reflection_view_names[0],
+                .choices = {reflection_view_names.begin(), reflection_view_names.end()},
+                .is_live = true}},
+          .example = "reflection(method=\"rerendered_cube_map\", resolution=128)",
+          .is_unique = true};
 }
 
 void build_reflection(const Node& node, SceneBuilder& builder) {
@@ -178,6 +187,7 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
   reflection.resolution = int(node.integer("resolution"));
   reflection.uses_level_of_detail = node.flag("level_of_detail");
   reflection.most_maps = int(node.integer("maps"));
+  reflection.budget_ms = float(node.number("budget_ms"));
   for (std::size_t i = 0; i < reflection_view_names.size(); ++i)
     if (node.text("show") == reflection_view_names[i]) reflection.shown = ReflectionView(i);
 }

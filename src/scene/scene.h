@@ -100,6 +100,7 @@ struct Reflection {
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
   int most_maps = 54;                ///< reference maps, of the methods that have any
   ReflectionView shown = ReflectionView::radiance;
+  float budget_ms = 0.0f;  ///< of a frame, held by choosing levels of detail; 0: none
 
   bool operator==(const Reflection&) const = default;
 };

@@ -94,6 +94,13 @@ Status Stage::set_reflection(const scene::Reflection& reflection) {
   return Done{};
 }
 
+void Stage::follow_clock() {
+  double update_ms = 0.0, rest_ms = 0.0;
+  for (const gl::PassTime& pass : pass_times_.latest())
+    (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;
+  if (!pass_times_.latest().empty()) reflections_->frame_took(update_ms, rest_ms);
+}
+
 void Stage::draw(const Camera& camera, int width, int height) {
   if (play_.scene.reflection != shown_reflection_)
     if (const Status status = set_reflection(play_.scene.reflection); !status)

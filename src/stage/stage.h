@@ -66,6 +66,10 @@ class Stage {
   /// Changes the method of reflection.
   Status set_reflection(const scene::Reflection& reflection);
 
+  /// Lets a method of reflection that holds a budget know how long the passes of a frame took. For windows:
+  /// pictures that follow a clock cannot be repeated.
+  void follow_clock();
+
   /// See Play::camera.
   Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
 

@@ -104,6 +104,7 @@ class Frames {
       const float seconds = std::chrono::duration<float>(now - last).count();
       last = now;
       statistics_.add(double(seconds), visit_.stage().pass_times().latest());
+      visit_.stage().follow_clock();
       visit_.step(input_.poll(), seconds);
       draw();
       const bool is_last = glfwWindowShouldClose(window_) || frame == options_.most_frames;
