@@ -22,7 +22,9 @@ constexpr int most_maps = 400;
 std::size_t maps_enough(const HeightPyramid& heights, const std::vector<glm::vec3>& places,
                         const std::vector<MirroredPoint>& points, float sharpness) {
   const std::vector<float> shown = coverage(heights, places, points, sharpness);
-  return std::size_t(std::ranges::find_if(shown, [](float share) { return share >= wanted_share; }) - shown.begin()) + 1;
+  return std::size_t(std::ranges::find_if(shown, [](float share) { return share >= wanted_share; }) -
+                     shown.begin()) +
+         1;
 }
 
 }  // namespace
@@ -44,10 +46,11 @@ void measure_placement(const scene::Scene& scene, Report& report) {
   report.add("placement_valid_percent", 100.0 * double(coverage(heights, plain, points).back()));
   report.add("placement_maps_sharp", double(sharply.size()));
   report.add("placement_saving_percent", 100.0 * (1.0 - double(plain.size()) / double(spread)));
-  report.note(fmt::format(
-      "judged by {} points of another seed; an even spread takes {} maps, sharply {}; sharply placed ones show {:.2f} %",
-      points.size(), spread, maps_enough(heights, even, points, sharp),
-      100.0 * double(coverage(heights, sharply, points, sharp).back())));
+  report.note(
+      fmt::format("judged by {} points of another seed; an even spread takes {} maps, sharply {}; sharply "
+                  "placed ones show {:.2f} %",
+                  points.size(), spread, maps_enough(heights, even, points, sharp),
+                  100.0 * double(coverage(heights, sharply, points, sharp).back())));
 }
 
 void measure_memory(int face_resolution, Report& report) {
@@ -62,7 +65,8 @@ void measure_memory(int face_resolution, Report& report) {
 void measure_rays(const scene::Scene& scene, Report& report) {
   constexpr int rays = 200000;
   constexpr float reach_m = 1000.0f;
-  for (const auto& [key, cell_m, most_cells] : {std::tuple{"ray_ns_1m", 1.0f, 2048}, {"ray_ns_025m", 0.25f, 8192}}) {
+  for (const auto& [key, cell_m, most_cells] :
+       {std::tuple{"ray_ns_1m", 1.0f, 2048}, {"ray_ns_025m", 0.25f, 8192}}) {
     const HeightPyramid heights(heights_of(scene, cell_m, most_cells));
     const std::vector<glm::vec3> starts = spread_places(scene, heights, 100);
     std::vector<double> samples(7);
@@ -72,7 +76,8 @@ void measure_rays(const scene::Scene& scene, Report& report) {
       sample = milliseconds([&] {
         for (int i = 0; i < rays; ++i) {
           const float azimuth = random.uniform(0.0f, 6.2831853f), z = random.uniform(-0.2f, 0.7f);
-          const glm::vec3 direction(std::sqrt(1.0f - z * z) * glm::vec2(std::cos(azimuth), std::sin(azimuth)), z);
+          const glm::vec3 direction(std::sqrt(1.0f - z * z) * glm::vec2(std::cos(azimuth), std::sin(azimuth)),
+                                    z);
           const glm::vec3& start = starts[std::size_t(i) % starts.size()];
           distances_m += heights.walk_by_levels(start, direction, reach_m).distance_m;
         }

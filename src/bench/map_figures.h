@@ -1,5 +1,5 @@
-// What a set of reference maps is worth: how many show the paper's city, what they take, what a ray through its heights
-// costs.
+// What a set of reference maps is worth: how many show the paper's city, what they take, what a ray through
+// its heights costs.
 #pragma once
 
 #include "bench/report.h"
@@ -7,8 +7,8 @@
 
 namespace parvis::bench {
 
-/// `placement_*`: maps that show 99 % of what vehicles will mirror, plainly and sharply, and how many fewer these are than
-/// an even spread takes. Takes about a minute.
+/// `placement_*`: maps that show 99 % of what vehicles will mirror, plainly and sharply, and how many fewer
+/// these are than an even spread takes. Takes about a minute.
 void measure_placement(const scene::Scene& scene, Report& report);
 
 /// `maps_mb_54` and the same compressed; needs a current OpenGL context.

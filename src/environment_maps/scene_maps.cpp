@@ -10,8 +10,7 @@ namespace parvis::environment_maps {
 namespace {
 
 /// Places wider than the heightfield's most cells get coarser ones.
-void tell_if_coarse(const shading::Heightfield& heights) {
-  constexpr float wanted_m = 1.0f;
+void tell_if_coarse(const shading::Heightfield& heights, float wanted_m) {
   if (heights.cell_m() <= wanted_m) return;
   const glm::vec3 size = heights.bounds().size();
   const double megabytes = 4.0e-6 * double(size.x / wanted_m) * double(size.y / wanted_m);
@@ -37,7 +36,7 @@ ReferenceMaps compressed(const ReferenceMaps& maps) {
 
 }  // namespace
 
-shading::Heightfield heights_of(const scene::Scene& scene) {
+shading::Heightfield heights_of(const scene::Scene& scene, float cell_m, int most_cells_a_side) {
   Bounds bounds;
   const auto each_part = [&](auto&& visit) {
     render::for_each_fixed_opaque_part(
@@ -48,8 +47,8 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
     bounds.add(transformed(world_from_mesh, mesh.bounds()));
   });
-  shading::Heightfield heights(bounds);
-  tell_if_coarse(heights);
+  shading::Heightfield heights(bounds, cell_m, most_cells_a_side);
+  tell_if_coarse(heights, cell_m);
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
   return heights;
 }

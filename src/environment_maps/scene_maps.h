@@ -8,7 +8,8 @@
 namespace parvis::environment_maps {
 
 /// The highest point over each cell of the ground of what stands still, is visible and lets no light through.
-shading::Heightfield heights_of(const scene::Scene& scene);
+/// Cells are `cell_m` wide, and wider (which is told) where the place would need more than so many a side.
+shading::Heightfield heights_of(const scene::Scene& scene, float cell_m = 1.0f, int most_cells_a_side = 2048);
 
 /// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
 /// least.
