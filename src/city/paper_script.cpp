@@ -91,7 +91,8 @@ std::string people_script(std::span<const std::string> walker_files) {
   const glm::vec2 crossing = main_crossing();
   for (int i = 0; i < walkers; ++i) {
     const float east = crossing.x + (i % 2 == 0 ? pavement_m : -pavement_m) + 0.35f * float(i % 5 - 2);
-    const float south = crossing.y - 45.0f + 7.0f * float(i / 2);
+    const int pair = i / 2;
+    const float south = crossing.y - 45.0f + 7.0f * float(pair);
     const float time_s = way_m / walking_speed_m_s;
     text += fmt::format(
         "model(name=\"walker {0}\", file=\"{1}\", dynamic=1, animation=\"walk\", animation_start={2:.2f})\n"

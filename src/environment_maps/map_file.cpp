@@ -31,8 +31,8 @@ class Taker {
   template <class T>
   T take() {
     T value{};
-    if (const std::string_view part = take(sizeof value); !part.empty())
-      std::memcpy(&value, part.data(), sizeof value);
+    const std::string_view part = take(sizeof value);
+    std::ranges::copy(part, reinterpret_cast<char*>(&value));
     return value;
   }
   std::string_view take(std::size_t size) {
