@@ -1,34 +1,15 @@
 #include "reference/mip_texture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "base/colour.h"
 #include "scene/mip_levels.h"
 
 namespace parvis::reference {
-namespace {
-
-using ByteTable = std::array<float, 256>;
-
-const float* values_of_bytes(bool is_srgb) {
-  static const std::array<ByteTable, 2> tables = [] {
-    std::array<ByteTable, 2> both{};
-    for (std::size_t i = 0; i < 256; ++i) {
-      both[0][i] = float(i) / 255.0f;
-      both[1][i] = linear_from_srgb(both[0][i]);
-    }
-    return both;
-  }();
-  return tables[is_srgb ? 1 : 0].data();
-}
-
-}  // namespace
 
 MipTexture::MipTexture(const scene::Texture& texture, bool is_cutout)
     : levels_(scene::mip_levels(texture, is_cutout)),
-      value_of_byte_(values_of_bytes(texture.is_srgb)),
+      value_of_byte_(scene::values_of_bytes(texture.is_srgb).data()),
       repeats_(texture.repeats) {}
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {

@@ -11,20 +11,6 @@ namespace {
 
 constexpr int visible = 128;  // alpha from which on a texel is there
 
-using ByteTable = std::array<float, 256>;
-
-const ByteTable& values_of_bytes(bool is_srgb) {
-  static const std::array<ByteTable, 2> tables = [] {
-    std::array<ByteTable, 2> both{};
-    for (std::size_t i = 0; i < 256; ++i) {
-      both[0][i] = float(i) / 255.0f;
-      both[1][i] = linear_from_srgb(both[0][i]);
-    }
-    return both;
-  }();
-  return tables[is_srgb ? 1 : 0];
-}
-
 std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
 
 Image8 halved(const Image8& fine, bool is_srgb) {
@@ -83,6 +69,18 @@ void keep_coverage(Image8& image, double coverage) {
 }
 
 }  // namespace
+
+const ByteTable& values_of_bytes(bool is_srgb) {
+  static const std::array<ByteTable, 2> tables = [] {
+    std::array<ByteTable, 2> both{};
+    for (std::size_t i = 0; i < 256; ++i) {
+      both[0][i] = float(i) / 255.0f;
+      both[1][i] = linear_from_srgb(both[0][i]);
+    }
+    return both;
+  }();
+  return tables[is_srgb ? 1 : 0];
+}
 
 std::vector<char> cutout_textures(const Model& model) {
   std::vector<char> is_cutout(model.textures.size(), 0);

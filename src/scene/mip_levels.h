@@ -1,11 +1,16 @@
 // Mipmaps of a model's pictures: one builder for the renderer's textures and the ray tracer's.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/model.h"
 
 namespace parvis::scene {
+
+/// What each byte of a picture stands for, 0 to 1 in linear light.
+using ByteTable = std::array<float, 256>;
+const ByteTable& values_of_bytes(bool is_srgb);
 
 /// For each texture of a model: is it the colour of a material that is cut out by its alpha?
 std::vector<char> cutout_textures(const Model& model);
