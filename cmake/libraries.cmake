@@ -19,6 +19,7 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(glu REQUIRED IMPORTED_TARGET glu)
 pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)  # with its backends for GLFW and OpenGL 3
 pkg_check_modules(gdal REQUIRED IMPORTED_TARGET gdal)
+pkg_check_modules(tiff REQUIRED IMPORTED_TARGET libtiff-4)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 

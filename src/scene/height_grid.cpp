@@ -4,6 +4,7 @@
 #include <cpl_error.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
+#include <tiffio.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,7 @@ namespace {
 constexpr int most_across = 1000;       // two million triangles
 constexpr double highest_m = 20'000.0;  // what is beyond is no height on the earth
 constexpr double farthest_deg = 84.0;   // as far as UTM goes
+constexpr double most_block_mb = 256.0;
 
 /// What GDAL says goes into our errors, not to the terminal.
 struct QuietGdal {
@@ -43,6 +45,24 @@ Dataset open(const std::filesystem::path& file) {
           [](GDALDatasetH opened) {
             if (opened) GDALClose(opened);
           }};
+}
+
+/// Of the file's images, for overviews are read, too. GDAL takes the memory that the file claims for a block
+/// (a tile, or a strip of rows that may be many more than there are), however little the file holds.
+double largest_block_mb(const std::filesystem::path& file) {
+  const auto say_nothing = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
+  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options{TIFFOpenOptionsAlloc(),
+                                                                                 TIFFOpenOptionsFree};
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), say_nothing, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing, nullptr);
+  const std::unique_ptr<TIFF, decltype(&TIFFClose)> images{TIFFOpenExt(file.c_str(), "r", options.get()),
+                                                           TIFFClose};
+  std::uint64_t most = 0;
+  if (images) do {
+      most = std::max(
+          most, TIFFIsTiled(images.get()) ? TIFFTileSize64(images.get()) : TIFFStripSize64(images.get()));
+    } while (TIFFReadDirectory(images.get()));
+  return 1e-6 * double(most);
 }
 
 /// From a sample (column, row) to the map, in the map's own units.
@@ -115,6 +135,11 @@ Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::opti
                                     Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
   const QuietGdal quiet;
+  if (const double block_mb = largest_block_mb(file); block_mb > most_block_mb)
+    return error_at(where,
+                    "its samples lie in blocks of {:.0f} MB; expected at most {:.0f} MB: write it in tiles "
+                    "(gdal_translate -co TILED=YES)",
+                    block_mb, most_block_mb);
   const Dataset opened = open(file);
   if (!opened) return error_at(where, "this is no GeoTIFF that can be read ({})", CPLGetLastErrorMsg());
   const int width = GDALGetRasterXSize(opened.get()), height = GDALGetRasterYSize(opened.get());
