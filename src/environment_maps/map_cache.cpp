@@ -20,6 +20,7 @@ std::uint64_t maps_key(const scene::Scene& scene) {
   hash.add(reference::fixed_scene_key(scene));
   const scene::ReferenceMapPlan& plan = scene.reference_maps;
   hash.add(plan.places);
+  hash.add(plan.cell_m);
   hash.add(plan.most ? plan.most : scene.reflection.most_maps);
   hash.add(plan.resolution ? plan.resolution : scene.reflection.resolution);
   for (const scene::Lane& lane : scene.roads.lanes) hash.add(lane.points);

@@ -46,6 +46,14 @@ scene::NodeSchema reference_maps_schema() {
                           .unit = "pixels",
                           .minimum = 8,
                           .maximum = 2048},
+                         {.name = "cell",
+                          .type = AttributeType::number,
+                          .help = "of the heights in which mirrored rays are traced; places that would take "
+                                  "more than 256 MB get larger ones, which is told",
+                          .fallback = "1",
+                          .unit = "m",
+                          .minimum = 0.05,
+                          .maximum = 100},
                          {.name = "compressed",
                           .type = AttributeType::flag,
                           .help = "colours take a quarter of the graphics memory, a little less true",
@@ -73,6 +81,7 @@ void build_reference_maps(const scene::Node& node, scene::SceneBuilder& builder)
     plan.places.emplace_back(builder.world_from_parent() * glm::vec4(place, 1.0f));
   if (node.gives("maps")) plan.most = int(node.integer("maps"));
   if (node.gives("resolution")) plan.resolution = int(node.integer("resolution"));
+  plan.cell_m = float(node.number("cell"));
   plan.is_compressed = node.flag("compressed");
 }
 

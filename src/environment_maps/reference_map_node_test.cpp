@@ -24,7 +24,7 @@ class ReferenceMapNodeTest : public testing::Test {
 TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {
   const auto loaded = load(
       "group(position=\"100 0 0\") { referenceMaps(position=\"1 2 1.2\", position=\"3 4 1.2, 5 6 1.2\", "
-      "path=\"0 0 1, 25 0 1\", spacing=10, resolution=64, maps=7, compressed=yes) }");
+      "path=\"0 0 1, 25 0 1\", spacing=10, resolution=64, maps=7, cell=0.5, compressed=yes) }");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   const scene::ReferenceMapPlan& plan = loaded->scene.reference_maps;
   ASSERT_EQ(plan.places.size(), 6u);
@@ -33,6 +33,7 @@ TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {
   EXPECT_LT(glm::distance(plan.places[5], glm::vec3(120, 0, 1)), 1e-4f);
   EXPECT_EQ(plan.resolution, 64);
   EXPECT_EQ(plan.most, 7);
+  EXPECT_EQ(plan.cell_m, 0.5f);
   EXPECT_TRUE(plan.is_compressed);
   EXPECT_EQ(map_places(loaded->scene, HeightPyramid(heights_of(loaded->scene))), plan.places);
 }

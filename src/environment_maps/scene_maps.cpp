@@ -1,5 +1,8 @@
 #include "environment_maps/scene_maps.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/progress.h"
 #include "environment_maps/map_cache.h"
 #include "environment_maps/map_painter.h"
@@ -9,16 +12,27 @@
 namespace parvis::environment_maps {
 namespace {
 
-/// Places wider than the heightfield's most cells get coarser ones.
-void tell_if_coarse(const shading::Heightfield& heights, float wanted_m) {
-  if (heights.cell_m() <= wanted_m) return;
-  const glm::vec3 size = heights.bounds().size();
-  const double megabytes = 4.0e-6 * double(size.x / wanted_m) * double(size.y / wanted_m);
-  fmt::print(
-      stderr,
-      "warning: the place is {:.1f} x {:.1f} km: reflections know its heights in cells of {:.1f} m (cells "
-      "of {} m would take {:.0f} MB); leave out far models for finer ones\n",
-      1e-3f * size.x, 1e-3f * size.y, heights.cell_m(), wanted_m, megabytes);
+constexpr double most_heights = double(1 << 26);  // cells: 256 MB, and a third more for the levels above
+constexpr double most_heights_a_side = 16384;     // what OpenGL 4.5 promises of textures
+
+/// Of the finest level, whose sides are powers of two.
+glm::dvec2 cells_a_side(glm::vec2 size_m, float cell_m) {
+  const glm::dvec2 cells = glm::floor(glm::dvec2(size_m) / double(cell_m)) + 1.0;
+  return glm::exp2(glm::ceil(glm::log2(cells)));
+}
+
+void tell_if_coarse(glm::vec2 size_m, float cell_m, float wanted_m) {
+  if (cell_m <= wanted_m) return;
+  const auto megabytes = [&](float cell) {
+    const glm::dvec2 cells = cells_a_side(size_m, cell);
+    return 4e-6 * cells.x * cells.y;
+  };
+  fmt::print(stderr,
+             "warning: the place is {:.1f} x {:.1f} km: its heights in cells of {} m would take {:.0f} MB of "
+             "memory; reflections know them in cells of {:.3g} m ({:.0f} MB). Leave out far models for finer "
+             "ones, or ask for these: referenceMaps(cell={:.3g})\n",
+             1e-3f * size_m.x, 1e-3f * size_m.y, wanted_m, megabytes(wanted_m), cell_m, megabytes(cell_m),
+             cell_m);
 }
 
 /// Where shadows are to be sharp.
@@ -36,7 +50,18 @@ ReferenceMaps compressed(const ReferenceMaps& maps) {
 
 }  // namespace
 
-shading::Heightfield heights_of(const scene::Scene& scene, float cell_m, int most_cells_a_side) {
+float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
+  constexpr float step = 1.01f;
+  const auto fits = [&](float cell_m) {
+    const glm::dvec2 cells = cells_a_side(size_m, cell_m);
+    return std::max(cells.x, cells.y) <= most_heights_a_side && cells.x * cells.y <= most_heights;
+  };
+  float cell_m = wanted_m;
+  while (!fits(cell_m) && std::isfinite(cell_m)) cell_m *= step;
+  return cell_m;
+}
+
+shading::Heightfield heights_of(const scene::Scene& scene) {
   Bounds bounds;
   const auto each_part = [&](auto&& visit) {
     render::for_each_fixed_opaque_part(
@@ -47,8 +72,10 @@ shading::Heightfield heights_of(const scene::Scene& scene, float cell_m, int mos
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
     bounds.add(transformed(world_from_mesh, mesh.bounds()));
   });
-  shading::Heightfield heights(bounds, cell_m, most_cells_a_side);
-  tell_if_coarse(heights, cell_m);
+  const glm::vec2 size_m = bounds.empty() ? glm::vec2(0.0f) : glm::vec2(bounds.size());
+  const float wanted_m = scene.reference_maps.cell_m, cell_m = fitting_cell_m(size_m, wanted_m);
+  tell_if_coarse(size_m, cell_m, wanted_m);
+  shading::Heightfield heights(bounds, cell_m, int(most_heights_a_side));
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
   return heights;
 }

@@ -8,8 +8,12 @@
 namespace parvis::environment_maps {
 
 /// The highest point over each cell of the ground of what stands still, is visible and lets no light through.
-/// Cells are `cell_m` wide, and wider (which is told) where the place would need more than so many a side.
-shading::Heightfield heights_of(const scene::Scene& scene, float cell_m = 1.0f, int most_cells_a_side = 2048);
+/// Cells are as wide as the scene wants them, and wider (which is told) where these would take more memory
+/// than heights may have.
+shading::Heightfield heights_of(const scene::Scene& scene);
+
+/// Width of the cells that a place of so many metres gets where `wanted_m` are wanted.
+float fitting_cell_m(glm::vec2 size_m, float wanted_m);
 
 /// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
 /// least.

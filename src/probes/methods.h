@@ -35,7 +35,8 @@ class RerenderedCubeMap final : public CubeMapReflections {
   std::map<int, const render::CubeMap*> map_of_object_;
 };
 
-/// A map for each reflector, of which a few faces are drawn a frame, in turn.
+/// A map for each reflector, of which a face is drawn a frame; or so many faces a frame in all as the script
+/// says, those first that have waited longest.
 class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
   explicit TimeSlicedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
@@ -46,11 +47,15 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
     render::CubeMap map;
     int next_face = 0;
     int idle_frames = 0;
+    std::int64_t drawn_at = 0;  ///< of its latest face, counted in faces
   };
   void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void draw_next_face(render::Renderer& renderer, const render::Reflector& reflector);
 
   scene::Reflection settings_;
   std::map<int, Sliced> maps_;  ///< by object
+  std::int64_t faces_so_far_ = 0;
+  std::vector<render::Reflector> waiting_;  ///< reflectors whose maps were there before this frame
 };
 
 /// One map for all reflectors, drawn every frame about the one that is largest on the screen.

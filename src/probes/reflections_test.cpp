@@ -158,6 +158,20 @@ TEST_F(ReflectionsTest, TimeSlicingDrawsAFaceAFrameOnceMapsAreWhole) {
   for (int frame = 0; frame < 8; ++frame) EXPECT_EQ(show.draw(), 3) << "frame " << frame;
 }
 
+TEST_F(ReflectionsTest, TimeSlicingDrawsNoMoreFacesThanItIsTold) {
+  scene::Reflection reflection{ReflectionMethod::time_sliced_cube_map, 32, false};
+  for (const int faces : {1, 2, 5, 12}) {
+    reflection.faces_a_frame = faces;
+    Show show = row_of_mirrors(reflection, {6, 8, 10});
+    EXPECT_EQ(show.draw(), 3 * 6) << "maps are whole when they are first seen";
+    for (int frame = 0; frame < 4; ++frame) EXPECT_EQ(show.draw(), faces);
+  }
+  reflection.faces_a_frame = 100;
+  Show show = row_of_mirrors(reflection, {6, 8});
+  show.draw();
+  EXPECT_EQ(show.draw(), 2 * 6) << "no face twice";
+}
+
 TEST_F(ReflectionsTest, ASharedMapIsDrawnOnceForAll) {
   Show show = row_of_mirrors({ReflectionMethod::shared_cube_map, 32, false}, {6, 8, 10});
   EXPECT_EQ(show.draw(), 6);

@@ -168,6 +168,14 @@ NodeSchema reflection_schema() {
                 .minimum = 0,
                 .maximum = 1000,
                 .is_live = true},
+               {.name = "faces_a_frame",
+                .type = AttributeType::integer,
+                .help = "of time_sliced_cube_map: how many faces of maps a frame draws, over all reflectors; "
+                        "0: one for each of them",
+                .fallback = "0",
+                .minimum = 0,
+                .maximum = 1000,
+                .is_live = true},
                {.name = "show",
                 .type = AttributeType::choice,
                 .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
@@ -188,6 +196,7 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
   reflection.uses_level_of_detail = node.flag("level_of_detail");
   reflection.most_maps = int(node.integer("maps"));
   reflection.budget_ms = float(node.number("budget_ms"));
+  reflection.faces_a_frame = int(node.integer("faces_a_frame"));
   for (std::size_t i = 0; i < reflection_view_names.size(); ++i)
     if (node.text("show") == reflection_view_names[i]) reflection.shown = ReflectionView(i);
 }

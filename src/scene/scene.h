@@ -101,6 +101,7 @@ struct Reflection {
   int most_maps = 54;                ///< reference maps, of the methods that have any
   ReflectionView shown = ReflectionView::radiance;
   float budget_ms = 0.0f;  ///< of a frame, held by choosing levels of detail; 0: none
+  int faces_a_frame = 0;   ///< of time-sliced maps, over all reflectors; 0: one for each of them
 
   bool operator==(const Reflection&) const = default;
 };
@@ -109,6 +110,7 @@ struct Reflection {
 struct ReferenceMapPlan {
   std::vector<glm::vec3> places;  ///< in the world; empty: they place themselves
   int most = 0, resolution = 0;   ///< 0: as Reflection has them
+  float cell_m = 1.0f;            ///< of the heights that mirrored rays walk through
   bool is_compressed = false;
 };
 
