@@ -2,14 +2,15 @@
 // over any reflector.
 #pragma once
 
-#include "shading/glsl.h"
+#include <cstddef>
+
+#include "curved_reflectors/map_window.h"
 
 namespace parvis::curved_reflectors {
 
-using namespace shading;  // vec2, sign and the like, which shared files take for granted
-
 /// `Reflector::surface(vec3 direction)` gives position and unit normal where a ray from the centre meets the
-/// reflector, as `std::pair<vec3, vec3>`.
+/// reflector, as `std::pair<vec3, vec3>`. For `search_patch` it also has `starts` and `surface_kind`, as a
+/// ReflectorMap does.
 template <class Reflector>
 struct ReflectionSearch {
   const Reflector& reflector;
@@ -21,11 +22,18 @@ struct ReflectionSearch {
 #include "curved_reflectors/midpoint_search.glsl"
   //
 #include "curved_reflectors/newton_search.glsl"
+  //
+#include "curved_reflectors/patch_search.glsl"
 
   SurfacePoint surface_at(vec3 direction) {
     const auto [position, normal] = reflector.surface(direction);
     return {position, normal};
   }
+  SurfacePoint search_start(int i) {
+    const auto [position, normal] = reflector.starts[std::size_t(i)];
+    return {position, normal};
+  }
+  float surface_kind(vec3 direction) { return reflector.surface_kind(direction); }
 };
 
 #undef GLSL_FUNCTION

@@ -1,7 +1,7 @@
 // Mirror-like surfaces that look their surroundings up in the local map of their body, as if it were infinitely far; bodies
 // without one look simply blended reference maps up.
 #include "render/sky_lookup.glsl"
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 #include "environment_maps/local_map_faces.glsl"
 #include "environment_maps/simple_blend.glsl"
 #include "render/surface_body.glsl"

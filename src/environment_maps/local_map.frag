@@ -1,5 +1,5 @@
 // A local map's texels (Meyer and Loscos 2003, section 4.1): what the two reference maps show of the point, blended.
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 
 uniform highp sampler2DArray map_colours;
 uniform vec2 layer_size;  // texels a side, and of its border

@@ -1,6 +1,6 @@
 // The corners of local maps' meshes, all maps in one picture: what each corner's ray met, and how the two reference maps
 // share in it.
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 #include "environment_maps/validity.glsl"
 #include "environment_maps/local_map_weights.glsl"
 

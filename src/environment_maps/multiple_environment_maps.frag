@@ -2,7 +2,7 @@
 // through the city's heights from the surface itself, moved from there onto the surface that the maps saw, and looked up
 // in the two maps that see it best.
 #include "render/sky_lookup.glsl"
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 #include "environment_maps/map_levels.glsl"
 #include "render/surface_body.glsl"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "environment_maps/octahedral.h"
+#include "environment_maps/map_levels.h"
 #include "environment_maps/placement.h"
 #include "environment_maps/test_square.h"
 #include "gl/test_context.h"

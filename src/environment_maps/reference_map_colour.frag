@@ -1,5 +1,5 @@
 // A cube map drawn onto an octahedral layer, four of its texels to one.
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 
 uniform highp samplerCube cube;
 uniform vec2 layer_size;  // texels a side, and of its border

@@ -1,5 +1,5 @@
 // One face of a cube map's depth, spread over its part of an octahedral layer as distances from the centre in metres.
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 
 uniform highp sampler2D face_depth;  // reversed: 1 at the near plane, 0 at the far one
 uniform mat4 clip_from_direction;    // of the face, seen from its centre

@@ -1,6 +1,6 @@
 // A cube map blurred for the roughnesses of the tiles: half vectors of the GGX distribution about the direction, which is
 // normal and view at once (Karis 2013), each looked up as wide as its share of the lobe (Colbert and Krivanek 2007).
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 #include "environment_maps/map_levels.glsl"
 
 uniform highp samplerCube cube;

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/progress.h"
+#include "environment_maps/map_levels.h"
 #include "environment_maps/map_painter.h"
-#include "environment_maps/octahedral.h"
 
 namespace parvis::environment_maps {
 namespace {

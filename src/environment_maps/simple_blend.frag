@@ -1,6 +1,6 @@
 // Mirror-like surfaces that look two reference maps up by the direction alone.
 #include "render/sky_lookup.glsl"
-#include "environment_maps/octahedral.glsl"
+#include "shading/octahedral.glsl"
 #include "environment_maps/simple_blend.glsl"
 #include "render/surface_body.glsl"
 

@@ -1,10 +1,9 @@
-// C++ face of octahedral.glsl.
+// C++ face of map_levels.glsl.
 #pragma once
 
-#include "shading/glsl.h"
+#include "shading/octahedral.h"
 
 namespace parvis::environment_maps {
 using namespace shading;  // vec2, sign and the like, which shared files take for granted
 #include "environment_maps/map_levels.glsl"
-#include "environment_maps/octahedral.glsl"
 }  // namespace parvis::environment_maps

@@ -1,10 +1,10 @@
-#include "environment_maps/octahedral.h"
+#include "shading/octahedral.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
 
-namespace parvis::environment_maps {
+namespace parvis::shading {
 namespace {
 
 glm::vec3 chance_direction(Random& random) {
@@ -41,4 +41,4 @@ TEST(Octahedral, TheMapGoesOnAcrossItsSides) {
 }
 
 }  // namespace
-}  // namespace parvis::environment_maps
+}  // namespace parvis::shading

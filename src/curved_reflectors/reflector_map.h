@@ -1,0 +1,46 @@
+// Reflector maps: one for each patch of a reflector.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/image.h"
+#include "curved_reflectors/map_window.h"
+#include "curved_reflectors/reflector_patches.h"
+
+namespace parvis::curved_reflectors {
+
+inline constexpr std::size_t start_count = 16;  ///< as in patch_search.glsl
+
+/// Position and normal of a patch by direction from its centre; see reflector_map.glsl.
+struct ReflectorMap {
+  MapWindow window{glm::vec3(0.0f), glm::mat3(1.0f), 1.0f, 0.0f, 1.0f};
+  bool is_convex = true;
+  /// Positions and normals spread over the patch, the first near its middle: where searches may begin.
+  std::array<std::pair<glm::vec3, glm::vec3>, start_count> starts{};
+  ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
+
+  /// Where a ray from the centre meets the surface, or what closes it; `direction` has any length.
+  std::pair<glm::vec3, glm::vec3> surface(glm::vec3 direction) const;
+  /// What the map holds there: the surface, a crease, or what closes it; see reflector_map.glsl.
+  float surface_kind(glm::vec3 direction) const;
+};
+
+/// Of a patch with a centre (reflector_patches), `side` texels wide; 512 hold a teapot's to a hundredth of a
+/// degree, most of it.
+ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side);
+
+/// A reflector ready to be searched: cut into patches, each with its map, the largest first.
+struct Reflector {
+  std::vector<ReflectorMap> maps;
+  std::vector<std::string> remarks;  ///< what was wrong with the mesh, and what was done about it
+};
+
+/// Errors name the mesh (see reflector_mesh); a reflector of more than `most_patches` patches keeps its
+/// largest, and says what share of the surface has none: there an environment map stands in.
+Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int side,
+                                 std::size_t most_patches = 64);
+
+}  // namespace parvis::curved_reflectors
