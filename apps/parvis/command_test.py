@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 PARVIS = None  # path of the program, from the command line
 SUBCOMMANDS = ["view", "render", "reference", "compare", "check", "format", "export", "city", "bench"]
@@ -81,6 +82,31 @@ def city(version="1.1", last_index=2, has_polygons=True):
             "vertices": [[0, 0, 3], [9, 0, 3], [9, 9, 3]],
         }
     )
+
+
+def pixels(png):
+    """The rows of an 8-bit PNG file as bytes, three or four a pixel, and how many."""
+    width, height, channels, data, at = 0, 0, 3, b"", 8
+    while at < len(png):
+        size, kind = struct.unpack_from(">I4s", png, at)
+        if kind == b"IHDR":
+            width, height, _, colour = struct.unpack_from(">IIBB", png, at + 8)
+            channels = {2: 3, 6: 4}[colour]
+        elif kind == b"IDAT":
+            data += png[at + 8 : at + 8 + size]
+        at += 12 + size
+    data, row, rows = zlib.decompress(data), bytearray(width * channels), []
+    for y in range(height):
+        start = y * (width * channels + 1)
+        method, line = data[start], bytearray(data[start + 1 : start + 1 + width * channels])
+        for i in range(len(line)):
+            left, up = (line[i - channels] if i >= channels else 0), row[i]
+            corner = row[i - channels] if i >= channels else 0
+            nearest = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
+            line[i] = (line[i] + (0, left, up, (left + up) // 2, nearest)[method]) % 256
+        row = line
+        rows.append(line)
+    return rows, channels
 
 
 class InAFolder(unittest.TestCase):
@@ -193,6 +219,92 @@ class Usage(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "out.png").read_bytes()[:4], b"\x89PNG")
         self.assertEqual(self.files(), ["out.png", "sail.glb", "scene.xp"])
+
+
+MIRROR = 'model(file="mirror.obj", position="{}", dynamic=1, reflective=1) {{ material(preset="chrome") }}\n'
+
+
+class Reflections(InAFolder):
+    """Places that maps were not made for: a defined picture and, where something is amiss, a word of it."""
+
+    def setUp(self):
+        super().setUp()
+        self.write_quad("mirror.obj", (-2, 0, 0), (2, 0, 0), (2, 0, 3), (-2, 0, 3))
+        self.write_quad("ground.obj", (-40, -40, 0), (40, -40, 0), (40, 40, 0), (-40, 40, 0))
+        self.write_quad("wall.obj", (40, -20, 0), (-40, -20, 0), (-40, -20, 9), (40, -20, 9))
+
+    def write_quad(self, name, *corners):
+        self.write(name, "".join("v {} {} {}\n".format(*corner) for corner in corners) + "f 1 2 3 4\n")
+
+    def write_place(self, *nodes, at="0 0 0", models=("ground", "wall")):
+        """A mirror before a wall, looked at from the wall's side."""
+        eye = [float(axis) for axis in at.split()]
+        place = "".join(f'model(file="{name}.obj")\n' for name in models) + MIRROR.format(at) + "sun()\n"
+        camera = f'camera(name="eye", position="{eye[0] + 1} {eye[1] - 5} 1.6", target="{eye[0]} {eye[1]} 1.5")\n'
+        return self.write("scene.xp", place + camera + "\n".join(nodes))
+
+    def render(self, scene, method="multiple_environment_maps"):
+        """What is said, and the pixels in the mirror's middle."""
+        out = self.folder / "out.png"
+        done = run("render", scene, *SIZE, "--reflection", method, "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows, channels = pixels(out.read_bytes())
+        middle = [rows[y][x * channels : x * channels + 3] for y in range(16, 32) for x in range(24, 40)]
+        return done.stderr, middle
+
+    def expect_light(self, scene):
+        """Every method of this kind shows something, the same each time."""
+        for method in ["multiple_environment_maps", "local_environment_maps", "simple_blend"]:
+            middle = self.render(scene, method)[1]
+            self.assertGreater(min(map(sum, middle)), 30, f"{method}: black pixels")
+            self.assertEqual(self.render(scene, method)[1], middle, f"{method}: blinks")
+
+    def test_a_place_without_roads(self):
+        self.expect_light(self.write_place())
+
+    def test_a_place_without_geometry_mirrors_the_sky(self):
+        self.expect_light(self.write_place(models=()))
+
+    def test_a_car_that_no_map_reaches(self):
+        maps = 'referenceMaps(position="0 -3 1.2")'
+        self.expect_light(self.write_place(maps, at="900 700 0"))
+        self.expect_light(self.write_place(maps, at="0 -30 0"))  # behind the wall, which hides it from the map
+
+    def test_heights_that_memory_would_not_hold(self):
+        far = 'model(file="ground.obj", position="90000 60000 0")'
+        told, middle = self.render(self.write_place(far))
+        self.assertGreater(min(map(sum, middle)), 30)
+        for word in ["90.1 x 60.0 km", "would take 34360 MB", "referenceMaps(cell="]:
+            self.assertIn(word, told)
+
+    def test_cars_without_area(self):
+        self.write_quad("thread.obj", (0, 0, 0), (0, 0, 3), (0, 0, 3), (0, 0, 0))
+        self.write_quad("dot.obj", (1, 0, 1), (1, 0, 1), (1, 0, 1), (1, 0, 1))
+        flat = ['model(file="%s.obj", position="0 -1 0", dynamic=1, reflective=1)' % name for name in ("thread", "dot")]
+        self.expect_light(self.write_place(*flat))
+
+    def test_kept_maps_of_another_version_or_cut_short(self):
+        scene = self.write_place('referenceMaps(position="0 -3 1.2", position="0 -9 1.2")')
+        done = run("bake", scene)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        maps = sorted(self.folder.glob("scene.baked/*/*.map"))
+        self.assertEqual(len(maps), 2)
+        told, right = self.render(scene)
+        self.assertNotIn("warning", told)
+        whole = maps[0].read_bytes()
+        for damaged, word in [(b"PARVISM0" + whole[8:], "another version"), (whole[: len(whole) // 2], "cut short"),
+                              (b"", "no reference map")]:
+            maps[0].write_bytes(damaged)
+            told, middle = self.render(scene)
+            self.assertIn(maps[0].name, told)
+            self.assertIn(word, told)
+            self.assertIn("drawn anew", told)
+            self.assertEqual(middle, right)
+
+    def test_the_papers_figures_stand_in_its_city(self):
+        self.assertEqual(run("city", "paper", "-o", self.folder / "paper").returncode, 0)
+        done = run("check", self.folder / "paper" / "figures.xp")
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class BadModels(InAFolder):

@@ -1,5 +1,6 @@
 #include "city/paper_city.h"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 #include "base/parallel.h"
 #include "city/car.h"
 #include "city/city_buildings.h"
+#include "city/figure_script.h"
 #include "city/ground.h"
+#include "city/mirror_bodies.h"
 #include "city/paper_script.h"
 #include "city/sky_picture.h"
 #include "city/street_furniture.h"
@@ -53,8 +56,13 @@ std::vector<Job> writing_jobs(std::uint64_t seed) {
       return write_gltf(folder / (walker.name + ".glb"), walker);
     });
   }
+  for (scene::Model& body : std::array{make_ball(), make_whale()})
+    jobs.push_back([body = std::move(body)](const fs::path& folder) {
+      return write_gltf(folder / (body.name + ".glb"), body);
+    });
   jobs.push_back(
       [=](const fs::path& folder) { return write_file(folder / "people.xp", people_script(walker_files)); });
+  jobs.push_back([](const fs::path& folder) { return write_file(folder / "figures.xp", figure_script()); });
   jobs.push_back([=](const fs::path& folder) {
     return write_file(folder / "paper.xp", paper_script(vehicle_files, seed));
   });
