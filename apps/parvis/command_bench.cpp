@@ -1,4 +1,5 @@
 // parvis bench: figures, as a table and as JSON.
+#include "bench/curved_bench.h"
 #include "bench/doors_bench.h"
 #include "bench/frame_bench.h"
 #include "bench/mem_bench.h"
@@ -14,9 +15,10 @@ struct Arguments {
 };
 
 Status measure(const Arguments& arguments) {
-  const Result<bench::Report> report = arguments.name == "doors" ? bench::doors_bench(arguments.is_quick)
-                                       : arguments.name == "mem" ? bench::mem_bench(arguments.is_quick)
-                                                                 : bench::frame_bench(arguments.is_quick);
+  const Result<bench::Report> report = arguments.name == "doors"    ? bench::doors_bench(arguments.is_quick)
+                                       : arguments.name == "mem"    ? bench::mem_bench(arguments.is_quick)
+                                       : arguments.name == "curved" ? bench::curved_bench(arguments.is_quick)
+                                                                    : bench::frame_bench(arguments.is_quick);
   if (!report) return report.errors();
   report->print();
   return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
@@ -28,11 +30,13 @@ void add_bench(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("bench", "Measures, and prints every figure");
   const auto arguments = std::make_shared<Arguments>();
   command
-      ->add_option("name", arguments->name,
-                   "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
-                   "and leaves; mem: multiple environment maps, their cost and truth")
+      ->add_option(
+          "name", arguments->name,
+          "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
+          "and leaves; mem: multiple environment maps, their cost and truth; curved: reflections on curved "
+          "objects against the fine mesh")
       ->required()
-      ->check(CLI::IsMember({"frame", "doors", "mem"}));
+      ->check(CLI::IsMember({"frame", "doors", "mem", "curved"}));
   command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: done within three minutes");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");

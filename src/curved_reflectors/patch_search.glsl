@@ -1,11 +1,12 @@
-// The search over one patch of a reflector: Newton's method from where a ball of the patch's size would reflect; where that does
-// not find the point, from the best of some places spread over the patch, and at last without the belief that the way is
-// shortest there (patches are convex or concave as a whole, not everywhere). From the host:
+// The search over one patch of a reflector: Newton's method from the best of some places spread over the patch (for a body that is
+// one patch, from where a ball would reflect), then without the belief that the way is shortest there (patches are convex or
+// concave as a whole, not everywhere), then from the next best. From the host:
 //   SurfacePoint search_start(int i)    places spread over the patch
 //   float surface_kind(vec3 direction)  see reflector_map.glsl
-// Needs reflection_point.glsl, newton_search.glsl and reflector_map.glsl.
+// Needs newton_search.glsl and map_window.glsl.
 
 const int search_start_count = 16;
+const int best_start_count = 4;
 const int newton_steps = 12;
 const float found_error = 2e-9f;    // 0.005 degrees: a search ends
 const float found_angle = 0.0035f;  // radians, 0.2 degrees: beyond it a point is none
@@ -25,29 +26,38 @@ GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_co
   return PatchPoint(point, surface_kind(point.direction));
 }
 
-GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, bool is_convex) {
-  PatchPoint best = patch_point(task, is_convex ? first_direction(task) : search_start(0).position - task.centre, is_convex);
-  if (ends_search(best)) return best;
-  vec3 nearest = vec3(0.0f), second = vec3(0.0f);
-  float nearest_error = 2.0f, second_error = 2.0f;
+GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, bool is_convex, bool is_whole_body) {
+  PatchPoint best;
+  best.point.angle = 4.0f;
+  if (is_whole_body) {
+    best = patch_point(task, first_direction(task), is_convex);
+    if (ends_search(best)) return best;
+  }
+  vec3 starts[4];  // best_start_count, the best first
+  float errors[4];
+  for (int k = 0; k < best_start_count; ++k) {
+    starts[k] = search_start(0).position - task.centre;
+    errors[k] = 2.0f;
+  }
   for (int i = 0; i < search_start_count; ++i) {
     SurfacePoint at = search_start(i);
+    vec3 start = at.position - task.centre;
     float error = bisector_error(bisector(task.viewer, task.vertex, at), at.normal);
-    if (error < nearest_error) {
-      second = nearest;
-      second_error = nearest_error;
-      nearest = at.position;
-      nearest_error = error;
-    } else if (error < second_error) {
-      second = at.position;
-      second_error = error;
+    for (int k = 0; k < best_start_count; ++k) {
+      if (error >= errors[k]) continue;
+      vec3 moved = starts[k];  // it and all behind it make place
+      float moved_error = errors[k];
+      starts[k] = start;
+      errors[k] = error;
+      start = moved;
+      error = moved_error;
     }
   }
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    vec3 from = attempt % 2 == 0 ? nearest : second;
-    PatchPoint other = patch_point(task, from - task.centre, is_convex && attempt < 2);
-    if (ends_search(other)) return other;
-    if (other.point.angle < best.point.angle) best = other;
-  }
+  for (int k = 0; k < best_start_count; ++k)
+    for (int belief = is_convex && k < 2 ? 1 : 0; belief >= 0; --belief) {
+      PatchPoint other = patch_point(task, starts[k], belief == 1);
+      if (ends_search(other)) return other;
+      if (other.point.angle < best.point.angle) best = other;
+    }
   return best;
 }

@@ -4,11 +4,7 @@
 // Two slips of the paper are put right. The error is the angle between bisector and normal of the same point P (section 3
 // writes the normal of R, which nobody knows yet). And equation 1, (1 - B.N) / 2, is computed as |B - N|^2 / 4: the same
 // number, but in floats the first is 0 below 0.03 degrees.
-
-struct SurfacePoint {
-  vec3 position;
-  vec3 normal;  // unit length, to the side that reflects
-};
+// Needs surface_point.glsl.
 
 struct ReflectionTask {
   vec3 viewer;

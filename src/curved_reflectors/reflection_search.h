@@ -17,8 +17,10 @@ struct ReflectionSearch {
 
 #undef GLSL_FUNCTION
 #define GLSL_FUNCTION
+#include "curved_reflectors/surface_point.glsl"
+  // Each needs those before it: lines between them keep clang-format from sorting.
 #include "curved_reflectors/reflection_point.glsl"
-  // The others need the first: lines between them keep clang-format from sorting.
+  //
 #include "curved_reflectors/midpoint_search.glsl"
   //
 #include "curved_reflectors/newton_search.glsl"

@@ -25,10 +25,9 @@ struct Sampler {
 #define GLSL_FUNCTION inline
 };
 
-constexpr int closing_rounds = 8;       // of smoothing, on each level
 constexpr float window_margin = 1.1f;   // about the patch
 constexpr float widest_window = 0.9f;   // beyond it, all directions
-constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off in their middle
+constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off between them
 constexpr float crease_depth = 0.005f;  // of the distance
 
 glm::vec3 texel_direction(const MapWindow& window, glm::vec2 texel) {
@@ -163,16 +162,19 @@ void close(ImageF& texels, const MapWindow& window, bool is_convex) {
   });
 }
 
-/// What the surface between four texels is: do they say it?
+/// What the surface between four texels is: do they say it, in their middle and on both sides of it?
 float kind_between(const ReflectorMap& map, const PatchRays& rays, glm::vec2 first) {
-  const glm::vec3 between = texel_direction(map.window, first + 0.5f);
-  const std::optional<MetSurface> met = rays.along(map.window.centre, between);
-  if (!met) return kind_closed;
-  const auto [position, normal] = map.surface(between);
-  const bool is_told =
-      glm::distance(met->normal, normal) < crease_angle &&
-      glm::distance(met->position, position) < crease_depth * glm::distance(position, map.window.centre);
-  return is_told ? kind_surface : kind_crease;
+  for (const glm::vec2 at : {glm::vec2(0.5f), glm::vec2(0.2f, 0.6f), glm::vec2(0.8f, 0.4f)}) {
+    const glm::vec3 between = texel_direction(map.window, first + at);
+    const std::optional<MetSurface> met = rays.along(map.window.centre, between);
+    if (!met) return kind_closed;
+    const auto [position, normal] = map.surface(between);
+    const float distance = glm::distance(position, map.window.centre);
+    if (glm::distance(met->normal, normal) > crease_angle ||
+        glm::distance(met->position, position) > crease_depth * distance)
+      return kind_crease;
+  }
+  return kind_surface;
 }
 
 /// Turns distances into what the map stores; `is_open` tells texels that met no surface.
@@ -263,18 +265,22 @@ Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int 
   Result<ReflectorMesh> ordered = reflector_mesh(mesh, name);
   if (!ordered) return ordered.errors();
   Reflector reflector;
-  reflector.remarks = remarks_on(*ordered, name);
-  const std::vector<ReflectorPatch> patches = reflector_patches(*ordered);
-  reflector.maps.resize(std::min(patches.size(), most_patches));
-  parallel_for(reflector.maps.size(),
-               [&](std::size_t i) { reflector.maps[i] = reflector_map(*ordered, patches[i], side); });
+  reflector.mesh = *std::move(ordered);
+  reflector.remarks = remarks_on(reflector.mesh, name);
+  reflector.patches = reflector_patches(reflector.mesh);
+  reflector.maps.resize(std::min(reflector.patches.size(), most_patches));
+  parallel_for(reflector.maps.size(), [&](std::size_t i) {
+    reflector.maps[i] = reflector_map(reflector.mesh, reflector.patches[i], side);
+  });
   std::size_t without = 0;
-  for (std::size_t i = reflector.maps.size(); i < patches.size(); ++i) without += patches[i].triangles.size();
+  for (std::size_t i = reflector.maps.size(); i < reflector.patches.size(); ++i)
+    without += reflector.patches[i].triangles.size();
   if (without > 0)
     reflector.remarks.push_back(fmt::format(
-        "{}: {} of its {} patches have no map, with {} of {} triangles: they show an "
-        "environment map alone; a smoother mesh has fewer patches",
-        name, patches.size() - most_patches, patches.size(), without, ordered->neighbours.size()));
+        "{}: {} of its {} patches have no map, with {} of {} triangles: they show an environment map "
+        "alone; a smoother mesh has fewer patches",
+        name, reflector.patches.size() - reflector.maps.size(), reflector.patches.size(), without,
+        reflector.mesh.neighbours.size()));
   return reflector;
 }
 

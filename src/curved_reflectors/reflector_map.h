@@ -22,6 +22,8 @@ struct ReflectorMap {
   std::array<std::pair<glm::vec3, glm::vec3>, start_count> starts{};
   ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
 
+  /// Does the centre see surface all around?
+  bool is_whole_body() const { return window.extent == 1.0f; }
   /// Where a ray from the centre meets the surface, or what closes it; `direction` has any length.
   std::pair<glm::vec3, glm::vec3> surface(glm::vec3 direction) const;
   /// What the map holds there: the surface, a crease, or what closes it; see reflector_map.glsl.
@@ -34,7 +36,9 @@ ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patc
 
 /// A reflector ready to be searched: cut into patches, each with its map, the largest first.
 struct Reflector {
-  std::vector<ReflectorMap> maps;
+  ReflectorMesh mesh;
+  std::vector<ReflectorPatch> patches;
+  std::vector<ReflectorMap> maps;    ///< of the first patches
   std::vector<std::string> remarks;  ///< what was wrong with the mesh, and what was done about it
 };
 

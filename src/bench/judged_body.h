@@ -1,0 +1,52 @@
+// Bodies whose reflections are known: vertices that a viewer sees in a body, made from chance places of its
+// fine mesh, and how well a search finds those places again in the body's maps.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "curved_reflectors/reflection_search.h"
+#include "curved_reflectors/reflector_map.h"
+#include "curved_reflectors/surface_rays.h"
+
+namespace parvis::bench {
+
+using MapSearch = curved_reflectors::ReflectionSearch<curved_reflectors::ReflectorMap>;
+
+struct KnownReflection {
+  std::size_t patch;
+  glm::vec3 viewer, vertex;
+  float reach;  ///< of the vertex, in radii of the body
+};
+
+/// What one search made of all of a body's reflections.
+struct SearchFigures {
+  std::vector<double> angles_deg;  ///< between bisector and normal, on the fine mesh
+  std::vector<bool> is_told;       ///< the search says that it has not found it
+  double microseconds = 0.0;       ///< for each
+};
+
+class JudgedBody {
+ public:
+  using Search = std::function<MapSearch::PatchPoint(MapSearch&, const MapSearch::ReflectionTask&)>;
+
+  /// `count` reflections that nothing of the body hides, their vertices at 1.1, 1.5, 2.5 and 4 radii.
+  static Result<JudgedBody> make(std::string name, const Mesh& mesh, std::size_t count);
+
+  const std::string& name() const { return name_; }
+  const std::vector<KnownReflection>& reflections() const { return reflections_; }
+  SearchFigures judge(const Search& search) const;
+  std::string description() const;
+
+ private:
+  std::string name_;
+  std::size_t triangles_ = 0, patches_ = 0;
+  std::vector<curved_reflectors::ReflectorMap> maps_;
+  std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>>
+      rays_;  ///< of each map's part of the fine mesh
+  std::vector<KnownReflection> reflections_;
+};
+
+}  // namespace parvis::bench

@@ -1,0 +1,5 @@
+// A point of a reflector.
+struct SurfacePoint {
+  vec3 position;
+  vec3 normal;  // unit length, to the side that reflects
+};
