@@ -22,6 +22,7 @@ std::unique_ptr<render::Reflections> method_of(const scene::Scene& scene) {
     case scene::ReflectionMethod::multiple_environment_maps:
     case scene::ReflectionMethod::local_environment_maps:
     case scene::ReflectionMethod::simple_blend:
+    case scene::ReflectionMethod::virtual_objects:
       break;
   }
   assert(false);  // another room's

@@ -85,6 +85,7 @@ class GpuScene {
   const std::vector<Item>& items() const { return items_; }
   /// Of all parts of an object, in the world.
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
+  const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }
   /// Of all that does not move, hidden things included.
   Bounds fixed_bounds() const;
   /// Of each object that moves and is seen.

@@ -22,7 +22,7 @@ glm::mat4 with_reversed_depth(const glm::mat4& clip_from_world) {
 
 constexpr GLsizeiptr block_alignment = 256;  // no OpenGL asks for more
 
-bool has_colour(const View& view) { return view.kind == ViewKind::main || view.kind == ViewKind::cube_face; }
+bool has_colour(const View& view) { return view.kind < ViewKind::shadow; }
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void Renderer::draw_prepared(const View& view) {
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 
   if (has_colour(view)) {
-    sky_.draw(view);
+    if (view.kind != ViewKind::mirrored) sky_.draw(view);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glDepthMask(GL_FALSE);

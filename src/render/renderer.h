@@ -29,6 +29,7 @@ class Renderer {
   /// A room's own drawables, drawn after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
   Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
+  Status set_virtual_vertices(VirtualVertices* source) { return scene_.set_virtual_vertices(source); }
 
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
@@ -38,6 +39,7 @@ class Renderer {
   /// bench may leave out what stands still.
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
+  const View& main_view() const { return main_view_; }
   /// Draws the view that was prepared, four samples a pixel, into `radiance_texture`.
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.

@@ -114,6 +114,15 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
   return Done{};
 }
 
+Status SceneDrawable::set_virtual_vertices(VirtualVertices* source) {
+  Result<SurfacePrograms> programs = SurfacePrograms::create("render/surface.frag", gpu_.materials(),
+                                                             source->vertex_shader(), {{"IS_MIRRORED", ""}});
+  if (!programs) return programs.errors();
+  programs_.mirrored = *std::move(programs);
+  virtual_vertices_ = source;
+  return Done{};
+}
+
 /// Elsewhere than in the main view reflections end: mirrors show the sky.
 bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
@@ -162,7 +171,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
     if (item.object == view.excluded_object || !shows(view.subjects, gpu_, item.object)) continue;
     if (!gpu_.is_visible(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
-    if (!frustum.may_see(item.bounds)) continue;
+    if (view.kind != ViewKind::mirrored && !frustum.may_see(item.bounds)) continue;
     ++list.statistics.items_in_frustum;
     if (view.culls_hidden && occlusion_.hides(item.bounds)) {
       ++list.statistics.items_hidden;
@@ -239,6 +248,8 @@ void SceneDrawable::draw_depth(const ViewList& list) const {
 const gl::Program& SceneDrawable::program_for(const View& view, const Batch& batch) const {
   if (view.kind == ViewKind::shadow) return programs_.depth;
   if (view.kind == ViewKind::picking) return programs_.picking;
+  if (view.kind == ViewKind::mirrored)
+    return programs_.mirrored.of(gpu_.materials()[std::size_t(batch.material)], true);
   const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
   return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
@@ -259,7 +270,9 @@ void SceneDrawable::draw(const View& view, Pass pass) {
     if (current != &program) program.use();
     current = &program;
     if (batch.mirror_object >= 0) reflection_->bind(program, batch.mirror_object);
+    if (view.kind == ViewKind::mirrored) virtual_vertices_->bind(program);
     gpu_.bind_material(batch.material);
+    if (view.kind == ViewKind::mirrored) GpuScene::cull_faces(false);
     draw_commands(list, batch.first_command, batch.command_count);
   }
 }

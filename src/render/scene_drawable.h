@@ -27,6 +27,17 @@ class ReflectionSource {
   virtual void bind(const gl::Program& program, int object) = 0;
 };
 
+/// Where mirrored views show vertices. A room above supplies it.
+class VirtualVertices {
+ public:
+  virtual ~VirtualVertices() = default;
+  /// A vertex shader that includes render/surface_vertex.glsl and sets `seen_from`, `is_lost` and `height` of
+  /// render/surface_body.glsl, too.
+  virtual std::string vertex_shader() const = 0;
+  /// Binds what the shader needs for the reflector that is drawn now, as ReflectionSource::bind does.
+  virtual void bind(const gl::Program& program) = 0;
+};
+
 /// What one view drew.
 struct DrawStatistics {
   int items_in_frustum = 0;
@@ -42,6 +53,8 @@ class SceneDrawable final : public Drawable {
   void update(const scene::Scene& scene);
   /// null: all reflect the sky alone.
   Status set_reflection(ReflectionSource* source);
+  /// To be called before mirrored views are drawn.
+  Status set_virtual_vertices(VirtualVertices* source);
 
   void prepare(const View& view) override;
   void draw(const View& view, Pass pass) override;
@@ -63,7 +76,7 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    SurfacePrograms surface, mirror;
+    SurfacePrograms surface, mirror, mirrored;
     gl::Program depth, solid_depth, picking;
   };
 
@@ -99,6 +112,7 @@ class SceneDrawable final : public Drawable {
   std::vector<OcclusionCuller::PlacedShape> placed_shapes_;
   Programs programs_;
   ReflectionSource* reflection_ = nullptr;
+  VirtualVertices* virtual_vertices_ = nullptr;
   gl::VertexArray vertex_array_;
   ViewList main_list_, other_list_;
   std::vector<int> visible_objects_;

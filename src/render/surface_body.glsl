@@ -21,6 +21,14 @@ in vec4 leaf_sky_cell;
 #else
 flat in int object_of_surface;
 #endif
+#ifdef IS_MIRRORED
+in vec3 seen_from;     // where the reflector shows it
+in float is_lost;      // 0 where all corners have a place in the mirror image
+in float height;       // above the reflector; what lies below it is hidden
+const float seen_back = 0.1f;  // cosine: smooth normals turn away a little before their triangles do
+#else
+#define seen_from viewer_position.xyz
+#endif
 out vec4 radiance;
 
 vec4 surface_sky_cell;
@@ -77,12 +85,22 @@ vec3 mapped_normal(vec3 normal, vec2 texture_uv, vec2 tx, vec2 ty) {
 #endif
 
 void main() {
-  vec3 to_viewer = viewer_position.xyz - position;
+  vec3 to_viewer = seen_from - position;
   float distance_m = length(to_viewer);
   to_viewer /= distance_m;
   vec3 normal = normalize(vertex_normal);
+#ifdef IS_MIRRORED
+  // A mirror image may be turned over: what faces front is told by the normal.
+  bool is_front = dot(normal, to_viewer) > -seen_back;
+  if (is_lost > 0.0f || height < 0.0f) discard;
+#ifndef HAS_BACKS
+  if (!is_front) discard;
+#endif
+#else
+  bool is_front = gl_FrontFacing;
+#endif
 #ifdef HAS_BACKS
-  if (!gl_FrontFacing) normal = -normal;
+  if (!is_front) normal = -normal;
 #endif
 
   vec2 texture_uv = texture_coordinates(uv);

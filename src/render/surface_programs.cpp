@@ -20,9 +20,10 @@ gl::Defines defines_of(std::uint8_t features) {
   return defines;
 }
 
-Status link(gl::Program& program, const std::string& fragment_path, const gl::Defines& defines) {
+Status link(gl::Program& program, const std::string& vertex_path, const std::string& fragment_path,
+            const gl::Defines& defines) {
   if (program.name()) return Done{};
-  Result<gl::Program> linked = gl::Program::create("render/surface.vert", fragment_path, defines);
+  Result<gl::Program> linked = gl::Program::create(vertex_path, fragment_path, defines);
   if (!linked) return linked.errors();
   program = *std::move(linked);
   assign_bindings(program);
@@ -32,15 +33,18 @@ Status link(gl::Program& program, const std::string& fragment_path, const gl::De
 }  // namespace
 
 Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path,
-                                                const std::vector<GpuMaterial>& materials) {
+                                                const std::vector<GpuMaterial>& materials,
+                                                const std::string& vertex_path, const gl::Defines& common) {
   SurfacePrograms made;
   for (const GpuMaterial& material : materials) {
     gl::Defines defines = defines_of(material.features);
-    if (Status status = link(made.programs_[material.features], fragment_path, defines); !status)
+    defines.insert(defines.end(), common.begin(), common.end());
+    if (Status status = link(made.programs_[material.features], vertex_path, fragment_path, defines); !status)
       return status.errors();
     if (!(material.features & surface_has_holes)) continue;
     defines.emplace_back("ONE_SAMPLE", "");
-    if (Status status = link(made.one_sample_[material.features], fragment_path, defines); !status)
+    if (Status status = link(made.one_sample_[material.features], vertex_path, fragment_path, defines);
+        !status)
       return status.errors();
   }
   return made;

@@ -13,10 +13,12 @@ namespace parvis::render {
 
 class SurfacePrograms {
  public:
-  /// Links render/surface.vert and `fragment_path` for each combination of features among `materials`, for
-  /// views of many samples a pixel and of one.
+  /// Links both shaders for each combination of features among `materials`, for views of many samples a pixel
+  /// and of one. `defines` are those of all.
   static Result<SurfacePrograms> create(const std::string& fragment_path,
-                                        const std::vector<GpuMaterial>& materials);
+                                        const std::vector<GpuMaterial>& materials,
+                                        const std::string& vertex_path = "render/surface.vert",
+                                        const gl::Defines& defines = {});
 
   /// For a material that was among them.
   const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {

@@ -13,6 +13,7 @@ namespace parvis::render {
 enum class ViewKind : std::uint8_t {
   main,       ///< what a person sees
   cube_face,  ///< surroundings of a reflector
+  mirrored,   ///< what a curved reflector shows: a room above places the vertices
   shadow,     ///< depth from the sun
   picking     ///< which object each pixel shows
 };

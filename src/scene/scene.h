@@ -75,7 +75,8 @@ enum class ReflectionMethod : std::uint8_t {
   box_projected_probe,
   multiple_environment_maps,
   local_environment_maps,
-  simple_blend
+  simple_blend,
+  virtual_objects
 };
 inline constexpr std::array reflection_method_names{"none",
                                                     "rerendered_cube_map",
@@ -84,7 +85,8 @@ inline constexpr std::array reflection_method_names{"none",
                                                     "box_projected_probe",
                                                     "multiple_environment_maps",
                                                     "local_environment_maps",
-                                                    "simple_blend"};
+                                                    "simple_blend",
+                                                    "virtual_objects"};
 
 /// What of a method is shown in place of its reflections, to look into it.
 enum class ReflectionView : std::uint8_t {

@@ -2,6 +2,7 @@
 
 #include "action/action_nodes.h"
 #include "city/city_nodes.h"
+#include "curved_reflectors/virtual_objects.h"
 #include "environment_maps/local_environment_maps.h"
 #include "environment_maps/multiple_environment_maps.h"
 #include "environment_maps/reference_map_node.h"
@@ -69,6 +70,8 @@ Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene
       return environment_maps::make_local_environment_maps(scene, renderer);
     case scene::ReflectionMethod::simple_blend:
       return environment_maps::make_simple_blend(scene, renderer);
+    case scene::ReflectionMethod::virtual_objects:
+      return curved_reflectors::make_virtual_objects(scene, renderer);
     default:
       return probes::make_reflections(scene, renderer);
   }

@@ -1,0 +1,33 @@
+// A reflector's maps and shapes on the GPU.
+#pragma once
+
+#include "curved_reflectors/reflector_map.h"
+#include "gl/objects.h"
+#include "gl/program.h"
+
+namespace parvis::curved_reflectors {
+
+class GpuReflector {
+ public:
+  explicit GpuReflector(const Reflector& reflector);
+
+  struct Patch {
+    gl::Texture texels;
+    MapWindow window;
+    bool is_convex, is_whole_body;
+    std::array<glm::vec3, start_count> start_positions, start_normals;
+    GLsizei first_index, index_count;  ///< of its own triangles
+  };
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// Hands a patch's map to a program that has virtual_vertices.vert; its texture goes to `unit`.
+  static void bind(const gl::Program& program, const Patch& patch, GLuint unit);
+  /// Draws a patch's triangles; attribute 0 is the position.
+  void draw(const Patch& patch) const;
+
+ private:
+  std::vector<Patch> patches_;
+  gl::Buffer vertices_, indices_;
+  gl::VertexArray vertex_array_;
+};
+
+}  // namespace parvis::curved_reflectors

@@ -1,0 +1,2 @@
+// Depth and stencil alone.
+void main() {}

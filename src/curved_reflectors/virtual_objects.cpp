@@ -1,0 +1,144 @@
+#include "curved_reflectors/virtual_objects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/bindings.h"
+
+namespace parvis::curved_reflectors {
+namespace {
+
+constexpr GLuint picture_unit = render::first_reflection_unit;
+constexpr GLuint map_unit = render::first_reflection_unit + 1;
+constexpr std::size_t most_patches = 64;  // of a reflector
+constexpr std::size_t most_shown = 255;   // numbers of the stencil
+constexpr int texels_a_face_texel =
+    4;  // a map's side, for the resolution that scripts give for a cube map's face
+
+/// The mirror-like parts of a model at rest, in one piece.
+Mesh mirror_mesh(const scene::Model& model) {
+  Mesh mesh;
+  const std::vector<glm::mat4> pose = scene::rest_pose(model);
+  for (const scene::Part& part : model.parts)
+    if (model.materials[std::size_t(part.material)].is_mirror_like)
+      append(mesh, part.mesh, pose[std::size_t(part.node)]);
+  return mesh;
+}
+
+std::unique_ptr<GpuReflector> reflector_of(const scene::Model& model, const std::string& name, int side) {
+  const Result<Reflector> made = make_reflector(mirror_mesh(model), name, side, most_patches);
+  if (!made) {
+    fmt::print(stderr, "warning: {}; it mirrors the sky alone\n", to_string(made.errors().front()));
+    return nullptr;
+  }
+  for (const std::string& remark : made->remarks) fmt::print(stderr, "warning: {}\n", remark);
+  return std::make_unique<GpuReflector>(*made);
+}
+
+/// Angles stay as they are; else normals of the maps would be wrong.
+bool is_scaled_evenly(const glm::mat4& m) {
+  const glm::vec3 sizes(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+  const float least = std::min({sizes.x, sizes.y, sizes.z}), most = std::max({sizes.x, sizes.y, sizes.z});
+  return least > 0.999f * most && glm::determinant(glm::mat3(m)) > 0.0f;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(const scene::Scene& scene,
+                                                               render::Renderer& renderer) {
+  Result<gl::Program> patch_pixels =
+      gl::Program::create("curved_reflectors/patch_pixels.vert", "curved_reflectors/patch_pixels.frag");
+  if (!patch_pixels) return patch_pixels.errors();
+  std::unique_ptr<VirtualObjects> made(new VirtualObjects(scene, *std::move(patch_pixels)));
+  if (Status status = renderer.set_virtual_vertices(made.get()); !status) return status.errors();
+  return made;
+}
+
+VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels)
+    : patch_pixels_(std::move(patch_pixels)) {
+  const int side = texels_a_face_texel * scene.reflection.resolution;
+  for (const scene::Object& object : scene.objects) {
+    model_of_object_.push_back(object.model.get());
+    if (!object.takes_reflection || reflectors_.contains(object.model.get())) continue;
+    const std::string name = object.name.empty() ? object.model->name : object.name;
+    reflectors_[object.model.get()] = reflector_of(*object.model, name.empty() ? "reflector" : name, side);
+  }
+}
+
+void VirtualObjects::find_patches(const render::Renderer& renderer,
+                                  const std::vector<render::Reflector>& reflectors) {
+  shown_.clear();
+  for (const render::Reflector& reflector : reflectors) {
+    const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);
+    const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
+    if (!gpu || !is_scaled_evenly(world_from_reflector)) continue;
+    for (const GpuReflector::Patch& patch : gpu->patches())
+      if (shown_.size() < most_shown)
+        shown_.push_back({reflector.object, gpu.get(), &patch, world_from_reflector});
+  }
+}
+
+/// Each pixel gets the number of the nearest patch there.
+void VirtualObjects::mark_pixels(const render::View& view) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
+  glViewport(0, 0, view.width, view.height);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_CULL_FACE);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // a shader without colour leaves it undefined
+  patch_pixels_.use();
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    glStencilFunc(GL_ALWAYS, GLint(i) + 1, 0xff);
+    patch_pixels_.set("clip_from_reflector", view.clip_from_world * shown_[i].world_from_reflector);
+    shown_[i].reflector->draw(*shown_[i].patch);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+}
+
+void VirtualObjects::update_maps(render::Renderer& renderer,
+                                 const std::vector<render::Reflector>& reflectors) {
+  picture_.resize(renderer.width(), renderer.height());
+  picture_.clear();
+  find_patches(renderer, reflectors);
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrored;
+  view.framebuffer = picture_.framebuffer();
+  view.culls_hidden = false;
+  view.subjects = render::Subjects::all;
+  glEnable(GL_STENCIL_TEST);
+  mark_pixels(view);
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    current_ = &shown_[i];
+    view.excluded_object = shown_[i].object;
+    glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
+    renderer.draw_view(view);
+  }
+  current_ = nullptr;
+  glDisable(GL_STENCIL_TEST);
+  picture_.resolve();
+}
+
+void VirtualObjects::bind(const gl::Program& program) {
+  GpuReflector::bind(program, *current_->patch, map_unit);
+  program.set("world_from_reflector", current_->world_from_reflector);
+  program.set("reflector_from_world", glm::inverse(current_->world_from_reflector));
+}
+
+void VirtualObjects::bind(const gl::Program& program, int) {
+  glBindTextureUnit(picture_unit, picture_.texture());
+  program.set("virtual_picture", int(picture_unit));
+}
+
+Result<std::unique_ptr<render::Reflections>> make_virtual_objects(const scene::Scene& scene,
+                                                                  render::Renderer& renderer) {
+  Result<std::unique_ptr<VirtualObjects>> made = VirtualObjects::create(scene, renderer);
+  if (!made) return made.errors();
+  std::unique_ptr<render::Reflections> reflections = *std::move(made);
+  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
+  return reflections;
+}
+
+}  // namespace parvis::curved_reflectors

@@ -1,0 +1,54 @@
+// Reflections on curved objects by virtual objects: the scene is drawn once more for each patch of each
+// reflector, every vertex where the patch shows it, into a picture that the reflector's own pixels then look
+// up. reflection(method="virtual_objects").
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "curved_reflectors/gpu_reflector.h"
+#include "curved_reflectors/virtual_picture.h"
+#include "render/reflections.h"
+
+namespace parvis::curved_reflectors {
+
+class VirtualObjects final : public render::Reflections, public render::VirtualVertices {
+ public:
+  /// Makes the maps of all reflecting objects; tells on standard error what is wrong with their meshes. One
+  /// whose mesh cannot be used mirrors the sky alone.
+  static Result<std::unique_ptr<VirtualObjects>> create(const scene::Scene& scene,
+                                                        render::Renderer& renderer);
+
+  std::string fragment_shader() const override { return "curved_reflectors/virtual_objects.frag"; }
+  void bind(const gl::Program& program, int object) override;
+  std::string vertex_shader() const override { return "curved_reflectors/virtual_vertices.vert"; }
+  void bind(const gl::Program& program) override;
+
+ private:
+  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels);
+  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+
+  /// A patch that the frame shows, in the order of its number in the stencil.
+  struct ShownPatch {
+    int object;
+    const GpuReflector* reflector;
+    const GpuReflector::Patch* patch;
+    glm::mat4 world_from_reflector;
+  };
+  void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
+  void mark_pixels(const render::View& view) const;
+
+  std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>> reflectors_;
+  std::vector<const scene::Model*> model_of_object_;
+  gl::Program patch_pixels_;
+  VirtualPicture picture_;
+  std::vector<ShownPatch> shown_;
+  const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn
+};
+
+/// Handed to the renderer; both outlive it.
+Result<std::unique_ptr<render::Reflections>> make_virtual_objects(const scene::Scene& scene,
+                                                                  render::Renderer& renderer);
+
+}  // namespace parvis::curved_reflectors

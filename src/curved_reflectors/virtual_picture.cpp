@@ -1,0 +1,40 @@
+#include "curved_reflectors/virtual_picture.h"
+
+#include "render/picture_target.h"
+
+namespace parvis::curved_reflectors {
+namespace {
+
+gl::Texture multisampled(GLenum format, int width, int height) {
+  gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D_MULTISAMPLE));
+  glTextureStorage2DMultisample(texture.name(), render::samples_a_pixel, format, width, height, GL_TRUE);
+  return texture;
+}
+
+}  // namespace
+
+void VirtualPicture::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  samples_ = multisampled(GL_RGBA16F, width, height);
+  depth_stencil_ = multisampled(GL_DEPTH32F_STENCIL8, width, height);
+  picture_ = gl::texture_2d(GL_RGBA16F, width, height);
+  drawn_ = gl::Framebuffer::create();
+  glNamedFramebufferTexture(drawn_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
+  glNamedFramebufferTexture(drawn_.name(), GL_DEPTH_STENCIL_ATTACHMENT, depth_stencil_.name(), 0);
+  resolved_ = gl::Framebuffer::create();
+  glNamedFramebufferTexture(resolved_.name(), GL_COLOR_ATTACHMENT0, picture_.name(), 0);
+}
+
+void VirtualPicture::clear() const {
+  constexpr GLfloat nothing[4]{};
+  glClearNamedFramebufferfv(drawn_.name(), GL_COLOR, 0, nothing);
+  glClearNamedFramebufferfi(drawn_.name(), GL_DEPTH_STENCIL, 0, 1.0f, 0);
+}
+
+void VirtualPicture::resolve() const {
+  glBlitNamedFramebuffer(drawn_.name(), resolved_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace parvis::curved_reflectors
