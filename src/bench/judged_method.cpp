@@ -1,6 +1,28 @@
 #include "bench/judged_method.h"
 
+#include <algorithm>
+
 namespace parvis::bench {
+namespace {
+
+Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
+  Image8 part(window.width, window.height, picture.channels);
+  for (int y = 0; y < window.height; ++y)
+    std::copy_n(picture.at(window.x, window.y + y), window.width * picture.channels, part.at(0, y));
+  return part;
+}
+
+Status make_maps(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+                 render::Subjects subjects) {
+  render::Renderer& renderer = stage.renderer();
+  if (Status status = renderer.set_reflection(method.reflections.get()); !status) return status;
+  renderer.begin_frame(stage.scene(), camera);
+  renderer.prepare_main_view(camera, width, height, subjects);
+  method.reflections->update(renderer, stage.scene(), camera);
+  return Done{};
+}
+
+}  // namespace
 
 Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
                                    const scene::Reflection& reflection) {
@@ -8,18 +30,25 @@ Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
   scene.reflection = reflection;
   Result<std::unique_ptr<render::Reflections>> made = stage::make_reflections(scene, stage.renderer());
   if (!made) return made.errors();
-  return JudgedMethod{std::move(name), *std::move(made)};
+  return JudgedMethod{std::move(name), *std::move(made),
+                      reflection.method == scene::ReflectionMethod::time_sliced_cube_map};
+}
+
+Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
+  return make_maps(stage, method, camera, width, height, render::Subjects::all);
 }
 
 Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects) {
-  render::Renderer& renderer = stage.renderer();
-  if (Status status = renderer.set_reflection(method.reflections.get()); !status) return status;
-  renderer.begin_frame(stage.scene(), camera);
-  renderer.prepare_main_view(camera, width, height, subjects);
-  method.reflections->update(renderer, stage.scene(), camera);
-  renderer.draw_main_view();
+  if (Status status = make_maps(stage, method, camera, width, height, subjects); !status) return status;
+  stage.renderer().draw_main_view();
   return Done{};
+}
+
+Result<Image8> picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+                          int height, const reference::PixelWindow& window) {
+  if (Status status = draw(stage, method, camera, width, height); !status) return status.errors();
+  return cut_out(stage.renderer().read_picture(stage.scene().exposure), window);
 }
 
 }  // namespace parvis::bench

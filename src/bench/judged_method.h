@@ -11,6 +11,7 @@ namespace parvis::bench {
 struct JudgedMethod {
   std::string name;
   std::shared_ptr<render::Reflections> reflections;
+  bool shows_earlier_frames = false;  ///< its maps are taken little by little
 };
 
 /// Makes a method for a stage's scene; it lives no longer than the stage.
@@ -20,5 +21,12 @@ Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
 /// Draws a frame of the stage by a method: all of it, or cars alone.
 Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects = render::Subjects::all);
+
+/// Lets a method make what it makes for a frame, of which no picture is wanted.
+Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height);
+
+/// A part of a frame by a method, tone-mapped.
+Result<Image8> picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+                          int height, const reference::PixelWindow& window);
 
 }  // namespace parvis::bench

@@ -1,14 +1,20 @@
 #include "bench/mem_bench.h"
 
+#include <cmath>
 #include <numeric>
 
+#include "base/progress.h"
 #include "bench/map_figures.h"
+#include "bench/mem_budget.h"
+#include "bench/mem_motion.h"
 #include "bench/mem_quality.h"
+#include "bench/mem_scaling.h"
+#include "bench/near_views.h"
 #include "bench/reflection_cost.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
 #include "city/paper_city.h"
-#include "environment_maps/multiple_environment_maps.h"
+#include "environment_maps/scene_maps.h"
 #include "gl/context.h"
 
 namespace parvis::bench {
@@ -88,6 +94,67 @@ Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
   return Done{};
 }
 
+/// Faces of cube maps that could be drawn in the time that the shipped method takes in near views; one at
+/// least.
+Result<int> faces_for_the_same_time(stage::Stage& stage, int repeats, Report& report) {
+  constexpr int views = 3;
+  const Result<std::vector<JudgedMethod>> methods =
+      make(stage, {{"none", usual(ReflectionMethod::none)},
+                   {"mem", shipped()},
+                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)}});
+  if (!methods) return methods.errors();
+  NearViews near_views(stage, width, height);
+  std::vector<double> mem_ms, face_ms;
+  for (int i = 0; i < views; ++i) {
+    const Result<NearView> view = near_views.next();
+    if (!view) return view.errors();
+    const Result<std::vector<ReflectionCost>> costs =
+        reflection_costs(stage, *methods, view->camera, width, height, repeats);
+    if (!costs) return costs.errors();
+    mem_ms.push_back(median((*costs)[1].ms).value);
+    face_ms.push_back(median((*costs)[2].ms).value / std::max((*methods)[2].reflections->faces_drawn(), 1));
+  }
+  const int faces = std::max(int(std::lround(median(mem_ms).value / median(face_ms).value)), 1);
+  report.note(
+      fmt::format("near views: mem {:.2f} ms, a re-rendered face {:.2f} ms: {} time-sliced faces a frame",
+                  median(mem_ms).value, median(face_ms).value, faces));
+  return faces;
+}
+
+Status measure_motion(stage::Stage& stage, bool is_quick, Report& report) {
+  scene::Reflection sliced = usual(ReflectionMethod::time_sliced_cube_map);
+  const Result<int> faces = faces_for_the_same_time(stage, is_quick ? 5 : 20, report);
+  if (!faces) return faces.errors();
+  sliced.faces_a_frame = *faces;
+  const Result<std::vector<JudgedMethod>> methods =
+      make(stage, {{"mem", shipped()},
+                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
+                   {"time_sliced", sliced}});
+  if (!methods) return methods.errors();
+  const Result<MotionErrors> errors = is_quick ? errors_in_motion(stage, *methods, 5, width / 2, height / 2)
+                                               : errors_in_motion(stage, *methods, 20, width, height);
+  if (!errors) return errors.errors();
+  report.note(fmt::format("{} drives beside cars: true frames differ by {:.4f} inside reflections",
+                          errors->drives, errors->true_difference));
+  for (std::size_t m = 0; m < methods->size(); ++m)
+    report.note(fmt::format("driving, {}: FLIP {:.4f}, error of frame differences {:.4f}", (*methods)[m].name,
+                            errors->flip[m], errors->difference[m]));
+  report.add("flip_ratio_mem_over_time_sliced", errors->flip[0] / errors->flip[2]);
+  report.add("motion_error_ratio_mem_over_rerendered", errors->difference[0] / errors->difference[1]);
+  return Done{};
+}
+
+/// Draws the city's maps and keeps them beside its file, so that no stage need draw them again.
+Status keep_maps(scene::Scene city) {
+  city.reflection = shipped();
+  const Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(city);
+  if (!renderer) return renderer.errors();
+  const environment_maps::HeightPyramid heights(environment_maps::heights_of(city));
+  const Result<environment_maps::ReferenceMaps> maps =
+      environment_maps::bake_maps(city, heights, **renderer, environment_maps::Keep::yes);
+  return maps ? Status(Done{}) : Status(maps.errors());
+}
+
 Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   constexpr int cars_seen = 30;
   Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(city, 120));
@@ -128,13 +195,34 @@ Result<Report> mem_bench(bool is_quick) {
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
   const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", stage::node_registry());
   if (!city) return city.errors();
-  measure_memory(shipped().resolution, report);
-  measure_rays(city->scene, report);
-  measure_placement(city->scene, report);
-  if (Status status = measure_cost(city->scene, is_quick, report); !status) return status.errors();
   Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(stage::make_play(city->scene));
   if (!stage) return stage.errors();
-  if (Status status = measure_quality(**stage, is_quick, report); !status) return status.errors();
+  const int repeats = is_quick ? 20 : 30;
+  const std::function<Status()> parts[]{
+      [&]() -> Status {
+        measure_memory(shipped().resolution, report);
+        measure_rays(city->scene, report);
+        return Done{};
+      },
+      [&]() -> Status {
+        measure_placement(city->scene, report);
+        return Done{};
+      },
+      [&] { return keep_maps(city->scene); },
+      [&] { return measure_cost(city->scene, is_quick, report); },
+      [&] { return measure_body_count(city->scene, shipped(), repeats, report); },
+      [&] { return measure_city_size(city->scene, shipped(), repeats, report); },
+      [&] { return measure_quality(**stage, is_quick, report); },
+      [&] { return measure_motion(**stage, is_quick, report); },
+      [&] {
+        return is_quick ? measure_budget(**stage, shipped(), 6, width / 2, height / 2, report)
+                        : measure_budget(**stage, shipped(), 60, width, height, report);
+      }};
+  Progress progress("parts of the bench", std::size(parts));
+  for (const std::function<Status()>& part : parts) {
+    if (Status status = part(); !status) return status.errors();
+    progress.advance();
+  }
   return report;
 }
 

@@ -12,13 +12,6 @@ namespace {
 constexpr int samples_a_pixel = 16;
 constexpr float crossing_reach_m = 15.0f;
 
-Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
-  Image8 part(window.width, window.height, picture.channels);
-  for (int y = 0; y < window.height; ++y)
-    std::copy_n(picture.at(window.x, window.y + y), window.width * picture.channels, part.at(0, y));
-  return part;
-}
-
 /// Lanes end at crossings.
 bool is_at_crossing(const scene::Scene& scene, glm::vec3 at) {
   return std::ranges::any_of(scene.roads.lanes, [&](const scene::Lane& lane) {
@@ -41,11 +34,10 @@ Result<std::vector<ViewFlips>> flips_of_methods(stage::Stage& stage, const std::
     const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
     flips.push_back({is_at_crossing(stage.scene(), view->car), {}});
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      if (Status status = draw(stage, methods[m], view->camera, width, height); !status)
-        return status.errors();
-      const Image8 picture = cut_out(stage.renderer().read_picture(stage.scene().exposure), view->window);
+      const Result<Image8> picture = picture_of(stage, methods[m], view->camera, width, height, view->window);
+      if (!picture) return picture.errors();
       const Result<reference::Difference> difference =
-          reference::compare(picture, expected, truth.mirror_mask);
+          reference::compare(*picture, expected, truth.mirror_mask);
       if (!difference) return difference.errors();
       flips.back().of_method.push_back(difference->flip);
     }

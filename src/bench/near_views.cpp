@@ -1,7 +1,5 @@
 #include "bench/near_views.h"
 
-#include <optional>
-
 namespace parvis::bench {
 namespace {
 
@@ -49,6 +47,12 @@ std::optional<reference::PixelWindow> window_of(const render::ObjectPicture& ske
 
 }  // namespace
 
+std::optional<reference::PixelWindow> window_of_car(stage::Stage& stage, const Camera& camera, int object,
+                                                    int width, int height) {
+  const render::ObjectPicture sketch = stage.renderer().pick(camera, sketch_width, sketch_height, true);
+  return window_of(sketch, stage.scene(), object, width, height);
+}
+
 Result<NearView> NearViews::next() {
   std::vector<int> cars;
   const scene::Scene& scene = stage_.scene();
@@ -63,9 +67,8 @@ Result<NearView> NearViews::next() {
       const int car = cars[std::size_t(random_.index(int(cars.size())))];
       const Bounds& bounds = stage_.renderer().gpu().object_bounds()[std::size_t(car)];
       const Camera camera = look_at_car(bounds, random_, float(width_) / float(height_));
-      const render::ObjectPicture sketch = stage_.renderer().pick(camera, sketch_width, sketch_height, true);
-      if (const auto window = window_of(sketch, scene, car, width_, height_))
-        return NearView{camera, bounds.centre(), *window};
+      if (const auto window = window_of_car(stage_, camera, car, width_, height_))
+        return NearView{camera, car, bounds.centre(), *window};
     }
   }
   return error("no car came near within {} s of traffic", longest_search_s);

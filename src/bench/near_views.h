@@ -1,6 +1,8 @@
 // Views from the pavement of cars that pass: where reflections are looked at.
 #pragma once
 
+#include <optional>
+
 #include "base/random.h"
 #include "reference/tracer.h"
 #include "stage/stage.h"
@@ -10,9 +12,15 @@ namespace parvis::bench {
 /// A car near the eye, as the scene stands now.
 struct NearView {
   Camera camera;
+  int object;                     ///< the car, in the scene
   glm::vec3 car;                  ///< middle of its bounds, in the world
   reference::PixelWindow window;  ///< the car's pixels and a margin
 };
+
+/// The pixels that show a car in the frame of now, and a margin; nothing: it is small, cut off, or others
+/// cover much of the picture.
+std::optional<reference::PixelWindow> window_of_car(stage::Stage& stage, const Camera& camera, int object,
+                                                    int width, int height);
 
 /// Views of cars that nothing hides, at different times and from all sides: the same for the same scene.
 class NearViews {

@@ -15,18 +15,23 @@ double finished_ms(const std::function<void()>& work) {
 
 Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
-                                                     const Camera& camera, int width, int height,
-                                                     int repeats) {
+                                                     const Camera& camera, int width, int height, int repeats,
+                                                     Frames frames) {
   std::vector<ReflectionCost> costs(methods.size());
   std::vector<double> passes_ms(methods.size()), cars_ms(methods.size());
   render::Renderer& renderer = stage.renderer();
   for (int repeat = 0; repeat < repeats; ++repeat) {
+    renderer.begin_frame(stage.scene(), camera);
     for (std::size_t turn = 0; turn < methods.size(); ++turn) {
       const std::size_t m = repeat % 2 == 0 ? turn : methods.size() - 1 - turn;
-      if (Status status = draw(stage, methods[m], camera, width, height, render::Subjects::moving); !status)
-        return status.errors();  // makes what is made once
+      if (Status status = renderer.set_reflection(methods[m].reflections.get()); !status)
+        return status.errors();
+      renderer.prepare_main_view(camera, width, height, render::Subjects::moving);
+      methods[m].reflections->update(renderer, stage.scene(), camera);
+      renderer.draw_main_view();  // makes what is made once
       passes_ms[m] = finished_ms([&] { methods[m].reflections->update(renderer, stage.scene(), camera); });
       cars_ms[m] = finished_ms([&] { renderer.draw_main_view(); });
+      if (frames == Frames::left_out) continue;
       renderer.prepare_main_view(camera, width, height);
       costs[m].frame_ms.push_back(passes_ms[m] + finished_ms([&] { renderer.draw_main_view(); }));
     }

@@ -13,15 +13,18 @@ namespace parvis::bench {
 /// Milliseconds of one method, one sample a repetition.
 struct ReflectionCost {
   std::vector<double> ms;        ///< reflections alone
-  std::vector<double> frame_ms;  ///< whole frames, shadows kept
+  std::vector<double> frame_ms;  ///< whole frames, shadows kept; empty: left out
 };
+
+/// Whether frames are timed, too.
+enum class Frames : bool { left_out, whole };
 
 /// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn; the
 /// first must be the method without reflections, whose cost is nothing.
 Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
-                                                     const Camera& camera, int width, int height,
-                                                     int repeats);
+                                                     const Camera& camera, int width, int height, int repeats,
+                                                     Frames frames = Frames::whole);
 
 /// Ratio of two medians; its interval is the widest that both of theirs allow.
 Median ratio(const Median& over, const Median& under);

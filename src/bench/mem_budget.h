@@ -1,0 +1,15 @@
+// How well a method that holds a budget holds it: real frames of a drive, by the clock.
+#pragma once
+
+#include "bench/report.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+/// `budget_p95_error_percent`: of a drive of so many seconds behind a car, at thirty frames a second and
+/// width x height. The budget lies midway between what frames take with the cheapest reflections and the best
+/// ones.
+Status measure_budget(stage::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
+                      int height, Report& report);
+
+}  // namespace parvis::bench
