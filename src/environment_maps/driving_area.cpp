@@ -7,20 +7,26 @@
 namespace parvis::environment_maps {
 namespace {
 
-constexpr float beyond_area_m = 60.0f;  // traffic drives on to the next crossing
-constexpr int open_squares = 64;        // of the ground a side, at most
-constexpr float kerb_m = 1.0f;          // what is higher above the ground is no open ground
+constexpr float beyond_rim_m = 10.0f;  // a crossing at the area's rim reaches out of it
+constexpr int open_squares = 64;       // of the ground a side, at most
+constexpr float kerb_m = 1.0f;         // what is higher above the ground is no open ground
 
+/// Vehicles start within the area, on streets that end there, and keep to such streets
+/// (traffic/simulation.h); where there are none, they leave it.
 std::vector<glm::vec3> street_places(const scene::Scene& scene, float apart_m) {
+  const auto is_within = [&](glm::vec3 at) {
+    return glm::distance(glm::vec2(at), scene.traffic.centre) < scene.traffic.radius_m + beyond_rim_m;
+  };
+  const auto ends_within = [&](const scene::Lane& lane) { return is_within(lane.points.back()); };
+  const bool keeps_within = std::ranges::any_of(scene.roads.lanes, ends_within);
   std::vector<glm::vec3> places;
   for (const scene::Lane& lane : scene.roads.lanes) {
+    if (keeps_within ? !ends_within(lane) : std::ranges::none_of(lane.points, is_within)) continue;
     const scene::MeasuredPath path(lane.points);
     const int count = int(path.length() / apart_m) + 1;
-    for (int i = 0; i < count; ++i) {
-      const glm::vec3 at = path.at(float(i) * apart_m);
-      const float off_area_m = glm::distance(glm::vec2(at), scene.traffic.centre) - scene.traffic.radius_m;
-      if (off_area_m < beyond_area_m) places.push_back(at);
-    }
+    for (int i = 0; i < count; ++i)
+      if (const glm::vec3 at = path.at(float(i) * apart_m); !keeps_within || is_within(at))
+        places.push_back(at);
   }
   return places;
 }

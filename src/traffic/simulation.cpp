@@ -55,9 +55,13 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
     longest_reach_m_ = std::max(longest_reach_m_, shape.length_m() + 2.0f * shape.half_width_m + 1.0f);
   }
   const float first_m = longest_m + 1.0f, pitch_m = longest_m + spacing_m;
+  // On a street that leads out of the area a vehicle would leave it, to come back some crossings later.
+  const auto is_within = [](const DrivingLane& lane) { return lane.is_usable && lane.outside_m == 0.0f; };
+  const bool has_streets_within = std::ranges::any_of(lanes_, is_within);
   std::vector<Place> places;
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
     if (!lanes_[lane].is_usable || lanes_[lane].is_shared) continue;
+    if (has_streets_within && !is_within(lanes_[lane])) continue;
     const int count = int(std::ceil((lanes_[lane].path.length() - 3.0f - first_m) / pitch_m));
     for (int i = 0; i < count; ++i) {
       const float front_m = first_m + float(i) * pitch_m;
