@@ -114,7 +114,8 @@ class SwappedFaces final : public probes::CubeMapReflections {
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override {
+  void update_maps(render::Renderer& renderer, const scene::Scene&,
+                   const std::vector<render::Reflector>& reflectors) override {
     for (int face = 0; face < 6; ++face)
       map_.draw_face(renderer, face, reflectors.front().centre, reflectors.front().object);
     const gl::Texture kept = gl::texture_2d(GL_RGBA16F, map_resolution, map_resolution);

@@ -133,7 +133,7 @@ void LocalEnvironmentMaps::draw_others(render::Renderer& renderer, const Drawn& 
   }
 }
 
-void LocalEnvironmentMaps::update_maps(render::Renderer& renderer,
+void LocalEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene&,
                                        const std::vector<render::Reflector>& reflectors) {
   used_.resize(renderer.gpu().object_bounds().size());
   drawn_.clear();

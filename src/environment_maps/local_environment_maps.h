@@ -50,7 +50,8 @@ class LocalEnvironmentMaps final : public render::Reflections {
   };
   LocalEnvironmentMaps(const scene::Scene& scene, HeightPyramid heights, ReferenceMaps maps,
                        LocalMapPicture picture);
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { slots_.forget(); }
   void choose_levels(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void choose_map(const render::Renderer& renderer, const render::Reflector& reflector);

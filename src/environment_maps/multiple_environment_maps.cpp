@@ -13,7 +13,8 @@ enum Unit : GLuint {
   glosses_unit,
   distances_unit,
   choice_unit,
-  places_unit
+  places_unit,
+  fields_unit
 };
 
 gl::Texture nearest_texture(GLenum format, int width, int height, int levels = 1) {
@@ -52,13 +53,14 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
   if (!renewal) return renewal.errors();
   return std::unique_ptr<MultipleEnvironmentMaps>(
-      new MultipleEnvironmentMaps(heights, *std::move(maps), *std::move(renewal)));
+      new MultipleEnvironmentMaps(scene, heights, *std::move(maps), *std::move(renewal)));
 }
 
-MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps,
-                                                 MapRenewal renewal)
+MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
+                                                 ReferenceMaps maps, MapRenewal renewal)
     : maps_(std::move(maps)),
       renewal_(std::move(renewal)),
+      bodies_(scene),
       origin_(heights.origin()),
       cell_m_(heights.cell_m()),
       cells_(heights.cells()),
@@ -69,13 +71,15 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const HeightPyramid& heights, R
   choice_ = upload(choice);
 }
 
-void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer,
+void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<render::Reflector>& reflectors) {
+  if (!reflectors.empty()) bodies_.update(scene, reflectors.front().centre);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
 }
 
-void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
+void MultipleEnvironmentMaps::bind(const gl::Program& program, int object) {
+  bodies_.bind(program, fields_unit, object);
   glBindTextureUnit(heights_unit, heights_.name());
   glBindTextureUnit(colours_unit, maps_.colours());
   glBindTextureUnit(glosses_unit, maps_.glosses());

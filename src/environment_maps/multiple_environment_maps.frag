@@ -26,6 +26,7 @@ float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, leve
 
 #include "environment_maps/heightfield_walk.glsl"
 #include "environment_maps/validity.glsl"
+#include "environment_maps/mirrored_bodies.glsl"
 
 // What the pixel's ray meets, as two maps show it.
 struct Sight {
@@ -36,6 +37,8 @@ struct Sight {
   vec3 across;       // how far the pixel's cone reaches there, the way that it is widest
   float narrow;      // and the other way, metres
   vec3 shade;        // what moving bodies leave of its light
+  bool is_body;      // of those that move, which no map shows
+  vec3 body_radiance;
 };
 Sight sight;
 
@@ -85,9 +88,23 @@ vec3 normal_of(HeightHit hit, vec3 met, vec3 direction) {
   return to_side.x < to_side.y ? vec3(-sign(direction.x), 0.0f, 0.0f) : vec3(0.0f, -sign(direction.y), 0.0f);
 }
 
+// A body in its light: its colour, and under a coat what the map nearest to it mirrors.
+vec3 radiance_of_body(BodyHit body, vec3 met, vec3 direction, float map) {
+  vec3 sh[9];
+  for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
+  vec3 sky = sky_share_of_normal(sky_visibility_cell(met, body.normal), body.normal) * sky_irradiance(sh, body.normal);
+  float facing_sun = max(dot(body.normal, frame_to_sun.xyz), 0.0f);
+  vec3 light = sky + facing_sun * visible_sun(met, body.normal) * frame_sun_irradiance.rgb;
+  vec2 uv = layer_uv(reflect(direction, body.normal), gloss_side, gloss_border);
+  vec3 mirrored = textureLod(map_glosses, vec3(gloss_uv(uv, 0.0f), map), 0.0f).rgb;
+  float mirrors = 0.04f + 0.96f * schlick_weight(-dot(direction, body.normal));
+  return (1.0f - mirrors) / pi * body.base_colour * light + mirrors * mirrored;
+}
+
 void look_along(vec3 at, vec3 direction) {
   HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
-  HeightHit hit = walk_pyramid(grid, at, direction, reach_m);
+  BodyHit body = meet_bodies(at, direction, reach_m);
+  HeightHit hit = walk_pyramid(grid, at, direction, body.distance);
 
   ivec2 cells = textureSize(map_choice, 0);
   ivec2 cell = clamp(ivec2((at.xy - choice_grid.xy) / choice_grid.z), ivec2(0), cells - ivec2(1));
@@ -101,8 +118,11 @@ void look_along(vec3 at, vec3 direction) {
     float distance_m = length(to_met);
     vec3 away = place.xyz - at;
     float valid = validity(seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
+    // The nearer a map stands to the ray, the less it shows at another place what is not quite where it is thought to be.
+    float along = dot(away, direction);
+    float off_ray = dot(away, away) - along * along;
     // Section 4.3: where no map sees the point, the one that would count most.
-    float weight = (valid + 1e-4f) / (1.0f + dot(away, away));
+    float weight = (valid + 1e-4f) / (0.5f + off_ray + 0.2f * along * along);
     if (weight > best[0]) {
       best[1] = best[0];
       places[1] = places[0];
@@ -114,6 +134,11 @@ void look_along(vec3 at, vec3 direction) {
     }
   }
 
+  sight.is_body = hit.met == met_nothing && body.body >= 0;
+  if (sight.is_body) {
+    sight.body_radiance = radiance_of_body(body, met, direction, places[0].w);
+    return;
+  }
   vec3 normal = normal_of(hit, met, direction);
   float distance = hit.met == met_side ? hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w)
                                        : hit.met == met_top ? hit.distance : reach_m;
@@ -158,6 +183,7 @@ vec3 glossy_radiance(int k, float roughness) {
 }
 
 vec3 reflected_radiance(float roughness) {
+  if (sight.is_body) return sight.body_radiance;
   vec3 sum = vec3(0.0f);
   for (int k = 0; k < 2; ++k) {
     // A lobe that ends near the surface is narrow for a map that is farther away.

@@ -6,6 +6,7 @@
 
 #include "environment_maps/height_pyramid.h"
 #include "environment_maps/map_renewal.h"
+#include "environment_maps/mirrored_bodies.h"
 #include "render/reflections.h"
 
 namespace parvis::environment_maps {
@@ -26,12 +27,15 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   const ReferenceMaps& maps() const { return maps_; }
 
  private:
-  MultipleEnvironmentMaps(const HeightPyramid& heights, ReferenceMaps maps, MapRenewal renewal);
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
+                          MapRenewal renewal);
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
 
   ReferenceMaps maps_;
   MapRenewal renewal_;
+  MirroredBodies bodies_;
   glm::vec2 origin_;
   float cell_m_;
   glm::ivec2 cells_;

@@ -5,7 +5,8 @@
 
 namespace parvis::environment_maps {
 
-void SimpleBlend::update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) {
+void SimpleBlend::update_maps(render::Renderer& renderer, const scene::Scene&,
+                              const std::vector<render::Reflector>& reflectors) {
   pair_of_object_.resize(renderer.gpu().object_bounds().size());
   for (const render::Reflector& reflector : reflectors)
     pair_of_object_[std::size_t(reflector.object)] = pair_about(reflector.centre, maps_.places(), choice_);

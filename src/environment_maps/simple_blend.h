@@ -21,7 +21,8 @@ class SimpleBlend final : public render::Reflections {
   void bind(const gl::Program& program, int object) override;
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
 
   ReferenceMaps maps_;
   MapChoice choice_;

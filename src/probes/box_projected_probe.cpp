@@ -80,7 +80,7 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
       probe.position + glm::vec3(shift.x * probe.heading + shift.y * left, open_half_size_m - height_m);
 }
 
-void BoxProjectedProbe::update_maps(render::Renderer& renderer,
+void BoxProjectedProbe::update_maps(render::Renderer& renderer, const scene::Scene&,
                                     const std::vector<render::Reflector>& reflectors) {
   for (Probe& probe : probes_) ++probe.idle_frames;
   probe_of_object_.clear();

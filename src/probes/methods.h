@@ -16,7 +16,7 @@ class NoReflection final : public render::Reflections {
   void bind(const gl::Program&, int) override {}
 
  private:
-  void update_maps(render::Renderer&, const std::vector<render::Reflector>&) override {}
+  void update_maps(render::Renderer&, const scene::Scene&, const std::vector<render::Reflector>&) override {}
 };
 
 /// A map for each reflector, drawn anew every frame. With level of detail its resolution follows the
@@ -27,7 +27,8 @@ class RerenderedCubeMap final : public CubeMapReflections {
   void bind(const gl::Program& program, int object) override;
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
   render::CubeMap& take(int resolution);
 
   scene::Reflection settings_;
@@ -49,7 +50,8 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
     int idle_frames = 0;
     std::int64_t drawn_at = 0;  ///< of its latest face, counted in faces
   };
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
   void draw_next_face(render::Renderer& renderer, const render::Reflector& reflector);
 
   scene::Reflection settings_;
@@ -65,7 +67,8 @@ class SharedCubeMap final : public CubeMapReflections {
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
 
  private:
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
 
   render::CubeMap map_;
 };
@@ -85,7 +88,8 @@ class BoxProjectedProbe final : public CubeMapReflections {
     glm::vec3 box_centre{0.0f}, box_half_size{0.0f};
     int idle_frames = 0;
   };
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override;
   void bake(Probe& probe, render::Renderer& renderer);
 

@@ -24,7 +24,7 @@ render::CubeMap& RerenderedCubeMap::take(int resolution) {
   return *used_.emplace(resolution, std::make_unique<render::CubeMap>(resolution))->second;
 }
 
-void RerenderedCubeMap::update_maps(render::Renderer& renderer,
+void RerenderedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
                                     const std::vector<render::Reflector>& reflectors) {
   free_.merge(used_);
   map_of_object_.clear();

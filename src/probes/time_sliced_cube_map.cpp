@@ -19,7 +19,7 @@ void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer, const render:
   ++faces_drawn_;
 }
 
-void TimeSlicedCubeMap::update_maps(render::Renderer& renderer,
+void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
                                     const std::vector<render::Reflector>& reflectors) {
   for (auto& [object, sliced] : maps_) ++sliced.idle_frames;
   waiting_.clear();

@@ -24,7 +24,7 @@ void Reflections::update(Renderer& renderer, const scene::Scene& scene, const Ca
   faces_drawn_ = 0;
   if (fixed_changes_ && fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
   fixed_changes_ = renderer.fixed_changes();
-  update_maps(renderer, reflectors_);
+  update_maps(renderer, scene, reflectors_);
 }
 
 }  // namespace parvis::render

@@ -35,7 +35,8 @@ class Reflections : public ReflectionSource {
 
  protected:
   /// `reflectors` are ordered from the largest on the screen to the smallest.
-  virtual void update_maps(Renderer& renderer, const std::vector<Reflector>& reflectors) = 0;
+  virtual void update_maps(Renderer& renderer, const scene::Scene& scene,
+                           const std::vector<Reflector>& reflectors) = 0;
   /// The fixed surroundings are others now.
   virtual void forget_surroundings() {}
 

@@ -1,0 +1,46 @@
+// What moves, for mirror rays to meet: cars reflect one another, the people beside them, and themselves. Each
+// model's surface is a field of distances (body_field.h), each body a box in which its model's field lies.
+#pragma once
+
+#include <vector>
+
+#include "environment_maps/body_field.h"
+#include "gl/objects.h"
+#include "gl/program.h"
+#include "scene/scene.h"
+
+namespace parvis::environment_maps {
+
+class MirroredBodies {
+ public:
+  /// Makes the fields of all models that move in the scene, which takes tenths of a second each.
+  explicit MirroredBodies(const scene::Scene& scene);
+
+  /// Takes over where bodies are: those nearest to `viewer` where there are more than can be mirrored.
+  void update(const scene::Scene& scene, glm::vec3 viewer);
+  /// For rays that leave `object`.
+  void bind(const gl::Program& program, GLuint unit, int object) const;
+
+  static constexpr int most = 200, most_near = 16;
+  static constexpr float reach_m = 25.0f;  ///< between bodies that mirror one another
+
+ private:
+  /// As mirrored_bodies.glsl has it.
+  struct Body {
+    glm::vec4 box_from_world[3];
+    glm::vec4 half_size_m;
+    glm::uvec4 near;
+  };
+  void find_neighbours();
+
+  std::vector<int> field_of_object_;  ///< below 0: none
+  std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
+  std::vector<int> body_of_object_;   ///< below 0: none now
+  std::vector<std::pair<float, int>> by_distance_;
+  std::vector<glm::vec3> middles_;
+  std::vector<Body> bodies_;
+  gl::Texture fields_;
+  gl::Buffer block_;
+};
+
+}  // namespace parvis::environment_maps
