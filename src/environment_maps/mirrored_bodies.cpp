@@ -95,14 +95,13 @@ void MirroredBodies::find_neighbours() {
   }
 }
 
-void MirroredBodies::bind(const gl::Program& program, GLuint unit, int object) const {
+void MirroredBodies::prepare(const gl::Program& program, GLuint unit) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, binding, block_.name());
   if (const GLuint index = glGetUniformBlockIndex(program.name(), "MirroredBodies");
       index != GL_INVALID_INDEX)
     glUniformBlockBinding(program.name(), index, binding);
   glBindTextureUnit(unit, fields_.name());
   program.set("body_fields", int(unit));
-  program.set("reflecting_body", body_of_object_[std::size_t(object)]);
 }
 
 }  // namespace parvis::environment_maps

@@ -18,8 +18,10 @@ class MirroredBodies {
 
   /// Takes over where bodies are: those nearest to `viewer` where there are more than can be mirrored.
   void update(const scene::Scene& scene, glm::vec3 viewer);
-  /// For rays that leave `object`.
-  void bind(const gl::Program& program, GLuint unit, int object) const;
+  /// Binds what mirrored_bodies.glsl needs; `reflecting_body` is the caller's to set.
+  void prepare(const gl::Program& program, GLuint unit) const;
+  /// Of an object; below 0: none.
+  int body_of(int object) const { return body_of_object_[std::size_t(object)]; }
 
   static constexpr int most = 200, most_near = 16;
   static constexpr float reach_m = 25.0f;  ///< between bodies that mirror one another

@@ -1,5 +1,7 @@
 #include "environment_maps/multiple_environment_maps.h"
 
+#include <algorithm>
+
 #include "environment_maps/map_choice.h"
 #include "environment_maps/scene_maps.h"
 #include "render/bindings.h"
@@ -58,7 +60,9 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
 
 MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
                                                  ReferenceMaps maps, MapRenewal renewal)
-    : maps_(std::move(maps)),
+    : uses_level_of_detail_(scene.reflection.uses_level_of_detail),
+      details_(scene.objects.size(), all),
+      maps_(std::move(maps)),
       renewal_(std::move(renewal)),
       bodies_(scene),
       origin_(heights.origin()),
@@ -71,15 +75,24 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
   choice_ = upload(choice);
 }
 
+MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::detail_for(float size_px) {
+  constexpr float traced_from_px = 40.0f, all_from_px = 120.0f;
+  return size_px < traced_from_px ? nearest_map : size_px < all_from_px ? one_map : all;
+}
+
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<render::Reflector>& reflectors) {
+  prepared_.clear();
+  if (uses_level_of_detail_)
+    for (const render::Reflector& reflector : reflectors)
+      details_[std::size_t(reflector.object)] = detail_for(reflector.size_px);
   if (!reflectors.empty()) bodies_.update(scene, reflectors.front().centre);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
 }
 
-void MultipleEnvironmentMaps::bind(const gl::Program& program, int object) {
-  bodies_.bind(program, fields_unit, object);
+void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
+  bodies_.prepare(program, fields_unit);
   glBindTextureUnit(heights_unit, heights_.name());
   glBindTextureUnit(colours_unit, maps_.colours());
   glBindTextureUnit(glosses_unit, maps_.glosses());
@@ -96,6 +109,14 @@ void MultipleEnvironmentMaps::bind(const gl::Program& program, int object) {
   program.set("height_cells", glm::vec2(cells_));
   program.set("choice_grid", choice_grid_);
   program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
+}
+
+void MultipleEnvironmentMaps::bind(const gl::Program& program, int object) {
+  if (std::ranges::find(prepared_, program.name()) == prepared_.end()) {
+    prepare(program);
+    prepared_.push_back(program.name());
+  }
+  program.set("reflecting_body", bodies_.body_of(object));
 }
 
 Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,

@@ -20,6 +20,10 @@ uniform vec2 layer_size;    // texels a side, and of its border
 const float reach_m = 1000.0f;
 const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
 const float most_taps = 4.0f;
+const int detail = DETAIL;           // MultipleEnvironmentMaps::Detail
+const int one_map = 1;
+const int all_detail = 2;
+const float least_weight = 0.05f;    // of a second map: what is less is left out
 const float shade_reach_m = 25.0f;   // hits nearer than this may lie in the shade of moving bodies
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
@@ -101,61 +105,98 @@ vec3 radiance_of_body(BodyHit body, vec3 met, vec3 direction, float map) {
   return (1.0f - mirrors) / pi * body.base_colour * light + mirrors * mirrored;
 }
 
-void look_along(vec3 at, vec3 direction) {
-  HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
-  BodyHit body = meet_bodies(at, direction, reach_m);
-  HeightHit hit = walk_pyramid(grid, at, direction, body.distance);
-
+uvec4 maps_about(vec3 at) {
   ivec2 cells = textureSize(map_choice, 0);
   ivec2 cell = clamp(ivec2((at.xy - choice_grid.xy) / choice_grid.z), ivec2(0), cells - ivec2(1));
-  uvec4 maps = texelFetch(map_choice, cell, 0);
-  vec3 met = at + hit.distance * direction;
-  float best[2] = float[2](-1.0f, -1.0f);
-  vec4 places[2];
+  return texelFetch(map_choice, cell, 0);
+}
+
+// A map's place; w: its layer.
+vec4 place_of(uint map) { return vec4(texelFetch(map_places, ivec2(int(map), 0), 0).xyz, float(map)); }
+
+// For what is small on the screen: the nearest map has a distance the way that the ray runs, and so far away the ray is
+// said to meet something.
+void look_into_nearest_map(vec3 at, vec3 direction) {
+  vec4 place = place_of(maps_about(at).x);
+  sight.distance = seen_distance(direction, place.w);
+  sight.to_met[0] = at + sight.distance * direction - place.xyz;
+  sight.map[0] = place.w;
+  sight.weight[0] = 1.0f;
+}
+
+// The two of the maps about the reflecting point that show best what the ray met.
+void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out float weights[2]) {
+  uvec4 maps = maps_about(at);
+  weights = float[2](-1.0f, -1.0f);
   for (int k = 0; k < 4; ++k) {
-    vec4 place = vec4(texelFetch(map_places, ivec2(int(maps[k]), 0), 0).xyz, float(maps[k]));
+    vec4 place = place_of(maps[k]);
     vec3 to_met = met - place.xyz;
     float distance_m = length(to_met);
-    vec3 away = place.xyz - at;
     float valid = validity(seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
     // The nearer a map stands to the ray, the less it shows at another place what is not quite where it is thought to be.
+    vec3 away = place.xyz - at;
     float along = dot(away, direction);
     float off_ray = dot(away, away) - along * along;
     // Section 4.3: where no map sees the point, the one that would count most.
     float weight = (valid + 1e-4f) / (0.5f + off_ray + 0.2f * along * along);
-    if (weight > best[0]) {
-      best[1] = best[0];
+    if (weight > weights[0]) {
+      weights[1] = weights[0];
       places[1] = places[0];
-      best[0] = weight;
+      weights[0] = weight;
       places[0] = place;
-    } else if (weight > best[1]) {
-      best[1] = weight;
+    } else if (weight > weights[1]) {
+      weights[1] = weight;
       places[1] = place;
     }
   }
+}
 
+void trace(vec3 at, vec3 direction) {
+  HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
+  BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
+  if (detail == all_detail) body = meet_bodies(at, direction, reach_m);
+  HeightHit hit = walk_pyramid(grid, at, direction, body.distance);
+  vec3 met = at + hit.distance * direction;
+  vec4 places[2];
+  float weights[2];
+  choose_maps(at, direction, met, places, weights);
   sight.is_body = hit.met == met_nothing && body.body >= 0;
   if (sight.is_body) {
     sight.body_radiance = radiance_of_body(body, met, direction, places[0].w);
     return;
   }
+
   vec3 normal = normal_of(hit, met, direction);
-  float distance = hit.met == met_side ? hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w)
-                                       : hit.met == met_top ? hit.distance : reach_m;
-  met = at + distance * direction;
+  sight.distance = hit.distance;
+  if (hit.met == met_side && detail == all_detail)
+    sight.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
+  met = at + sight.distance * direction;
   for (int k = 0; k < 2; ++k) {
     sight.to_met[k] = met - places[k].xyz;
     sight.map[k] = places[k].w;
-    sight.weight[k] = best[k] / (best[0] + best[1]);
   }
+  float second = weights[1] / (weights[0] + weights[1]);
+  sight.weight[1] = second < least_weight || detail != all_detail ? 0.0f : second;
+  sight.weight[0] = 1.0f - sight.weight[1];
+  if (hit.met != met_nothing && hit.distance < shade_reach_m && detail == all_detail)
+    sight.shade = share_left_by_bodies(met, normal);
+}
+
+void look_along(vec3 at, vec3 direction) {
+  sight.is_body = false;
+  sight.shade = vec3(1.0f);
+  sight.weight[1] = 0.0f;
   vec3 along_x = dFdx(direction), along_y = dFdy(direction);
   bool is_wide_in_x = dot(along_x, along_x) > dot(along_y, along_y);
-  sight.distance = distance;
-  sight.across = distance * (is_wide_in_x ? along_x : along_y);
-  sight.narrow = distance * length(is_wide_in_x ? along_y : along_x);
-  sight.shade = vec3(1.0f);
-  if (hit.met != met_nothing && hit.distance < shade_reach_m)
-    sight.shade = share_left_by_bodies(met, normal);
+  sight.across = is_wide_in_x ? along_x : along_y;
+  sight.narrow = length(is_wide_in_x ? along_y : along_x);
+  if (detail < one_map) {
+    look_into_nearest_map(at, direction);
+  } else {
+    trace(at, direction);
+  }
+  sight.across *= sight.distance;
+  sight.narrow *= sight.distance;
 }
 
 // The footprint of a curved mirror is long and thin: lookups along it, each as wide as it is thin.
@@ -186,6 +227,7 @@ vec3 reflected_radiance(float roughness) {
   if (sight.is_body) return sight.body_radiance;
   vec3 sum = vec3(0.0f);
   for (int k = 0; k < 2; ++k) {
+    if (sight.weight[k] == 0.0f) continue;
     // A lobe that ends near the surface is narrow for a map that is farther away.
     float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
     sum += sight.weight[k] * (seen_roughness < least_gloss

@@ -22,17 +22,30 @@ class MultipleEnvironmentMaps final : public render::Reflections {
                                                                  render::Renderer& renderer);
 
   std::string fragment_shader() const override { return "environment_maps/multiple_environment_maps.frag"; }
+  int details() const override { return all + 1; }
+  int detail_of(int object) const override { return details_[std::size_t(object)]; }
   void bind(const gl::Program& program, int object) override;
 
   const ReferenceMaps& maps() const { return maps_; }
 
  private:
+  enum Detail : int {  // as multiple_environment_maps.frag has it
+    nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
+    one_map,           ///< a ray among what stands still, looked up in the best map
+    all
+  };
+  static Detail detail_for(float size_px);
+  void prepare(const gl::Program& program) const;
+
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
                           MapRenewal renewal);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
 
+  bool uses_level_of_detail_;
+  std::vector<Detail> details_;   ///< of each object
+  std::vector<GLuint> prepared_;  ///< programs that have what is the same for all objects of a frame
   ReferenceMaps maps_;
   MapRenewal renewal_;
   MirroredBodies bodies_;

@@ -107,9 +107,12 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
   for (const Item& item : gpu_.items())
     if (item.is_mirror)
       mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
-  Result<SurfacePrograms> programs = SurfacePrograms::create(source->fragment_shader(), mirrors);
-  if (!programs) return programs.errors();
-  programs_.mirror = *std::move(programs);
+  programs_.mirror.clear();
+  for (int detail = 0; detail < source->details(); ++detail) {
+    Result<SurfacePrograms> programs = SurfacePrograms::create(source->fragment_shader(), mirrors, "render/surface.vert", {{"DETAIL", std::to_string(detail)}});
+    if (!programs) return programs.errors();
+    programs_.mirror.push_back(*std::move(programs));
+  }
   reflection_ = source;
   return Done{};
 }
@@ -250,7 +253,9 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::picking) return programs_.picking;
   if (view.kind == ViewKind::mirrored)
     return programs_.mirrored.of(gpu_.materials()[std::size_t(batch.material)], true);
-  const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
+  const SurfacePrograms& programs =
+      batch.mirror_object >= 0 ? programs_.mirror[std::size_t(reflection_->detail_of(batch.mirror_object))]
+                               : programs_.surface;
   return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
 

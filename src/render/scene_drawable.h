@@ -22,6 +22,10 @@ class ReflectionSource {
   virtual ~ReflectionSource() = default;
   /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
   virtual std::string fragment_shader() const = 0;
+  /// How many levels of detail the shader has; it is linked for each, with DETAIL as 0, 1, ... (Software
+  /// renderers run both sides of a branch.)
+  virtual int details() const { return 1; }
+  virtual int detail_of(int /*object*/) const { return 0; }
   /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
   /// `program`.
   virtual void bind(const gl::Program& program, int object) = 0;
@@ -76,7 +80,8 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    SurfacePrograms surface, mirror, mirrored;
+    SurfacePrograms surface, mirrored;
+    std::vector<SurfacePrograms> mirror;  ///< for each level of detail
     gl::Program depth, solid_depth, picking;
   };
 
