@@ -98,7 +98,7 @@ void VirtualObjects::mark_pixels(const render::View& view) const {
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-void VirtualObjects::update_maps(render::Renderer& renderer,
+void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&,
                                  const std::vector<render::Reflector>& reflectors) {
   picture_.resize(renderer.width(), renderer.height());
   picture_.clear();

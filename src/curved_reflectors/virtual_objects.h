@@ -27,7 +27,8 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
 
  private:
   VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels);
-  void update_maps(render::Renderer& renderer, const std::vector<render::Reflector>& reflectors) override;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<render::Reflector>& reflectors) override;
 
   /// A patch that the frame shows, in the order of its number in the stencil.
   struct ShownPatch {

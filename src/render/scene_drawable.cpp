@@ -109,7 +109,8 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
       mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
   programs_.mirror.clear();
   for (int detail = 0; detail < source->details(); ++detail) {
-    Result<SurfacePrograms> programs = SurfacePrograms::create(source->fragment_shader(), mirrors, "render/surface.vert", {{"DETAIL", std::to_string(detail)}});
+    Result<SurfacePrograms> programs = SurfacePrograms::create(
+        source->fragment_shader(), mirrors, "render/surface.vert", {{"DETAIL", std::to_string(detail)}});
     if (!programs) return programs.errors();
     programs_.mirror.push_back(*std::move(programs));
   }

@@ -155,7 +155,7 @@ NodeSchema reflection_schema() {
                 .type = AttributeType::integer,
                 .help = "reference maps along the streets, of the methods with environment_maps and of "
                         "simple_blend",
-                .fallback = "54",
+                .fallback = "240",
                 .minimum = 1,
                 .maximum = 2000,
                 .is_live = true},

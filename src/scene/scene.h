@@ -100,7 +100,7 @@ struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
   int resolution = 128;              ///< pixels along a face's edge
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
-  int most_maps = 54;                ///< reference maps, of the methods that have any
+  int most_maps = 240;               ///< reference maps, of the methods that have any
   ReflectionView shown = ReflectionView::radiance;
   float budget_ms = 0.0f;  ///< of a frame, held by choosing levels of detail; 0: none
   int faces_a_frame = 0;   ///< of time-sliced maps, over all reflectors; 0: one for each of them
