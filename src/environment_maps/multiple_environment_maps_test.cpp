@@ -99,6 +99,14 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsTheSquareThatTheRayTracerShows) {
   }
 }
 
+// No map shows what moves; a mirror that passes over it stands at 0.112.
+TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
+  scene::Scene scene = tower_square();
+  const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
+  scene::add(scene, scene::model_of(van, scene::matt({0.85f, 0.1f, 0.05f})), true);
+  EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
+}
+
 TEST_F(EnvironmentMapsTest, ASceneWithoutAnythingFixedStillReflectsItsSky) {
   scene::Scene scene;
   render::add_mirror(scene, glm::vec3(0.0f, 0.0f, 1.5f), 1.0f);
