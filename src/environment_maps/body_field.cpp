@@ -11,6 +11,10 @@ namespace {
 
 using namespace shading;
 
+std::size_t index_of(glm::ivec3 size, int x, int y, int z) {
+  return std::size_t(x) + std::size_t(size.x) * (std::size_t(y) + std::size_t(size.y) * std::size_t(z));
+}
+
 /// Gives the shared functions the distances that a shader has in its sampler, filtered as there.
 struct Tracer {
   const BodyField& body;
@@ -20,9 +24,7 @@ struct Tracer {
     const vec3 between = glm::clamp(cell - 0.5f, vec3(0.0f), vec3(last));
     const glm::ivec3 low(between), high = glm::min(low + 1, last);
     const vec3 share = between - vec3(low);
-    const auto known = [&](int x, int y, int z) {
-      return float(body.cells[std::size_t(x + size.x * (y + size.y * z))].w);
-    };
+    const auto known = [&](int x, int y, int z) { return float(body.cells[index_of(size, x, y, z)].w); };
     const auto along_x = [&](int y, int z) { return mix(known(low.x, y, z), known(high.x, y, z), share.x); };
     const auto along_y = [&](int z) { return mix(along_x(low.y, z), along_x(high.y, z), share.y); };
     const float byte = mix(along_y(low.z), along_y(high.z), share.z);
@@ -131,7 +133,7 @@ void enter(const Face& face, int index, const Bounds& box, float reach_m, std::v
         const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
         const vec3 way = middle - face.at(shares);
         const float distance_m = glm::length(way);
-        Nearest& known = cells[std::size_t(x + size.x * (y + size.y * z))];
+        Nearest& known = cells[index_of(size, x, y, z)];
         constexpr float alike_m = 1e-4f;
         if (distance_m > known.distance_m + alike_m || distance_m > reach_m) continue;
         const float facing = distance_m > 0.0f ? dot(way, face.normal) / distance_m : 1.0f;

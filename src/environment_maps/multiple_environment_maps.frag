@@ -20,6 +20,9 @@ uniform vec2 layer_size;    // texels a side, and of its border
 const float reach_m = 1000.0f;
 const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
 const float most_taps = 4.0f;
+#ifndef DETAIL
+#define DETAIL 2
+#endif
 const int detail = DETAIL;           // MultipleEnvironmentMaps::Detail
 const int one_map = 1;
 const int all_detail = 2;
