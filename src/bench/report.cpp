@@ -27,6 +27,13 @@ Median median(std::vector<double> samples) {
   return {value, at(std::floor(middle - reach)), at(std::ceil(middle + reach))};
 }
 
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 void Report::add(const std::string& key, const Median& median) {
   add(key, median.value);
   note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low,

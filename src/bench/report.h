@@ -20,6 +20,9 @@ struct Median {
 };
 Median median(std::vector<double> samples);
 
+/// The value below which a share of all lie; 0 of none.
+double percentile(std::vector<double> values, double share);
+
 class Report {
  public:
   explicit Report(std::string name) : name_(std::move(name)) {}
