@@ -1,4 +1,5 @@
 // parvis city: procedural places.
+#include "city/kitchen.h"
 #include "city/paper_city.h"
 #include "commands.h"
 
@@ -12,7 +13,8 @@ struct Arguments {
 };
 
 Status write_city(const Arguments& arguments) {
-  if (Status status = city::write_paper_city(arguments.folder, arguments.seed); !status) return status;
+  const auto write = arguments.name == "kitchen" ? city::write_kitchen : city::write_paper_city;
+  if (Status status = write(arguments.folder, arguments.seed); !status) return status;
   fmt::print("{} is written; see it with: parvis view {}\n", arguments.name,
              (arguments.folder / (arguments.name + ".xp")).string());
   return Done{};
@@ -25,12 +27,13 @@ void add_city(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   command
       ->add_option("name", arguments->name,
-                   "paper: the city of Meyer and Loscos 2003, 1 km2, 500,000 triangles")
+                   "paper: the city of Meyer and Loscos 2003, 1 km2, 500,000 triangles; "
+                   "kitchen: mirrors of many shapes, after Estalella and others 2005")
       ->required()
-      ->check(CLI::IsMember({"paper"}));
+      ->check(CLI::IsMember({"paper", "kitchen"}));
   command->add_option("-o,--output", arguments->folder, "The folder to write")->required();
   command->add_option("--seed", arguments->seed, "Another seed gives another city")->capture_default_str();
-  command->footer("Example: parvis city paper -o out/paper");
+  command->footer("Example: parvis city paper -o out/paper\nExample: parvis city kitchen -o out/kitchen");
   command->callback([arguments, &chosen] { chosen = [arguments] { return write_city(*arguments); }; });
 }
 

@@ -306,6 +306,17 @@ class Reflections(InAFolder):
         done = run("check", self.folder / "paper" / "figures.xp")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_kitchen_of_mirrors_is_written_and_drawn(self):
+        kitchen = self.folder / "kitchen"
+        self.assertEqual(run("city", "kitchen", "-o", kitchen).returncode, 0)
+        done = run("check", kitchen / "kitchen.xp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = self.folder / "kettle.png"
+        done = run("render", kitchen / "kitchen.xp", "--camera", "at the kettle", *SIZE, "-o", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(picture.exists())
+        self.assertNotIn("mirrors the sky alone", done.stderr)
+
 
 class BadModels(InAFolder):
     def test_damaged_glb(self):

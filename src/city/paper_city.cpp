@@ -1,13 +1,11 @@
 #include "city/paper_city.h"
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/files.h"
 #include "base/image_io.h"
-#include "base/parallel.h"
 #include "city/car.h"
 #include "city/city_buildings.h"
 #include "city/figure_script.h"
@@ -18,6 +16,7 @@
 #include "city/street_furniture.h"
 #include "city/tree.h"
 #include "city/walker.h"
+#include "city/writing_jobs.h"
 #include "scene/gltf_writer.h"
 
 namespace parvis::city {
@@ -27,11 +26,9 @@ using scene::write_gltf;
 
 constexpr int sky_width_px = 2048;
 
-using Job = std::function<Status(const fs::path& folder)>;
-
 /// Everything that is written, as jobs that do not depend on each other, the longest first.
-std::vector<Job> writing_jobs(std::uint64_t seed) {
-  std::vector<Job> jobs;
+std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
+  std::vector<WritingJob> jobs;
   jobs.push_back(
       [=](const fs::path& folder) { return write_gltf(folder / "city.glb", make_city_model(seed)); });
   jobs.push_back([=](const fs::path& folder) {
@@ -69,38 +66,6 @@ std::vector<Job> writing_jobs(std::uint64_t seed) {
   return jobs;
 }
 
-Status run_all(const std::vector<Job>& jobs, const fs::path& folder) {
-  std::vector<Errors> failures(jobs.size());
-  parallel_for(jobs.size(), [&](std::size_t i) {
-    const Status status = jobs[i](folder);
-    if (!status) failures[i] = status.errors();
-  });
-  Errors all;
-  for (const Errors& some : failures) all.insert(all.end(), some.begin(), some.end());
-  if (!all.empty()) return all;
-  return Done{};
-}
-
-Status make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder, code))
-    return error("{}: the folder cannot be made ({}); choose one that can be written", folder.string(),
-                 code.message());
-  return Done{};
-}
-
-/// Moves every file of `from` into `to`, over files of the same name.
-Status move_files(const fs::path& from, const fs::path& to) {
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(from, code)) {
-    fs::rename(entry.path(), to / entry.path().filename(), code);
-    if (code)
-      return error("{}: cannot be written ({})", (to / entry.path().filename()).string(), code.message());
-  }
-  return Done{};
-}
-
 }  // namespace
 
 scene::Model make_city_model(std::uint64_t seed) {
@@ -116,15 +81,7 @@ scene::Model make_city_model(std::uint64_t seed) {
 }
 
 Status write_paper_city(const fs::path& folder, std::uint64_t seed) {
-  std::error_code code;
-  const bool is_new = !fs::exists(folder, code);
-  const fs::path unfinished = folder / ".unfinished";
-  Status status = make_folder(unfinished);
-  if (status) status = run_all(writing_jobs(seed), unfinished);
-  if (status) status = move_files(unfinished, folder);
-  fs::remove_all(unfinished, code);
-  if (!status && is_new) fs::remove(folder, code);
-  return status;
+  return write_together(writing_jobs(seed), folder);
 }
 
 }  // namespace parvis::city

@@ -7,7 +7,7 @@
 
 namespace parvis::render {
 
-inline constexpr float cube_near_m = 0.2f, cube_far_m = 4000.0f;
+inline constexpr float cube_near_m = 0.02f, cube_far_m = 4000.0f;
 
 class CubeMap {
  public:

@@ -13,6 +13,8 @@ constexpr int map_size = 4096;
 constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings throw shadows
 constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
 constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
+constexpr float room_radius_m = 12.0f;      // a place no larger lies in the near map as a whole, and finer
+constexpr float round_room_m = 4.0f;        // and what moves so near to it
 constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
 
 glm::mat3 sun_frame(glm::vec3 to_sun) {
@@ -21,8 +23,15 @@ glm::mat3 sun_frame(glm::vec3 to_sun) {
   return glm::transpose(glm::mat3(right, glm::cross(to_sun, right), to_sun));
 }
 
-/// Middle of what a viewer sees best, among the heights of the place.
+bool is_room(const Bounds& place) { return place.radius() < room_radius_m; }
+
+float near_half_width(const Bounds& place) {
+  return is_room(place) ? place.radius() + round_room_m : near_half_width_m;
+}
+
+/// Middle of what a viewer sees best, among the heights of the place; of all of a room.
 glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
+  if (is_room(place)) return place.centre();
   const glm::vec3 forward = camera.forward_in_world();
   glm::vec3 focus = camera.position_in_world() + near_ahead_m * glm::vec3(forward.x, forward.y, 0.0f);
   focus.z = std::clamp(focus.z, place.min.z, place.max.z);
@@ -98,7 +107,7 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
 
 void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw) {
   near_centre_ = position;
-  near_view_ = aim(shading::shadow_near_map, position, near_half_width_m);
+  near_view_ = aim(shading::shadow_near_map, position, near_half_width(fixed_));
   View fixed_view = near_view_;
   fixed_view.framebuffer = near_fixed_framebuffer_.name();
   draw(fixed_view);
