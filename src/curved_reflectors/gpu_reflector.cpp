@@ -18,8 +18,15 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < reflector.maps.size(); ++i) {
     const ReflectorMap& map = reflector.maps[i];
-    Patch patch{upload(map.texels),      map.window, map.is_convex, map.is_whole_body(), {}, {},
-                GLsizei(indices.size()), 0};
+    Patch patch{upload(map.texels),
+                patch_bounds(reflector.mesh, reflector.patches[i]),
+                map.window,
+                map.is_convex,
+                map.is_whole_body(),
+                {},
+                {},
+                GLsizei(indices.size()),
+                0};
     for (std::size_t k = 0; k < start_count; ++k)
       std::tie(patch.start_positions[k], patch.start_normals[k]) = map.starts[k];
     for (const std::uint32_t t : reflector.patches[i].triangles)

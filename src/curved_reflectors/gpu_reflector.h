@@ -1,6 +1,7 @@
 // A reflector's maps and shapes on the GPU.
 #pragma once
 
+#include "curved_reflectors/patch_bounds.h"
 #include "curved_reflectors/reflector_map.h"
 #include "gl/objects.h"
 #include "gl/program.h"
@@ -13,6 +14,7 @@ class GpuReflector {
 
   struct Patch {
     gl::Texture texels;
+    PatchBounds bounds;
     MapWindow window;
     bool is_convex, is_whole_body;
     std::array<glm::vec3, start_count> start_positions, start_normals;

@@ -103,11 +103,10 @@ GLSL_FUNCTION vec2 shortened(vec2 d, float longest) {
 GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, int most_steps,
                                                float least_error) {
   Way way = way_over(task, start, vec3(0.0f));
-  vec3 surface = vec3(0.0f);
+  vec3 surface = surface_bend(task, way);  // before the loop: software renderers run both sides of a branch
   float region = first_region * length(way.at.position - task.centre);
   int failures = 0;
   for (int i = 0; i < most_steps && way.error >= least_error; ++i) {
-    if (i == 0) surface = surface_bend(task, way);
     vec2 d = newton_step(way, surface, is_convex);
     if (failures >= 2) d = -way.slope / max(way.bend.x + way.bend.z + abs(way.lift) * length(surface), 1e-12f);
     d = shortened(d, region);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/bindings.h"
+#include "render/frustum.h"
 
 namespace parvis::curved_reflectors {
 namespace {
@@ -42,6 +43,10 @@ bool is_scaled_evenly(const glm::mat4& m) {
   return least > 0.999f * most && glm::determinant(glm::mat3(m)) > 0.0f;
 }
 
+glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
+  return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(const scene::Scene& scene,
@@ -72,9 +77,11 @@ void VirtualObjects::find_patches(const render::Renderer& renderer,
     const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);
     const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
     if (!gpu || !is_scaled_evenly(world_from_reflector)) continue;
+    const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
+    const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
     for (const GpuReflector::Patch& patch : gpu->patches())
-      if (shown_.size() < most_shown)
-        shown_.push_back({reflector.object, gpu.get(), &patch, world_from_reflector});
+      if (shown_.size() < most_shown && patch.bounds.may_be_seen(viewer) && frustum.may_see(patch.bounds.box))
+        shown_.push_back({reflector.object, gpu.get(), &patch, world_from_reflector, viewer});
   }
 }
 
@@ -125,6 +132,14 @@ void VirtualObjects::bind(const gl::Program& program) {
   GpuReflector::bind(program, *current_->patch, map_unit);
   program.set("world_from_reflector", current_->world_from_reflector);
   program.set("reflector_from_world", glm::inverse(current_->world_from_reflector));
+}
+
+bool VirtualObjects::may_show(const Bounds& bounds) const {
+  if (bounds.empty()) return false;
+  const glm::mat4& world_from_reflector = current_->world_from_reflector;
+  return current_->patch->bounds.may_show(current_->viewer,
+                                          in_reflector(world_from_reflector, bounds.centre()),
+                                          bounds.radius() / glm::length(world_from_reflector[0]));
 }
 
 void VirtualObjects::bind(const gl::Program& program, int) {

@@ -24,6 +24,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void bind(const gl::Program& program, int object) override;
   std::string vertex_shader() const override { return "curved_reflectors/virtual_vertices.vert"; }
   void bind(const gl::Program& program) override;
+  bool may_show(const Bounds& bounds) const override;
 
  private:
   VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels);
@@ -36,7 +37,9 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
     const GpuReflector* reflector;
     const GpuReflector::Patch* patch;
     glm::mat4 world_from_reflector;
+    glm::vec3 viewer;  ///< in the reflector's frame
   };
+  /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void mark_pixels(const render::View& view) const;
 

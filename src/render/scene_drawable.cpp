@@ -164,6 +164,11 @@ void SceneDrawable::draw_occluders(const View& view, const Frustum& frustum) {
   occlusion_.draw(view.clip_from_world, placed_shapes_);
 }
 
+/// What a mirror shows may stand anywhere.
+bool SceneDrawable::may_see(const View& view, const Frustum& frustum, const Bounds& bounds) const {
+  return view.kind == ViewKind::mirrored ? virtual_vertices_->may_show(bounds) : frustum.may_see(bounds);
+}
+
 void SceneDrawable::gather(const View& view, ViewList& list) {
   const Frustum frustum(view.clip_of_part() * view.clip_from_world);
   if (view.culls_hidden) draw_occluders(view, frustum);
@@ -175,7 +180,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
     if (item.object == view.excluded_object || !shows(view.subjects, gpu_, item.object)) continue;
     if (!gpu_.is_visible(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
-    if (view.kind != ViewKind::mirrored && !frustum.may_see(item.bounds)) continue;
+    if (!may_see(view, frustum, item.bounds)) continue;
     ++list.statistics.items_in_frustum;
     if (view.culls_hidden && occlusion_.hides(item.bounds)) {
       ++list.statistics.items_hidden;

@@ -40,12 +40,14 @@ class VirtualVertices {
   virtual std::string vertex_shader() const = 0;
   /// Binds what the shader needs for the reflector that is drawn now, as ReflectionSource::bind does.
   virtual void bind(const gl::Program& program) = 0;
+  /// May that reflector show any of what lies within these bounds? Else it is left out.
+  virtual bool may_show(const Bounds& bounds) const = 0;
 };
 
 /// What one view drew.
 struct DrawStatistics {
-  int items_in_frustum = 0;
-  int items_hidden = 0;  ///< in the frustum, behind occluders
+  int items_in_frustum = 0;  ///< of a mirrored view: that the mirror may show
+  int items_hidden = 0;      ///< in the frustum, behind occluders
   int draws = 0;
   std::size_t triangles = 0;
 };
@@ -103,6 +105,7 @@ class SceneDrawable final : public Drawable {
   std::uint64_t sort_key(const Item& item, const View& view) const;
   void keep_moving_shapes(const scene::Scene& scene);
   void draw_occluders(const View& view, const Frustum& frustum);
+  bool may_see(const View& view, const Frustum& frustum, const Bounds& bounds) const;
   void gather(const View& view, ViewList& list);
   void batch(const View& view, ViewList& list) const;
   void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;

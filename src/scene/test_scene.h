@@ -55,6 +55,19 @@ inline Mesh sphere(glm::vec3 centre, float radius, int rings = 32) {
   return mesh;
 }
 
+/// About the z axis: a tube of radius `tube` round a circle of radius `ring`; as finely made as a sphere of
+/// so many rings.
+inline Mesh torus(float ring, float tube, int rings = 32) {
+  Mesh mesh = sphere(glm::vec3(0.0f), 1.0f, rings);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const float turn = 6.28318531f * mesh.uvs[i].x, around = 6.28318531f * mesh.uvs[i].y;
+    const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
+    mesh.normals[i] = std::sin(around) * out + glm::vec3(0, 0, std::cos(around));
+    mesh.positions[i] = ring * out + tube * mesh.normals[i];
+  }
+  return mesh;
+}
+
 inline Material matt(glm::vec3 colour) {
   Material material;
   material.base_colour = colour;

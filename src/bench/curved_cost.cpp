@@ -1,0 +1,111 @@
+#include "bench/curved_cost.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "curved_reflectors/virtual_objects.h"
+#include "gl/context.h"
+#include "render/test_room.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr int width = 1280, height = 720;
+constexpr int turns = 31, quick_turns = 15;
+constexpr int balls = 10, ball_rings = 50;  // 100,000 triangles round the mirror
+constexpr float radians_a_turn = 6.28318531f;
+
+double finished_ms(const std::function<void()>& work) {
+  glFinish();
+  return milliseconds([&] {
+    work();
+    glFinish();
+  });
+}
+
+/// Balls round an ellipsoid of 1, 0.6, 0.8, the last object.
+scene::Scene balls_round_a_mirror() {
+  scene::Scene scene;
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.5f, -0.4f, 0.8f));
+  for (int i = 0; i < balls; ++i) {
+    const float turn = radians_a_turn * float(i) / float(balls);
+    const int ball = scene::add(
+        scene,
+        scene::model_of(scene::sphere({3.2f * std::cos(turn), 3.2f * std::sin(turn), 1.0f}, 0.6f, ball_rings),
+                        scene::matt(glm::vec3(0.1f * float(i), 0.5f, 0.3f))),
+        true);
+    scene.objects[std::size_t(ball)].is_dynamic = true;  // so that it may vanish at no cost
+  }
+  Mesh ellipsoid;
+  append(ellipsoid, scene::sphere(glm::vec3(0.0f), 1.0f, 64),
+         glm::scale(glm::mat4(1.0f), {1.0f, 0.6f, 0.8f}));
+  std::shared_ptr<scene::Model> mirror = scene::model_of(ellipsoid, scene::Material());
+  mirror->materials = render::mirror_box(1.0f)->materials;
+  mirror->name = "ellipsoid";
+  const int object =
+      scene::add(scene, mirror, true, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, 1.1f)));
+  scene.objects[std::size_t(object)].takes_reflection = true;
+  scene.reflection.method = scene::ReflectionMethod::virtual_objects;
+  return scene;
+}
+
+/// A target of the size of the picture, for a draw without light.
+struct PlainTarget {
+  gl::Texture objects = gl::texture_2d(GL_R32UI, width, height);
+  gl::Texture depth = gl::texture_2d(GL_DEPTH_COMPONENT32F, width, height);
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+
+  PlainTarget() {
+    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, objects.name(), 0);
+    glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  }
+};
+
+}  // namespace
+
+Status measure_cost(bool is_quick, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) {
+    report.skip("all_vertices_over_extra_draw", to_string(context.errors()));
+    return Done{};
+  }
+  scene::Scene scene = balls_round_a_mirror();
+  Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene);
+  if (!made) return made.errors();
+  render::Renderer& renderer = **made;
+  Result<std::unique_ptr<render::Reflections>> reflections =
+      curved_reflectors::make_virtual_objects(scene, renderer);
+  if (!reflections) return reflections.errors();
+  Camera camera;
+  camera.world_from_camera = look_at({2.4f, -5.2f, 2.6f}, {0.0f, 0.0f, 1.0f});
+  const PlainTarget target;
+  render::View plain = render::camera_view(camera, target.framebuffer.name(), width, height);
+  plain.kind = render::ViewKind::picking;
+  plain.excluded_object = balls;
+
+  // Vertices alone: what the reflector's own pixels, clearing and resolving take is taken off.
+  const auto passes_ms = [&](bool has_balls) {
+    for (int i = 0; i < balls; ++i) scene.objects[std::size_t(i)].is_visible = has_balls;
+    renderer.begin_frame(scene, camera);
+    renderer.prepare_main_view(camera, width, height);
+    glEnable(GL_RASTERIZER_DISCARD);
+    const double ms = finished_ms([&] { (*reflections)->update(renderer, scene, camera); });
+    glDisable(GL_RASTERIZER_DISCARD);
+    return ms;
+  };
+  std::vector<double> ratios, search_ms, draw_ms;
+  passes_ms(true);  // makes what is made once
+  renderer.draw_view(plain);
+  for (int turn = 0; turn < (is_quick ? quick_turns : turns); ++turn) {
+    const double without = passes_ms(false);
+    search_ms.push_back(passes_ms(true) - without);
+    draw_ms.push_back(finished_ms([&] { renderer.draw_view(plain); }));
+    ratios.push_back((search_ms.back() + draw_ms.back()) / draw_ms.back());
+  }
+  report.add("all_vertices_over_extra_draw", median(ratios));
+  report.note(fmt::format(
+      "{}: {} balls of {} triangles in an ellipsoid: search {:.1f} ms, a draw without light {:.1f} ms",
+      gl::driver_name(), balls, 4 * ball_rings * ball_rings, median(search_ms).value, median(draw_ms).value));
+  return Done{};
+}
+
+}  // namespace parvis::bench

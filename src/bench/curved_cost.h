@@ -1,0 +1,11 @@
+// What the search for all vertices costs on the GPU, beside drawing them once more.
+#pragma once
+
+#include "bench/report.h"
+
+namespace parvis::bench {
+
+/// Needs no OpenGL context: it makes its own.
+Status measure_cost(bool is_quick, Report& report);
+
+}  // namespace parvis::bench
