@@ -1,13 +1,14 @@
 #include "bench/curved_bench.h"
 
 #include "bench/curved_cost.h"
+#include "bench/curved_roots.h"
 #include "bench/curved_search.h"
 
 namespace parvis::bench {
 
 Result<Report> curved_bench(bool is_quick) {
   Report report("curved");
-  for (const auto measure : {measure_search, measure_cost})
+  for (const auto measure : {measure_search, measure_roots, measure_cost})
     if (Status status = measure(is_quick, report); !status) return status.errors();
   return report;
 }

@@ -63,6 +63,24 @@ glm::dvec3 spread_over_ball(int i, int count) {
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 
+/// A torus by two turns: round its axis, and round its tube.
+struct Torus {
+  double ring, tube;
+
+  glm::dvec3 normal(glm::dvec2 turns) const {
+    return {std::cos(turns.y) * std::cos(turns.x), std::cos(turns.y) * std::sin(turns.x), std::sin(turns.y)};
+  }
+  glm::dvec3 position(glm::dvec2 turns) const {
+    return ring * glm::dvec3(std::cos(turns.x), std::sin(turns.x), 0.0) + tube * normal(turns);
+  }
+  /// How the way over the point changes round the axis and round the tube; 0 where it is stationary.
+  glm::dvec2 slope(glm::dvec2 turns, glm::dvec3 viewer, glm::dvec3 vertex) const {
+    const glm::dvec3 p = position(turns), sum = glm::normalize(viewer - p) + glm::normalize(vertex - p);
+    const glm::dvec3 along_ring(-std::sin(turns.x), std::cos(turns.x), 0.0);
+    return {glm::dot(sum, along_ring), glm::dot(sum, glm::cross(normal(turns), along_ring))};
+  }
+};
+
 void add_if_new(std::vector<glm::dvec3>& points, glm::dvec3 point) {
   const auto is_same = [&](glm::dvec3 known) { return glm::distance(known, point) < 1e-6; };
   if (std::none_of(points.begin(), points.end(), is_same)) points.push_back(point);
@@ -117,6 +135,34 @@ std::vector<glm::dvec3> reflections_on_ellipsoid(glm::dvec3 radii, glm::dvec3 vi
     const bool is_on = std::abs(glm::dot(weights * p, p) - 1.0) < 1e-10;
     const bool reflects = glm::dot(viewer - p, normal) > 0.0 && glm::dot(vertex - p, normal) > 0.0;
     if (is_on && reflects && bisector_angle(p, normal, viewer, vertex) < 1e-9) add_if_new(points, p);
+  }
+  return points;
+}
+
+std::vector<glm::dvec3> reflections_on_torus(double ring, double tube, glm::dvec3 viewer, glm::dvec3 vertex) {
+  constexpr int ring_starts = 40, tube_starts = 20, most_steps = 40;
+  constexpr double turn = 6.283185307179586, probe = 1e-5, longest = 0.2;
+  const Torus torus{ring, tube};
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < ring_starts * tube_starts; ++i) {
+    glm::dvec2 turns(turn * (i / tube_starts + 0.5) / ring_starts,
+                     turn * (i % tube_starts + 0.5) / tube_starts);
+    for (int step = 0; step < most_steps; ++step) {
+      const auto change = [&](glm::dvec2 along) {
+        return (torus.slope(turns + probe * along, viewer, vertex) -
+                torus.slope(turns - probe * along, viewer, vertex)) /
+               (2.0 * probe);
+      };
+      const glm::dmat2 derivative(change({1, 0}), change({0, 1}));
+      if (std::abs(glm::determinant(derivative)) < 1e-14) break;
+      glm::dvec2 d = -(glm::inverse(derivative) * torus.slope(turns, viewer, vertex));
+      if (glm::length(d) > longest) d *= longest / glm::length(d);
+      turns += d;
+      if (glm::length(d) < 1e-12) break;
+    }
+    const glm::dvec3 p = torus.position(turns), normal = torus.normal(turns);
+    const bool reflects = glm::dot(viewer - p, normal) > 0.0 && glm::dot(vertex - p, normal) > 0.0;
+    if (reflects && bisector_angle(p, normal, viewer, vertex) < 1e-9) add_if_new(points, p);
   }
   return points;
 }

@@ -16,6 +16,9 @@ std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex
 std::vector<glm::dvec3> reflections_on_ellipsoid(glm::dvec3 radii, glm::dvec3 viewer, glm::dvec3 vertex,
                                                  int starts = 100);
 
+/// On the torus about the z axis, a tube of radius `tube` round a circle of radius `ring`; in the same way.
+std::vector<glm::dvec3> reflections_on_torus(double ring, double tube, glm::dvec3 viewer, glm::dvec3 vertex);
+
 /// Radians between the bisector of the directions to viewer and vertex and the normal; pi for a vertex and a
 /// viewer that are on different sides of the surface, unless the vertex stands for its mirror image.
 double bisector_angle(glm::dvec3 position, glm::dvec3 normal, glm::dvec3 viewer, glm::dvec3 vertex);

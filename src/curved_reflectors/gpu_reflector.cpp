@@ -23,6 +23,7 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
                 map.window,
                 map.is_convex,
                 map.is_whole_body(),
+                map.shows_once,
                 {},
                 {},
                 GLsizei(indices.size()),

@@ -16,7 +16,7 @@ class GpuReflector {
     gl::Texture texels;
     PatchBounds bounds;
     MapWindow window;
-    bool is_convex, is_whole_body;
+    bool is_convex, is_whole_body, shows_once;
     std::array<glm::vec3, start_count> start_positions, start_normals;
     GLsizei first_index, index_count;  ///< of its own triangles
   };

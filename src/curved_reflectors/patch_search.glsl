@@ -7,6 +7,7 @@
 
 const int search_start_count = 16;
 const int best_start_count = 4;
+const int layer_count = search_start_count + 1;
 const int newton_steps = 12;
 const float found_error = 2e-9f;    // 0.005 degrees: a search ends
 const float found_angle = 0.0035f;  // radians, 0.2 degrees: beyond it a point is none
@@ -26,12 +27,17 @@ GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_co
   return PatchPoint(point, surface_kind(point.direction));
 }
 
-GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, bool is_convex, bool is_whole_body) {
+// Hollows and saddles may show a vertex several times. A layer holds for each vertex the point that is found from one place, the
+// same for all, so that the corners of a triangle end in the same image of it; the last layer begins below the vertex, where the
+// points of what nearly touches a hollow are. `layer` -1: the patch shows a vertex once.
+GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, bool is_convex, bool is_whole_body, int layer) {
   PatchPoint best;
   best.point.angle = 4.0f;
-  if (is_whole_body) {
-    best = patch_point(task, first_direction(task), is_convex);
-    if (ends_search(best)) return best;
+  if (is_whole_body || layer >= 0) {
+    vec3 start = layer < 0 ? first_direction(task) : task.vertex - task.centre;
+    if (layer >= 0 && layer < search_start_count) start = search_start(layer).position - task.centre;
+    best = patch_point(task, start, is_convex && layer < 0);
+    if (layer >= 0 || ends_search(best)) return best;
   }
   vec3 starts[4];  // best_start_count, the best first
   float errors[4];

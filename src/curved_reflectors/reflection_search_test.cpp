@@ -264,6 +264,17 @@ TEST(MidpointSearch, TheBisectorLeadsNearerOnABallButNotAlways) {
   EXPECT_GT(steps_away({2, 0.9f, 0.6f}), 0);
 }
 
+TEST(ExactReflection, OnATorusIsMirroredInItsPlaneOfSymmetryAndAtItsOutside) {
+  const std::vector<glm::dvec3> opposite = reflections_on_torus(1.0, 0.4, {5, 0, 2}, {5, 0, -2});
+  const auto shows = [&](glm::dvec3 p) {
+    return std::any_of(opposite.begin(), opposite.end(),
+                       [&](glm::dvec3 q) { return glm::distance(p, q) < 1e-9; });
+  };
+  EXPECT_TRUE(shows({1.4, 0, 0})) << "the outermost point toward both";
+  EXPECT_TRUE(shows({-0.6, 0, 0})) << "and the one within the ring, on the other side";
+  for (const glm::dvec3& p : opposite) EXPECT_TRUE(shows({p.x, p.y, -p.z}));
+}
+
 TEST(Searches, DoNotDependOnSizeAndPlace) {
   struct Moved {
     Ellipsoid ellipsoid;

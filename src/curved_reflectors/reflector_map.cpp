@@ -248,6 +248,7 @@ ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patc
   ReflectorMap map;
   map.window = window_of(mesh, patch, side);
   map.is_convex = patch.is_convex;
+  map.shows_once = patch.shows_once;
   const PatchRays rays(mesh, patch);
   map.texels = cast(rays, map.window);
   std::vector<char> is_open;

@@ -182,11 +182,11 @@ TEST(ReflectorMap, AnOpenOneIsClosedForTheSearchAndReflectsNothingThere) {
   }
   Search search{map};
   const auto above =
-      search.search_patch({{0, 0, 4}, {3, 0, 3}, map.window.centre}, map.is_convex, map.is_whole_body());
+      search.search_patch({{0, 0, 4}, {3, 0, 3}, map.window.centre}, map.is_convex, map.is_whole_body(), -1);
   EXPECT_TRUE(search.is_found(above));
   EXPECT_GT(above.point.position.z, 0.5f);
-  const auto below =
-      search.search_patch({{0.5f, 0, -4}, {3, 0, -3}, map.window.centre}, map.is_convex, map.is_whole_body());
+  const auto below = search.search_patch({{0.5f, 0, -4}, {3, 0, -3}, map.window.centre}, map.is_convex,
+                                         map.is_whole_body(), -1);
   EXPECT_FALSE(search.is_found(below)) << "the point would lie on the part that is not there";
 }
 
@@ -218,7 +218,7 @@ Judged judge(const Mesh& source, float reach) {
       const glm::vec3 viewer = at + 4.0f * radius * to_viewer,
                       vertex = at + reach * radius * glm::reflect(-to_viewer, normal);
       const auto found =
-          search.search_patch({viewer, vertex, map.window.centre}, map.is_convex, map.is_whole_body());
+          search.search_patch({viewer, vertex, map.window.centre}, map.is_convex, map.is_whole_body(), -1);
       if (!search.is_found(found)) {
         ++judged.told;
         continue;

@@ -9,11 +9,13 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr int smoothing_rounds = 10;    // over neighbouring triangles: noise of scanned meshes is no patch
-constexpr float flat_curvature = 0.1f;  // per size of the mesh: what bends less counts as convex
-constexpr double small_patch = 0.01;    // of the surface
-constexpr int absorbing_rounds = 7;     // each of patches twice as large
-constexpr float least_slope = 0.15f;    // cosine at which a centre must see each triangle of its patch
+constexpr int smoothing_rounds = 10;      // over neighbouring triangles: noise of scanned meshes is no patch
+constexpr float flat_curvature = 0.1f;    // per size of the mesh: what bends less counts as convex
+constexpr float saddle_curvature = 0.1f;  // product of the principal curvatures per size squared, negative
+constexpr double saddle_share = 0.2;      // of a patch's area, from which on it may show a vertex twice
+constexpr double small_patch = 0.01;      // of the surface
+constexpr int absorbing_rounds = 7;       // each of patches twice as large
+constexpr float least_slope = 0.15f;      // cosine at which a centre must see each triangle of its patch
 constexpr int centre_rounds = 200;
 constexpr float same_layer = 1e-3f;  // of the distance: what lies before that much hides what is behind
 constexpr double overlap = 0.3;      // of a patch's area: how far its map goes on over its neighbours
@@ -22,6 +24,7 @@ constexpr double overlap = 0.3;      // of a patch's area: how far its map goes 
 struct Facets {
   std::vector<glm::vec3> middle, normal;
   std::vector<float> area;
+  std::vector<char> is_saddle;
   double surface = 0.0;
   float size = 0.0f;
 };
@@ -52,22 +55,47 @@ float curvature(const ReflectorMesh& mesh, std::size_t t) {
   return divergence;
 }
 
-std::vector<char> convex_triangles(const ReflectorMesh& mesh, const Facets& facets) {
-  std::vector<float> bend(mesh.neighbours.size()), next;
-  for (std::size_t t = 0; t < bend.size(); ++t) bend[t] = facets.size * curvature(mesh, t);
+/// Product of the principal curvatures: how much of the ball of normals a triangle's normals cover, for its
+/// area.
+float gaussian_curvature(const ReflectorMesh& mesh, std::size_t t) {
+  const auto p = mesh.corners(t);
+  const auto n = mesh.normals(t);
+  const glm::vec3 twice = glm::cross(p[1] - p[0], p[2] - p[0]);
+  return glm::dot(twice, glm::cross(n[1] - n[0], n[2] - n[0])) / glm::dot(twice, twice);
+}
+
+/// Means over what surrounds each triangle.
+void smooth(const ReflectorMesh& mesh, const Facets& facets, std::vector<float>& values) {
+  std::vector<float> next;
   for (int round = 0; round < smoothing_rounds; ++round) {
-    next = bend;
-    for (std::size_t t = 0; t < bend.size(); ++t) {
-      float sum = facets.area[t] * bend[t], area = facets.area[t];
+    next = values;
+    for (std::size_t t = 0; t < values.size(); ++t) {
+      float sum = facets.area[t] * values[t], area = facets.area[t];
       for (const std::uint32_t other : mesh.neighbours[t])
-        if (other != no_triangle) sum += facets.area[other] * bend[other], area += facets.area[other];
+        if (other != no_triangle) sum += facets.area[other] * values[other], area += facets.area[other];
       next[t] = sum / area;
     }
-    bend.swap(next);
+    values.swap(next);
   }
+}
+
+std::vector<char> convex_triangles(const ReflectorMesh& mesh, const Facets& facets) {
+  std::vector<float> bend(mesh.neighbours.size());
+  for (std::size_t t = 0; t < bend.size(); ++t) bend[t] = facets.size * curvature(mesh, t);
+  smooth(mesh, facets, bend);
   std::vector<char> is_convex(bend.size());
   for (std::size_t t = 0; t < bend.size(); ++t) is_convex[t] = bend[t] > -flat_curvature;
   return is_convex;
+}
+
+std::vector<char> saddle_triangles(const ReflectorMesh& mesh, const Facets& facets) {
+  std::vector<float> bend(mesh.neighbours.size());
+  for (std::size_t t = 0; t < bend.size(); ++t)
+    bend[t] = facets.size * facets.size * gaussian_curvature(mesh, t);
+  smooth(mesh, facets, bend);
+  std::vector<char> is_saddle(bend.size());
+  for (std::size_t t = 0; t < bend.size(); ++t) is_saddle[t] = bend[t] < -saddle_curvature;
+  return is_saddle;
 }
 
 /// Sets of neighbouring triangles that are alike.
@@ -227,9 +255,15 @@ void add_patches(const ReflectorMesh& mesh, const Facets& facets, const std::vec
     const std::vector<std::uint32_t> hidden = hidden_triangles(mesh, facets, triangles, *centre);
     std::vector<char> is_hidden(mesh.neighbours.size());
     for (const std::uint32_t t : hidden) is_hidden[t] = 1;
-    ReflectorPatch patch{{}, {}, is_convex, *centre};
-    for (const std::uint32_t t : triangles)
-      if (!is_hidden[t]) patch.triangles.push_back(t);
+    ReflectorPatch patch{{}, {}, is_convex, true, *centre};
+    std::vector<std::uint32_t> saddles;
+    for (const std::uint32_t t : triangles) {
+      if (is_hidden[t]) continue;
+      patch.triangles.push_back(t);
+      if (facets.is_saddle[t]) saddles.push_back(t);
+    }
+    patch.shows_once =
+        is_convex && area_of(facets, saddles) < saddle_share * area_of(facets, patch.triangles);
     patch.around = surroundings(mesh, facets, patch);
     patches.push_back(std::move(patch));
     add_parts(connected(mesh, hidden, [](std::uint32_t, std::uint32_t) { return true; }));
@@ -246,7 +280,8 @@ void add_patches(const ReflectorMesh& mesh, const Facets& facets, const std::vec
 }  // namespace
 
 std::vector<ReflectorPatch> reflector_patches(const ReflectorMesh& mesh) {
-  const Facets facets = facets_of(mesh);
+  Facets facets = facets_of(mesh);
+  facets.is_saddle = saddle_triangles(mesh, facets);
   std::vector<char> is_convex = convex_triangles(mesh, facets);
   std::vector<std::uint32_t> all(mesh.neighbours.size());
   for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;

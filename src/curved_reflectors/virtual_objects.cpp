@@ -11,8 +11,9 @@ namespace {
 
 constexpr GLuint picture_unit = render::first_reflection_unit;
 constexpr GLuint map_unit = render::first_reflection_unit + 1;
-constexpr std::size_t most_patches = 64;  // of a reflector
-constexpr std::size_t most_shown = 255;   // numbers of the stencil
+constexpr std::size_t most_patches = 64;           // of a reflector
+constexpr std::size_t most_shown = 255;            // numbers of the stencil
+constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
 constexpr int texels_a_face_texel =
     4;  // a map's side, for the resolution that scripts give for a cube map's face
 
@@ -105,6 +106,18 @@ void VirtualObjects::mark_pixels(const render::View& view) const {
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
+/// A patch that may show a vertex several times is drawn layer by layer, over one another.
+void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view) {
+  current_ = &patch;
+  view.excluded_object = patch.object;
+  layer_ = patch.patch->shows_once ? -1 : 0;
+  do {
+    renderer.draw_view(view);
+    view.clears = false;
+  } while (layer_ >= 0 && ++layer_ < layer_count);
+  current_ = nullptr;
+}
+
 void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&,
                                  const std::vector<render::Reflector>& reflectors) {
   picture_.resize(renderer.width(), renderer.height());
@@ -118,18 +131,16 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
   glEnable(GL_STENCIL_TEST);
   mark_pixels(view);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
-    current_ = &shown_[i];
-    view.excluded_object = shown_[i].object;
     glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
-    renderer.draw_view(view);
+    draw_patch(renderer, shown_[i], view);
   }
-  current_ = nullptr;
   glDisable(GL_STENCIL_TEST);
   picture_.resolve();
 }
 
 void VirtualObjects::bind(const gl::Program& program) {
   GpuReflector::bind(program, *current_->patch, map_unit);
+  program.set("patch_layer", layer_);
   program.set("world_from_reflector", current_->world_from_reflector);
   program.set("reflector_from_world", glm::inverse(current_->world_from_reflector));
 }

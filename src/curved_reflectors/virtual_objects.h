@@ -23,6 +23,9 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::string fragment_shader() const override { return "curved_reflectors/virtual_objects.frag"; }
   void bind(const gl::Program& program, int object) override;
   std::string vertex_shader() const override { return "curved_reflectors/virtual_vertices.vert"; }
+  std::string fragment_shader_of_vertices() const override {
+    return "curved_reflectors/virtual_surface.frag";
+  }
   void bind(const gl::Program& program) override;
   bool may_show(const Bounds& bounds) const override;
 
@@ -42,6 +45,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void mark_pixels(const render::View& view) const;
+  void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
   std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>> reflectors_;
   std::vector<const scene::Model*> model_of_object_;
@@ -49,6 +53,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   VirtualPicture picture_;
   std::vector<ShownPatch> shown_;
   const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn
+  int layer_ = -1;                       ///< of it, if it may show a vertex several times
 };
 
 /// Handed to the renderer; both outlive it.

@@ -155,6 +155,14 @@ TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   EXPECT_LT(draw(among_boxes(bowl, tilted), eye, target).flip(), 0.08);
 }
 
+/// A torus shows most things twice: on its outside, and within its ring.
+TEST_F(VirtualObjectsTest, ATorusShowsThingsSeveralTimes) {
+  const glm::mat4 standing = glm::rotate(placed({0, 0, 1.1f}), 1.2f, {1, 0, 0});
+  const scene::Scene scene = among_boxes(scene::torus(0.8f, 0.3f, 48), standing);
+  const Compared torus = draw(scene, eye, target);
+  EXPECT_LT(torus.flip(), 0.45 * draw(scene, eye, target, Mirrored::sky).flip());
+}
+
 TEST_F(VirtualObjectsTest, TwoMirrorsEachShowTheirOwn) {
   scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 0.7f, 48), placed({-0.9f, 0, 0.8f}));
   scene.objects.push_back(scene.objects.back());

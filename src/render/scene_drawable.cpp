@@ -119,8 +119,9 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
 }
 
 Status SceneDrawable::set_virtual_vertices(VirtualVertices* source) {
-  Result<SurfacePrograms> programs = SurfacePrograms::create("render/surface.frag", gpu_.materials(),
-                                                             source->vertex_shader(), {{"IS_MIRRORED", ""}});
+  Result<SurfacePrograms> programs =
+      SurfacePrograms::create(source->fragment_shader_of_vertices(), gpu_.materials(),
+                              source->vertex_shader(), {{"IS_MIRRORED", ""}});
   if (!programs) return programs.errors();
   programs_.mirrored = *std::move(programs);
   virtual_vertices_ = source;

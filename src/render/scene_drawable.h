@@ -35,9 +35,11 @@ class ReflectionSource {
 class VirtualVertices {
  public:
   virtual ~VirtualVertices() = default;
-  /// A vertex shader that includes render/surface_vertex.glsl and sets `seen_from`, `is_lost` and `height` of
+  /// A vertex shader that includes render/surface_vertex.glsl and sets `seen_from` of
   /// render/surface_body.glsl, too.
   virtual std::string vertex_shader() const = 0;
+  /// A fragment shader that includes render/surface_body.glsl and defines `is_mirrored_here`.
+  virtual std::string fragment_shader_of_vertices() const = 0;
   /// Binds what the shader needs for the reflector that is drawn now, as ReflectionSource::bind does.
   virtual void bind(const gl::Program& program) = 0;
   /// May that reflector show any of what lies within these bounds? Else it is left out.

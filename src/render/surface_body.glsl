@@ -22,9 +22,7 @@ in vec4 leaf_sky_cell;
 flat in int object_of_surface;
 #endif
 #ifdef IS_MIRRORED
-in vec3 seen_from;     // where the reflector shows it
-in float is_lost;      // 0 where all corners have a place in the mirror image
-in float height;       // above the reflector; what lies below it is hidden
+in vec3 seen_from;  // where the reflector shows it
 const float seen_back = 0.1f;  // cosine: smooth normals turn away a little before their triangles do
 #else
 #define seen_from viewer_position.xyz
@@ -33,6 +31,9 @@ out vec4 radiance;
 
 vec4 surface_sky_cell;
 
+#ifdef IS_MIRRORED
+bool is_mirrored_here();  // does the reflector show this point of the surface at all?
+#endif
 void look_along(vec3 at, vec3 direction);
 vec3 reflected_radiance(float roughness);
 
@@ -92,7 +93,7 @@ void main() {
 #ifdef IS_MIRRORED
   // A mirror image may be turned over: what faces front is told by the normal.
   bool is_front = dot(normal, to_viewer) > -seen_back;
-  if (is_lost > 0.0f || height < 0.0f) discard;
+  if (!is_mirrored_here()) discard;
 #ifndef HAS_BACKS
   if (!is_front) discard;
 #endif

@@ -1,0 +1,11 @@
+// Do searches find every reflection point of a vertex? On a torus and in a hollow ball, which show it several
+// times.
+#pragma once
+
+#include "bench/report.h"
+
+namespace parvis::bench {
+
+Status measure_roots(bool is_quick, Report& report);
+
+}  // namespace parvis::bench
