@@ -145,8 +145,8 @@ std::vector<glm::dvec3> reflections_on_torus(double ring, double tube, glm::dvec
   const Torus torus{ring, tube};
   std::vector<glm::dvec3> points;
   for (int i = 0; i < ring_starts * tube_starts; ++i) {
-    glm::dvec2 turns(turn * (i / tube_starts + 0.5) / ring_starts,
-                     turn * (i % tube_starts + 0.5) / tube_starts);
+    const int round_ring = i / tube_starts, round_tube = i % tube_starts;
+    glm::dvec2 turns(turn * (round_ring + 0.5) / ring_starts, turn * (round_tube + 0.5) / tube_starts);
     for (int step = 0; step < most_steps; ++step) {
       const auto change = [&](glm::dvec2 along) {
         return (torus.slope(turns + probe * along, viewer, vertex) -

@@ -110,11 +110,11 @@ void VirtualObjects::mark_pixels(const render::View& view) const {
 void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view) {
   current_ = &patch;
   view.excluded_object = patch.object;
-  layer_ = patch.patch->shows_once ? -1 : 0;
-  do {
+  const int first = patch.patch->shows_once ? -1 : 0, end = patch.patch->shows_once ? 0 : layer_count;
+  for (layer_ = first; layer_ < end; ++layer_) {
     renderer.draw_view(view);
     view.clears = false;
-  } while (layer_ >= 0 && ++layer_ < layer_count);
+  }
   current_ = nullptr;
 }
 
