@@ -2,6 +2,7 @@
 
 #include "action/action_nodes.h"
 #include "city/city_nodes.h"
+#include "curved_reflectors/long_edges.h"
 #include "curved_reflectors/virtual_objects.h"
 #include "environment_maps/local_environment_maps.h"
 #include "environment_maps/multiple_environment_maps.h"
@@ -81,6 +82,8 @@ Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
     : play_(std::move(play)), renderer_(std::move(renderer)) {}
 
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
+  if (play.scene.reflection.method == scene::ReflectionMethod::virtual_objects)
+    curved_reflectors::divide_long_edges(play.scene);
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(play.scene);
   if (!renderer) return renderer.errors();
   std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
