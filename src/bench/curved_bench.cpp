@@ -2,6 +2,7 @@
 
 #include "bench/curved_cost.h"
 #include "bench/curved_edges.h"
+#include "bench/curved_kitchen.h"
 #include "bench/curved_roots.h"
 #include "bench/curved_search.h"
 
@@ -9,7 +10,7 @@ namespace parvis::bench {
 
 Result<Report> curved_bench(bool is_quick) {
   Report report("curved");
-  for (const auto measure : {measure_search, measure_roots, measure_edges, measure_cost})
+  for (const auto measure : {measure_search, measure_roots, measure_edges, measure_cost, measure_kitchen})
     if (Status status = measure(is_quick, report); !status) return status.errors();
   return report;
 }

@@ -12,7 +12,7 @@ namespace {
 using enum KitchenMaterial;
 
 // Mirrors show corners exactly and what lies between them straight: the nearer the finer.
-constexpr float near_cell_m = 0.03f, cell_m = 0.06f, far_cell_m = 0.15f;
+constexpr float nearest_cell_m = 0.015f, near_cell_m = 0.03f, cell_m = 0.06f, far_cell_m = 0.15f;
 constexpr float east = room_east_m, west = -room_east_m, south = room_south_m, top = room_height_m;
 constexpr float worktop_front_m = -worktop_m[1];
 
@@ -106,7 +106,7 @@ void add_cupboards(scene::Model& model) {
 void add_worktop(scene::Model& model) {
   constexpr float thick = 0.04f, high = worktop_height_m;
   add_part(model, "worktop",
-           panel({west, worktop_front_m, high}, {worktop_m[0], 0, 0}, {0, worktop_m[1], 0}, near_cell_m),
+           panel({west, worktop_front_m, high}, {worktop_m[0], 0, 0}, {0, worktop_m[1], 0}, nearest_cell_m),
            worktop);
   add_part(model, "worktop edge",
            panel({west, worktop_front_m, high - thick}, {worktop_m[0], 0, 0}, {0, 0, thick}, near_cell_m),

@@ -9,23 +9,12 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr GLuint picture_unit = render::first_reflection_unit;
-constexpr GLuint map_unit = render::first_reflection_unit + 1;
-constexpr std::size_t most_patches = 64;           // of a reflector
-constexpr std::size_t most_shown = 255;            // numbers of the stencil
+constexpr std::size_t most_patches = 64;  // of a reflector
+constexpr std::size_t most_shown = 255;   // numbers of the stencil
+constexpr float least_size_px = 120.0f;   // on the screen, of a mirror in which what is near is worth it
 constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
 constexpr int texels_a_face_texel =
     4;  // a map's side, for the resolution that scripts give for a cube map's face
-
-/// The mirror-like parts of a model at rest, in one piece.
-Mesh mirror_mesh(const scene::Model& model) {
-  Mesh mesh;
-  const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  for (const scene::Part& part : model.parts)
-    if (model.materials[std::size_t(part.material)].is_mirror_like)
-      append(mesh, part.mesh, pose[std::size_t(part.node)]);
-  return mesh;
-}
 
 std::unique_ptr<GpuReflector> reflector_of(const scene::Model& model, const std::string& name, int side) {
   const Result<Reflector> made = make_reflector(mirror_mesh(model), name, side, most_patches);
@@ -50,18 +39,32 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
 
 }  // namespace
 
-Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(const scene::Scene& scene,
-                                                               render::Renderer& renderer) {
+Mesh mirror_mesh(const scene::Model& model) {
+  Mesh mesh;
+  const std::vector<glm::mat4> pose = scene::rest_pose(model);
+  for (const scene::Part& part : model.parts)
+    if (model.materials[std::size_t(part.material)].is_mirror_like)
+      append(mesh, part.mesh, pose[std::size_t(part.node)]);
+  return mesh;
+}
+
+Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
+    const scene::Scene& scene, render::Renderer& renderer,
+    std::unique_ptr<render::Reflections> surroundings) {
   Result<gl::Program> patch_pixels =
       gl::Program::create("curved_reflectors/patch_pixels.vert", "curved_reflectors/patch_pixels.frag");
   if (!patch_pixels) return patch_pixels.errors();
-  std::unique_ptr<VirtualObjects> made(new VirtualObjects(scene, *std::move(patch_pixels)));
+  std::unique_ptr<VirtualObjects> made(
+      new VirtualObjects(scene, *std::move(patch_pixels), std::move(surroundings)));
   if (Status status = renderer.set_virtual_vertices(made.get()); !status) return status.errors();
   return made;
 }
 
-VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels)
-    : patch_pixels_(std::move(patch_pixels)) {
+VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels,
+                               std::unique_ptr<render::Reflections> surroundings)
+    : patch_pixels_(std::move(patch_pixels)),
+      settings_(scene.reflection),
+      surroundings_(std::move(surroundings)) {
   const int side = texels_a_face_texel * scene.reflection.resolution;
   for (const scene::Object& object : scene.objects) {
     model_of_object_.push_back(object.model.get());
@@ -71,18 +74,37 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixe
   }
 }
 
+/// Of a reflector: a new entry of `near_`, or below 0 where nothing stands near.
+int VirtualObjects::find_near(const render::Renderer& renderer, const render::Reflector& reflector) {
+  const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
+  std::vector<std::uint8_t> near(bounds.size(), 0);
+  for (std::size_t o = 0; o < bounds.size(); ++o)
+    near[o] =
+        int(o) != reflector.object && renderer.gpu().is_visible(int(o)) &&
+        render::stands_near(bounds[std::size_t(reflector.object)], bounds[o], settings_.virtual_within_m);
+  if (std::ranges::find(near, 1) == near.end()) return -1;
+  near_.push_back(std::move(near));
+  return int(near_.size()) - 1;
+}
+
 void VirtualObjects::find_patches(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
+  near_.clear();
+  const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
   for (const render::Reflector& reflector : reflectors) {
     const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);
     const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
     if (!gpu || !is_scaled_evenly(world_from_reflector)) continue;
+    const bool is_small = settings_.uses_level_of_detail && reflector.size_px < least_size_px;
+    if (!shows_all && is_small) continue;
+    const int near = shows_all ? -1 : find_near(renderer, reflector);
+    if (!shows_all && near < 0) continue;
     const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
     const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
     for (const GpuReflector::Patch& patch : gpu->patches())
       if (shown_.size() < most_shown && patch.bounds.may_be_seen(viewer) && frustum.may_see(patch.bounds.box))
-        shown_.push_back({reflector.object, gpu.get(), &patch, world_from_reflector, viewer});
+        shown_.push_back({reflector.object, near, gpu.get(), &patch, world_from_reflector, viewer});
   }
 }
 
@@ -110,6 +132,7 @@ void VirtualObjects::mark_pixels(const render::View& view) const {
 void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view) {
   current_ = &patch;
   view.excluded_object = patch.object;
+  view.shown_objects = patch.near < 0 ? nullptr : &near_[std::size_t(patch.near)];
   const int first = patch.patch->shows_once ? -1 : 0, end = patch.patch->shows_once ? 0 : layer_count;
   for (layer_ = first; layer_ < end; ++layer_) {
     renderer.draw_view(view);
@@ -118,8 +141,13 @@ void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& pa
   current_ = nullptr;
 }
 
-void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&,
+void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                  const std::vector<render::Reflector>& reflectors) {
+  if (surroundings_) {
+    surroundings_->update_for(renderer, scene, reflectors);
+    faces_drawn_ = surroundings_->faces_drawn();
+  }
+  renderer.use_virtual_vertices(this);
   picture_.resize(renderer.width(), renderer.height());
   picture_.clear();
   find_patches(renderer, reflectors);
@@ -139,7 +167,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
 }
 
 void VirtualObjects::bind(const gl::Program& program) {
-  GpuReflector::bind(program, *current_->patch, map_unit);
+  GpuReflector::bind(program, *current_->patch, render::virtual_vertex_unit);
   program.set("patch_layer", layer_);
   program.set("world_from_reflector", current_->world_from_reflector);
   program.set("reflector_from_world", glm::inverse(current_->world_from_reflector));
@@ -153,14 +181,26 @@ bool VirtualObjects::may_show(const Bounds& bounds) const {
                                           bounds.radius() / glm::length(world_from_reflector[0]));
 }
 
-void VirtualObjects::bind(const gl::Program& program, int) {
-  glBindTextureUnit(picture_unit, picture_.texture());
-  program.set("virtual_picture", int(picture_unit));
+std::string VirtualObjects::fragment_shader() const {
+  return surroundings_ ? surroundings_->fragment_shader() : "render/surface.frag";
 }
 
-Result<std::unique_ptr<render::Reflections>> make_virtual_objects(const scene::Scene& scene,
-                                                                  render::Renderer& renderer) {
-  Result<std::unique_ptr<VirtualObjects>> made = VirtualObjects::create(scene, renderer);
+gl::Defines VirtualObjects::defines() const {
+  gl::Defines defines = surroundings_ ? surroundings_->defines() : gl::Defines();
+  defines.emplace_back("HAS_NEAR_PICTURE", "");
+  return defines;
+}
+
+void VirtualObjects::bind(const gl::Program& program, int object) {
+  glBindTextureUnit(render::near_picture_unit, picture_.texture());
+  if (surroundings_) surroundings_->bind(program, object);
+}
+
+Result<std::unique_ptr<render::Reflections>> make_virtual_objects(
+    const scene::Scene& scene, render::Renderer& renderer,
+    std::unique_ptr<render::Reflections> surroundings) {
+  Result<std::unique_ptr<VirtualObjects>> made =
+      VirtualObjects::create(scene, renderer, std::move(surroundings));
   if (!made) return made.errors();
   std::unique_ptr<render::Reflections> reflections = *std::move(made);
   if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();

@@ -1,6 +1,7 @@
 // Reflections on curved objects by virtual objects: the scene is drawn once more for each patch of each
 // reflector, every vertex where the patch shows it, into a picture that the reflector's own pixels then look
-// up. reflection(method="virtual_objects").
+// up: reflection(method="virtual_objects"). Or only what stands near: reflection(virtual_within=...), over
+// what another method shows.
 #pragma once
 
 #include <memory>
@@ -13,15 +14,25 @@
 
 namespace parvis::curved_reflectors {
 
+/// The mirror-like parts of a model at rest, in one piece: what its reflector maps are made of.
+Mesh mirror_mesh(const scene::Model& model);
+
 class VirtualObjects final : public render::Reflections, public render::VirtualVertices {
  public:
   /// Makes the maps of all reflecting objects; tells on standard error what is wrong with their meshes. One
   /// whose mesh cannot be used mirrors the sky alone.
-  static Result<std::unique_ptr<VirtualObjects>> create(const scene::Scene& scene,
-                                                        render::Renderer& renderer);
+  /// `surroundings` is what shows where no virtual object does; null: the sky.
+  static Result<std::unique_ptr<VirtualObjects>> create(const scene::Scene& scene, render::Renderer& renderer,
+                                                        std::unique_ptr<render::Reflections> surroundings);
 
-  std::string fragment_shader() const override { return "curved_reflectors/virtual_objects.frag"; }
+  std::string fragment_shader() const override;
+  gl::Defines defines() const override;
+  int details() const override { return surroundings_ ? surroundings_->details() : 1; }
+  int detail_of(int object) const override { return surroundings_ ? surroundings_->detail_of(object) : 0; }
   void bind(const gl::Program& program, int object) override;
+  void frame_took(double update_ms, double rest_ms) override {
+    if (surroundings_) surroundings_->frame_took(update_ms, rest_ms);
+  }
   std::string vertex_shader() const override { return "curved_reflectors/virtual_vertices.vert"; }
   std::string fragment_shader_of_vertices() const override {
     return "curved_reflectors/virtual_surface.frag";
@@ -30,13 +41,16 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   bool may_show(const Bounds& bounds) const override;
 
  private:
-  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels);
+  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels,
+                 std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
+  void forget_surroundings() override {}  // the surroundings' own method does
 
   /// A patch that the frame shows, in the order of its number in the stencil.
   struct ShownPatch {
     int object;
+    int near;  ///< of `near_`; below 0: all objects
     const GpuReflector* reflector;
     const GpuReflector::Patch* patch;
     glm::mat4 world_from_reflector;
@@ -44,6 +58,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   };
   /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
+  int find_near(const render::Renderer& renderer, const render::Reflector& reflector);
   void mark_pixels(const render::View& view) const;
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
@@ -51,13 +66,17 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_;
   VirtualPicture picture_;
+  scene::Reflection settings_;
+  std::unique_ptr<render::Reflections> surroundings_;
   std::vector<ShownPatch> shown_;
-  const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn
-  int layer_ = -1;                       ///< of it, if it may show a vertex several times
+  std::vector<std::vector<std::uint8_t>> near_;  ///< objects that stand near each reflector that has any
+  const ShownPatch* current_ = nullptr;          ///< while its mirrored view is drawn
+  int layer_ = -1;                               ///< of it, if it may show a vertex several times
 };
 
-/// Handed to the renderer; both outlive it.
-Result<std::unique_ptr<render::Reflections>> make_virtual_objects(const scene::Scene& scene,
-                                                                  render::Renderer& renderer);
+/// Handed to the renderer; both outlive it. See VirtualObjects::create.
+Result<std::unique_ptr<render::Reflections>> make_virtual_objects(
+    const scene::Scene& scene, render::Renderer& renderer,
+    std::unique_ptr<render::Reflections> surroundings = nullptr);
 
 }  // namespace parvis::curved_reflectors

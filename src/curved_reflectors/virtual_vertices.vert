@@ -7,6 +7,7 @@
 
 out vec3 seen_from;
 out float is_lost;
+out vec3 shown_by;
 out float height;
 
 void main() {
@@ -20,6 +21,7 @@ void main() {
   bool has_place = found.kind == kind_surface || (found.kind == kind_closed && is_convex);
   is_lost = found.point.angle < found_angle && has_place ? 0.0f : 1.0f;
   height = dot(task.vertex - found.point.position, found.point.normal);
+  shown_by = found.point.normal;
   seen_from = moved(world_from_reflector, found.point.position);
   vec3 image = virtual_vertex(task.vertex, found.point.position, found.point.normal);
   if (is_lost > 0.0f) image = map_centre;  // finite; the triangle is not drawn

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "base/parallel.h"
+#include "render/reflections.h"
 
 namespace parvis::environment_maps {
 namespace {
@@ -30,7 +31,9 @@ gl::Texture upload(const std::vector<BodyField>& fields) {
 }  // namespace
 
 MirroredBodies::MirroredBodies(const scene::Scene& scene)
-    : field_of_object_(scene.objects.size(), -1), body_of_object_(scene.objects.size(), -1) {
+    : virtual_within_m_(scene.reflection.virtual_within_m),
+      field_of_object_(scene.objects.size(), -1),
+      body_of_object_(scene.objects.size(), -1) {
   std::unordered_map<const scene::Model*, int> known;
   std::vector<const scene::Model*> models;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
@@ -49,11 +52,12 @@ MirroredBodies::MirroredBodies(const scene::Scene& scene)
   fields_ = upload(fields);
   block_ = gl::Buffer::create();
   glNamedBufferStorage(block_.name(), sizeof(Body) * most, nullptr, GL_DYNAMIC_STORAGE_BIT);
-  bodies_.reserve(most), middles_.reserve(most), by_distance_.reserve(scene.objects.size());
+  bodies_.reserve(most), middles_.reserve(most), objects_.reserve(most),
+      by_distance_.reserve(scene.objects.size());
 }
 
-void MirroredBodies::update(const scene::Scene& scene, glm::vec3 viewer) {
-  by_distance_.clear(), bodies_.clear(), middles_.clear();
+void MirroredBodies::update(const scene::Scene& scene, const render::GpuScene& gpu, glm::vec3 viewer) {
+  by_distance_.clear(), bodies_.clear(), middles_.clear(), objects_.clear();
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     body_of_object_[o] = -1;
     if (field_of_object_[o] < 0 || !scene.objects[o].is_visible) continue;
@@ -76,17 +80,23 @@ void MirroredBodies::update(const scene::Scene& scene, glm::vec3 viewer) {
     }
     body.half_size_m.w = float(field_of_object_[o]);
     body_of_object_[o] = int(bodies_.size());
-    bodies_.push_back(body), middles_.push_back(middle);
+    bodies_.push_back(body), middles_.push_back(middle), objects_.push_back(int(o));
   }
-  find_neighbours();
+  find_neighbours(gpu);
   glNamedBufferSubData(block_.name(), 0, GLsizeiptr(sizeof(Body) * bodies_.size()), bodies_.data());
 }
 
-void MirroredBodies::find_neighbours() {
+void MirroredBodies::find_neighbours(const render::GpuScene& gpu) {
+  const auto bounds = [&](std::size_t body) { return gpu.object_bounds()[std::size_t(objects_[body])]; };
+  const auto is_virtual = [&](std::size_t body, std::size_t other) {
+    return virtual_within_m_ > 0.0f && body != other &&
+           render::stands_near(bounds(body), bounds(other), virtual_within_m_);
+  };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     by_distance_.clear();
     for (std::size_t k = 0; k < bodies_.size(); ++k)
-      if (const float distance_m = glm::distance(middles_[i], middles_[k]); distance_m < reach_m)
+      if (const float distance_m = glm::distance(middles_[i], middles_[k]);
+          distance_m < reach_m && !is_virtual(i, k))
         by_distance_.emplace_back(distance_m, int(k));
     const std::size_t count = std::min(by_distance_.size(), std::size_t(most_near));
     std::ranges::partial_sort(by_distance_, by_distance_.begin() + std::ptrdiff_t(count));

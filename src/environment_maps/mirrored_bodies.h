@@ -7,6 +7,7 @@
 #include "environment_maps/body_field.h"
 #include "gl/objects.h"
 #include "gl/program.h"
+#include "render/gpu_scene.h"
 #include "scene/scene.h"
 
 namespace parvis::environment_maps {
@@ -17,7 +18,8 @@ class MirroredBodies {
   explicit MirroredBodies(const scene::Scene& scene);
 
   /// Takes over where bodies are: those nearest to `viewer` where there are more than can be mirrored.
-  void update(const scene::Scene& scene, glm::vec3 viewer);
+  /// What `stands_near` a body, by the scene's reflection(virtual_within=...), is others' to show in it.
+  void update(const scene::Scene& scene, const render::GpuScene& gpu, glm::vec3 viewer);
   /// Binds what mirrored_bodies.glsl needs; `reflecting_body` is the caller's to set.
   void prepare(const gl::Program& program, GLuint unit) const;
   /// Of an object; below 0: none.
@@ -33,12 +35,14 @@ class MirroredBodies {
     glm::vec4 half_size_m;
     glm::uvec4 near;
   };
-  void find_neighbours();
+  void find_neighbours(const render::GpuScene& gpu);
 
+  float virtual_within_m_;
   std::vector<int> field_of_object_;  ///< below 0: none
   std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
   std::vector<int> body_of_object_;   ///< below 0: none now
   std::vector<std::pair<float, int>> by_distance_;
+  std::vector<int> objects_;  ///< of each body
   std::vector<glm::vec3> middles_;
   std::vector<Body> bodies_;
   gl::Texture fields_;

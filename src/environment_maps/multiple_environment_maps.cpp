@@ -86,7 +86,7 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   if (uses_level_of_detail_)
     for (const render::Reflector& reflector : reflectors)
       details_[std::size_t(reflector.object)] = detail_for(reflector.size_px);
-  if (!reflectors.empty()) bodies_.update(scene, reflectors.front().centre);
+  if (!reflectors.empty()) bodies_.update(scene, renderer.gpu(), reflectors.front().centre);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
 }

@@ -38,6 +38,10 @@ Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene
   return reflections;
 }
 
+std::unique_ptr<render::Reflections> make_surroundings(const scene::Scene& scene) {
+  return std::make_unique<TimeSlicedCubeMap>(scene.reflection);
+}
+
 void CubeMapReflections::draw_whole(render::CubeMap& map, render::Renderer& renderer, glm::vec3 centre,
                                     int excluded) {
   for (int face = 0; face < 6; ++face) map.draw_face(renderer, face, centre, excluded);

@@ -14,6 +14,10 @@ namespace parvis::probes {
 Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
                                                               render::Renderer& renderer);
 
+/// What curved mirrors show where virtual objects show nothing: a cube map for each, drawn whole when it is
+/// first seen and then a face a frame. For a method that lies over it, which hands it to the renderer.
+std::unique_ptr<render::Reflections> make_surroundings(const scene::Scene& scene);
+
 /// A method that looks cube maps up.
 class CubeMapReflections : public render::Reflections {
  public:

@@ -19,12 +19,22 @@ void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const 
             [](const Reflector& a, const Reflector& b) { return a.size_px > b.size_px; });
 }
 
+bool stands_near(const Bounds& reflector, const Bounds& object, float within_m) {
+  const glm::vec3 low = object.min - reflector.min + within_m, high = reflector.max + within_m - object.max;
+  return !object.empty() && glm::all(glm::greaterThanEqual(glm::min(low, high), glm::vec3(0.0f)));
+}
+
 void Reflections::update(Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
   find_reflectors(renderer, scene, camera, reflectors_);
+  update_for(renderer, scene, reflectors_);
+}
+
+void Reflections::update_for(Renderer& renderer, const scene::Scene& scene,
+                             const std::vector<Reflector>& reflectors) {
   faces_drawn_ = 0;
   if (fixed_changes_ && fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
   fixed_changes_ = renderer.fixed_changes();
-  update_maps(renderer, scene, reflectors_);
+  update_maps(renderer, scene, reflectors);
 }
 
 }  // namespace parvis::render

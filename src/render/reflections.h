@@ -20,11 +20,17 @@ struct Reflector {
 void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const Camera& camera,
                      std::vector<Reflector>& reflectors);
 
+/// Does an object stand wholly so near to a reflector? `within_m` from its box, to each side.
+bool stands_near(const Bounds& reflector, const Bounds& object, float within_m);
+
 /// One method of reflection. Made for a renderer and a scene, both of which outlive it.
 class Reflections : public ReflectionSource {
  public:
   /// Draws what maps the method wants for the reflectors that the prepared main view shows.
   void update(Renderer& renderer, const scene::Scene& scene, const Camera& camera);
+
+  /// The same for reflectors that are known: for a method that lies over another.
+  void update_for(Renderer& renderer, const scene::Scene& scene, const std::vector<Reflector>& reflectors);
 
   /// What the last update took by the clock, and all the rest of its frame: for methods that hold a budget.
   /// Told in windows alone, so that pictures and films can be repeated.

@@ -109,8 +109,10 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
       mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
   programs_.mirror.clear();
   for (int detail = 0; detail < source->details(); ++detail) {
-    Result<SurfacePrograms> programs = SurfacePrograms::create(
-        source->fragment_shader(), mirrors, "render/surface.vert", {{"DETAIL", std::to_string(detail)}});
+    gl::Defines defines = source->defines();
+    defines.emplace_back("DETAIL", std::to_string(detail));
+    Result<SurfacePrograms> programs =
+        SurfacePrograms::create(source->fragment_shader(), mirrors, "render/surface.vert", defines);
     if (!programs) return programs.errors();
     programs_.mirror.push_back(*std::move(programs));
   }
@@ -178,8 +180,10 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
   const std::vector<Item>& items = gpu_.items();
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Item& item = items[i];
-    if (item.object == view.excluded_object || !shows(view.subjects, gpu_, item.object)) continue;
-    if (!gpu_.is_visible(item.object)) continue;
+    const bool is_left_out =  // of a mirror that is seen in itself, what does not mirror is shown
+        item.object == view.excluded_object && (view.kind != ViewKind::mirrored || item.is_mirror);
+    if (is_left_out || !shows(view.subjects, gpu_, item.object)) continue;
+    if (!gpu_.is_visible(item.object) || !view.shows(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
     if (!may_see(view, frustum, item.bounds)) continue;
     ++list.statistics.items_in_frustum;

@@ -25,6 +25,9 @@ class ReflectionSource {
   /// How many levels of detail the shader has; it is linked for each, with DETAIL as 0, 1, ... (Software
   /// renderers run both sides of a branch.)
   virtual int details() const { return 1; }
+  /// What the shader is compiled with. HAS_NEAR_PICTURE: a picture of what stands near lies over what it
+  /// finds.
+  virtual gl::Defines defines() const { return {}; }
   virtual int detail_of(int /*object*/) const { return 0; }
   /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
   /// `program`.
@@ -63,6 +66,7 @@ class SceneDrawable final : public Drawable {
   Status set_reflection(ReflectionSource* source);
   /// To be called before mirrored views are drawn.
   Status set_virtual_vertices(VirtualVertices* source);
+  void use_virtual_vertices(VirtualVertices* source) { virtual_vertices_ = source; }
 
   void prepare(const View& view) override;
   void draw(const View& view, Pass pass) override;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "base/camera.h"
 
@@ -36,11 +37,13 @@ struct View {
   int width = 0, height = 0;
   glm::ivec4 part{
       0};  ///< x, y, width, height in pixels, from the lower left: all that is drawn; none: everything
+  const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< a flag for each object; null: all
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   Subjects subjects = Subjects::all;
   bool clears = true;         ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
+  bool shows(int object) const { return !shown_objects || (*shown_objects)[std::size_t(object)]; }
   bool has_part() const { return part.z > 0 && part.w > 0; }
   /// Spreads the part's share of the clip square over the whole square: what is to be drawn lies within.
   glm::mat4 clip_of_part() const;

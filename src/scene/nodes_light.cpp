@@ -176,6 +176,16 @@ NodeSchema reflection_schema() {
                 .minimum = 0,
                 .maximum = 1000,
                 .is_live = true},
+               {.name = "virtual_within",
+                .type = AttributeType::number,
+                .help = "people, trees, cars that stand wholly within this distance of a mirror are drawn as "
+                        "virtual objects, where ray tracing has them, over what the method shows beyond; 0: "
+                        "none. (virtual_objects draws everything so, whatever its distance.)",
+                .fallback = "0",
+                .unit = "m",
+                .minimum = 0,
+                .maximum = 1000,
+                .is_live = true},
                {.name = "show",
                 .type = AttributeType::choice,
                 .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
@@ -197,6 +207,7 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
   reflection.most_maps = int(node.integer("maps"));
   reflection.budget_ms = float(node.number("budget_ms"));
   reflection.faces_a_frame = int(node.integer("faces_a_frame"));
+  reflection.virtual_within_m = float(node.number("virtual_within"));
   for (std::size_t i = 0; i < reflection_view_names.size(); ++i)
     if (node.text("show") == reflection_view_names[i]) reflection.shown = ReflectionView(i);
 }

@@ -102,8 +102,9 @@ struct Reflection {
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
   int most_maps = 240;               ///< reference maps, of the methods that have any
   ReflectionView shown = ReflectionView::radiance;
-  float budget_ms = 0.0f;  ///< of a frame, held by choosing levels of detail; 0: none
-  int faces_a_frame = 0;   ///< of time-sliced maps, over all reflectors; 0: one for each of them
+  float budget_ms = 0.0f;         ///< of a frame, held by choosing levels of detail; 0: none
+  int faces_a_frame = 0;          ///< of time-sliced maps, over all reflectors; 0: one for each of them
+  float virtual_within_m = 0.0f;  ///< what stands wholly so near to a mirror is drawn as virtual objects
 
   bool operator==(const Reflection&) const = default;
 };

@@ -62,8 +62,10 @@ Result<Play> open_play(const std::filesystem::path& script,
   return play;
 }
 
-Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
-                                                              render::Renderer& renderer) {
+namespace {
+
+Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& scene,
+                                                         render::Renderer& renderer) {
   switch (scene.reflection.method) {
     case scene::ReflectionMethod::multiple_environment_maps:
       return environment_maps::make_reflections(scene, renderer);
@@ -72,10 +74,22 @@ Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene
     case scene::ReflectionMethod::simple_blend:
       return environment_maps::make_simple_blend(scene, renderer);
     case scene::ReflectionMethod::virtual_objects:
-      return curved_reflectors::make_virtual_objects(scene, renderer);
+      return curved_reflectors::make_virtual_objects(scene, renderer, probes::make_surroundings(scene));
     default:
       return probes::make_reflections(scene, renderer);
   }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer) {
+  Result<std::unique_ptr<render::Reflections>> method = make_method(scene, renderer);
+  const scene::Reflection& reflection = scene.reflection;
+  if (!method || reflection.virtual_within_m <= 0.0f ||
+      reflection.method == scene::ReflectionMethod::virtual_objects)
+    return method;
+  return curved_reflectors::make_virtual_objects(scene, renderer, *std::move(method));
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)

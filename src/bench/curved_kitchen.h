@@ -1,0 +1,15 @@
+// The kitchen of curved mirrors, in the bench "curved": where its mirrors show what stands in it, and how
+// near their pictures come to ray tracing beside cube maps drawn anew.
+#pragma once
+
+#include "bench/report.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+Status measure_kitchen(bool is_quick, Report& report);
+
+/// Writes the kitchen into a folder and opens it. Needs a current context.
+Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& folder);
+
+}  // namespace parvis::bench

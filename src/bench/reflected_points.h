@@ -1,0 +1,43 @@
+// Where the mirrors of a scene show what stands in it: pixels whose mirror rays are known, and how far from
+// there the search over reflector maps shows what those rays meet.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "base/random.h"
+#include "curved_reflectors/reflector_map.h"
+#include "curved_reflectors/surface_rays.h"
+#include "reference/ray_scene.h"
+#include "scene/scene.h"
+
+namespace parvis::bench {
+
+/// A point that is not shown where it is, or not at all, counts as so many pixels.
+inline constexpr double missed_px = 100.0;
+
+class ReflectedPoints {
+ public:
+  /// Makes the maps of all mirrors of a scene, as the renderer does; `scene` stays where it is.
+  static Result<ReflectedPoints> make(const scene::Scene& scene);
+
+  /// For `count` chance pixels that show mirrors which show the scene: pixels between where the fine mesh,
+  /// with interpolated normals, mirrors a point and where the search finds it mirrored.
+  std::vector<double> errors_px(const Camera& camera, int width, int height, std::size_t count) const;
+
+ private:
+  /// A mirror's maps, and the fine mesh of each patch.
+  struct Mirror {
+    curved_reflectors::Reflector reflector;
+    std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>> patches;
+  };
+  double error_px(const Mirror& mirror, const scene::Object& object, const Camera& camera,
+                  const glm::mat4& pixel_from_world, glm::vec3 direction) const;
+
+  const scene::Scene* scene_ = nullptr;
+  std::unique_ptr<reference::RayScene> rays_;
+  std::unordered_map<const scene::Model*, Mirror> mirrors_;
+};
+
+}  // namespace parvis::bench
