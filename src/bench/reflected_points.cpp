@@ -1,5 +1,6 @@
 #include "bench/reflected_points.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/judged_body.h"
@@ -65,13 +66,19 @@ double ReflectedPoints::error_px(const Mirror& mirror, const scene::Object& obje
   const ReflectorMap& map = mirror.reflector.maps[patch];
   MapSearch search{map};
   const glm::vec3 vertex = reflector_from_world * glm::vec4(from + hit->distance_m * unit, 1.0f);
-  const MapSearch::PatchPoint found =
-      search.search_patch({eye, vertex, map.window.centre}, map.is_convex, map.is_whole_body());
-  if (!search.is_found(found)) return missed_px;
   const auto on_screen = [&](glm::vec3 point) {
     return pixel_of(pixel_from_world, world_from_reflector * glm::vec4(point, 1.0f));
   };
-  return double(glm::distance(on_screen(found.point.position), on_screen(at->position)));
+  double nearest_px = missed_px;
+  const int first = map.shows_once ? -1 : 0, end = map.shows_once ? 0 : search.layer_count;
+  for (int layer = first; layer < end; ++layer) {
+    const MapSearch::PatchPoint found =
+        search.search_patch({eye, vertex, map.window.centre}, map.is_convex, map.is_whole_body(), layer);
+    if (search.is_found(found))
+      nearest_px = std::min(nearest_px,
+                            double(glm::distance(on_screen(found.point.position), on_screen(at->position))));
+  }
+  return nearest_px;
 }
 
 std::vector<double> ReflectedPoints::errors_px(const Camera& camera, int width, int height,
