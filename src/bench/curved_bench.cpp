@@ -1,5 +1,6 @@
 #include "bench/curved_bench.h"
 
+#include "bench/curved_bonnet.h"
 #include "bench/curved_cost.h"
 #include "bench/curved_edges.h"
 #include "bench/curved_kitchen.h"
@@ -10,7 +11,8 @@ namespace parvis::bench {
 
 Result<Report> curved_bench(bool is_quick) {
   Report report("curved");
-  for (const auto measure : {measure_search, measure_roots, measure_edges, measure_cost, measure_kitchen})
+  for (const auto measure :
+       {measure_search, measure_roots, measure_edges, measure_cost, measure_kitchen, measure_bonnet})
     if (Status status = measure(is_quick, report); !status) return status.errors();
   return report;
 }

@@ -40,12 +40,14 @@ vec3 reflected_radiance(float roughness);
 #ifdef HAS_NEAR_PICTURE
 uniform sampler2D near_picture;  // of the main view's size: what stands near, as its mirrors show it; coverage in alpha
 
-vec3 behind_near(vec3 far_radiance) {
-  vec4 seen = texelFetch(near_picture, ivec2(gl_FragCoord.xy), 0);
+// The picture is sharp. A rough layer blurs it widely: it shows that much less of it.
+vec3 behind_near(vec3 far_radiance, float roughness) {
+  float sharp = 1.0f - smoothstep(0.15f, 0.8f, roughness);
+  vec4 seen = sharp * texelFetch(near_picture, ivec2(gl_FragCoord.xy), 0);
   return seen.rgb + (1.0f - seen.a) * far_radiance;
 }
 #else
-#define behind_near(far_radiance) far_radiance
+#define behind_near(far_radiance, roughness) far_radiance
 #endif
 
 // Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
@@ -182,9 +184,9 @@ void main() {
 #endif
   vec3 mirrored = reflect(-to_viewer, s.normal);
   look_along(position, mirrored);
-  vec3 base_reflection = behind_near(reflected_radiance(s.roughness));
+  vec3 base_reflection = behind_near(reflected_radiance(s.roughness), s.roughness);
 #ifdef HAS_COAT
-  vec3 coat_reflection = behind_near(reflected_radiance(s.clear_coat_roughness));
+  vec3 coat_reflection = behind_near(reflected_radiance(s.clear_coat_roughness), s.clear_coat_roughness);
 #else
   vec3 coat_reflection = vec3(0.0f);
 #endif
