@@ -27,8 +27,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
 
   std::string fragment_shader() const override;
   gl::Defines defines() const override;
-  int details() const override { return surroundings_ ? surroundings_->details() : 1; }
-  int detail_of(int object) const override { return surroundings_ ? surroundings_->detail_of(object) : 0; }
+  bool takes_rays() const override { return surroundings_ && surroundings_->takes_rays(); }
   void bind(const gl::Program& program, int object) override;
   void frame_took(double update_ms, double rest_ms) override {
     if (surroundings_) surroundings_->frame_took(update_ms, rest_ms);

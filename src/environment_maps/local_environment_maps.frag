@@ -25,7 +25,7 @@ void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
 // Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
 // pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur.
-vec3 reflected_radiance(float roughness) {
+vec3 reflected_radiance(float roughness, int layer) {
   vec3 direction = mirrored_direction;
   if (local_map.z < 1.0f) return simple_blend(direction, roughness);
   vec3 along_x = dFdx(direction), along_y = dFdy(direction);

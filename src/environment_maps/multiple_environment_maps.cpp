@@ -54,14 +54,27 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
   if (!maps) return maps.errors();
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
   if (!renewal) return renewal.errors();
-  return std::unique_ptr<MultipleEnvironmentMaps>(
-      new MultipleEnvironmentMaps(scene, heights, *std::move(maps), *std::move(renewal)));
+  Result<MirrorPicture> picture = MirrorPicture::create();
+  if (!picture) return picture.errors();
+  Programs programs;
+  for (std::size_t detail = 0; detail < programs.size(); ++detail) {
+    Result<gl::Program> program =
+        gl::Program::create("render/whole_screen.vert", "environment_maps/multiple_environment_maps.frag",
+                            {{"DETAIL", std::to_string(detail)}});
+    if (!program) return program.errors();
+    render::assign_bindings(*program);
+    programs[detail] = *std::move(program);
+  }
+  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(
+      scene, heights, *std::move(maps), *std::move(renewal), *std::move(picture), std::move(programs)));
 }
 
 MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
-                                                 ReferenceMaps maps, MapRenewal renewal)
+                                                 ReferenceMaps maps, MapRenewal renewal,
+                                                 MirrorPicture picture, Programs programs)
     : uses_level_of_detail_(scene.reflection.uses_level_of_detail),
-      details_(scene.objects.size(), all),
+      picture_(std::move(picture)),
+      programs_(std::move(programs)),
       maps_(std::move(maps)),
       renewal_(std::move(renewal)),
       bodies_(scene),
@@ -75,20 +88,33 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
   choice_ = upload(choice);
 }
 
-MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::detail_for(float size_px) {
+MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::detail_for(
+    const render::Reflector& reflector) const {
   constexpr float traced_from_px = 40.0f, all_from_px = 120.0f;
-  return size_px < traced_from_px ? nearest_map : size_px < all_from_px ? one_map : all;
+  if (!uses_level_of_detail_ || reflector.size_px >= all_from_px) return all;
+  return reflector.size_px < traced_from_px ? nearest_map : one_map;
 }
 
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<render::Reflector>& reflectors) {
   prepared_.clear();
-  if (uses_level_of_detail_)
-    for (const render::Reflector& reflector : reflectors)
-      details_[std::size_t(reflector.object)] = detail_for(reflector.size_px);
   if (!reflectors.empty()) bodies_.update(scene, renderer.gpu(), reflectors.front().centre);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
+  if (reflectors.empty()) return;
+  picture_.draw_rays(renderer);
+  const gl::Program* current = nullptr;
+  picture_.draw_light(renderer, reflectors, [&](const render::Reflector& reflector) -> const gl::Program& {
+    const gl::Program& program = programs_[std::size_t(detail_for(reflector))];
+    if (current != &program) {
+      program.use();
+      prepare(program);
+      current = &program;
+    }
+    program.set("reflecting_object", reflector.object);
+    program.set("reflecting_body", bodies_.body_of(reflector.object));
+    return program;
+  });
 }
 
 void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
@@ -111,12 +137,10 @@ void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
   program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
 }
 
-void MultipleEnvironmentMaps::bind(const gl::Program& program, int object) {
-  if (std::ranges::find(prepared_, program.name()) == prepared_.end()) {
-    prepare(program);
-    prepared_.push_back(program.name());
-  }
-  program.set("reflecting_body", bodies_.body_of(object));
+void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
+  if (std::ranges::find(prepared_, program.name()) != prepared_.end()) return;
+  picture_.bind(program, render::first_reflection_unit);
+  prepared_.push_back(program.name());
 }
 
 Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,

@@ -1,10 +1,21 @@
 // Reflections out of reference maps (Meyer and Loscos 2003, sections 4.1 to 4.3), for each pixel: the mirror ray is traced
 // through the city's heights from the surface itself, moved from there onto the surface that the maps saw, and looked up
 // in the two maps that see it best.
+#include "render/frame.glsl"
+#include "render/body_lookup.glsl"
 #include "render/sky_lookup.glsl"
+#include "render/sun_lookup.glsl"
 #include "shading/octahedral.glsl"
+#include "shading/surface.glsl"
+#include "shading/lighting.glsl"
 #include "environment_maps/map_levels.glsl"
-#include "render/surface_body.glsl"
+
+layout(location = 0) out vec4 base_radiance;  // alpha: there is one
+layout(location = 1) out vec3 coat_radiance;
+
+uniform highp sampler2D ray_starts;  // xyz; w: roughness of the base
+uniform highp sampler2D ray_ways;    // octahedral; z: roughness of the coat, w: the object and 1
+uniform int reflecting_object;
 
 uniform highp sampler2D heights;
 uniform highp sampler2DArray map_colours;
@@ -26,8 +37,10 @@ const float most_taps = 4.0f;
 const int detail = DETAIL;           // MultipleEnvironmentMaps::Detail
 const int one_map = 1;
 const int all_detail = 2;
+const int most_maps = detail == all_detail ? 2 : 1;
+const float greatest_radiance = 30000.0f;  // the picture holds half floats
 const float least_weight = 0.05f;    // of a second map: what is less is left out
-const float shade_reach_m = 25.0f;   // hits nearer than this may lie in the shade of moving bodies
+const float shade_reach_m = 25.0f;   // ground nearer than this may lie in the shade of moving bodies
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
@@ -75,24 +88,24 @@ float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map)
   return max(far, 0.0f);
 }
 
-// Cars darken the street about them, but no map saw a car.
-vec3 share_left_by_bodies(vec3 met, vec3 normal) {
+// Shadow without what moves. Beside a wall that throws one its map leaks light by a texel or two; a step toward the sun is a
+// step into the wall.
+float visible_sun_without_bodies(vec3 met, vec3 normal) {
+  vec2 step_m = 2.0f * frame_shadow_texel.x * frame_to_sun.xy / max(length(frame_to_sun.xy), 1e-4f);
+  return min(visible_fixed_sun(met, normal), visible_fixed_sun(met + vec3(step_m, 0.0f), normal));
+}
+
+// Cars darken the street about them, but no map saw a car. Of walls the heights tell too little.
+vec3 share_left_by_bodies(vec3 met) {
+  const vec3 normal = vec3(0.0f, 0.0f, 1.0f);
   vec3 sh[9];
   for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
   vec3 sky = sky_share_of_normal(sky_visibility_cell(met, normal), normal) * sky_irradiance(sh, normal);
   vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
-  float fixed_sun = visible_fixed_sun(met, normal);
+  float fixed_sun = visible_sun_without_bodies(met, normal);
   float sun_share = min(visible_sun(met, normal), fixed_sun);
   float sky_share = sky_share_beside_bodies(met, normal, -1);
   return (sky_share * sky + sun_share * sun) / max(sky + fixed_sun * sun, vec3(1e-4f));
-}
-
-// Of the cell's top, or of the side through which the ray came in.
-vec3 normal_of(HeightHit hit, vec3 met, vec3 direction) {
-  if (hit.met == met_top) return vec3(0.0f, 0.0f, 1.0f);
-  vec2 in_cell = fract((met.xy - height_grid.xy) / height_grid.z);
-  vec2 to_side = min(in_cell, 1.0f - in_cell);
-  return to_side.x < to_side.y ? vec3(-sign(direction.x), 0.0f, 0.0f) : vec3(0.0f, -sign(direction.y), 0.0f);
 }
 
 // A body in its light: its colour, and under a coat what the map nearest to it mirrors.
@@ -169,7 +182,6 @@ void trace(vec3 at, vec3 direction) {
     return;
   }
 
-  vec3 normal = normal_of(hit, met, direction);
   sight.distance = hit.distance;
   if (hit.met == met_side && detail == all_detail)
     sight.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
@@ -181,15 +193,27 @@ void trace(vec3 at, vec3 direction) {
   float second = weights[1] / (weights[0] + weights[1]);
   sight.weight[1] = second < least_weight || detail != all_detail ? 0.0f : second;
   sight.weight[0] = 1.0f - sight.weight[1];
-  if (hit.met != met_nothing && hit.distance < shade_reach_m && detail == all_detail)
-    sight.shade = share_left_by_bodies(met, normal);
+  if (hit.met == met_top && hit.distance < shade_reach_m && detail == all_detail)
+    sight.shade = share_left_by_bodies(met);
+}
+
+// How the way changes to the next pixel: of the two beside it the one that changes it less, so that no edge counts.
+vec3 change_of_way(vec3 way, ivec2 here, ivec2 step) {
+  vec3 least = vec3(2.0f);
+  for (int side = -1; side <= 1; side += 2) {
+    vec4 there = texelFetch(ray_ways, clamp(here + side * step, ivec2(0), textureSize(ray_ways, 0) - ivec2(1)), 0);
+    vec3 change = float(side) * (octahedral_direction(there.xy) - way);
+    if (int(there.w) == reflecting_object + 1 && dot(change, change) < dot(least, least)) least = change;
+  }
+  return least.x < 2.0f ? least : vec3(0.0f);
 }
 
 void look_along(vec3 at, vec3 direction) {
   sight.is_body = false;
   sight.shade = vec3(1.0f);
   sight.weight[1] = 0.0f;
-  vec3 along_x = dFdx(direction), along_y = dFdy(direction);
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec3 along_x = change_of_way(direction, here, ivec2(1, 0)), along_y = change_of_way(direction, here, ivec2(0, 1));
   bool is_wide_in_x = dot(along_x, along_x) > dot(along_y, along_y);
   sight.across = is_wide_in_x ? along_x : along_y;
   sight.narrow = length(is_wide_in_x ? along_y : along_x);
@@ -227,9 +251,8 @@ vec3 glossy_radiance(int k, float roughness) {
 }
 
 vec3 reflected_radiance(float roughness) {
-  if (sight.is_body) return sight.body_radiance;
   vec3 sum = vec3(0.0f);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < most_maps; ++k) {
     if (sight.weight[k] == 0.0f) continue;
     // A lobe that ends near the surface is narrow for a map that is farther away.
     float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
@@ -237,5 +260,14 @@ vec3 reflected_radiance(float roughness) {
                                   ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
                                   : glossy_radiance(k, seen_roughness));
   }
-  return sight.shade * sum;
+  return min(sight.is_body ? sight.body_radiance : sight.shade * sum, vec3(greatest_radiance));
+}
+
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec4 start = texelFetch(ray_starts, here, 0), way = texelFetch(ray_ways, here, 0);
+  if (int(way.w) != reflecting_object + 1) discard;
+  look_along(start.xyz, octahedral_direction(way.xy));
+  base_radiance = vec4(reflected_radiance(start.w), 1.0f);
+  coat_radiance = reflected_radiance(way.z);
 }

@@ -4,8 +4,11 @@
 // with one centre lacks.
 #pragma once
 
+#include <array>
+
 #include "environment_maps/height_pyramid.h"
 #include "environment_maps/map_renewal.h"
+#include "environment_maps/mirror_picture.h"
 #include "environment_maps/mirrored_bodies.h"
 #include "render/reflections.h"
 
@@ -21,9 +24,8 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   static Result<std::unique_ptr<MultipleEnvironmentMaps>> create(const scene::Scene& scene,
                                                                  render::Renderer& renderer);
 
-  std::string fragment_shader() const override { return "environment_maps/multiple_environment_maps.frag"; }
-  int details() const override { return all + 1; }
-  int detail_of(int object) const override { return details_[std::size_t(object)]; }
+  std::string fragment_shader() const override { return "environment_maps/mirror_picture.frag"; }
+  bool takes_rays() const override { return true; }
   void bind(const gl::Program& program, int object) override;
 
   const ReferenceMaps& maps() const { return maps_; }
@@ -32,20 +34,25 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   enum Detail : int {  // as multiple_environment_maps.frag has it
     nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
     one_map,           ///< a ray among what stands still, looked up in the best map
-    all
+    all,
+    detail_count
   };
-  static Detail detail_for(float size_px);
-  void prepare(const gl::Program& program) const;
+  using Programs =
+      std::array<gl::Program, detail_count>;  ///< a shader for each: software runs both sides of a branch
 
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
-                          MapRenewal renewal);
+                          MapRenewal renewal, MirrorPicture picture, Programs programs);
+  Detail detail_for(const render::Reflector& reflector) const;
+  void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
 
   bool uses_level_of_detail_;
-  std::vector<Detail> details_;   ///< of each object
-  std::vector<GLuint> prepared_;  ///< programs that have what is the same for all objects of a frame
+  std::vector<GLuint>
+      prepared_;  ///< surfaces' programs that have what is the same for all objects of a frame
+  MirrorPicture picture_;
+  Programs programs_;
   ReferenceMaps maps_;
   MapRenewal renewal_;
   MirroredBodies bodies_;

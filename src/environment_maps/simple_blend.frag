@@ -8,4 +8,4 @@ vec3 mirrored_direction;
 
 void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
-vec3 reflected_radiance(float roughness) { return simple_blend(mirrored_direction, roughness); }
+vec3 reflected_radiance(float roughness, int layer) { return simple_blend(mirrored_direction, roughness); }

@@ -24,7 +24,7 @@ void look_along(vec3 at, vec3 direction) {
 // Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
 // pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur. Half a level less
 // keeps edges as sharp as many rays a pixel show them.
-vec3 reflected_radiance(float roughness) {
+vec3 reflected_radiance(float roughness, int layer) {
   vec3 d = looked_up_direction;
   vec3 along_x = dFdx(d), along_y = dFdy(d);
   float texels_a_unit = 0.5f * exp2(reflection_levels) / max(abs(d.x), max(abs(d.y), abs(d.z)));

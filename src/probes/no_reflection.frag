@@ -6,4 +6,4 @@ vec3 mirrored_direction;
 
 void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
-vec3 reflected_radiance(float roughness) { return sky_radiance(mirrored_direction, 1.0f); }
+vec3 reflected_radiance(float roughness, int layer) { return sky_radiance(mirrored_direction, 1.0f); }

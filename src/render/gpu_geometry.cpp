@@ -20,6 +20,12 @@ MeshRange GpuGeometry::add(const Mesh& mesh) {
   return range;
 }
 
+MeshRange GpuGeometry::add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices) {
+  const MeshRange range{std::uint32_t(indices_.size()), std::uint32_t(indices.size()), mesh.base_vertex};
+  indices_.insert(indices_.end(), indices.begin(), indices.end());
+  return range;
+}
+
 void GpuGeometry::upload() {
   vertex_buffer_ = gl::immutable_buffer(std::span<const Vertex>(vertices_), GL_DYNAMIC_STORAGE_BIT);
   index_buffer_ = gl::immutable_buffer(std::span<const std::uint32_t>(indices_));

@@ -25,6 +25,8 @@ class GpuGeometry {
 
   /// Meshes that stay as they are, before all that bend.
   MeshRange add(const Mesh& mesh);
+  /// Other triangles of the vertices of a mesh that was added.
+  MeshRange add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices);
   MeshRange add_bending(const Mesh& mesh);
   /// Makes the buffers: nothing can be added from now on.
   void upload();

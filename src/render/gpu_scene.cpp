@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "gl/context.h"
+#include "render/mesh_levels.h"
 #include "scene/mip_levels.h"
 
 namespace parvis::render {
@@ -87,6 +88,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   block_stride_ = (GLint(sizeof(MaterialBlock)) + block_stride_ - 1) / block_stride_ * block_stride_;
 
   add_models(scene);
+  add_levels(scene);
   add_bent_parts(scene);
   geometry_.upload();
   material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
@@ -110,7 +112,30 @@ void GpuScene::add_models(const scene::Scene& scene) {
     upload_model_materials(model);
     for (const scene::Part& part : model.parts)
       parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
-                        part.mesh.bounds(), part.casts_shadow});
+                        part.mesh.bounds(), part.casts_shadow, 0, 0});
+  }
+}
+
+/// Of what moves, and of what stands in many places: only they are far away as a whole.
+void GpuScene::add_levels(const scene::Scene& scene) {
+  std::unordered_map<const scene::Model*, int> uses;
+  for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;
+  std::vector<std::pair<const Mesh*, PartRange*>> wanted;
+  for (const auto& [model, first_part] : first_part_of_model_)
+    for (std::size_t p = 0; p < model->parts.size(); ++p) {
+      const scene::Part& part = model->parts[p];
+      const bool is_opaque = model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque;
+      if (uses[model] > 1 && is_opaque && !part.deformation)
+        wanted.emplace_back(&part.mesh, &parts_[std::size_t(first_part) + p]);
+    }
+  std::vector<std::vector<MeshLevel>> levels(wanted.size());
+  parallel_for(wanted.size(), [&](std::size_t i) { levels[i] = coarser_levels(*wanted[i].first); });
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    PartRange& part = *wanted[i].second;
+    part.first_level = int(levels_.size());
+    part.level_count = int(levels[i].size());
+    for (const MeshLevel& level : levels[i])
+      levels_.push_back({geometry_.add_triangles(part, level.indices), level.error_m});
   }
 }
 
@@ -124,6 +149,7 @@ void GpuScene::add_bent_parts(const scene::Scene& scene) {
       parts_.push_back(PartRange(parts_[first + p]));
       if (!object.model->parts[p].deformation) continue;
       static_cast<MeshRange&>(parts_.back()) = geometry_.add_bending(object.mesh(p));
+      parts_.back().level_count = 0;
     }
   }
 }

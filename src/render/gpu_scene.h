@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -15,12 +16,18 @@
 
 namespace parvis::render {
 
+/// A part's mesh with fewer triangles.
+struct LevelRange : MeshRange {
+  float error_m;  ///< in the node's frame
+};
+
 /// A part of a model, or of one object where it bends.
 struct PartRange : MeshRange {
   int material;  ///< of the GPU scene
   int node;
   Bounds bounds;  ///< in the node's frame
   bool casts_shadow;
+  int first_level, level_count;  ///< of the scene's `levels`, coarser and coarser
 };
 
 /// What the surface shader must look up for a material.
@@ -81,6 +88,9 @@ class GpuScene {
   bool is_newcomer(int object) const { return is_newcomer_[std::size_t(object)] != 0; }
 
   const std::vector<PartRange>& parts() const { return parts_; }
+  std::span<const LevelRange> levels_of(const PartRange& part) const {
+    return std::span(levels_).subspan(std::size_t(part.first_level), std::size_t(part.level_count));
+  }
   const std::vector<GpuMaterial>& materials() const { return materials_; }
   const std::vector<Item>& items() const { return items_; }
   /// Of all parts of an object, in the world.
@@ -103,6 +113,7 @@ class GpuScene {
 
  private:
   void add_models(const scene::Scene& scene);
+  void add_levels(const scene::Scene& scene);
   void add_bent_parts(const scene::Scene& scene);
   void bend(const scene::Object& object, std::size_t o);
   void upload_model_materials(const scene::Model& model);
@@ -117,6 +128,7 @@ class GpuScene {
   std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it bends
   GpuGeometry geometry_;
   std::vector<PartRange> parts_;
+  std::vector<LevelRange> levels_;
   std::vector<GpuMaterial> materials_;
   std::vector<gl::Texture> textures_;
   gl::Buffer material_blocks_;

@@ -390,5 +390,45 @@ TEST_F(RendererTest, APlaceWithSunAndShadowIsGolden) {
   EXPECT_TRUE(status) << to_string(status.errors());
 }
 
+TEST_F(RendererTest, WhatMovesFarAwayTakesFewerTrianglesAndLooksTheSame) {
+  scene::Scene scene;
+  add(scene, model_of(sphere({0, 0, 0}, 1.0f, 100), matt(glm::vec3(0.6f))), true);
+  const auto renderer = renderer_of(scene);
+  const auto triangles_from = [&](float distance_m) {
+    Camera camera;
+    camera.world_from_camera = look_at({0, -distance_m, 0}, {0, 0, 0});
+    draw(*renderer, scene, camera, 256, 256);
+    return renderer->statistics().triangles;
+  };
+  const std::size_t all = triangles_from(1.5f);
+  EXPECT_EQ(all, scene.objects[0].model->parts[0].mesh.triangle_count());
+  std::size_t nearer = all;
+  for (const float distance_m : {8.0f, 24.0f, 80.0f}) {
+    const std::size_t triangles = triangles_from(distance_m);
+    EXPECT_LT(triangles, nearer);
+    nearer = triangles;
+  }
+  EXPECT_LT(nearer, all / 20);
+
+  Camera camera;  // of so many pixels a metre, half a pixel beside its place is what no picture shows
+  camera.world_from_camera = look_at({0, -20, 0}, {0, 0, 0});
+  camera.vertical_fov = 0.15f;
+  draw(*renderer, scene, camera, 256, 256);
+  EXPECT_LT(renderer->statistics().triangles, all);
+  const ImageF coarse = renderer->read_radiance();
+  scene::Scene fixed = scene;
+  fixed.objects[0].is_dynamic = false;
+  const auto exact_renderer = renderer_of(fixed);
+  draw(*exact_renderer, fixed, camera, 256, 256);
+  EXPECT_EQ(exact_renderer->statistics().triangles, all);
+  const ImageF exact = exact_renderer->read_radiance();
+  double difference = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    difference += std::abs(double(coarse.pixels[i]) - double(exact.pixels[i]));
+    sum += double(exact.pixels[i]);
+  }
+  EXPECT_LT(difference, 0.01 * sum);
+}
+
 }  // namespace
 }  // namespace parvis::render

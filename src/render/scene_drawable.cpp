@@ -29,6 +29,18 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   return array;
 }
 
+// Of a surface that stands beside its place, in pixels.
+constexpr float most_error_px = 0.25f, most_mirror_error_px = 0.1f;
+
+/// How much larger a mesh stands in the world, along the edge of its frame that grows most.
+float size_of(const Item::Record& record) {
+  float most = 0.0f;
+  for (int edge = 0; edge < 3; ++edge)
+    most = std::max(most,
+                    glm::length(glm::vec3(record.rows[0][edge], record.rows[1][edge], record.rows[2][edge])));
+  return most;
+}
+
 bool shows(Subjects subjects, const GpuScene& gpu, int object) {
   switch (subjects) {
     case Subjects::all:
@@ -107,15 +119,17 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
   for (const Item& item : gpu_.items())
     if (item.is_mirror)
       mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
-  programs_.mirror.clear();
-  for (int detail = 0; detail < source->details(); ++detail) {
-    gl::Defines defines = source->defines();
-    defines.emplace_back("DETAIL", std::to_string(detail));
-    Result<SurfacePrograms> programs =
-        SurfacePrograms::create(source->fragment_shader(), mirrors, "render/surface.vert", defines);
-    if (!programs) return programs.errors();
-    programs_.mirror.push_back(*std::move(programs));
-  }
+  const auto make = [&](const std::string& fragment, SurfacePrograms& programs,
+                        const gl::Defines& defines) -> Status {
+    Result<SurfacePrograms> made = SurfacePrograms::create(fragment, mirrors, "render/surface.vert", defines);
+    if (!made) return made.errors();
+    programs = *std::move(made);
+    return Done{};
+  };
+  if (Status status = make(source->fragment_shader(), programs_.mirror, source->defines()); !status)
+    return status;
+  if (source->takes_rays())
+    if (Status status = make("render/mirror_rays.frag", programs_.rays, {}); !status) return status;
   reflection_ = source;
   return Done{};
 }
@@ -135,19 +149,32 @@ bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
 }
 
-/// Pass; then what both faces show of, mirrors by object, material and part: neighbours in this order share a
-/// draw. What blends is ordered from back to front instead.
-std::uint64_t SceneDrawable::sort_key(const Item& item, const View& view) const {
+/// The coarsest that no eye tells from the mesh. Reflections show errors of a surface enlarged.
+int SceneDrawable::level_of(const Item& item, const ScreenScale& scale) const {
+  const std::span<const LevelRange> levels = gpu_.levels_of(gpu_.parts()[std::size_t(item.part)]);
+  if (levels.empty()) return 0;
+  const float most_error_m =
+      (item.is_mirror ? most_mirror_error_px : most_error_px) / scale.pixels_a_metre(item.bounds);
+  const float size = size_of(item.record);
+  const auto too_coarse = std::ranges::find_if(
+      levels, [&](const LevelRange& level) { return level.error_m * size > most_error_m; });
+  return int(too_coarse - levels.begin());
+}
+
+/// Pass; then what both faces show of, mirrors by object, material, part and level: neighbours in this order
+/// share a draw. What blends is ordered from back to front instead.
+std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& view) const {
   const PartRange& part = gpu_.parts()[std::size_t(item.part)];
   const GpuMaterial& material = gpu_.materials()[std::size_t(part.material)];
   const std::uint64_t pass = std::uint64_t(material.pass) << 62;
+  const std::uint64_t mesh = std::uint64_t(item.part) << 3 | std::uint64_t(level);
   if (material.pass == Pass::blend) {
     const float distance_m = glm::distance(item.bounds.centre(), view.position_in_world);
-    return pass | (std::uint64_t(~std::bit_cast<std::uint32_t>(distance_m)) << 22) | std::uint64_t(item.part);
+    return pass | (std::uint64_t(~std::bit_cast<std::uint32_t>(distance_m)) << 22) | mesh;
   }
   return pass | (std::uint64_t(material.is_double_sided) << 61) |
          (std::uint64_t(is_mirror_in(view, item) ? item.object + 1 : 0) << 42) |
-         (std::uint64_t(part.material) << 22) | std::uint64_t(item.part);
+         (std::uint64_t(part.material) << 22) | mesh;
 }
 
 /// Of what moves, only what is near: what hides others must look larger than they do.
@@ -172,8 +199,14 @@ bool SceneDrawable::may_see(const View& view, const Frustum& frustum, const Boun
   return view.kind == ViewKind::mirrored ? virtual_vertices_->may_show(bounds) : frustum.may_see(bounds);
 }
 
+void SceneDrawable::sort(ViewList& list) {
+  std::ranges::sort(list.order, {},
+                    [](const ViewList::Entry& entry) { return std::pair(entry.key, entry.item); });
+}
+
 void SceneDrawable::gather(const View& view, ViewList& list) {
   const Frustum frustum(view.clip_of_part() * view.clip_from_world);
+  const ScreenScale scale(view);
   if (view.culls_hidden) draw_occluders(view, frustum);
   list.order.clear();
   list.statistics = {};
@@ -191,46 +224,66 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
       ++list.statistics.items_hidden;
       continue;
     }
-    list.order.emplace_back(sort_key(item, view), int(i));
+    const int level =
+        view.kind == ViewKind::mirrored || view.kind == ViewKind::picking ? 0 : level_of(item, scale);
+    list.order.push_back({sort_key(item, level, view), int(i), level});
   }
-  std::sort(list.order.begin(), list.order.end());
+  sort(list);
+}
+
+/// Of what the main view shows, those that mirror: the nearest in each pixel, be it of glass.
+void SceneDrawable::gather_mirrors(const View& view, ViewList& list) const {
+  constexpr std::uint64_t below_pass = (std::uint64_t(1) << 62) - 1;
+  list.order.clear();
+  list.statistics = {};
+  for (const ViewList::Entry& entry : main_list_.order) {
+    const Item& item = gpu_.items()[std::size_t(entry.item)];
+    if (item.is_mirror)
+      list.order.push_back({sort_key(item, entry.level, view) & below_pass, entry.item, entry.level});
+  }
+  sort(list);
 }
 
 void SceneDrawable::batch(const View& view, ViewList& list) const {
   list.records.clear();
   list.commands.clear();
   for (std::vector<Batch>& batches : list.batches) batches.clear();
-  for (const auto& [key, index] : list.order) {
+  for (const auto& [key, index, level] : list.order) {
     const Item& item = gpu_.items()[std::size_t(index)];
     const PartRange& part = gpu_.parts()[std::size_t(item.part)];
+    const MeshRange& mesh =
+        level == 0 ? part : static_cast<const MeshRange&>(gpu_.levels_of(part)[std::size_t(level - 1)]);
     const int mirror_object = is_mirror_in(view, item) ? item.object : -1;
     std::vector<Batch>& batches = list.batches[key >> 62];
     if (batches.empty() || batches.back().material != part.material ||
         batches.back().mirror_object != mirror_object)
       batches.push_back({part.material, mirror_object, std::uint32_t(list.commands.size()), 0});
-    if (batches.back().command_count > 0 && list.commands.back().first_index == part.first_index) {
+    if (batches.back().command_count > 0 && list.commands.back().first_index == mesh.first_index) {
       ++list.commands.back().instances;
     } else {
       list.commands.push_back(
-          {part.index_count, 1, part.first_index, part.base_vertex, std::uint32_t(list.records.size())});
+          {mesh.index_count, 1, mesh.first_index, mesh.base_vertex, std::uint32_t(list.records.size())});
       ++batches.back().command_count;
     }
     list.records.push_back(item.record);
-    list.statistics.triangles += part.index_count / 3;
+    list.statistics.triangles += mesh.index_count / 3;
   }
   list.statistics.draws = int(list.commands.size());
 }
 
 void SceneDrawable::prepare(const View& view) {
   ViewList& list = view.kind == ViewKind::main ? main_list_ : other_list_;
-  gather(view, list);
+  if (view.kind == ViewKind::rays)
+    gather_mirrors(view, list);
+  else
+    gather(view, list);
   batch(view, list);
   list.first_record = list.record_store.append(std::span<const Item::Record>(list.records), 64);
   list.first_command = list.command_store.append(std::span<const Command>(list.commands), 4);
   if (view.kind != ViewKind::main) return;
   visible_objects_.clear();
-  for (const auto& [key, index] : list.order)
-    visible_objects_.push_back(gpu_.items()[std::size_t(index)].object);
+  for (const ViewList::Entry& entry : list.order)
+    visible_objects_.push_back(gpu_.items()[std::size_t(entry.item)].object);
   std::sort(visible_objects_.begin(), visible_objects_.end());
   visible_objects_.erase(std::unique(visible_objects_.begin(), visible_objects_.end()),
                          visible_objects_.end());
@@ -264,9 +317,9 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::picking) return programs_.picking;
   if (view.kind == ViewKind::mirrored)
     return programs_.mirrored.of(gpu_.materials()[std::size_t(batch.material)], true);
-  const SurfacePrograms& programs =
-      batch.mirror_object >= 0 ? programs_.mirror[std::size_t(reflection_->detail_of(batch.mirror_object))]
-                               : programs_.surface;
+  if (view.kind == ViewKind::rays)
+    return programs_.rays.of(gpu_.materials()[std::size_t(batch.material)], false);
+  const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
   return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
 

@@ -10,6 +10,7 @@
 #include "render/frustum.h"
 #include "render/gpu_scene.h"
 #include "render/occlusion.h"
+#include "render/screen_scale.h"
 #include "render/stream_buffer.h"
 #include "render/surface_programs.h"
 #include "render/view.h"
@@ -22,13 +23,11 @@ class ReflectionSource {
   virtual ~ReflectionSource() = default;
   /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
   virtual std::string fragment_shader() const = 0;
-  /// How many levels of detail the shader has; it is linked for each, with DETAIL as 0, 1, ... (Software
-  /// renderers run both sides of a branch.)
-  virtual int details() const { return 1; }
   /// What the shader is compiled with. HAS_NEAR_PICTURE: a picture of what stands near lies over what it
   /// finds.
   virtual gl::Defines defines() const { return {}; }
-  virtual int detail_of(int /*object*/) const { return 0; }
+  /// Does it draw views of rays?
+  virtual bool takes_rays() const { return false; }
   /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
   /// `program`.
   virtual void bind(const gl::Program& program, int object) = 0;
@@ -88,14 +87,18 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    SurfacePrograms surface, mirrored;
-    std::vector<SurfacePrograms> mirror;  ///< for each level of detail
+    SurfacePrograms surface, mirrored, mirror, rays;
     gl::Program depth, solid_depth, picking;
   };
 
   /// What one view draws. The main view's list is kept while others are prepared and drawn.
   struct ViewList {
-    std::vector<std::pair<std::uint64_t, int>> order;  ///< sort key, item
+    struct Entry {
+      std::uint64_t key;  ///< by which entries are sorted
+      int item;
+      int level;  ///< 0: the mesh itself; then of the scene's levels
+    };
+    std::vector<Entry> order;
     std::vector<Item::Record> records;
     std::vector<Command> commands;
     std::array<std::vector<Batch>, pass_count> batches;
@@ -108,11 +111,14 @@ class SceneDrawable final : public Drawable {
   void find_occluders(const scene::Scene& scene);
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
-  std::uint64_t sort_key(const Item& item, const View& view) const;
+  int level_of(const Item& item, const ScreenScale& scale) const;
+  std::uint64_t sort_key(const Item& item, int level, const View& view) const;
   void keep_moving_shapes(const scene::Scene& scene);
   void draw_occluders(const View& view, const Frustum& frustum);
   bool may_see(const View& view, const Frustum& frustum, const Bounds& bounds) const;
+  static void sort(ViewList& list);
   void gather(const View& view, ViewList& list);
+  void gather_mirrors(const View& view, ViewList& list) const;
   void batch(const View& view, ViewList& list) const;
   void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;
   void draw_depth(const ViewList& list) const;

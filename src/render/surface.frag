@@ -6,6 +6,6 @@ vec3 mirrored_direction;
 
 void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
-vec3 reflected_radiance(float roughness) {
+vec3 reflected_radiance(float roughness, int layer) {
   return sky_share_of_direction(surface_sky_cell, mirrored_direction) * sky_radiance(mirrored_direction, roughness);
 }

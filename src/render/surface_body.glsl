@@ -1,7 +1,8 @@
 // The fragment shader of all surfaces. A file that includes it defines
 //   void look_along(vec3 position, vec3 direction)   finds what lies in the mirror direction
-//   vec3 reflected_radiance(float roughness)         what comes from there, blurred; asked for each layer of a surface
-// They may use `surface_sky_cell`, what the place sees of the sky.
+//   vec3 reflected_radiance(float roughness, int layer)   what comes from there, blurred; asked for each layer of a surface
+// They may use `surface_sky_cell`, what the place sees of the sky. With WRITES_RAYS it tells in place of light where mirror
+// rays leave (xyz; w: roughness of the base) and their way (octahedral; z: roughness of the coat, w: the object and 1).
 #include "render/frame.glsl"
 #include "render/anisotropy.glsl"
 #include "render/body_lookup.glsl"
@@ -9,7 +10,9 @@
 #include "render/sun_lookup.glsl"
 #include "shading/surface.glsl"
 #include "shading/lighting.glsl"
+#include "shading/octahedral.glsl"
 
+const int base_layer = 0, coat_layer = 1;
 const float greatest_radiance = 30000.0f;  // the target holds half floats
 
 in vec3 position;
@@ -18,16 +21,20 @@ in vec2 uv;
 #ifdef IS_LEAF
 in float leaf_sun;
 in vec4 leaf_sky_cell;
-#else
-flat in int object_of_surface;
 #endif
+flat in int object_of_surface;
 #ifdef IS_MIRRORED
 in vec3 seen_from;  // where the reflector shows it
 const float seen_back = 0.1f;  // cosine: smooth normals turn away a little before their triangles do
 #else
 #define seen_from viewer_position.xyz
 #endif
+#ifdef WRITES_RAYS
+layout(location = 0) out vec4 ray_start;
+layout(location = 1) out vec4 ray_way;
+#else
 out vec4 radiance;
+#endif
 
 vec4 surface_sky_cell;
 
@@ -35,7 +42,7 @@ vec4 surface_sky_cell;
 bool is_mirrored_here();  // does the reflector show this point of the surface at all?
 #endif
 void look_along(vec3 at, vec3 direction);
-vec3 reflected_radiance(float roughness);
+vec3 reflected_radiance(float roughness, int layer);
 
 #ifdef HAS_NEAR_PICTURE
 uniform sampler2D near_picture;  // of the main view's size: what stands near, as its mirrors show it; coverage in alpha
@@ -167,6 +174,11 @@ void main() {
   s.emission *= looked_up(emission_texture, texture_uv, uv_along_x, uv_along_y).rgb;
 #endif
 
+  vec3 mirrored = reflect(-to_viewer, s.normal);
+#ifdef WRITES_RAYS
+  ray_start = vec4(position, s.roughness);
+  ray_way = vec4(octahedral_uv(mirrored), s.clear_coat_roughness, float(object_of_surface + 1));
+#else
   SceneLight light;
   light.to_sun = frame_to_sun.xyz;
   light.sun_irradiance = frame_sun_irradiance.rgb;
@@ -182,11 +194,11 @@ void main() {
                                  sky_share_beside_bodies(position, normal, object_of_surface));
   sun *= visible_sun(position, normal);
 #endif
-  vec3 mirrored = reflect(-to_viewer, s.normal);
   look_along(position, mirrored);
-  vec3 base_reflection = behind_near(reflected_radiance(s.roughness), s.roughness);
+  vec3 base_reflection = behind_near(reflected_radiance(s.roughness, base_layer), s.roughness);
 #ifdef HAS_COAT
-  vec3 coat_reflection = behind_near(reflected_radiance(s.clear_coat_roughness), s.clear_coat_roughness);
+  vec3 coat_reflection =
+      behind_near(reflected_radiance(s.clear_coat_roughness, coat_layer), s.clear_coat_roughness);
 #else
   vec3 coat_reflection = vec3(0.0f);
 #endif
@@ -194,4 +206,5 @@ void main() {
                                 sky_share_of_normal(surface_sky_cell, s.normal), base_reflection, coat_reflection);
   light_out = through_haze(light_out, distance_m, light.haze_per_m, light.haze_radiance);
   radiance = vec4(min(light_out, vec3(greatest_radiance)), base.a);
+#endif
 }

@@ -21,9 +21,8 @@ out vec2 uv;
 // A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
 out float leaf_sun;
 out vec4 leaf_sky_cell;
-#else
-flat out int object_of_surface;
 #endif
+flat out int object_of_surface;
 
 void surface_vertex() {
   vec4 p = vec4(mesh_position, 1.0f);
@@ -39,7 +38,6 @@ void surface_vertex() {
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = visible_sun(position, normal);
   leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, int(object)));
-#else
-  object_of_surface = int(object);
 #endif
+  object_of_surface = int(object);
 }

@@ -16,6 +16,7 @@ enum class ViewKind : std::uint8_t {
   cube_face,  ///< surroundings of a reflector
   mirrored,   ///< what a curved reflector shows: a room above places the vertices
   shadow,     ///< depth from the sun
+  rays,       ///< where mirror rays leave and their way: of what the main view shows
   picking     ///< which object each pixel shows
 };
 

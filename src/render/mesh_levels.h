@@ -1,0 +1,21 @@
+// Levels of detail of a mesh (Garland and Heckbert 1997, quadric errors): the same vertices, ever fewer
+// triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/mesh.h"
+
+namespace parvis::render {
+
+struct MeshLevel {
+  std::vector<std::uint32_t> indices;
+  float error_m;  ///< how far its surface lies from the mesh's
+};
+
+/// Coarser and coarser, each of half the triangles of the one before or fewer than three quarters; none where
+/// the mesh has few triangles.
+std::vector<MeshLevel> coarser_levels(const Mesh& mesh);
+
+}  // namespace parvis::render
