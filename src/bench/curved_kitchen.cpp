@@ -21,12 +21,6 @@ constexpr std::size_t points = 4000, quick_points = 800;  // a camera
 constexpr int samples_a_pixel = 16;
 constexpr int baseline_faces_px = 512;
 
-double percentile(std::vector<double> values, double share) {
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 Status measure_points(const stage::Stage& stage, bool is_quick, Report& report) {
   const Result<ReflectedPoints> reflected = ReflectedPoints::make(stage.scene());
   if (!reflected) return reflected.errors();
