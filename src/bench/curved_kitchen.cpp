@@ -17,7 +17,7 @@ namespace {
 constexpr std::array cameras{"at the kettle", "figure 6", "into the bowl", "at the pans", "at the spoons"};
 constexpr std::size_t quick_cameras = 1;  // hollows are drawn in many layers, each as slow as a picture
 constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
-constexpr std::size_t points = 4000, quick_points = 800;  // a camera
+constexpr std::size_t points = 4000, quick_points = 400;  // a camera
 constexpr int samples_a_pixel = 16;
 constexpr int baseline_faces_px = 512;
 

@@ -23,6 +23,13 @@ std::string light() {
       kitchen_sun_azimuth_deg, kitchen_sun_elevation_deg);
 }
 
+/// The paper's figure 6 shows its method beside environment maps drawn anew.
+std::string comparison() {
+  return "\nscenario(name=\"cube maps\") {\n"
+         "  override(of=\"%reflection\", method=\"rerendered_cube_map\", resolution=512, "
+         "level_of_detail=0)\n}\n";
+}
+
 std::string cameras() {
   return camera("figure 6", {0.02f, -1.5f, 1.42f}, {0.02f, -0.28f, 0.99f}, 58) +
          camera("at the kettle", {-0.16f, -0.86f, 1.2f}, {-0.15f, -0.24f, 0.99f}, 48) +
@@ -42,7 +49,7 @@ std::string kitchen_script(std::span<const KitchenMirror> mirrors) {
         "model(name=\"{0}\", file=\"{0}.glb\", position=\"{1:.3f} {2:.3f} {3:.3f}\", heading_deg={4}, "
         "reflective=1)\n",
         mirror.model.name, mirror.foot.x, mirror.foot.y, mirror.foot.z, mirror.heading_deg);
-  return text + "\n" + cameras();
+  return text + "\n" + cameras() + comparison();
 }
 
 }  // namespace parvis::city
