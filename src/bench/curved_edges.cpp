@@ -74,7 +74,7 @@ std::vector<double> pixels_off(const ReflectorMap& map, const Mesh& mesh, std::s
     if (truth.empty() || !is_steep(eye) || !is_steep(point)) continue;
     const auto image = [&](glm::vec3 vertex) {
       const MapSearch::ReflectionPoint found =
-          search.search_patch({viewer, vertex, map.window.centre}, true, true, -1).point;
+          search.search_patch({viewer, vertex, map.window.centre}, search.patch_kind(), -1).point;
       return std::pair(search.virtual_vertex(vertex, found.position, found.normal),
                        found.angle < search.found_angle);
     };

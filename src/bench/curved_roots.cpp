@@ -107,7 +107,7 @@ class AllPoints {
       const int layers = map.shows_once ? 1 : search.layer_count;
       for (int layer = 0; layer < layers; ++layer) {
         const MapSearch::PatchPoint found =
-            search.search_patch(on_patch, map.is_convex, map.is_whole_body(), map.shows_once ? -1 : layer);
+            search.search_patch(on_patch, search.patch_kind(), map.shows_once ? -1 : layer);
         // A pixel shows the patch that its triangle belongs to.
         if (search.is_found(found) && is_before(found.point, task) &&
             own_[k]->along(map.window.centre, found.point.direction))

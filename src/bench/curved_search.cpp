@@ -37,7 +37,7 @@ MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::Reflection
 }
 
 MapSearch::PatchPoint by_newton(MapSearch& search, const MapSearch::ReflectionTask& task) {
-  return search.search_patch(task, search.reflector.is_convex, search.reflector.is_whole_body(), -1);
+  return search.search_patch(task, search.patch_kind(), -1);
 }
 
 Result<std::vector<JudgedBody>> make_bodies(bool is_quick, Report& report) {

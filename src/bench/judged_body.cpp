@@ -14,7 +14,7 @@ namespace {
 using namespace curved_reflectors;
 
 constexpr int map_side = 512;
-constexpr std::size_t most_maps = 64;
+constexpr std::size_t most_maps = 200;
 constexpr std::array reaches{1.1f, 1.5f, 2.5f, 4.0f};
 constexpr float flattest = 0.1f;  // cosine of the steepest sight: beyond it a pixel spans most of the body
 constexpr double degrees = 57.29577951308232;
@@ -78,9 +78,8 @@ Result<JudgedBody> JudgedBody::make(std::string name, const Mesh& mesh, std::siz
   body.patches_ = patches.size();
   body.maps_ = std::move(made->maps);
   for (std::size_t i = 0; i < body.maps_.size(); ++i) {
-    std::vector<std::uint32_t> shown = patches[i].triangles;
-    shown.insert(shown.end(), patches[i].around.begin(), patches[i].around.end());
-    body.rays_.push_back(std::make_unique<SurfaceRays>(ordered, shown));
+    body.own_rays_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].triangles));
+    body.rays_around_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].around));
   }
 
   std::vector<std::uint32_t> all(body.triangles_);
@@ -130,8 +129,9 @@ SearchFigures JudgedBody::judge(const Search& search) const {
       continue;
     }
     MapSearch on_map{maps_[known.patch]};
-    const std::optional<MetSurface> met =
-        rays_[known.patch]->along(maps_[known.patch].window.centre, points[i].point.direction);
+    const glm::vec3 centre = maps_[known.patch].window.centre, direction = points[i].point.direction;
+    std::optional<MetSurface> met = own_rays_[known.patch]->along(centre, direction);
+    if (!met) met = rays_around_[known.patch]->along(centre, direction);
     figures.angles_deg.push_back(
         met ? degrees * bisector_angle(met->position, met->normal, known.viewer, known.vertex) : 180.0);
     figures.is_told.push_back(!on_map.is_found(points[i]));

@@ -44,8 +44,8 @@ class JudgedBody {
   std::string name_;
   std::size_t triangles_ = 0, patches_ = 0;
   std::vector<curved_reflectors::ReflectorMap> maps_;
-  std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>>
-      rays_;  ///< of each map's part of the fine mesh
+  /// Of the fine mesh: each map's own part, and beside it that of its neighbours.
+  std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>> own_rays_, rays_around_;
   std::vector<KnownReflection> reflections_;
 };
 

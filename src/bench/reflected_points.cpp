@@ -13,7 +13,7 @@ namespace {
 using namespace curved_reflectors;
 
 constexpr int texels_a_face_texel = 4;  // as the renderer makes maps
-constexpr std::size_t most_patches = 64;
+constexpr std::size_t most_patches = 200;
 constexpr std::size_t most_tries = 400;  // for each pixel that is wanted
 constexpr float off_surface_m = 1e-4f;
 constexpr double none = -1.0;
@@ -73,7 +73,7 @@ double ReflectedPoints::error_px(const Mirror& mirror, const scene::Object& obje
   const int first = map.shows_once ? -1 : 0, end = map.shows_once ? 0 : search.layer_count;
   for (int layer = first; layer < end; ++layer) {
     const MapSearch::PatchPoint found =
-        search.search_patch({eye, vertex, map.window.centre}, map.is_convex, map.is_whole_body(), layer);
+        search.search_patch({eye, vertex, map.window.centre}, search.patch_kind(), layer);
     if (search.is_found(found))
       nearest_px = std::min(nearest_px,
                             double(glm::distance(on_screen(found.point.position), on_screen(at->position))));

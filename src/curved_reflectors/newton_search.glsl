@@ -6,9 +6,10 @@
 // Needs reflection_point.glsl.
 
 const float probe_size = 0.02f;        // of the distance from the centre: how far off the surface's bend is measured
-const float first_region = 0.5f;       // of the distance from the centre: the longest first step
+const float first_region = 0.25f;      // of the distance from the centre: the longest first step
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 
+const float most_growth = 1.1f;         // of the error in a step: valleys that bend are followed so
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
 // A place of the search: the surface there, its tangent plane, and the way over it.
@@ -114,7 +115,7 @@ GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, 
     vec3 moved = next.at.position - way.at.position;
     surface = bend_after_step(surface, in_tangent_plane(way, moved), in_tangent_plane(way, next.at.normal));
     bool is_shorter = is_convex && way.length_m - next.length_m > -0.1f * dot(way.slope, d);
-    if (next.error < 0.95f * way.error || (is_shorter && next.error < seen_error)) {
+    if (next.error < most_growth * way.error || (is_shorter && next.error < seen_error)) {
       region = max(region, 2.0f * length(d));
       failures = 0;
       way = next;

@@ -36,6 +36,10 @@ struct ReflectionSearch {
     return {position, normal};
   }
   float surface_kind(vec3 direction) { return reflector.surface_kind(direction); }
+  /// Of a ReflectorMap.
+  PatchKind patch_kind() const {
+    return {reflector.is_convex, reflector.is_whole_body(), reflector.shows_once};
+  }
 };
 
 #undef GLSL_FUNCTION

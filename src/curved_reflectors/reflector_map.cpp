@@ -27,8 +27,14 @@ struct Sampler {
 
 constexpr float window_margin = 1.1f;   // about the patch
 constexpr float widest_window = 0.9f;   // beyond it, all directions
+constexpr double usual_share = 0.020;   // of a reflector's surface, that a map of the usual side holds
 constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off between them
 constexpr float crease_depth = 0.005f;  // of the distance
+
+double area_of(const ReflectorMesh& mesh, std::size_t triangle) {
+  const auto [a, b, c] = mesh.corners(triangle);
+  return 0.5 * double(glm::length(glm::cross(b - a, c - a)));
+}
 
 glm::vec3 texel_direction(const MapWindow& window, glm::vec2 texel) {
   return window_direction(window, (texel + 0.5f) / window.side);
@@ -164,7 +170,8 @@ void close(ImageF& texels, const MapWindow& window, bool is_convex) {
 
 /// What the surface between four texels is: do they say it, in their middle and on both sides of it?
 float kind_between(const ReflectorMap& map, const PatchRays& rays, glm::vec2 first) {
-  for (const glm::vec2 at : {glm::vec2(0.5f), glm::vec2(0.2f, 0.6f), glm::vec2(0.8f, 0.4f)}) {
+  for (const glm::vec2 at : {glm::vec2(0.5f), glm::vec2(0.2f, 0.6f), glm::vec2(0.8f, 0.4f),
+                             glm::vec2(0.4f, 0.1f), glm::vec2(0.6f, 0.9f)}) {
     const glm::vec3 between = texel_direction(map.window, first + at);
     const std::optional<MetSurface> met = rays.along(map.window.centre, between);
     if (!met) return kind_closed;
@@ -214,6 +221,16 @@ std::array<glm::vec3, start_count> spread_starts(const ReflectorMesh& mesh, cons
     starts[i] = directions[std::size_t(std::min_element(nearest.begin(), nearest.end()) - nearest.begin())];
   }
   return starts;
+}
+
+/// Texels for a patch's share of the surface, so that all patches are sampled about as finely: `side` where
+/// that is `usual_share`, and for a body that is one patch.
+int side_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, double surface, int side) {
+  if (patch.triangles.size() == mesh.neighbours.size()) return side;
+  double area = 0.0;
+  for (const std::uint32_t t : patch.triangles) area += area_of(mesh, t);
+  const double fitting = side * std::sqrt(area / (usual_share * surface));
+  return int(std::clamp(fitting, 0.25 * side, 2.0 * side));
 }
 
 std::vector<std::string> remarks_on(const ReflectorMesh& mesh, const std::string& name) {
@@ -270,8 +287,11 @@ Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int 
   reflector.remarks = remarks_on(reflector.mesh, name);
   reflector.patches = reflector_patches(reflector.mesh);
   reflector.maps.resize(std::min(reflector.patches.size(), most_patches));
+  double surface = 0.0;
+  for (std::size_t t = 0; t < reflector.mesh.neighbours.size(); ++t) surface += area_of(reflector.mesh, t);
   parallel_for(reflector.maps.size(), [&](std::size_t i) {
-    reflector.maps[i] = reflector_map(reflector.mesh, reflector.patches[i], side);
+    const ReflectorPatch& patch = reflector.patches[i];
+    reflector.maps[i] = reflector_map(reflector.mesh, patch, side_of(reflector.mesh, patch, surface, side));
   });
   std::size_t without = 0;
   for (std::size_t i = reflector.maps.size(); i < reflector.patches.size(); ++i)

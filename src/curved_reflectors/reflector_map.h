@@ -46,6 +46,6 @@ struct Reflector {
 /// Errors name the mesh (see reflector_mesh); a reflector of more than `most_patches` patches keeps its
 /// largest, and says what share of the surface has none: there an environment map stands in.
 Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int side,
-                                 std::size_t most_patches = 64);
+                                 std::size_t most_patches = 200);
 
 }  // namespace parvis::curved_reflectors

@@ -181,12 +181,11 @@ TEST(ReflectorMap, AnOpenOneIsClosedForTheSearchAndReflectsNothingThere) {
     ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f);
   }
   Search search{map};
-  const auto above =
-      search.search_patch({{0, 0, 4}, {3, 0, 3}, map.window.centre}, map.is_convex, map.is_whole_body(), -1);
+  const auto above = search.search_patch({{0, 0, 4}, {3, 0, 3}, map.window.centre}, search.patch_kind(), -1);
   EXPECT_TRUE(search.is_found(above));
   EXPECT_GT(above.point.position.z, 0.5f);
-  const auto below = search.search_patch({{0.5f, 0, -4}, {3, 0, -3}, map.window.centre}, map.is_convex,
-                                         map.is_whole_body(), -1);
+  const auto below =
+      search.search_patch({{0.5f, 0, -4}, {3, 0, -3}, map.window.centre}, search.patch_kind(), -1);
   EXPECT_FALSE(search.is_found(below)) << "the point would lie on the part that is not there";
 }
 
@@ -217,8 +216,7 @@ Judged judge(const Mesh& source, float reach) {
       if (glm::dot(to_viewer, normal) < 0.2f) continue;
       const glm::vec3 viewer = at + 4.0f * radius * to_viewer,
                       vertex = at + reach * radius * glm::reflect(-to_viewer, normal);
-      const auto found =
-          search.search_patch({viewer, vertex, map.window.centre}, map.is_convex, map.is_whole_body(), -1);
+      const auto found = search.search_patch({viewer, vertex, map.window.centre}, search.patch_kind(), -1);
       if (!search.is_found(found)) {
         ++judged.told;
         continue;

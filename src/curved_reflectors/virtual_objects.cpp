@@ -9,9 +9,9 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr std::size_t most_patches = 64;  // of a reflector
-constexpr std::size_t most_shown = 255;   // numbers of the stencil
-constexpr float least_size_px = 120.0f;   // on the screen, of a mirror in which what is near is worth it
+constexpr std::size_t most_patches = 200;  // of a reflector
+constexpr std::size_t most_shown = 255;    // numbers of the stencil
+constexpr float least_size_px = 120.0f;    // on the screen, of a mirror in which what is near is worth it
 constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
 constexpr int texels_a_face_texel =
     4;  // a map's side, for the resolution that scripts give for a cube map's face

@@ -14,11 +14,11 @@ void main() {
   surface_vertex();
   ReflectionTask task =
       ReflectionTask(moved(reflector_from_world, viewer_position.xyz), moved(reflector_from_world, position), map_centre);
-  bool is_convex = patch_kind.x > 0.5f;
-  PatchPoint found = search_patch(task, is_convex, patch_kind.y > 0.5f, patch_layer);
+  PatchKind kind = PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f, patch_layer < 0);
+  PatchPoint found = search_patch(task, kind, patch_layer);
   // Points beyond a rim are no reflections, but corners of triangles that reach over it. What closes a hollow lies between it
   // and the viewer: there they are not even that.
-  bool has_place = found.kind == kind_surface || (found.kind == kind_closed && is_convex);
+  bool has_place = found.kind == kind_surface || (found.kind == kind_closed && kind.is_convex);
   is_lost = found.point.angle < found_angle && has_place ? 0.0f : 1.0f;
   height = dot(task.vertex - found.point.position, found.point.normal);
   shown_by = found.point.normal;
