@@ -35,13 +35,13 @@ GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_co
 // Hollows and saddles may show a vertex several times. A layer holds for each vertex the point that is found from one place, the
 // same for all, so that the corners of a triangle end in the same image of it; the last layer begins below the vertex, where the
 // points of what nearly touches a hollow are. `layer` -1: any point will do.
-GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind patch, int layer) {
+GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int layer) {
   PatchPoint best;
   best.point.angle = 4.0f;
-  if (patch.is_whole_body || layer >= 0) {
+  if (kind.is_whole_body || layer >= 0) {
     vec3 start = layer < 0 ? first_direction(task) : task.vertex - task.centre;
     if (layer >= 0 && layer < search_start_count) start = search_start(layer).position - task.centre;
-    best = patch_point(task, start, patch.is_convex && layer < 0);
+    best = patch_point(task, start, kind.is_convex && layer < 0);
     if (layer >= 0 || is_found(best)) return best;
   }
   float errors[16];  // search_start_count
@@ -49,13 +49,13 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind patch, int 
     SurfacePoint at = search_start(i);
     errors[i] = bisector_error(bisector(task.viewer, task.vertex, at), at.normal);
   }
-  int attempts = patch.shows_once ? best_start_count : layer_count;
+  int attempts = kind.shows_once ? best_start_count : layer_count;
   for (int k = 0; k < attempts; ++k) {
     int next = 0;
     for (int i = 1; i < search_start_count; ++i) next = errors[i] < errors[next] ? i : next;
     errors[next] = 2.0f;  // more than any
     vec3 start = (k < search_start_count ? search_start(next).position : task.vertex) - task.centre;
-    for (int belief = patch.is_convex && k < believing_starts ? 1 : 0; belief >= 0; --belief) {
+    for (int belief = kind.is_convex && k < believing_starts ? 1 : 0; belief >= 0; --belief) {
       PatchPoint other = patch_point(task, start, belief == 1);
       if (is_found(other)) return other;
       if (other.point.angle < best.point.angle) best = other;
