@@ -9,7 +9,10 @@ const float probe_size = 0.02f;        // of the distance from the centre: how f
 const float first_region = 0.25f;      // of the distance from the centre: the longest first step
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 
-const float most_growth = 1.1f;         // of the error in a step: valleys that bend are followed so
+// What the error may become in a step. Valleys of the error bend, and who may climb a little finds more points, but neighbouring
+// vertices then end less often in the same.
+const float free_growth = 1.1f;
+const float steady_growth = 0.95f;
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
 // A place of the search: the surface there, its tangent plane, and the way over it.
@@ -101,8 +104,8 @@ GLSL_FUNCTION vec2 shortened(vec2 d, float longest) {
   return size > longest ? d * (longest / size) : d;
 }
 
-GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, int most_steps,
-                                               float least_error) {
+GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float most_growth,
+                                               int most_steps, float least_error) {
   Way way = way_over(task, start, vec3(0.0f));
   vec3 surface = surface_bend(task, way);  // before the loop: software renderers run both sides of a branch
   float region = first_region * length(way.at.position - task.centre);

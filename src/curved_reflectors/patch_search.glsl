@@ -27,8 +27,8 @@ struct PatchPoint {
 // May it be drawn? Else it has been told, and an environment map stands in.
 GLSL_FUNCTION bool is_found(PatchPoint p) { return p.point.angle < found_angle && p.kind == kind_surface; }
 
-GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_convex) {
-  ReflectionPoint point = search_by_newton(task, start, is_convex, newton_steps, found_error);
+GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_convex, float most_growth) {
+  ReflectionPoint point = search_by_newton(task, start, is_convex, most_growth, newton_steps, found_error);
   return PatchPoint(point, surface_kind(point.direction));
 }
 
@@ -41,7 +41,7 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
   if (kind.is_whole_body || layer >= 0) {
     vec3 start = layer < 0 ? first_direction(task) : task.vertex - task.centre;
     if (layer >= 0 && layer < search_start_count) start = search_start(layer).position - task.centre;
-    best = patch_point(task, start, kind.is_convex && layer < 0);
+    best = patch_point(task, start, kind.is_convex && layer < 0, layer < 0 ? free_growth : steady_growth);
     if (layer >= 0 || is_found(best)) return best;
   }
   float errors[16];  // search_start_count
@@ -56,7 +56,7 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     errors[next] = 2.0f;  // more than any
     vec3 start = (k < search_start_count ? search_start(next).position : task.vertex) - task.centre;
     for (int belief = kind.is_convex && k < believing_starts ? 1 : 0; belief >= 0; --belief) {
-      PatchPoint other = patch_point(task, start, belief == 1);
+      PatchPoint other = patch_point(task, start, belief == 1, free_growth);
       if (is_found(other)) return other;
       if (other.point.angle < best.point.angle) best = other;
     }
