@@ -138,7 +138,8 @@ void measure_analytic(bool is_quick, Report& report) {
     for (std::size_t i = 0; i < (is_quick ? quick_reflections : reflections); ++i) {
       const Search::ReflectionTask task{outside(1.5f, 8.0f), outside(1.1f, 4.0f), glm::vec3(0.0f)};
       const glm::vec3 start = search.first_direction(task);
-      newton_angles.push_back(angle(search.search_by_newton(task, start, true, search.free_growth, 12, search_ends), task));
+      newton_angles.push_back(
+          angle(search.search_by_newton(task, start, true, search.free_growth, 12, search_ends), task));
       midpoint_angles.push_back(
           angle(search.search_by_midpoint(task, start, paper_iterations, search_ends), task));
     }

@@ -8,12 +8,12 @@
 const float probe_size = 0.02f;        // of the distance from the centre: how far off the surface's bend is measured
 const float first_region = 0.25f;      // of the distance from the centre: the longest first step
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
+const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
-// What the error may become in a step. Valleys of the error bend, and who may climb a little finds more points, but neighbouring
-// vertices then end less often in the same.
+// What a step may make of the error. Its valleys bend: who may climb a little finds more points, but neighbouring vertices then
+// end less often in the same.
 const float free_growth = 1.1f;
 const float steady_growth = 0.95f;
-const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
 // A place of the search: the surface there, its tangent plane, and the way over it.
 struct Way {

@@ -34,7 +34,8 @@ Task chance_task(const Ellipsoid& ellipsoid, Random& random, float reach) {
 }
 
 Point newton(Search& search, const Task& task) {
-  return search.search_by_newton(task, search.first_direction(task), true, search.free_growth, newton_steps, least_error);
+  return search.search_by_newton(task, search.first_direction(task), true, search.free_growth, newton_steps,
+                                 least_error);
 }
 
 Point midpoint(Search& search, const Task& task, int iterations) {
@@ -181,7 +182,10 @@ TEST(NewtonSearch, AWarmStartIsNearlyThere) {
     const Point before = newton(search, task);
     task.viewer += 0.02f * chance_direction(random);  // a frame later
     task.vertex += 0.02f * chance_direction(random);
-    done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, least_error).angle < flag_angle ? 1 : 0;
+    done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, least_error).angle <
+                    flag_angle
+                ? 1
+                : 0;
   }
   EXPECT_GT(done, 290) << "all but those at the rim of what the viewer sees";
 }
@@ -200,7 +204,8 @@ TEST(NewtonSearch, InAHollowEveryPointFoundIsARootAndAllCanBeFound) {
     most = std::max(most, truth.size());
     std::vector<bool> found(truth.size());
     for (int start = 0; start < 300; ++start) {
-      const Point point = search.search_by_newton(task, chance_direction(random), false, search.free_growth, 20, least_error);
+      const Point point =
+          search.search_by_newton(task, chance_direction(random), false, search.free_growth, 20, least_error);
       if (!(point.angle < 1e-3f)) continue;
       double nearest = 10.0;
       for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -295,7 +300,8 @@ TEST(Searches, DoNotDependOnSizeAndPlace) {
     const auto at = [&](vec3 p) { return moved.centre + moved.scale * p; };
     const ReflectionSearch<Moved>::ReflectionTask far_task{at(task.viewer), at(task.vertex), moved.centre};
     const vec3 start = search.first_direction(task);
-    const auto by_newton = other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, least_error);
+    const auto by_newton =
+        other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, least_error);
     EXPECT_LT(distance(by_newton.position, at(newton(search, task).position)), 0.02f * moved.scale);
     const auto by_midpoint = other.search_by_midpoint(far_task, start, 1, least_error);
     EXPECT_LT(distance(by_midpoint.position, at(midpoint(search, task, 1).position)), 0.001f * moved.scale);
