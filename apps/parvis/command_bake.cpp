@@ -1,6 +1,7 @@
 // parvis bake: what takes long and stays the same is made once and kept beside the scene.
 #include "base/image_io.h"
 #include "commands.h"
+#include "curved_reflectors/reflector_cache.h"
 #include "environment_maps/map_cache.h"
 #include "environment_maps/placement.h"
 #include "environment_maps/placement_plan.h"
@@ -17,11 +18,23 @@ struct Arguments : SceneArguments {
   std::filesystem::path plan;
 };
 
+/// Curved mirrors that show what is near them as virtual objects.
+Status bake_curved_mirrors(const scene::Scene& scene) {
+  const Result<std::size_t> reflectors = curved_reflectors::bake_reflectors(scene);
+  if (!reflectors) return reflectors.errors();
+  fmt::print("{} reflectors: {}\n", *reflectors, curved_reflectors::ReflectorCache(scene).folder().string());
+  return Done{};
+}
+
 /// Bakes one state of the scene, which `arguments` name.
 Result<environment_maps::MapCache> bake_state(const Arguments& arguments) {
   const Result<stage::Play> play = arguments.open_play();
   if (!play) return play.errors();
   const scene::Scene& scene = play->scene;
+  const bool has_virtual_objects_alone = scene.reflection.method == scene::ReflectionMethod::virtual_objects;
+  if (has_virtual_objects_alone || scene.reflection.virtual_within_m > 0.0f)
+    if (Status status = bake_curved_mirrors(scene); !status) return status.errors();
+  if (has_virtual_objects_alone) return environment_maps::MapCache(scene);
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
   const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
@@ -65,8 +78,9 @@ Status bake(const Arguments& arguments) {
 }  // namespace
 
 void add_bake(CLI::App& app, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("bake", "Draws reference maps beforehand and keeps them beside the scene");
+  CLI::App* command = app.add_subcommand(
+      "bake",
+      "Draws reference maps, and measures curved mirrors, beforehand and keeps them beside the scene");
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
   arguments->add_state(*command);
@@ -75,7 +89,7 @@ void add_bake(CLI::App& app, Chosen& chosen) {
                       "stand spread evenly over all roads");
   command->footer(
       "Example: parvis bake out/paper/paper.xp --plan places.png\n"
-      "NAME.baked beside the script holds the maps; view and render read them. Interrupted work goes on when "
+      "NAME.baked beside the script holds them; view and render read them. Interrupted work goes on when "
       "the same command is given again. States that are not given (--scenario) are forgotten.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return bake(*arguments); }; });
 }

@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/judged_body.h"
-#include "curved_reflectors/virtual_objects.h"
+#include "curved_reflectors/reflector_cache.h"
 #include "reference/camera_ray.h"
 
 namespace parvis::bench {
@@ -12,8 +12,6 @@ namespace {
 
 using namespace curved_reflectors;
 
-constexpr int texels_a_face_texel = 4;  // as the renderer makes maps
-constexpr std::size_t most_patches = 200;
 constexpr std::size_t most_tries = 400;  // for each pixel that is wanted
 constexpr float off_surface_m = 1e-4f;
 constexpr double none = -1.0;
@@ -29,11 +27,10 @@ Result<ReflectedPoints> ReflectedPoints::make(const scene::Scene& scene) {
   ReflectedPoints made;
   made.scene_ = &scene;
   made.rays_ = std::make_unique<reference::RayScene>(scene);
+  const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
     if (!object.takes_reflection || made.mirrors_.contains(object.model.get())) continue;
-    Result<Reflector> reflector =
-        make_reflector(mirror_mesh(*object.model), object.name,
-                       texels_a_face_texel * scene.reflection.resolution, most_patches);
+    Result<Reflector> reflector = cache.reflector(object);
     if (!reflector) return reflector.errors();
     Mirror& mirror = made.mirrors_[object.model.get()];
     mirror.reflector = *std::move(reflector);

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curved_reflectors/reflector_cache.h"
 #include "render/bindings.h"
 #include "render/frustum.h"
 
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr std::size_t most_patches = 200;  // of a reflector
-constexpr std::size_t most_shown = 255;    // numbers of the stencil
-constexpr float least_size_px = 120.0f;    // on the screen, of a mirror in which what is near is worth it
+constexpr std::size_t most_shown = 255;  // numbers of the stencil
+constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
 constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
-constexpr int texels_a_face_texel =
-    4;  // a map's side, for the resolution that scripts give for a cube map's face
 
-std::unique_ptr<GpuReflector> reflector_of(const scene::Model& model, const std::string& name, int side) {
-  const Result<Reflector> made = make_reflector(mirror_mesh(model), name, side, most_patches);
+std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Object& object) {
+  const Result<Reflector> made = cache.reflector(object);
   if (!made) {
     fmt::print(stderr, "warning: {}; it mirrors the sky alone\n", to_string(made.errors().front()));
     return nullptr;
@@ -39,15 +37,6 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
 
 }  // namespace
 
-Mesh mirror_mesh(const scene::Model& model) {
-  Mesh mesh;
-  const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  for (const scene::Part& part : model.parts)
-    if (model.materials[std::size_t(part.material)].is_mirror_like)
-      append(mesh, part.mesh, pose[std::size_t(part.node)]);
-  return mesh;
-}
-
 Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<render::Reflections> surroundings) {
@@ -65,12 +54,11 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixe
     : patch_pixels_(std::move(patch_pixels)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
-  const int side = texels_a_face_texel * scene.reflection.resolution;
+  const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
     model_of_object_.push_back(object.model.get());
     if (!object.takes_reflection || reflectors_.contains(object.model.get())) continue;
-    const std::string name = object.name.empty() ? object.model->name : object.name;
-    reflectors_[object.model.get()] = reflector_of(*object.model, name.empty() ? "reflector" : name, side);
+    reflectors_[object.model.get()] = reflector_of(cache, object);
   }
 }
 

@@ -14,9 +14,6 @@
 
 namespace parvis::curved_reflectors {
 
-/// The mirror-like parts of a model at rest, in one piece: what its reflector maps are made of.
-Mesh mirror_mesh(const scene::Model& model);
-
 class VirtualObjects final : public render::Reflections, public render::VirtualVertices {
  public:
   /// Makes the maps of all reflecting objects; tells on standard error what is wrong with their meshes. One

@@ -1,0 +1,75 @@
+// Binary files that Parvis keeps for itself: 8 characters that name kind and version, numbers as they lie in
+// memory (little-endian), a checksum of all before it. What was cut short, damaged or written by another
+// version is told, and never used.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/result.h"
+
+namespace parvis {
+
+struct SealedKind {
+  std::string_view magic;  ///< 8 characters, the last its version
+  std::string_view name;   ///< as errors call it, "reference map"
+};
+
+/// The file appears whole or not at all.
+Status write_sealed(const std::filesystem::path& file, const SealedKind& kind, std::string_view content);
+
+/// The content. Errors say whether the file is missing, foreign, of another version, cut short or damaged.
+Result<std::string> read_sealed(const std::filesystem::path& file, const SealedKind& kind);
+Error cut_short(const std::filesystem::path& file);
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+void append_value(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// How many, and they.
+template <class T>
+requires std::is_trivially_copyable_v<T>
+void append_values(std::string& bytes, const std::vector<T>& values) {
+  append_value(bytes, std::uint32_t(values.size()));
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// Takes values off the front of bytes; what lies beyond their end is zero, and noted.
+class Taker {
+ public:
+  explicit Taker(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class T>
+  T take() {
+    T value{};
+    const std::string_view part = take(sizeof value);
+    std::copy(part.begin(), part.end(), reinterpret_cast<char*>(&value));
+    return value;
+  }
+  /// As `append_values` wrote them.
+  template <class T>
+  std::vector<T> take_values() {
+    const std::size_t count = take<std::uint32_t>();
+    const std::string_view part = take(count * sizeof(T));
+    std::vector<T> values(part.size() / sizeof(T));
+    std::copy(part.begin(), part.end(), reinterpret_cast<char*>(values.data()));
+    return values;
+  }
+  bool is_at_end() const { return bytes_.empty() && !ended_early_; }
+  bool has_ended_early() const { return ended_early_; }
+
+ private:
+  std::string_view take(std::size_t size);
+
+  std::string_view bytes_;
+  bool ended_early_ = false;
+};
+
+}  // namespace parvis
