@@ -64,7 +64,10 @@ void pass_map(Archive& archive, Map& map) {
   archive.value(map.window);
   archive.value(map.is_convex);
   archive.value(map.shows_once);
-  archive.value(map.starts);
+  for (auto& [position, normal] : map.starts) {
+    archive.value(position);
+    archive.value(normal);
+  }
   archive.value(map.texels.width);
   archive.value(map.texels.height);
   archive.value(map.texels.channels);
