@@ -5,6 +5,7 @@ Usage: command_test.py PARVIS [unittest's arguments]. Exit status 0 is done, 1 f
 
 import base64
 import json
+import math
 import os
 import pathlib
 import shlex
@@ -224,8 +225,8 @@ class Usage(InAFolder):
 MIRROR = 'model(file="mirror.obj", position="{}", dynamic=1, reflective=1) {{ material(preset="chrome") }}\n'
 
 
-class Reflections(InAFolder):
-    """Places that maps were not made for: a defined picture and, where something is amiss, a word of it."""
+class BeforeAMirror(InAFolder):
+    """A mirror in a place of ground and a wall."""
 
     def setUp(self):
         super().setUp()
@@ -251,6 +252,10 @@ class Reflections(InAFolder):
         rows, channels = pixels(out.read_bytes())
         middle = [rows[y][x * channels : x * channels + 3] for y in range(16, 32) for x in range(24, 40)]
         return done.stderr, middle
+
+
+class Reflections(BeforeAMirror):
+    """Places that maps were not made for: a defined picture and, where something is amiss, a word of it."""
 
     def expect_light(self, scene):
         """Every method of this kind shows something, the same each time."""
@@ -316,6 +321,102 @@ class Reflections(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(picture.exists())
         self.assertNotIn("mirrors the sky alone", done.stderr)
+
+
+class CurvedMirrors(BeforeAMirror):
+    """Balls that are no balls, as curved mirrors: a picture all the same, and a word of what was done."""
+
+    def write_ball(self, keep=lambda i, j: True, turned=lambda i, j: False, rings=12):
+        """Of squares of two triangles, without normals; square (i, j) is kept, and turned over, as is said."""
+        lines = []
+        for i in range(rings + 1):
+            for j in range(2 * rings):
+                polar, turn = math.pi * i / rings, math.pi * j / rings
+                x, y = math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn)
+                lines.append(f"v {x} {math.cos(polar) + 1.2} {-y}")  # OBJ: y is up
+        at = lambda i, j: 1 + i * 2 * rings + j % (2 * rings)
+        for i in range(rings):
+            for j in range(2 * rings):
+                square = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+                if keep(i, j):
+                    for corners in (square[:3], [square[0], *square[2:]]):
+                        ordered = reversed(corners) if turned(i, j) else corners
+                        lines.append("f " + " ".join(map(str, ordered)))
+        self.write("mirror.obj", "\n".join(lines) + "\n")
+
+    def expect_picture(self, *words, scene=None):
+        """Virtual objects show light in the mirror, the same each time, and tell `words`."""
+        scene = scene or self.write_place()
+        told, middle = self.render(scene, "virtual_objects")
+        self.assertGreater(min(map(sum, middle)), 30, "black pixels")
+        self.assertEqual(self.render(scene, "virtual_objects")[1], middle)
+        for word in words:
+            self.assertIn(word, told)
+
+    def test_holes(self):
+        self.write_ball(keep=lambda i, j: i != 3 or j % 4)
+        self.expect_picture("holes are closed for the search")
+
+    def test_triangles_turned_over(self):
+        self.write_ball(turned=lambda i, j: (i * 7 + j) % 5 == 0)
+        self.expect_picture("ran the other way round")
+
+    def test_a_single_triangle(self):
+        self.write("mirror.obj", "v -3 0 0\nv 3 0 0\nv 0 5 0\nf 1 2 3\n")
+        self.expect_picture()
+
+    def test_edges_of_three_triangles(self):
+        self.write("mirror.obj", "v -3 0 0\nv 3 0 0\nv 0 5 0\nv 0 2 2\nv 0 2 -2\nf 1 2 3\nf 1 2 4\nf 1 2 5\n")
+        self.expect_picture("have not two triangles")
+
+    def test_a_viewer_inside(self):
+        self.write_ball()
+        eye = 'camera(name="inside", position="0 0 1.2", target="0 9 1.2")'
+        scene = self.write_place(eye)
+        out = self.folder / "out.png"
+        done = run("render", scene, *SIZE, "--camera", "inside", "--reflection", "virtual_objects", "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(out.exists())
+
+    def test_things_that_touch_and_cross_it(self):
+        self.write_ball()
+        self.write_quad("shelf.obj", (-2, -2, 1), (2, -2, 1), (2, 2, 1.4), (-2, 2, 1.4))
+        self.expect_picture(scene=self.write_place('model(file="shelf.obj")'))
+
+    def test_a_million_vertices_beside_it(self):
+        self.write_ball()
+        side = 1000
+        positions = struct.pack(
+            f"<{3 * side * side}f", *(v for i in range(side * side) for v in (i % side / 100 - 5, 0.05, i // side / 100 - 5)))
+        cells = ((y * side + x) for y in range(side - 1) for x in range(side - 1))
+        indices = struct.pack(f"<{6 * (side - 1) ** 2}I", *(v for a in cells for v in (a, a + side, a + 1, a + 1, a + side, a + side + 1)))
+        document, _ = triangle()
+        document["accessors"][0].update(count=side * side, min=[-5, 0.05, -5], max=[4.99, 0.05, 4.99])
+        document["accessors"][1]["count"] = 6 * (side - 1) ** 2
+        document["bufferViews"] = [
+            {"buffer": 0, "byteOffset": 0, "byteLength": len(positions)},
+            {"buffer": 0, "byteOffset": len(positions), "byteLength": len(indices)},
+        ]
+        document["buffers"][0]["byteLength"] = len(positions) + len(indices)
+        self.write("field.glb", glb(document, positions + indices))
+        told, middle = self.render(self.write_place('model(file="field.glb")'), "virtual_objects")
+        self.assertGreater(min(map(sum, middle)), 30)
+
+    def test_kept_reflectors_of_another_version_or_cut_short(self):
+        self.write_ball()
+        scene = self.write("scene.xp", self.write_place().read_text() + '\nreflection(method="virtual_objects")\n')
+        done = run("bake", scene)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (kept,) = self.folder.glob("scene.baked/reflectors/*.reflector")
+        told, right = self.render(scene, "virtual_objects")
+        self.assertNotIn("made anew", told)
+        whole = kept.read_bytes()
+        for damaged, word in [(b"PARVISR0" + whole[8:], "another version"), (whole[: len(whole) // 2], "cut short")]:
+            kept.write_bytes(damaged)
+            told, middle = self.render(scene, "virtual_objects")
+            self.assertIn(word, told)
+            self.assertIn("made anew", told)
+            self.assertEqual(middle, right)
 
 
 class BadModels(InAFolder):
