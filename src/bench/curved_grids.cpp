@@ -59,8 +59,8 @@ VirtualPoint shown(const Search::ReflectionPoint& point, Search& search, glm::ve
 VirtualPoint by_newton(glm::vec3 viewer, glm::vec3 vertex) {
   Search search{mirror};
   const Search::ReflectionTask task{viewer, vertex, glm::vec3(0.0f)};
-  const auto point =
-      search.search_by_newton(task, search.first_direction(task), true, newton_steps, search_ends);
+  const auto point = search.search_by_newton(task, search.first_direction(task), true, search.steady_growth,
+                                             newton_steps, search_ends);
   VirtualPoint at = shown(point, search, vertex);
   at.is_lost = point.angle > found_angle;
   return at;
