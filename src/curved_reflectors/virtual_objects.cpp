@@ -35,6 +35,14 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
   return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
 }
 
+/// What the first mirror-like material gives back, seen from before it.
+glm::vec3 mirror_colour(const scene::Model& model) {
+  constexpr float coat = 0.04f;
+  for (const scene::Material& material : model.materials)
+    if (material.is_mirror_like) return glm::mix(glm::vec3(coat), material.base_colour, material.metallic);
+  return glm::vec3(coat);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
@@ -43,15 +51,20 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   Result<gl::Program> patch_pixels =
       gl::Program::create("curved_reflectors/patch_pixels.vert", "curved_reflectors/patch_pixels.frag");
   if (!patch_pixels) return patch_pixels.errors();
-  std::unique_ptr<VirtualObjects> made(
-      new VirtualObjects(scene, *std::move(patch_pixels), std::move(surroundings)));
+  Result<gl::Program> own_reflection =
+      gl::Program::create("curved_reflectors/own_reflection.vert", "curved_reflectors/own_reflection.frag");
+  if (!own_reflection) return own_reflection.errors();
+  render::assign_bindings(*own_reflection);
+  std::unique_ptr<VirtualObjects> made(new VirtualObjects(
+      scene, *std::move(patch_pixels), *std::move(own_reflection), std::move(surroundings)));
   if (Status status = renderer.set_virtual_vertices(made.get()); !status) return status.errors();
   return made;
 }
 
 VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels,
-                               std::unique_ptr<render::Reflections> surroundings)
+                               gl::Program own_reflection, std::unique_ptr<render::Reflections> surroundings)
     : patch_pixels_(std::move(patch_pixels)),
+      own_reflection_(std::move(own_reflection)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
   const ReflectorCache cache(scene);
@@ -129,6 +142,27 @@ void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& pa
   current_ = nullptr;
 }
 
+/// Over what hollows show: themselves, where their mirror rays meet them. The light of the mirrored views is
+/// bound still.
+void VirtualObjects::draw_own_reflections(const render::View& view) {
+  if (settings_.method != scene::ReflectionMethod::virtual_objects) return;  // the method below shows them
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  own_reflection_.use();
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    if (shown_[i].patch->is_convex) continue;
+    glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
+    current_ = &shown_[i];
+    bind(own_reflection_);
+    own_reflection_.set("clip_from_reflector", view.clip_from_world * shown_[i].world_from_reflector);
+    own_reflection_.set("viewer_in_reflector", shown_[i].viewer);
+    own_reflection_.set("mirror_colour", mirror_colour(*model_of_object_[std::size_t(shown_[i].object)]));
+    shown_[i].reflector->draw(*shown_[i].patch);
+  }
+  current_ = nullptr;
+  glEnable(GL_DEPTH_TEST);
+}
+
 void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                  const std::vector<render::Reflector>& reflectors) {
   if (surroundings_) {
@@ -150,6 +184,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
     glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
     draw_patch(renderer, shown_[i], view);
   }
+  draw_own_reflections(view);
   glDisable(GL_STENCIL_TEST);
   picture_.resolve();
 }

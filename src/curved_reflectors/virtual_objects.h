@@ -37,7 +37,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   bool may_show(const Bounds& bounds) const override;
 
  private:
-  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels,
+  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels, gl::Program own_reflection,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
@@ -56,11 +56,12 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   int find_near(const render::Renderer& renderer, const render::Reflector& reflector);
   void mark_pixels(const render::View& view) const;
+  void draw_own_reflections(const render::View& view);
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
   std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>> reflectors_;
   std::vector<const scene::Model*> model_of_object_;
-  gl::Program patch_pixels_;
+  gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;

@@ -1,0 +1,11 @@
+// The surface of a hollow, for own_reflection.frag.
+layout(location = 0) in vec3 reflector_position;
+
+uniform mat4 clip_from_reflector;
+
+out vec3 at_reflector;
+
+void main() {
+  at_reflector = reflector_position;
+  gl_Position = clip_from_reflector * vec4(reflector_position, 1.0f);
+}
