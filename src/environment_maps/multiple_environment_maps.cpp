@@ -19,6 +19,11 @@ enum Unit : GLuint {
   fields_unit
 };
 
+// The declared costs, and what each level of detail is worth.
+constexpr double shown_share = 0.25;  // of the square about a body
+constexpr std::array<double, 3> pixel_ms{0.4e-3, 0.7e-3, 1.5e-3};
+constexpr std::array<double, 3> worths{0.5, 0.8, 1.0};
+
 gl::Texture nearest_texture(GLenum format, int width, int height, int levels = 1) {
   gl::Texture texture = gl::texture_2d(format, width, height, levels);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER,
@@ -73,6 +78,8 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
                                                  ReferenceMaps maps, MapRenewal renewal,
                                                  MirrorPicture picture, Programs programs)
     : uses_level_of_detail_(scene.reflection.uses_level_of_detail),
+      details_(scene.objects.size(), all),
+      budget_(double(scene.reflection.budget_ms)),
       picture_(std::move(picture)),
       programs_(std::move(programs)),
       maps_(std::move(maps)),
@@ -88,11 +95,34 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
   choice_ = upload(choice);
 }
 
-MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::detail_for(
+MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
     const render::Reflector& reflector) const {
   constexpr float traced_from_px = 40.0f, all_from_px = 120.0f;
   if (!uses_level_of_detail_ || reflector.size_px >= all_from_px) return all;
   return reflector.size_px < traced_from_px ? nearest_map : one_map;
+}
+
+/// The best for each by its size, or what of it the budget allows.
+void MultipleEnvironmentMaps::choose_details(const std::vector<render::Reflector>& reflectors) {
+  for (const render::Reflector& reflector : reflectors) {
+    Detail& detail = details_[std::size_t(reflector.object)];
+    detail =
+        budget_.budget_ms() > 0.0 ? std::min(detail, best_detail_for(reflector)) : best_detail_for(reflector);
+  }
+  if (budget_.budget_ms() <= 0.0) return;
+  qualities_.resize(reflectors.size());
+  wishes_.clear();
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
+    const double pixels = shown_share * double(reflectors[i].size_px) * double(reflectors[i].size_px);
+    for (std::size_t detail = 0; detail < detail_count; ++detail)
+      qualities_[i][detail] = {pixels * pixel_ms[detail], worths[detail]};
+    wishes_.push_back({reflectors[i].size_px,
+                       std::span(qualities_[i]).first(std::size_t(best_detail_for(reflectors[i])) + 1),
+                       details_[std::size_t(reflectors[i].object)]});
+  }
+  budget_.choose(wishes_);
+  for (std::size_t i = 0; i < reflectors.size(); ++i)
+    details_[std::size_t(reflectors[i].object)] = Detail(wishes_[i].level);
 }
 
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
@@ -102,10 +132,11 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
   if (reflectors.empty()) return;
+  choose_details(reflectors);
   picture_.draw_rays(renderer);
   const gl::Program* current = nullptr;
   picture_.draw_light(renderer, reflectors, [&](const render::Reflector& reflector) -> const gl::Program& {
-    const gl::Program& program = programs_[std::size_t(detail_for(reflector))];
+    const gl::Program& program = programs_[std::size_t(detail_of(reflector.object))];
     if (current != &program) {
       program.use();
       prepare(program);

@@ -10,6 +10,7 @@
 #include "environment_maps/map_renewal.h"
 #include "environment_maps/mirror_picture.h"
 #include "environment_maps/mirrored_bodies.h"
+#include "render/quality_budget.h"
 #include "render/reflections.h"
 
 namespace parvis::environment_maps {
@@ -26,31 +27,39 @@ class MultipleEnvironmentMaps final : public render::Reflections {
 
   std::string fragment_shader() const override { return "environment_maps/mirror_picture.frag"; }
   bool takes_rays() const override { return true; }
+  void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
   void bind(const gl::Program& program, int object) override;
 
   const ReferenceMaps& maps() const { return maps_; }
 
- private:
   enum Detail : int {  // as multiple_environment_maps.frag has it
     nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
     one_map,           ///< a ray among what stands still, looked up in the best map
     all,
     detail_count
   };
-  using Programs =
-      std::array<gl::Program, detail_count>;  ///< a shader for each: software runs both sides of a branch
+  /// With which an object was drawn last.
+  Detail detail_of(int object) const { return details_[std::size_t(object)]; }
+
+ private:
+  /// A shader for each detail: software runs both sides of a branch.
+  using Programs = std::array<gl::Program, detail_count>;
 
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
                           MapRenewal renewal, MirrorPicture picture, Programs programs);
-  Detail detail_for(const render::Reflector& reflector) const;
+  Detail best_detail_for(const render::Reflector& reflector) const;
+  void choose_details(const std::vector<render::Reflector>& reflectors);
   void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
 
   bool uses_level_of_detail_;
-  std::vector<GLuint>
-      prepared_;  ///< surfaces' programs that have what is the same for all objects of a frame
+  std::vector<Detail> details_;  ///< of each object
+  render::QualityBudget budget_;
+  std::vector<std::array<render::QualityLevel, detail_count>> qualities_;  ///< of each reflector
+  std::vector<render::QualityWish> wishes_;
+  std::vector<GLuint> prepared_;  ///< programs of surfaces that have this frame's textures
   MirrorPicture picture_;
   Programs programs_;
   ReferenceMaps maps_;

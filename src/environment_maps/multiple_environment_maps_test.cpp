@@ -107,6 +107,30 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
   EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
 }
 
+TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {
+  scene::Scene scene = tower_square();
+  const int mirror = int(scene.objects.size()) - 1;
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});
+  int last_detail = 0;
+  for (const float budget_ms : {0.001f, 12.0f, 1000.0f, 0.0f}) {  // the last: none
+    scene.reflection.budget_ms = budget_ms;
+    const auto made = MultipleEnvironmentMaps::create(scene, **renderer);
+    ASSERT_TRUE(made) << to_string(made.errors());
+    ASSERT_TRUE((*renderer)->set_reflection(made->get()));
+    (*renderer)->begin_frame(scene, camera);
+    (*renderer)->prepare_main_view(camera, test_width, test_height);
+    (*made)->update(**renderer, scene, camera);
+    const int detail = (*made)->detail_of(mirror);
+    EXPECT_EQ(detail == MultipleEnvironmentMaps::nearest_map, budget_ms == 0.001f);
+    EXPECT_GE(detail, last_detail);
+    last_detail = detail;
+  }
+  EXPECT_EQ(last_detail, MultipleEnvironmentMaps::all);
+}
+
 TEST_F(EnvironmentMapsTest, ASceneWithoutAnythingFixedStillReflectsItsSky) {
   scene::Scene scene;
   render::add_mirror(scene, glm::vec3(0.0f, 0.0f, 1.5f), 1.0f);

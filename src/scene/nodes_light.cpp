@@ -161,7 +161,8 @@ NodeSchema reflection_schema() {
                 .is_live = true},
                {.name = "budget_ms",
                 .type = AttributeType::number,
-                .help = "of local_environment_maps: the time of a frame that is held by making less of small "
+                .help = "of the two methods with environment_maps: the time of a frame that is held by "
+                        "making less of small "
                         "reflections; in pictures and films by what they are known to cost; 0: none",
                 .fallback = "0",
                 .unit = "ms",
