@@ -11,19 +11,21 @@
 namespace parvis::environment_maps {
 namespace {
 
-constexpr float least_other_texels = 2.0f;  // what moves and looks smaller in a map is left out of it
+constexpr float least_other_texels = 8.0f;  // what moves and looks smaller in a map is left out of it
 
 enum Unit : GLuint { local_unit = render::first_reflection_unit, colours_unit };
 
-/// Does anything else that moves look large enough from a map's centre to be seen in it?
-bool has_others_in_sight(const render::GpuScene& gpu, const render::Reflector& reflector, int tile) {
-  for (int other = 0; other < int(gpu.object_bounds().size()); ++other) {
-    if (other == reflector.object || !gpu.is_moving(other) || !gpu.is_visible(other)) continue;
+/// Marks what else moves and looks large enough from a map's centre to be seen in it. Is there any?
+bool mark_others(const render::GpuScene& gpu, int object, glm::vec3 centre, int tile,
+                 std::vector<std::uint8_t>& others) {
+  others.assign(gpu.object_bounds().size(), 0);
+  for (int other = 0; other < int(others.size()); ++other) {
+    if (other == object || !gpu.is_moving(other) || !gpu.is_visible(other)) continue;
     const Bounds& bounds = gpu.object_bounds()[std::size_t(other)];
-    const float distance_m = glm::distance(bounds.centre(), reflector.centre);
-    if (shift_texels(2.0f * bounds.radius(), distance_m, tile) >= least_other_texels) return true;
+    const float texels = shift_texels(2.0f * bounds.radius(), glm::distance(bounds.centre(), centre), tile);
+    others[std::size_t(other)] = texels >= least_other_texels;
   }
-  return false;
+  return std::ranges::find(others, 1) != others.end();
 }
 
 }  // namespace
@@ -89,8 +91,9 @@ void LocalEnvironmentMaps::choose_map(const render::Renderer& renderer, const re
   used.centre = reflector.centre;
   used.place.reset();
   if (level.tile == 0) return;
-  const LocalMapWish wish{reflector.centre, radius_m, level.tile, level.smallest_texels,
-                          has_others_in_sight(renderer.gpu(), reflector, level.tile)};
+  const LocalMapWish wish{
+      reflector.centre, radius_m, level.tile, level.smallest_texels,
+      mark_others(renderer.gpu(), reflector.object, reflector.centre, level.tile, others_)};
   if (const std::optional<int> slot = slots_.find(wish)) {
     used.place = {*slot, level.tile};
   } else if (const std::optional<int> taken = slots_.take(wish)) {
@@ -118,15 +121,15 @@ void LocalEnvironmentMaps::make_meshes() {
 }
 
 /// The second pass: cars and people, where a face sees any.
-void LocalEnvironmentMaps::draw_others(render::Renderer& renderer, const Drawn& drawn) const {
+void LocalEnvironmentMaps::draw_others(render::Renderer& renderer, const Drawn& drawn) {
   const render::GpuScene& gpu = renderer.gpu();
+  mark_others(gpu, drawn.object, drawn.centre, drawn.place.tile, others_);
   for (int face = 0; face < 6; ++face) {
     render::View view = picture_.face_view(drawn.place, face, drawn.centre);
-    view.excluded_object = drawn.object;
+    view.shown_objects = &others_;
     const render::Frustum frustum(view.clip_of_part() * view.clip_from_world);
     for (int other = 0; other < int(gpu.object_bounds().size()); ++other) {
-      if (other == drawn.object || !gpu.is_moving(other) || !gpu.is_visible(other)) continue;
-      if (!frustum.may_see(gpu.object_bounds()[std::size_t(other)])) continue;
+      if (!view.shows(other) || !frustum.may_see(gpu.object_bounds()[std::size_t(other)])) continue;
       renderer.draw_view(view);
       break;
     }

@@ -57,7 +57,7 @@ class LocalEnvironmentMaps final : public render::Reflections {
   void choose_map(const render::Renderer& renderer, const render::Reflector& reflector);
   LocalMapLevel best_level_of(const render::Reflector& reflector, float radius_m) const;
   void make_meshes();
-  void draw_others(render::Renderer& renderer, const Drawn& drawn) const;
+  void draw_others(render::Renderer& renderer, const Drawn& drawn);
 
   scene::Reflection settings_;
   HeightPyramid heights_;
@@ -71,6 +71,7 @@ class LocalEnvironmentMaps final : public render::Reflections {
   std::vector<Used> used_;  ///< of each object
   std::vector<Drawn> drawn_;
   std::vector<LocalMapPlace> drawn_places_;
+  std::vector<std::uint8_t> others_;  ///< for each object: does it show in the map that is looked at?
   std::vector<FaceTask> tasks_;
   std::vector<FaceMesh> meshes_;  ///< as many as a frame ever needed
 };
