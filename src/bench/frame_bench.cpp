@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/test_data.h"
+#include "bench/judged_method.h"
 #include "bench/mirror_check.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
@@ -19,33 +20,44 @@ namespace fs = std::filesystem;
 
 constexpr int width = 1280, height = 720;
 
-struct Method {
-  const char* key;
-  scene::Reflection reflection;
-};
+using scene::ReflectionMethod;
+
+constexpr scene::Reflection no_reflection{ReflectionMethod::none, 128, false},
+    rerendered{ReflectionMethod::rerendered_cube_map, 128, false},
+    rerendered_lod{ReflectionMethod::rerendered_cube_map, 128, true},
+    mem{ReflectionMethod::multiple_environment_maps, 128, false},
+    mem_lod{ReflectionMethod::multiple_environment_maps, 128, true};
 
 /// Times whole frames of each method in alternating order.
 Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
                     std::vector<Median>& medians) {
-  using scene::ReflectionMethod;
-  const Method methods[]{{"none", {ReflectionMethod::none, 128, false}},
-                         {"rerendered", {ReflectionMethod::rerendered_cube_map, 128, false}},
-                         {"rerendered_lod", {ReflectionMethod::rerendered_cube_map, 128, true}}};
-  std::vector<double> samples[3];
+  std::vector<JudgedMethod> methods;
+  for (const auto& [key, reflection] : {std::pair{"none", no_reflection},
+                                        {"rerendered", rerendered},
+                                        {"rerendered_lod", rerendered_lod},
+                                        {"mem", mem},
+                                        {"mem_lod", mem_lod}}) {
+    Result<JudgedMethod> method = judged_method(stage, key, reflection);
+    if (!method) return method.errors();
+    methods.push_back(*std::move(method));
+  }
+  std::vector<std::vector<double>> samples(methods.size());
   for (int repeat = 0; repeat < repeats; ++repeat)
-    for (int i = 0; i < 3; ++i) {
-      const int method = (repeat % 2 == 0) ? i : 2 - i;
-      if (Status status = stage.set_reflection(methods[method].reflection); !status) return status;
-      stage.draw(camera, width, height);  // makes what is made once
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const std::size_t m = repeat % 2 == 0 ? i : methods.size() - 1 - i;
+      const auto draw_frame = [&] { return draw(stage, methods[m], camera, width, height); };
+      if (Status status = draw_frame(); !status) return status;  // makes what is made once
       glFinish();
-      samples[method].push_back(milliseconds([&] {
-        stage.draw(camera, width, height);
+      Status status = Done{};
+      samples[m].push_back(milliseconds([&] {
+        status = draw_frame();
         glFinish();
       }));
+      if (!status) return status;
     }
-  for (int i = 0; i < 3; ++i) {
-    medians.push_back(median(samples[i]));
-    report.add(fmt::format("frame_ms_{}_{}", methods[i].key, cars), medians.back());
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    medians.push_back(median(samples[m]));
+    report.add(fmt::format("frame_ms_{}_{}", methods[m].name, cars), medians.back());
   }
   return Done{};
 }
@@ -100,6 +112,7 @@ Result<Report> frame_bench(bool is_quick) {
   report.add("triangles", double(loaded->scene.static_triangle_count()));
   report.add("city_generate_ms", generated_ms);
 
+  if (Status kept = keep_maps(loaded->scene, mem); !kept) return kept.errors();
   const int repeats = is_quick ? 7 : 21;
   for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
     Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(loaded->scene, cars));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "environment_maps/scene_maps.h"
+
 namespace parvis::bench {
 namespace {
 
@@ -23,6 +25,16 @@ Status make_maps(stage::Stage& stage, const JudgedMethod& method, const Camera& 
 }
 
 }  // namespace
+
+Status keep_maps(scene::Scene scene, const scene::Reflection& reflection) {
+  scene.reflection = reflection;
+  const Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  if (!renderer) return renderer.errors();
+  const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
+  const Result<environment_maps::ReferenceMaps> maps =
+      environment_maps::bake_maps(scene, heights, **renderer, environment_maps::Keep::yes);
+  return maps ? Status(Done{}) : Status(maps.errors());
+}
 
 Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
                                    const scene::Reflection& reflection) {

@@ -14,6 +14,9 @@ struct JudgedMethod {
   bool shows_earlier_frames = false;  ///< its maps are taken little by little
 };
 
+/// Draws a scene's reference maps and keeps them beside its file, so that no method need draw them again.
+Status keep_maps(scene::Scene scene, const scene::Reflection& reflection);
+
 /// Makes a method for a stage's scene; it lives no longer than the stage.
 Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
                                    const scene::Reflection& reflection);

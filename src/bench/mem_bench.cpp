@@ -14,7 +14,6 @@
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
 #include "city/paper_city.h"
-#include "environment_maps/scene_maps.h"
 #include "gl/context.h"
 
 namespace parvis::bench {
@@ -144,17 +143,6 @@ Status measure_motion(stage::Stage& stage, bool is_quick, Report& report) {
   return Done{};
 }
 
-/// Draws the city's maps and keeps them beside its file, so that no stage need draw them again.
-Status keep_maps(scene::Scene city) {
-  city.reflection = shipped();
-  const Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(city);
-  if (!renderer) return renderer.errors();
-  const environment_maps::HeightPyramid heights(environment_maps::heights_of(city));
-  const Result<environment_maps::ReferenceMaps> maps =
-      environment_maps::bake_maps(city, heights, **renderer, environment_maps::Keep::yes);
-  return maps ? Status(Done{}) : Status(maps.errors());
-}
-
 Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   constexpr int cars_seen = 30;
   Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(city, 120));
@@ -209,7 +197,7 @@ Result<Report> mem_bench(bool is_quick) {
         measure_placement(city->scene, report);
         return Done{};
       },
-      [&] { return keep_maps(city->scene); },
+      [&] { return keep_maps(city->scene, shipped()); },
       [&] { return measure_cost(city->scene, is_quick, report); },
       [&] { return measure_body_count(city->scene, shipped(), repeats, report); },
       [&] { return measure_city_size(city->scene, shipped(), repeats, report); },
