@@ -22,21 +22,18 @@ constexpr int width = 1280, height = 720;
 
 using scene::ReflectionMethod;
 
-constexpr scene::Reflection no_reflection{ReflectionMethod::none, 128, false},
-    rerendered{ReflectionMethod::rerendered_cube_map, 128, false},
-    rerendered_lod{ReflectionMethod::rerendered_cube_map, 128, true},
-    mem{ReflectionMethod::multiple_environment_maps, 128, false},
-    mem_lod{ReflectionMethod::multiple_environment_maps, 128, true};
+constexpr scene::Reflection mem{ReflectionMethod::multiple_environment_maps, 128, false};
 
 /// Times whole frames of each method in alternating order.
 Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
                     std::vector<Median>& medians) {
   std::vector<JudgedMethod> methods;
-  for (const auto& [key, reflection] : {std::pair{"none", no_reflection},
-                                        {"rerendered", rerendered},
-                                        {"rerendered_lod", rerendered_lod},
-                                        {"mem", mem},
-                                        {"mem_lod", mem_lod}}) {
+  for (const auto& [key, reflection] :
+       {std::pair{"none", scene::Reflection{ReflectionMethod::none}},
+        {"rerendered", {ReflectionMethod::rerendered_cube_map, 128, false}},
+        {"rerendered_lod", {ReflectionMethod::rerendered_cube_map, 128, true}},
+        {"mem", mem},
+        {"mem_lod", {ReflectionMethod::multiple_environment_maps, 128, true}}}) {
     Result<JudgedMethod> method = judged_method(stage, key, reflection);
     if (!method) return method.errors();
     methods.push_back(*std::move(method));
@@ -45,15 +42,13 @@ Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int rep
   for (int repeat = 0; repeat < repeats; ++repeat)
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const std::size_t m = repeat % 2 == 0 ? i : methods.size() - 1 - i;
-      const auto draw_frame = [&] { return draw(stage, methods[m], camera, width, height); };
-      if (Status status = draw_frame(); !status) return status;  // makes what is made once
+      if (Status status = draw(stage, methods[m], camera, width, height); !status)
+        return status;  // makes what is made once
       glFinish();
-      Status status = Done{};
       samples[m].push_back(milliseconds([&] {
-        status = draw_frame();
+        draw_again(stage, methods[m], camera, width, height);
         glFinish();
       }));
-      if (!status) return status;
     }
   for (std::size_t m = 0; m < methods.size(); ++m) {
     medians.push_back(median(samples[m]));

@@ -14,14 +14,12 @@ Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
   return part;
 }
 
-Status make_maps(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
-                 render::Subjects subjects) {
+void make_maps(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+               render::Subjects subjects) {
   render::Renderer& renderer = stage.renderer();
-  if (Status status = renderer.set_reflection(method.reflections.get()); !status) return status;
   renderer.begin_frame(stage.scene(), camera);
   renderer.prepare_main_view(camera, width, height, subjects);
   method.reflections->update(renderer, stage.scene(), camera);
-  return Done{};
 }
 
 }  // namespace
@@ -47,14 +45,22 @@ Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
 }
 
 Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
-  return make_maps(stage, method, camera, width, height, render::Subjects::all);
+  if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
+  make_maps(stage, method, camera, width, height, render::Subjects::all);
+  return Done{};
 }
 
 Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects) {
-  if (Status status = make_maps(stage, method, camera, width, height, subjects); !status) return status;
-  stage.renderer().draw_main_view();
+  if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
+  draw_again(stage, method, camera, width, height, subjects);
   return Done{};
+}
+
+void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+                render::Subjects subjects) {
+  make_maps(stage, method, camera, width, height, subjects);
+  stage.renderer().draw_main_view();
 }
 
 Result<Image8> picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,

@@ -25,6 +25,10 @@ Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
 Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects = render::Subjects::all);
 
+/// A frame by the method that was drawn by last: what is timed.
+void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+                render::Subjects subjects = render::Subjects::all);
+
 /// Lets a method make what it makes for a frame, of which no picture is wanted.
 Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height);
 

@@ -5,7 +5,7 @@
 namespace parvis::environment_maps {
 namespace {
 
-constexpr GLuint starts_unit = render::first_reflection_unit + 7, ways_unit = starts_unit + 1;
+constexpr GLuint starts_unit = 0, ways_unit = 1;  // of materials, which come later
 
 }  // namespace
 
@@ -20,7 +20,8 @@ glm::ivec4 pixels_of(const render::View& view, const Bounds& bounds) {
     const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * size;
     low = glm::min(low, pixel), high = glm::max(high, pixel);
   }
-  const glm::ivec2 first = glm::max(glm::ivec2(glm::floor(low)) - 1, glm::ivec2(0));
+  const glm::ivec2 first =
+      glm::max(glm::ivec2(glm::floor(glm::clamp(low, glm::vec2(0.0f), size))) - 1, glm::ivec2(0));
   const glm::ivec2 end = glm::min(glm::ivec2(glm::ceil(glm::min(high, size))) + 1, glm::ivec2(size));
   return {first, glm::max(end - first, glm::ivec2(0))};
 }

@@ -102,23 +102,25 @@ MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
   return reflector.size_px < traced_from_px ? nearest_map : one_map;
 }
 
-/// The best for each by its size, or what of it the budget allows.
-void MultipleEnvironmentMaps::choose_details(const std::vector<render::Reflector>& reflectors) {
-  for (const render::Reflector& reflector : reflectors) {
-    Detail& detail = details_[std::size_t(reflector.object)];
-    detail =
-        budget_.budget_ms() > 0.0 ? std::min(detail, best_detail_for(reflector)) : best_detail_for(reflector);
+/// The best for each by its size, or what of it the budget allows: the largest come first.
+void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
+                                             const std::vector<render::Reflector>& reflectors) {
+  if (budget_.budget_ms() <= 0.0) {
+    for (const render::Reflector& reflector : reflectors)
+      details_[std::size_t(reflector.object)] = best_detail_for(reflector);
+    return;
   }
-  if (budget_.budget_ms() <= 0.0) return;
+  const double most_pixels = double(renderer.width()) * double(renderer.height());
   qualities_.resize(reflectors.size());
   wishes_.clear();
   for (std::size_t i = 0; i < reflectors.size(); ++i) {
-    const double pixels = shown_share * double(reflectors[i].size_px) * double(reflectors[i].size_px);
+    const double size_px = double(reflectors[i].size_px);
+    const double pixels = std::min(shown_share * size_px * size_px, most_pixels);
     for (std::size_t detail = 0; detail < detail_count; ++detail)
       qualities_[i][detail] = {pixels * pixel_ms[detail], worths[detail]};
-    wishes_.push_back({reflectors[i].size_px,
-                       std::span(qualities_[i]).first(std::size_t(best_detail_for(reflectors[i])) + 1),
-                       details_[std::size_t(reflectors[i].object)]});
+    const Detail best = best_detail_for(reflectors[i]);
+    wishes_.push_back({float(pixels * size_px), std::span(qualities_[i]).first(std::size_t(best) + 1),
+                       std::min(details_[std::size_t(reflectors[i].object)], best)});
   }
   budget_.choose(wishes_);
   for (std::size_t i = 0; i < reflectors.size(); ++i)
@@ -131,8 +133,8 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   if (!reflectors.empty()) bodies_.update(scene, renderer.gpu(), reflectors.front().centre);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
+  choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
-  choose_details(reflectors);
   picture_.draw_rays(renderer);
   const gl::Program* current = nullptr;
   picture_.draw_light(renderer, reflectors, [&](const render::Reflector& reflector) -> const gl::Program& {

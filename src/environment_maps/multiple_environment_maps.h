@@ -48,7 +48,7 @@ class MultipleEnvironmentMaps final : public render::Reflections {
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
                           MapRenewal renewal, MirrorPicture picture, Programs programs);
   Detail best_detail_for(const render::Reflector& reflector) const;
-  void choose_details(const std::vector<render::Reflector>& reflectors);
+  void choose_details(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;

@@ -145,6 +145,8 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
                   has_moving_shade ? std::span(scene_.gpu().moving_bounds()) : std::span<const Bounds>(),
                   [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
+  sky_.bind();  // for methods of reflection that work light out before any view is drawn
+  shadows_.bind();
 }
 
 void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects) {

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "render/fixed_parts.h"
+#include "render/mesh_levels.h"
 
 namespace parvis::render {
 namespace {
@@ -167,6 +168,7 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& v
   const PartRange& part = gpu_.parts()[std::size_t(item.part)];
   const GpuMaterial& material = gpu_.materials()[std::size_t(part.material)];
   const std::uint64_t pass = std::uint64_t(material.pass) << 62;
+  static_assert(most_mesh_levels < 8);
   const std::uint64_t mesh = std::uint64_t(item.part) << 3 | std::uint64_t(level);
   if (material.pass == Pass::blend) {
     const float distance_m = glm::distance(item.bounds.centre(), view.position_in_world);
@@ -258,7 +260,8 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
     if (batches.empty() || batches.back().material != part.material ||
         batches.back().mirror_object != mirror_object)
       batches.push_back({part.material, mirror_object, std::uint32_t(list.commands.size()), 0});
-    if (batches.back().command_count > 0 && list.commands.back().first_index == mesh.first_index) {
+    if (batches.back().command_count > 0 && list.commands.back().first_index == mesh.first_index &&
+        list.commands.back().count == mesh.index_count) {
       ++list.commands.back().instances;
     } else {
       list.commands.push_back(

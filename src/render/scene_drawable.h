@@ -26,7 +26,7 @@ class ReflectionSource {
   /// What the shader is compiled with. HAS_NEAR_PICTURE: a picture of what stands near lies over what it
   /// finds.
   virtual gl::Defines defines() const { return {}; }
-  /// Does it draw views of rays?
+  /// Does it draw a view of rays? Then their programs are made.
   virtual bool takes_rays() const { return false; }
   /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
   /// `program`.
