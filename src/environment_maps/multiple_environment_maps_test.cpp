@@ -107,6 +107,29 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
   EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
 }
 
+// Light is worked out before the first view is drawn; maps that were kept have drawn nothing either.
+TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
+  scene::Scene scene = tower_square();
+  const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
+  scene::add(scene, scene::model_of(van, scene::matt({0.85f, 0.1f, 0.05f})), true);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto reflections = make_reflections(scene, **renderer);
+  ASSERT_TRUE(reflections) << to_string(reflections.errors());
+  for (GLuint unit = 0; unit < 16; ++unit) glBindTextureUnit(unit, 0);
+  Camera camera;
+  camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});
+  ImageF frames[2];
+  for (ImageF& frame : frames) {
+    (*renderer)->begin_frame(scene, camera);
+    (*renderer)->prepare_main_view(camera, test_width, test_height);
+    (*reflections)->update(**renderer, scene, camera);
+    (*renderer)->draw_main_view();
+    frame = (*renderer)->read_radiance();
+  }
+  EXPECT_EQ(frames[0].pixels, frames[1].pixels);
+}
+
 TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {
   scene::Scene scene = tower_square();
   const int mirror = int(scene.objects.size()) - 1;
