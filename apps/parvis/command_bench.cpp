@@ -20,7 +20,6 @@ Status measure(const Arguments& arguments) {
                                        : arguments.name == "curved" ? bench::curved_bench(arguments.is_quick)
                                                                     : bench::frame_bench(arguments.is_quick);
   if (!report) return report.errors();
-  report->print();
   return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
 }
 

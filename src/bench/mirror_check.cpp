@@ -155,10 +155,8 @@ Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
 
   reference::TraceOptions options;
   options.progress = "tracing mirrors";
-  const shading::SunShadow shadow = (*renderer)->sun_shadow();
-  options.shadow = &shadow;
-  options.sky_visibility = &(*renderer)->sky_visibility();
-  options.body_shade = &(*renderer)->body_shade();
+  const shading::DrawnLight light = (*renderer)->drawn_light();
+  options.drawn_light = &light;
   const reference::RayScene rays(scene);
   const reference::TracedPicture truth =
       reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);

@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 
 namespace parvis::bench {
+namespace {
+
+void tell(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+}  // namespace
 
 double milliseconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -34,6 +43,11 @@ double percentile(std::vector<double> values, double share) {
   return *at;
 }
 
+void Report::add(const std::string& key, double value) {
+  figures_.emplace_back(key, value);
+  tell(fmt::format("{:<40} {:>14.4f}", key, value));
+}
+
 void Report::add(const std::string& key, const Median& median) {
   add(key, median.value);
   note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low,
@@ -41,14 +55,13 @@ void Report::add(const std::string& key, const Median& median) {
 }
 
 void Report::skip(const std::string& key, const std::string& why) {
-  skipped_.push_back(key);
+  tell(fmt::format("{:<40} {:>14}", key, "skipped"));
   note(fmt::format("{} is skipped: {}", key, why));
 }
 
-void Report::print() const {
-  for (const auto& [key, value] : figures_) fmt::print("{:<36} {:>14.4f}\n", key, value);
-  for (const std::string& key : skipped_) fmt::print("{:<36} {:>14}\n", key, "skipped");
-  for (const std::string& row : rows_) fmt::print("  {}\n", row);
+void Report::note(std::string row) {
+  tell("  " + row);
+  rows_.push_back(std::move(row));
 }
 
 Status Report::write(const std::filesystem::path& file) const {

@@ -1,4 +1,4 @@
-// What a bench tells: figures by key and rows of text, as a table and as JSON.
+// What a bench tells: figures by key and rows of text, printed as they come, and as JSON.
 #pragma once
 
 #include <filesystem>
@@ -23,25 +23,24 @@ Median median(std::vector<double> samples);
 /// The value below which a share of all lie; 0 of none.
 double percentile(std::vector<double> values, double share);
 
+/// Prints each figure and row when it is told: a bench that is stopped has said what it knew.
 class Report {
  public:
   explicit Report(std::string name) : name_(std::move(name)) {}
 
-  void add(const std::string& key, double value) { figures_.emplace_back(key, value); }
+  void add(const std::string& key, double value);
   /// The median counts; its interval stands in a row.
   void add(const std::string& key, const Median& median);
   /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
   void skip(const std::string& key, const std::string& why);
-  void note(std::string row) { rows_.push_back(std::move(row)); }
+  void note(std::string row);
 
-  void print() const;
   /// {"bench": NAME, "figures": {KEY: number, ...}, "rows": [...]}
   Status write(const std::filesystem::path& file) const;
 
  private:
   std::string name_;
   std::vector<std::pair<std::string, double>> figures_;
-  std::vector<std::string> skipped_;
   std::vector<std::string> rows_;
 };
 

@@ -75,23 +75,23 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixe
   }
 }
 
-/// Of a reflector: a new entry of `near_`, or below 0 where nothing stands near.
+/// Of a reflector: a further entry of `near_`, or below 0 where nothing stands near.
 int VirtualObjects::find_near(const render::Renderer& renderer, const render::Reflector& reflector) {
   const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
-  std::vector<std::uint8_t> near(bounds.size(), 0);
+  if (near_.size() == near_count_) near_.emplace_back();
+  std::vector<std::uint8_t>& near = near_[near_count_];
+  near.assign(bounds.size(), 0);
   for (std::size_t o = 0; o < bounds.size(); ++o)
     near[o] =
         int(o) != reflector.object && renderer.gpu().is_visible(int(o)) &&
         render::stands_near(bounds[std::size_t(reflector.object)], bounds[o], settings_.virtual_within_m);
-  if (std::ranges::find(near, 1) == near.end()) return -1;
-  near_.push_back(std::move(near));
-  return int(near_.size()) - 1;
+  return std::ranges::find(near, 1) == near.end() ? -1 : int(near_count_++);
 }
 
 void VirtualObjects::find_patches(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
-  near_.clear();
+  near_count_ = 0;
   const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
   for (const render::Reflector& reflector : reflectors) {
     const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);

@@ -66,7 +66,8 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;
   std::vector<ShownPatch> shown_;
-  std::vector<std::vector<std::uint8_t>> near_;  ///< objects that stand near each reflector that has any
+  std::vector<std::vector<std::uint8_t>> near_;  ///< objects that stand near: as many as a frame ever needed
+  std::size_t near_count_ = 0;                   ///< of this frame
   const ShownPatch* current_ = nullptr;          ///< while its mirrored view is drawn
   int layer_ = -1;                               ///< of it, if it may show a vertex several times
 };

@@ -104,10 +104,8 @@ Compared draw(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target,
   (*reflections)->update(**renderer, scene, camera);
   (*renderer)->draw_main_view();
   reference::TraceOptions options;
-  const shading::SunShadow shadow = (*renderer)->sun_shadow();
-  options.shadow = &shadow;
-  options.sky_visibility = &(*renderer)->sky_visibility();
-  options.body_shade = &(*renderer)->body_shade();
+  const shading::DrawnLight light = (*renderer)->drawn_light();
+  options.drawn_light = &light;
   const reference::RayScene rays(scene);
   const reference::TracedPicture truth =
       reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);

@@ -64,10 +64,8 @@ inline double flip_of(const scene::Scene& scene, const MakeReflections& make, gl
   (*renderer)->draw_main_view();
 
   reference::TraceOptions options;
-  const shading::SunShadow shadow = (*renderer)->sun_shadow();
-  options.shadow = &shadow;
-  options.sky_visibility = &(*renderer)->sky_visibility();
-  options.body_shade = &(*renderer)->body_shade();
+  const shading::DrawnLight light = (*renderer)->drawn_light();
+  options.drawn_light = &light;
   const reference::RayScene rays(scene);
   const reference::TracedPicture truth =
       reference::trace_picture(rays, scene, (*renderer)->sky(), camera, test_width, test_height, options);

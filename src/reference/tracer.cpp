@@ -55,9 +55,7 @@ class Tracer {
          const TraceOptions& options)
       : rays_(rays),
         sky_(sky),
-        shadow_(options.shadow),
-        sky_visibility_(options.sky_visibility),
-        body_shade_(options.body_shade),
+        drawn_light_(options.drawn_light),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
@@ -143,29 +141,27 @@ class Tracer {
 
   /// What the place sees of the sky.
   vec4 sky_cell_at(const ShadingPoint& point, int object) const {
-    vec4 cell(0.5f, 0.5f, 0.5f, 1.0f);  // open
-    if (sky_visibility_)
-      cell = sky_visibility_->at(
-          shading::sky_visibility_coordinates(sky_visibility_->grid, point.position, point.geometric_normal));
-    if (!body_shade_) return cell;
-    return shading::shaded_cell(
-        cell, shading::sky_share_beside_bodies(*body_shade_, point.position, point.geometric_normal, object));
+    if (!drawn_light_) return {0.5f, 0.5f, 0.5f, 1.0f};  // open
+    const shading::SkyVisibility& visibility = *drawn_light_->sky_visibility;
+    const vec4 cell = visibility.at(
+        shading::sky_visibility_coordinates(visibility.grid, point.position, point.geometric_normal));
+    return shading::shaded_cell(cell,
+                                shading::sky_share_beside_bodies(*drawn_light_->body_shade, point.position,
+                                                                 point.geometric_normal, object));
   }
 
   float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
     const float let_in = point.relief.light_from(light_.to_sun);
-    if (shadow_)
-      return let_in *
-             shading::sun_visibility(*shadow_, point.position, point.geometric_normal, light_.to_sun);
+    if (drawn_light_)
+      return let_in * shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal,
+                                              light_.to_sun);
     ++ray_count;
     return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : let_in;
   }
 
   const RayScene& rays_;
   const shading::SkyLight& sky_;
-  const shading::SunShadow* shadow_;
-  const shading::SkyVisibility* sky_visibility_;
-  const shading::BodyShade* body_shade_;
+  const shading::DrawnLight* drawn_light_;
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
 };

@@ -5,10 +5,8 @@
 #include "base/camera.h"
 #include "base/image.h"
 #include "reference/ray_scene.h"
-#include "shading/body_shade.h"
-#include "shading/shadow.h"
+#include "shading/drawn_light.h"
 #include "shading/sky.h"
-#include "shading/sky_visibility.h"
 
 namespace parvis::reference {
 
@@ -20,12 +18,11 @@ struct PixelWindow {
 struct TraceOptions {
   int samples_a_pixel = 16;  ///< rounded up to a square number
   std::uint64_t seed = 1;
-  const shading::SunShadow* shadow = nullptr;              ///< the renderer's maps; null: exact shadow rays
-  const shading::SkyVisibility* sky_visibility = nullptr;  ///< the renderer's; null: open everywhere
-  const shading::BodyShade* body_shade = nullptr;  ///< the renderer's; null: moving things hide no sky
-  bool mirrors_see_themselves = true;              ///< else a reflection passes through its own object
-  PixelWindow window;                ///< traces this part alone, which is then the whole result; empty: all
-  std::string progress = "tracing";  ///< what the progress bar says
+  /// The renderer's; null: exact shadow rays, a sky open everywhere, and moving things that hide none of it.
+  const shading::DrawnLight* drawn_light = nullptr;
+  bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
+  PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all
+  std::string progress = "tracing";    ///< what the progress bar says
 };
 
 struct TracedPicture {

@@ -13,6 +13,7 @@
 #include "render/scene_drawable.h"
 #include "render/sky_textures.h"
 #include "render/sun_shadow_maps.h"
+#include "shading/drawn_light.h"
 
 namespace parvis::render {
 
@@ -66,9 +67,8 @@ class Renderer {
 
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return sky_.light(); }
-  const shading::SkyVisibility& sky_visibility() const { return sky_.visibility(); }
-  const shading::BodyShade& body_shade() const { return body_shade_; }
-  shading::SunShadow sun_shadow() const { return shadows_.read_back(); }
+  /// A readback: for pictures that are traced.
+  shading::DrawnLight drawn_light() const { return {shadows_.read_back(), &sky_.visibility(), &body_shade_}; }
 
  private:
   Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target);

@@ -119,7 +119,8 @@ TEST_F(RendererTest, AMovingBodyDarkensTheRoadBelowIt) {
     return renderer->read_radiance().at(32, 32)[1];  // just before the middle of the ground
   };
   const float open = light_under(false), shaded = light_under(true);
-  const float share = sky_share_beside_bodies(renderer->body_shade(), {0, -0.15f, 0}, {0, 0, 1}, -1);
+  const float share =
+      sky_share_beside_bodies(*renderer->drawn_light().body_shade, {0, -0.15f, 0}, {0, 0, 1}, -1);
   EXPECT_LT(share, 0.2f);
   EXPECT_NEAR(shaded / open, share, 0.05f);  // the pixel sees 0.25 m of the ground
 }
@@ -214,7 +215,9 @@ TEST_F(RendererTest, WhatChangedNearTheViewerIsRightFromFarAway) {
   const auto fresh = renderer_of(scene);
   draw(*fresh, scene, far_camera, 200, 150);
   EXPECT_EQ(renderer->read_radiance().pixels, fresh->read_radiance().pixels);
-  const auto far_depth = [](const Renderer& of) { return of.sun_shadow().depth[shading::shadow_far_map]; };
+  const auto far_depth = [](const Renderer& of) {
+    return of.drawn_light().shadow.depth[shading::shadow_far_map];
+  };
   EXPECT_EQ(far_depth(*renderer).pixels, far_depth(*fresh).pixels);
 }
 

@@ -138,13 +138,11 @@ void Stage::draw(const Camera& camera, int width, int height) {
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel,
                                       const reference::PixelWindow& window) {
   renderer_->begin_frame(play_.scene, camera);
-  const shading::SunShadow shadow = renderer_->sun_shadow();
+  const shading::DrawnLight light = renderer_->drawn_light();
   reference::TraceOptions options;
   options.samples_a_pixel = samples_a_pixel;
   options.window = window;
-  options.shadow = &shadow;
-  options.sky_visibility = &renderer_->sky_visibility();
-  options.body_shade = &renderer_->body_shade();
+  options.drawn_light = &light;
   const reference::RayScene rays(play_.scene);
   return reference::trace_picture(rays, play_.scene, renderer_->sky(), camera, width, height, options);
 }
