@@ -21,8 +21,10 @@ class GpuReflector {
     GLsizei first_index, index_count;  ///< of its own triangles
   };
   const std::vector<Patch>& patches() const { return patches_; }
-  /// Hands a patch's map to a program that has virtual_vertices.vert; its texture goes to `unit`.
-  static void bind(const gl::Program& program, const Patch& patch, GLuint unit);
+  /// Hands a patch's map to a program that has patch_uniforms.glsl, its texture to `unit`: as the first
+  /// mirror (0) there or the second.
+  static void bind(const gl::Program& program, const Patch& patch, const glm::mat4& world_from_reflector,
+                   GLuint unit, int mirror = 0);
   /// Draws a patch's triangles; attribute 0 is the position.
   void draw(const Patch& patch) const;
 

@@ -1,25 +1,43 @@
-// One patch of a reflector, as GpuReflector::bind and VirtualObjects hand it to shaders.
+// One patch of a reflector, or one of each of two, as GpuReflector::bind hands them to shaders.
 #include "shading/octahedral.glsl"
 #include "curved_reflectors/map_window.glsl"
 #include "curved_reflectors/surface_point.glsl"
 
-uniform highp sampler2D reflector_texels;
-uniform mat4 reflector_from_world;  // turned, moved and scaled evenly
-uniform mat4 world_from_reflector;
-uniform vec3 map_centre;
-uniform vec3 map_size;        // extent, side and reach of the window
-uniform vec3 map_axes[3];
-uniform vec2 patch_kind;      // convex; seen all around from the centre
-uniform int patch_layer;      // of what may show a vertex several times (patch_search.glsl); -1: it does not
-uniform vec3 start_positions[16];
-uniform vec3 start_normals[16];
+#ifndef MIRRORS
+#define MIRRORS 1
+#endif
 
+uniform highp sampler2D reflector_texels;
+uniform mat4 reflectors_from_world[MIRRORS];  // turned, moved and scaled evenly
+uniform mat4 world_from_reflectors[MIRRORS];
+uniform vec3 map_centres[MIRRORS];
+uniform vec3 map_sizes[MIRRORS];      // extent, side and reach of the window
+uniform vec3 map_axes[3 * MIRRORS];
+uniform vec2 patch_kinds[MIRRORS];    // convex; seen all around from the centre
+uniform int patch_layer;              // of what may show a vertex several times (patch_search.glsl); -1: it does not
+uniform vec3 start_positions[16 * MIRRORS];
+uniform vec3 start_normals[16 * MIRRORS];
+
+int mirror = 0;  // that all here speaks of
+#define reflector_from_world reflectors_from_world[mirror]
+#define world_from_reflector world_from_reflectors[mirror]
+#define map_centre map_centres[mirror]
+#define map_size map_sizes[mirror]
+#define patch_kind patch_kinds[mirror]
+
+#if MIRRORS == 2
+uniform highp sampler2D second_reflector_texels;
+vec4 reflector_texel(ivec2 texel) {
+  return mirror == 0 ? texelFetch(reflector_texels, texel, 0) : texelFetch(second_reflector_texels, texel, 0);
+}
+#else
 vec4 reflector_texel(ivec2 texel) { return texelFetch(reflector_texels, texel, 0); }
+#endif
 
 #include "curved_reflectors/reflector_map.glsl"
 
 MapWindow map_window() {
-  return MapWindow(map_centre, mat3(map_axes[0], map_axes[1], map_axes[2]), map_size.x, map_size.y, map_size.z);
+  return MapWindow(map_centre, mat3(map_axes[3 * mirror], map_axes[3 * mirror + 1], map_axes[3 * mirror + 2]), map_size.x, map_size.y, map_size.z);
 }
 
 SurfacePoint surface_at(vec3 direction) {
@@ -30,7 +48,7 @@ SurfacePoint surface_at(vec3 direction) {
 
 float surface_kind(vec3 direction) { return map_sample(map_window(), normalize(direction)).kind; }
 
-SurfacePoint search_start(int i) { return SurfacePoint(start_positions[i], start_normals[i]); }
+SurfacePoint search_start(int i) { return SurfacePoint(start_positions[16 * mirror + i], start_normals[16 * mirror + i]); }
 
 vec3 moved(mat4 to_from, vec3 point) {
   vec4 p = to_from * vec4(point, 1.0f);

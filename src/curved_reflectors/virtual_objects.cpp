@@ -55,16 +55,31 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
       gl::Program::create("curved_reflectors/own_reflection.vert", "curved_reflectors/own_reflection.frag");
   if (!own_reflection) return own_reflection.errors();
   render::assign_bindings(*own_reflection);
-  std::unique_ptr<VirtualObjects> made(new VirtualObjects(
-      scene, *std::move(patch_pixels), *std::move(own_reflection), std::move(surroundings)));
-  if (Status status = renderer.set_virtual_vertices(made.get()); !status) return status.errors();
-  return made;
+  std::unique_ptr<MirrorsInMirrors> in_mirrors;
+  gl::Defines defines{{"IS_MIRRORED", ""}};
+  if (scene.reflection.method == scene::ReflectionMethod::virtual_objects && scene.reflection.bounces > 1) {
+    Result<std::unique_ptr<MirrorsInMirrors>> made = MirrorsInMirrors::create(renderer);
+    if (!made) return made.errors();
+    in_mirrors = *std::move(made);
+    defines.emplace_back("HAS_NEAR_PICTURE", "");
+  }
+  Result<render::SurfacePrograms> programs =
+      render::SurfacePrograms::create("curved_reflectors/virtual_surface.frag", renderer.gpu().materials(),
+                                      "curved_reflectors/virtual_vertices.vert", defines);
+  if (!programs) return programs.errors();
+  return std::unique_ptr<VirtualObjects>(
+      new VirtualObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(own_reflection),
+                         std::move(in_mirrors), std::move(surroundings)));
 }
 
-VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels,
-                               gl::Program own_reflection, std::unique_ptr<render::Reflections> surroundings)
-    : patch_pixels_(std::move(patch_pixels)),
+VirtualObjects::VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs,
+                               gl::Program patch_pixels, gl::Program own_reflection,
+                               std::unique_ptr<MirrorsInMirrors> in_mirrors,
+                               std::unique_ptr<render::Reflections> surroundings)
+    : VirtualVertices(std::move(programs)),
+      patch_pixels_(std::move(patch_pixels)),
       own_reflection_(std::move(own_reflection)),
+      in_mirrors_(std::move(in_mirrors)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
   const ReflectorCache cache(scene);
@@ -72,6 +87,19 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, gl::Program patch_pixe
     model_of_object_.push_back(object.model.get());
     if (!object.takes_reflection || reflectors_.contains(object.model.get())) continue;
     reflectors_[object.model.get()] = reflector_of(cache, object);
+  }
+}
+
+/// All that may be seen in another.
+void VirtualObjects::find_all_patches(const render::Renderer& renderer) {
+  all_.clear();
+  for (std::size_t o = 0; o < model_of_object_.size(); ++o) {
+    const auto made = reflectors_.find(model_of_object_[o]);
+    if (made == reflectors_.end() || !made->second || !renderer.gpu().is_visible(int(o))) continue;
+    const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(int(o));
+    if (!is_scaled_evenly(world_from_reflector)) continue;
+    for (const GpuReflector::Patch& patch : made->second->patches())
+      all_.push_back({int(o), -1, made->second.get(), &patch, world_from_reflector, glm::vec3(0.0f)});
   }
 }
 
@@ -107,26 +135,6 @@ void VirtualObjects::find_patches(const render::Renderer& renderer,
       if (shown_.size() < most_shown && patch.bounds.may_be_seen(viewer) && frustum.may_see(patch.bounds.box))
         shown_.push_back({reflector.object, near, gpu.get(), &patch, world_from_reflector, viewer});
   }
-}
-
-/// Each pixel gets the number of the nearest patch there.
-void VirtualObjects::mark_pixels(const render::View& view) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
-  glViewport(0, 0, view.width, view.height);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
-  glEnable(GL_CULL_FACE);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // a shader without colour leaves it undefined
-  patch_pixels_.use();
-  for (std::size_t i = 0; i < shown_.size(); ++i) {
-    glStencilFunc(GL_ALWAYS, GLint(i) + 1, 0xff);
-    patch_pixels_.set("clip_from_reflector", view.clip_from_world * shown_[i].world_from_reflector);
-    shown_[i].reflector->draw(*shown_[i].patch);
-  }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
 /// A patch that may show a vertex several times is drawn layer by layer, over one another.
@@ -169,17 +177,21 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
     surroundings_->update_for(renderer, scene, reflectors);
     faces_drawn_ = surroundings_->faces_drawn();
   }
-  renderer.use_virtual_vertices(this);
   picture_.resize(renderer.width(), renderer.height());
   picture_.clear();
   find_patches(renderer, reflectors);
+  if (in_mirrors_) {
+    find_all_patches(renderer);
+    in_mirrors_->draw(renderer, patch_pixels_, shown_, all_);
+  }
   render::View view = renderer.main_view();
   view.kind = render::ViewKind::mirrored;
+  view.virtual_vertices = this;
   view.framebuffer = picture_.framebuffer();
   view.culls_hidden = false;
   view.subjects = render::Subjects::all;
   glEnable(GL_STENCIL_TEST);
-  mark_pixels(view);
+  mark_patches(patch_pixels_, view, shown_);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
     draw_patch(renderer, shown_[i], view);
@@ -190,10 +202,9 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
 }
 
 void VirtualObjects::bind(const gl::Program& program) {
-  GpuReflector::bind(program, *current_->patch, render::virtual_vertex_unit);
+  GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit);
   program.set("patch_layer", layer_);
-  program.set("world_from_reflector", current_->world_from_reflector);
-  program.set("reflector_from_world", glm::inverse(current_->world_from_reflector));
+  if (in_mirrors_) glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
 }
 
 bool VirtualObjects::may_show(const Bounds& bounds) const {

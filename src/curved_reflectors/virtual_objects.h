@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "curved_reflectors/gpu_reflector.h"
+#include "curved_reflectors/mirrors_in_mirrors.h"
 #include "curved_reflectors/virtual_picture.h"
 #include "render/reflections.h"
 
@@ -29,33 +29,21 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void frame_took(double update_ms, double rest_ms) override {
     if (surroundings_) surroundings_->frame_took(update_ms, rest_ms);
   }
-  std::string vertex_shader() const override { return "curved_reflectors/virtual_vertices.vert"; }
-  std::string fragment_shader_of_vertices() const override {
-    return "curved_reflectors/virtual_surface.frag";
-  }
   void bind(const gl::Program& program) override;
   bool may_show(const Bounds& bounds) const override;
 
  private:
-  VirtualObjects(const scene::Scene& scene, gl::Program patch_pixels, gl::Program own_reflection,
+  VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
+                 gl::Program own_reflection, std::unique_ptr<MirrorsInMirrors> in_mirrors,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void forget_surroundings() override {}  // the surroundings' own method does
 
-  /// A patch that the frame shows, in the order of its number in the stencil.
-  struct ShownPatch {
-    int object;
-    int near;  ///< of `near_`; below 0: all objects
-    const GpuReflector* reflector;
-    const GpuReflector::Patch* patch;
-    glm::mat4 world_from_reflector;
-    glm::vec3 viewer;  ///< in the reflector's frame
-  };
   /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
+  void find_all_patches(const render::Renderer& renderer);
   int find_near(const render::Renderer& renderer, const render::Reflector& reflector);
-  void mark_pixels(const render::View& view) const;
   void draw_own_reflections(const render::View& view);
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
@@ -63,9 +51,11 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
+  std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;
-  std::vector<ShownPatch> shown_;
+  std::vector<ShownPatch> shown_;                ///< in the order of their numbers in the stencil
+  std::vector<ShownPatch> all_;                  ///< whether the main view shows them or not
   std::vector<std::vector<std::uint8_t>> near_;  ///< objects that stand near: as many as a frame ever needed
   std::size_t near_count_ = 0;                   ///< of this frame
   const ShownPatch* current_ = nullptr;          ///< while its mirrored view is drawn

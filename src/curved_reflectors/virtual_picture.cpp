@@ -32,6 +32,11 @@ void VirtualPicture::clear() const {
   glClearNamedFramebufferfi(drawn_.name(), GL_DEPTH_STENCIL, 0, 1.0f, 0);
 }
 
+void VirtualPicture::clear_depth() const {
+  constexpr GLfloat farthest = 1.0f;
+  glClearNamedFramebufferfv(drawn_.name(), GL_DEPTH, 0, &farthest);
+}
+
 void VirtualPicture::resolve() const {
   glBlitNamedFramebuffer(drawn_.name(), resolved_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -12,6 +12,7 @@ class VirtualPicture {
   /// To draw into: RGBA16F, depth and stencil, multisampled.
   GLuint framebuffer() const { return drawn_.name(); }
   void clear() const;
+  void clear_depth() const;
   /// Brings the samples together in `texture`.
   void resolve() const;
   GLuint texture() const { return picture_.name(); }

@@ -18,7 +18,6 @@ namespace {
 using glm::vec3, glm::vec4;
 using shading::Surface;
 
-constexpr int mirror_bounces = 1;        // what is mirrored reflects the sky: cube maps show no more
 constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
 constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
 constexpr int most_blended_layers = 8;
@@ -35,9 +34,17 @@ vec3 kept_above(vec3 direction, vec3 normal) {
   return height > 1e-3f ? direction : glm::normalize(direction + (1e-3f - height) * normal);
 }
 
-/// A half vector of the GGX distribution about `normal`.
-vec3 ggx_half_vector(vec3 normal, float roughness, Random& random) {
-  const float alpha = roughness * roughness, u = random.uniform(), phi = 6.2831853f * random.uniform();
+/// Points of the unit square for the lobe rays of one pixel, each far from those before it: the R2 sequence
+/// (Roberts 2018), begun elsewhere in each pixel. Its noise is a fraction of that of chance.
+struct LobePoints {
+  glm::vec2 last;
+
+  glm::vec2 next() { return last = glm::fract(last + glm::vec2(0.75487767f, 0.56984029f)); }
+};
+
+/// A half vector of the GGX distribution about `normal`, by a point of the unit square.
+vec3 ggx_half_vector(vec3 normal, float roughness, glm::vec2 point) {
+  const float alpha = roughness * roughness, u = point.x, phi = 6.2831853f * point.y;
   const float cosine = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
   const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
   const vec3 t =
@@ -56,6 +63,7 @@ class Tracer {
       : rays_(rays),
         sky_(sky),
         drawn_light_(options.drawn_light),
+        mirror_bounces_(scene.reflection.bounces),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
@@ -65,7 +73,7 @@ class Tracer {
   }
 
   /// Light that comes along a cone; `hidden_object` (or -1) is passed through.
-  vec3 radiance(Cone cone, int bounce, int hidden_object, Random& random, std::uint64_t& ray_count,
+  vec3 radiance(Cone cone, int bounce, int hidden_object, LobePoints& lobe_points, std::uint64_t& ray_count,
                 bool* is_mirror) const {
     vec3 sum(0.0f);
     float left = 1.0f;  // what blended layers in front let through
@@ -78,7 +86,7 @@ class Tracer {
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
       const float alpha = blends && layer + 1 < most_blended_layers ? point.alpha : 1.0f;
       if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
-      const vec3 shaded = shade(point, *hit, cone, width_m, bounce, random, ray_count);
+      const vec3 shaded = shade(point, *hit, cone, width_m, bounce, lobe_points, ray_count);
       sum += left * alpha *
              shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
       left *= 1.0f - alpha;
@@ -99,11 +107,11 @@ class Tracer {
   }
 
   vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
-             Random& random, std::uint64_t& ray_count) const {
+             LobePoints& lobe_points, std::uint64_t& ray_count) const {
     const Surface& s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
-    const bool traces = hit.place->is_mirror && bounce < mirror_bounces;
+    const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
     const vec4 sky_cell = sky_cell_at(point, hit.place->object);
     const auto sky_reflection = [&](float roughness) {
       return shading::sky_share_of_direction(sky_cell, mirrored) *
@@ -115,7 +123,7 @@ class Tracer {
       const float spread = cone.spread + 2.0f * point.curvature_per_m * width_m;
       const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, width_m, spread};
       const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
-      return radiance(next, bounce + 1, hidden_object, random, ray_count, nullptr);
+      return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
     };
 
     vec3 base_reflection(0.0f), coat_reflection(0.0f);
@@ -130,8 +138,8 @@ class Tracer {
       if (s.roughness > sharp_roughness) {
         base_reflection = vec3(0.0f);
         for (int i = 0; i < lobe_samples; ++i)
-          base_reflection +=
-              traced(glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, random)));
+          base_reflection += traced(
+              glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next())));
         base_reflection /= float(lobe_samples);
       }
     }
@@ -162,6 +170,7 @@ class Tracer {
   const RayScene& rays_;
   const shading::SkyLight& sky_;
   const shading::DrawnLight* drawn_light_;
+  int mirror_bounces_;
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
 };
@@ -200,6 +209,7 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
     for (int column = 0; column < window.width; ++column) {
       const int x = window.x + column, y = window.y + int(row);
       Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
+      LobePoints lobe_points{{random.uniform(), random.uniform()}};
       vec3 sum(0.0f);
       float weights = 0.0f;
       int mirrors = 0;
@@ -209,7 +219,7 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
         const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
         const Ray ray = camera_ray(camera, width, height, {px, py});
         bool is_mirror = false;
-        const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, random, ray_count, &is_mirror);
+        const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, lobe_points, ray_count, &is_mirror);
         const float weight = shading::sample_weight(scene.exposure * sample);
         sum += weight * sample;
         weights += weight;

@@ -37,7 +37,8 @@ using ObjectPicture = BasicImage<std::uint32_t>;
 ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height);
 
 /// Traces one picture. Mirror-like parts of objects that take reflections show what their mirror rays hit,
-/// shaded by the same recipe, there reflecting the sky; all other surfaces reflect the sky. The same options
+/// shaded by the same recipe; after as many mirrors as reflection(bounces=) says they reflect the sky, as all
+/// other surfaces do. The same options
 /// give the same picture for any number of threads.
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options);

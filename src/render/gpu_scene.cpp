@@ -19,7 +19,7 @@ struct MaterialBlock {
   glm::vec4 emission;                 // rgb, normal scale
   glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
   glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
-  glm::vec4 relief;           // x: metres
+  glm::vec4 relief_mirrors;   // x: metres; y: 1 if it takes the scene's reflection method
 };
 
 MaterialBlock block_of(const scene::Material& material) {
@@ -29,7 +29,7 @@ MaterialBlock block_of(const scene::Material& material) {
           {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
           {glm::vec4(rows[0], material.translucency),
            glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)},
-          glm::vec4(material.relief_m)};
+          {material.relief_m, material.is_mirror_like ? 1.0f : 0.0f, 0.0f, 0.0f}};
 }
 
 Pass pass_of(scene::Alpha alpha) {

@@ -30,9 +30,6 @@ class Renderer {
   /// A room's own drawables, drawn after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
   Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
-  Status set_virtual_vertices(VirtualVertices* source) { return scene_.set_virtual_vertices(source); }
-  /// Of those that were set and have one shader: whose views are drawn now.
-  void use_virtual_vertices(VirtualVertices* source) { scene_.use_virtual_vertices(source); }
 
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }

@@ -42,6 +42,11 @@ float size_of(const Item::Record& record) {
   return most;
 }
 
+/// What a mirror shows may stand anywhere.
+bool may_see(const View& view, const Frustum& frustum, const Bounds& bounds) {
+  return view.kind == ViewKind::mirrored ? view.virtual_vertices->may_show(bounds) : frustum.may_see(bounds);
+}
+
 bool shows(Subjects subjects, const GpuScene& gpu, int object) {
   switch (subjects) {
     case Subjects::all:
@@ -115,7 +120,13 @@ void SceneDrawable::update(const scene::Scene& scene) {
 
 Status SceneDrawable::set_reflection(ReflectionSource* source) {
   reflection_ = nullptr;
-  if (!source) return Done{};
+  if (source && !source->programs_)
+    if (Status status = link(*source); !status) return status;
+  reflection_ = source;
+  return Done{};
+}
+
+Status SceneDrawable::link(ReflectionSource& source) const {
   std::vector<GpuMaterial> mirrors;
   for (const Item& item : gpu_.items())
     if (item.is_mirror)
@@ -127,21 +138,12 @@ Status SceneDrawable::set_reflection(ReflectionSource* source) {
     programs = *std::move(made);
     return Done{};
   };
-  if (Status status = make(source->fragment_shader(), programs_.mirror, source->defines()); !status)
+  ReflectionSource::Programs programs;
+  if (Status status = make(source.fragment_shader(), programs.mirror, source.defines()); !status)
     return status;
-  if (source->takes_rays())
-    if (Status status = make("render/mirror_rays.frag", programs_.rays, {}); !status) return status;
-  reflection_ = source;
-  return Done{};
-}
-
-Status SceneDrawable::set_virtual_vertices(VirtualVertices* source) {
-  Result<SurfacePrograms> programs =
-      SurfacePrograms::create(source->fragment_shader_of_vertices(), gpu_.materials(),
-                              source->vertex_shader(), {{"IS_MIRRORED", ""}});
-  if (!programs) return programs.errors();
-  programs_.mirrored = *std::move(programs);
-  virtual_vertices_ = source;
+  if (source.takes_rays())
+    if (Status status = make("render/mirror_rays.frag", programs.rays, {}); !status) return status;
+  source.programs_ = std::move(programs);
   return Done{};
 }
 
@@ -194,11 +196,6 @@ void SceneDrawable::draw_occluders(const View& view, const Frustum& frustum) {
     placed_shapes_.push_back({shape, glm::transpose(rows)});
   }
   occlusion_.draw(view.clip_from_world, placed_shapes_);
-}
-
-/// What a mirror shows may stand anywhere.
-bool SceneDrawable::may_see(const View& view, const Frustum& frustum, const Bounds& bounds) const {
-  return view.kind == ViewKind::mirrored ? virtual_vertices_->may_show(bounds) : frustum.may_see(bounds);
 }
 
 void SceneDrawable::sort(ViewList& list) {
@@ -319,10 +316,11 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::shadow) return programs_.depth;
   if (view.kind == ViewKind::picking) return programs_.picking;
   if (view.kind == ViewKind::mirrored)
-    return programs_.mirrored.of(gpu_.materials()[std::size_t(batch.material)], true);
+    return view.virtual_vertices->program_of(gpu_.materials()[std::size_t(batch.material)]);
   if (view.kind == ViewKind::rays)
-    return programs_.rays.of(gpu_.materials()[std::size_t(batch.material)], false);
-  const SurfacePrograms& programs = batch.mirror_object >= 0 ? programs_.mirror : programs_.surface;
+    return reflection_->programs_->rays.of(gpu_.materials()[std::size_t(batch.material)], false);
+  const SurfacePrograms& programs =
+      batch.mirror_object >= 0 ? reflection_->programs_->mirror : programs_.surface;
   return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
 
@@ -342,7 +340,7 @@ void SceneDrawable::draw(const View& view, Pass pass) {
     if (current != &program) program.use();
     current = &program;
     if (batch.mirror_object >= 0) reflection_->bind(program, batch.mirror_object);
-    if (view.kind == ViewKind::mirrored) virtual_vertices_->bind(program);
+    if (view.kind == ViewKind::mirrored) view.virtual_vertices->bind(program);
     gpu_.bind_material(batch.material);
     if (view.kind == ViewKind::mirrored) GpuScene::cull_faces(false);
     draw_commands(list, batch.first_command, batch.command_count);

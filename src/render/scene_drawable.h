@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "gl/program.h"
@@ -14,6 +15,7 @@
 #include "render/stream_buffer.h"
 #include "render/surface_programs.h"
 #include "render/view.h"
+#include "render/virtual_vertices.h"
 
 namespace parvis::render {
 
@@ -31,21 +33,13 @@ class ReflectionSource {
   /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
   /// `program`.
   virtual void bind(const gl::Program& program, int object) = 0;
-};
 
-/// Where mirrored views show vertices. A room above supplies it.
-class VirtualVertices {
- public:
-  virtual ~VirtualVertices() = default;
-  /// A vertex shader that includes render/surface_vertex.glsl and sets `seen_from` of
-  /// render/surface_body.glsl, too.
-  virtual std::string vertex_shader() const = 0;
-  /// A fragment shader that includes render/surface_body.glsl and defines `is_mirrored_here`.
-  virtual std::string fragment_shader_of_vertices() const = 0;
-  /// Binds what the shader needs for the reflector that is drawn now, as ReflectionSource::bind does.
-  virtual void bind(const gl::Program& program) = 0;
-  /// May that reflector show any of what lies within these bounds? Else it is left out.
-  virtual bool may_show(const Bounds& bounds) const = 0;
+ private:
+  friend class SceneDrawable;
+  struct Programs {
+    SurfacePrograms mirror, rays;
+  };
+  std::optional<Programs> programs_;  ///< linked when it is first set, for the scene of that renderer
 };
 
 /// What one view drew.
@@ -61,11 +55,8 @@ class SceneDrawable final : public Drawable {
   static Result<SceneDrawable> create(const scene::Scene& scene);
 
   void update(const scene::Scene& scene);
-  /// null: all reflect the sky alone.
+  /// null: all reflect the sky alone. What was set before is set again at once.
   Status set_reflection(ReflectionSource* source);
-  /// To be called before mirrored views are drawn.
-  Status set_virtual_vertices(VirtualVertices* source);
-  void use_virtual_vertices(VirtualVertices* source) { virtual_vertices_ = source; }
 
   void prepare(const View& view) override;
   void draw(const View& view, Pass pass) override;
@@ -87,7 +78,7 @@ class SceneDrawable final : public Drawable {
     std::uint32_t first_command, command_count;
   };
   struct Programs {
-    SurfacePrograms surface, mirrored, mirror, rays;
+    SurfacePrograms surface;
     gl::Program depth, solid_depth, picking;
   };
 
@@ -108,6 +99,7 @@ class SceneDrawable final : public Drawable {
   };
 
   SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs);
+  Status link(ReflectionSource& source) const;
   void find_occluders(const scene::Scene& scene);
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
@@ -115,7 +107,6 @@ class SceneDrawable final : public Drawable {
   std::uint64_t sort_key(const Item& item, int level, const View& view) const;
   void keep_moving_shapes(const scene::Scene& scene);
   void draw_occluders(const View& view, const Frustum& frustum);
-  bool may_see(const View& view, const Frustum& frustum, const Bounds& bounds) const;
   static void sort(ViewList& list);
   void gather(const View& view, ViewList& list);
   void gather_mirrors(const View& view, ViewList& list) const;
@@ -132,7 +123,6 @@ class SceneDrawable final : public Drawable {
   std::vector<OcclusionCuller::PlacedShape> placed_shapes_;
   Programs programs_;
   ReflectionSource* reflection_ = nullptr;
-  VirtualVertices* virtual_vertices_ = nullptr;
   gl::VertexArray vertex_array_;
   ViewList main_list_, other_list_;
   std::vector<int> visible_objects_;

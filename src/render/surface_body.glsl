@@ -49,7 +49,7 @@ uniform sampler2D near_picture;  // of the main view's size: what stands near, a
 
 // The picture is sharp. A rough layer blurs it widely: it shows that much less of it.
 vec3 behind_near(vec3 far_radiance, float roughness) {
-  float sharp = 1.0f - smoothstep(0.15f, 0.72f, roughness);
+  float sharp = material_mirrors * (1.0f - smoothstep(0.15f, 0.72f, roughness));
   vec4 seen = sharp * texelFetch(near_picture, ivec2(gl_FragCoord.xy), 0);
   return seen.rgb + (1.0f - seen.a) * far_radiance;
 }

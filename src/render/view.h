@@ -11,10 +11,12 @@
 
 namespace parvis::render {
 
+class VirtualVertices;
+
 enum class ViewKind : std::uint8_t {
   main,       ///< what a person sees
   cube_face,  ///< surroundings of a reflector
-  mirrored,   ///< what a curved reflector shows: a room above places the vertices
+  mirrored,   ///< what a curved reflector shows, by `virtual_vertices`
   shadow,     ///< depth from the sun
   rays,       ///< where mirror rays leave and their way: of what the main view shows
   picking     ///< which object each pixel shows
@@ -41,7 +43,8 @@ struct View {
   const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< a flag for each object; null: all
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   Subjects subjects = Subjects::all;
-  bool clears = true;         ///< depth; else it draws over what is there
+  VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
+  bool clears = true;                           ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
   bool shows(int object) const { return !shown_objects || (*shown_objects)[std::size_t(object)]; }

@@ -187,6 +187,14 @@ NodeSchema reflection_schema() {
                 .minimum = 0,
                 .maximum = 1000,
                 .is_live = true},
+               {.name = "bounces",
+                .type = AttributeType::integer,
+                .help = "of virtual_objects and of the ray tracer: 2, what a mirror shows in a mirror is "
+                        "drawn, too; 1: mirrors in mirrors show the sky",
+                .fallback = "1",
+                .minimum = 1,
+                .maximum = 2,
+                .is_live = true},
                {.name = "show",
                 .type = AttributeType::choice,
                 .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
@@ -209,6 +217,7 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
   reflection.budget_ms = float(node.number("budget_ms"));
   reflection.faces_a_frame = int(node.integer("faces_a_frame"));
   reflection.virtual_within_m = float(node.number("virtual_within"));
+  reflection.bounces = int(node.integer("bounces"));
   for (std::size_t i = 0; i < reflection_view_names.size(); ++i)
     if (node.text("show") == reflection_view_names[i]) reflection.shown = ReflectionView(i);
 }

@@ -105,6 +105,7 @@ struct Reflection {
   float budget_ms = 0.0f;         ///< of a frame, held by choosing levels of detail; 0: none
   int faces_a_frame = 0;          ///< of time-sliced maps, over all reflectors; 0: one for each of them
   float virtual_within_m = 0.0f;  ///< what stands wholly so near to a mirror is drawn as virtual objects
+  int bounces = 1;  ///< of the ray tracer and virtual objects: 2, mirrors show what mirrors show
 
   bool operator==(const Reflection&) const = default;
 };

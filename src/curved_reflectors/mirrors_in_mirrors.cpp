@@ -1,0 +1,123 @@
+#include "curved_reflectors/mirrors_in_mirrors.h"
+
+#include <algorithm>
+
+#include "render/bindings.h"
+
+namespace parvis::curved_reflectors {
+namespace {
+
+constexpr float least_angle = 0.05f;  // radians: radius over distance of a mirror that is worth showing
+constexpr GLuint first_bits = 0x0f, second_bits = 0xf0;
+
+Bounds bounds_in_world(const ShownPatch& patch) {
+  return transformed(patch.world_from_reflector, patch.patch->bounds.box);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MirrorsInMirrors>> MirrorsInMirrors::create(const render::Renderer& renderer) {
+  Result<gl::Program> mirrored_patch =
+      gl::Program::create("curved_reflectors/mirrored_patch.vert", "curved_reflectors/mirrored_patch.frag");
+  if (!mirrored_patch) return mirrored_patch.errors();
+  Result<render::SurfacePrograms> programs = render::SurfacePrograms::create(
+      "curved_reflectors/twice_virtual_surface.frag", renderer.gpu().materials(),
+      "curved_reflectors/twice_virtual_vertices.vert", {{"IS_MIRRORED", ""}, {"MIRRORS", "2"}});
+  if (!programs) return programs.errors();
+  return std::unique_ptr<MirrorsInMirrors>(
+      new MirrorsInMirrors(*std::move(programs), *std::move(mirrored_patch)));
+}
+
+MirrorsInMirrors::MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch)
+    : VirtualVertices(std::move(programs)), mirrored_patch_(std::move(mirrored_patch)) {
+  for (gl::Query& query : is_seen_) query = gl::Query::create(GLenum(GL_ANY_SAMPLES_PASSED));
+}
+
+/// Those that stand largest before the first.
+void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const ShownPatch> second) {
+  const Bounds before = bounds_in_world(first);
+  candidates_.clear();
+  for (const ShownPatch& patch : second) {
+    const Bounds bounds = bounds_in_world(patch);
+    const float distance = std::max(glm::distance(bounds.centre(), before.centre()) - before.radius(), 1e-3f);
+    const float angle = bounds.radius() / distance;
+    if (patch.object != first.object && patch.patch->shows_once && angle > least_angle)
+      candidates_.emplace_back(angle, &patch);
+  }
+  std::ranges::sort(candidates_, [](const auto& a, const auto& b) { return a.first > b.first; });
+  seconds_.clear();
+  for (std::size_t i = 0; i < std::min(candidates_.size(), most); ++i)
+    seconds_.push_back(*candidates_[i].second);
+}
+
+/// Each pixel of the first gets the number of the nearest second that it shows.
+void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) {
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
+  glViewport(0, 0, view.width, view.height);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glStencilMask(second_bits);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  mirrored_patch_.use();
+  mirrored_patch_.set("clip_from_world", view.clip_from_world);
+  mirrored_patch_.set("viewer_in_world", view.position_in_world);
+  mirrored_patch_.set("patch_layer", -1);
+  GpuReflector::bind(mirrored_patch_, *first_->patch, first_->world_from_reflector,
+                     render::virtual_vertex_unit);
+  for (std::size_t i = 0; i < seconds_.size(); ++i) {
+    glStencilFunc(GL_EQUAL, GLint((i + 1) << 4) | first_number, first_bits);
+    mirrored_patch_.set("world_from_second", seconds_[i].world_from_reflector);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, is_seen_[i].name());
+    seconds_[i].reflector->draw(*seconds_[i].patch);
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilMask(~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+}
+
+void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch_pixels,
+                            std::span<const ShownPatch> first, std::span<const ShownPatch> second) {
+  picture_.resize(renderer.width(), renderer.height());
+  picture_.clear();
+  firsts_.clear();
+  for (const ShownPatch& patch : first)
+    if (patch.patch->shows_once && firsts_.size() < most) firsts_.push_back(patch);
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrored;
+  view.virtual_vertices = this;
+  view.framebuffer = picture_.framebuffer();
+  view.culls_hidden = false;
+  view.subjects = render::Subjects::all;
+  glEnable(GL_STENCIL_TEST);
+  mark_patches(patch_pixels, view, firsts_);
+  for (std::size_t f = 0; f < firsts_.size(); ++f) {
+    first_ = &firsts_[f];
+    find_seconds(*first_, second);
+    picture_.clear_depth();
+    mark_seconds(view, int(f) + 1);
+    for (std::size_t s = 0; s < seconds_.size(); ++s) {
+      second_ = &seconds_[s];
+      view.excluded_object = second_->object;
+      glStencilFunc(GL_EQUAL, GLint((s + 1) << 4) | (int(f) + 1), 0xff);
+      glBeginConditionalRender(is_seen_[s].name(), GL_QUERY_WAIT);
+      renderer.draw_view(view);
+      glEndConditionalRender();
+    }
+  }
+  glDisable(GL_STENCIL_TEST);
+  picture_.resolve();
+}
+
+void MirrorsInMirrors::bind(const gl::Program& program) {
+  GpuReflector::bind(program, *first_->patch, first_->world_from_reflector, render::virtual_vertex_unit);
+  GpuReflector::bind(program, *second_->patch, second_->world_from_reflector, render::first_reflection_unit,
+                     1);
+  program.set("patch_layer", -1);
+  program.set("second_middle", bounds_in_world(*second_).centre());
+}
+
+}  // namespace parvis::curved_reflectors

@@ -1,0 +1,25 @@
+// A patch of a reflector where it stands in a frame.
+#pragma once
+
+#include <span>
+
+#include "curved_reflectors/gpu_reflector.h"
+#include "render/view.h"
+
+namespace parvis::curved_reflectors {
+
+struct ShownPatch {
+  int object;
+  int near;  ///< the list of objects that stand near, all that it is to show; below 0: all objects
+  const GpuReflector* reflector;
+  const GpuReflector::Patch* patch;
+  glm::mat4 world_from_reflector;
+  glm::vec3 viewer;  ///< in the reflector's frame
+};
+
+/// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1.
+/// `patch_pixels`: patch_pixels.vert and .frag. The view's stencil test is on.
+void mark_patches(const gl::Program& patch_pixels, const render::View& view,
+                  std::span<const ShownPatch> patches);
+
+}  // namespace parvis::curved_reflectors

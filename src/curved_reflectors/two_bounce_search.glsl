@@ -1,0 +1,38 @@
+// Where does a first mirror show a vertex that a second one shows it? (Estalella and others 2005, section 8, "a straightforward
+// extension".) The whole way viewer - first - second - vertex is stationary in both points, each of which is a reflection point
+// between its neighbours. So both are searched for in turn, each from where it was, until they agree. From the host:
+//   void turn_to(int mirror)            which of the two, 0 or 1, all other functions of the host speak of
+//   vec3 across(vec3 point, int to)     from the frame of the other mirror
+// Needs patch_search.glsl.
+
+const int most_turns = 12;
+const float agreed_error = 2e-8f;  // 0.016 degrees
+
+struct TwoBounces {
+  PatchPoint first;
+  PatchPoint second;  // each in its mirror's frame
+};
+
+// The tasks' other ends are found here: `first.vertex` is where to look for the second mirror, `second.viewer` nothing yet.
+GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind first_kind, ReflectionTask second,
+                                            PatchKind second_kind) {
+  TwoBounces found;
+  turn_to(0);
+  found.first = search_patch(first, first_kind, -1);
+  turn_to(1);
+  second.viewer = across(found.first.point.position, 1);
+  found.second = search_patch(second, second_kind, -1);
+  for (int i = 0; i < most_turns; ++i) {
+    turn_to(0);
+    first.vertex = across(found.second.point.position, 0);
+    found.first = patch_point(first, found.first.point.direction, first_kind.is_convex, free_growth);
+    turn_to(1);
+    second.viewer = across(found.first.point.position, 1);
+    SurfacePoint at = surface_at(found.second.point.direction);
+    float error = bisector_error(bisector(second.viewer, second.vertex, at), at.normal);
+    found.second.point.angle = angle_of_error(error);
+    if (error < agreed_error) break;
+    found.second = patch_point(second, found.second.point.direction, second_kind.is_convex, free_growth);
+  }
+  return found;
+}
