@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/colour.h"
+#include "bench/changed_pixels.h"
 #include "bench/judged_method.h"
 #include "city/car.h"
 #include "city/walker.h"
@@ -73,23 +74,6 @@ reference::PixelWindow window_of_bonnet(const Camera& camera, int w, int h) {
   const glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), glm::ivec2(w - 1, h - 1));
   const glm::ivec2 end = glm::clamp(glm::ivec2(high) + 1, first + 1, glm::ivec2(w, h));
   return {first.x, first.y, end.x - first.x, end.y - first.y};
-}
-
-/// The pixels of mirrors whose true picture the person changes, and what lies within `margin_px`: where they
-/// are mirrored, and where a method may show them wrongly.
-Image8 changed_pixels(const Image8& with, const Image8& without, const Image8& mirrors) {
-  constexpr int least_change = 3, margin_px = 3;
-  Image8 mask(with.width, with.height, 1, 0);
-  for (int y = 0; y < with.height; ++y)
-    for (int x = 0; x < with.width; ++x) {
-      int change = 0;
-      for (int c = 0; c < 3; ++c) change = std::max(change, std::abs(with.at(x, y)[c] - without.at(x, y)[c]));
-      if (change < least_change || *mirrors.at(x, y) < 128) continue;
-      for (int v = std::max(y - margin_px, 0); v <= std::min(y + margin_px, with.height - 1); ++v)
-        for (int u = std::max(x - margin_px, 0); u <= std::min(x + margin_px, with.width - 1); ++u)
-          if (*mirrors.at(u, v) >= 128) *mask.at(u, v) = 255;
-    }
-  return mask;
 }
 
 }  // namespace
