@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
 constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
+constexpr float large_radii = 3.0f;      // of a mirror: what is larger is in its surroundings
 constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
 
 std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Object& object) {
@@ -171,12 +172,27 @@ void VirtualObjects::draw_own_reflections(const render::View& view) {
   glEnable(GL_DEPTH_TEST);
 }
 
+/// Where all is drawn as virtual objects, surroundings fill what searches leave open: with what is large.
+/// What is small would stand beside its own virtual image, for a map has one centre.
+void VirtualObjects::draw_surroundings(render::Renderer& renderer, const scene::Scene& scene,
+                                       const std::vector<render::Reflector>& reflectors) {
+  const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
+  with_large_ = reflectors;
+  if (large_.size() < reflectors.size()) large_.resize(reflectors.size());
+  for (std::size_t r = 0; r < reflectors.size(); ++r) {
+    if (settings_.method != scene::ReflectionMethod::virtual_objects) break;
+    const float least_m = large_radii * bounds[std::size_t(reflectors[r].object)].radius();
+    large_[r].resize(bounds.size());
+    for (std::size_t o = 0; o < bounds.size(); ++o) large_[r][o] = bounds[o].radius() > least_m ? 1 : 0;
+    with_large_[r].shown = &large_[r];
+  }
+  surroundings_->update_for(renderer, scene, with_large_);
+  faces_drawn_ = surroundings_->faces_drawn();
+}
+
 void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                  const std::vector<render::Reflector>& reflectors) {
-  if (surroundings_) {
-    surroundings_->update_for(renderer, scene, reflectors);
-    faces_drawn_ = surroundings_->faces_drawn();
-  }
+  if (surroundings_) draw_surroundings(renderer, scene, reflectors);
   picture_.resize(renderer.width(), renderer.height());
   picture_.clear();
   find_patches(renderer, reflectors);

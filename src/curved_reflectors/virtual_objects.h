@@ -43,6 +43,8 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void find_all_patches(const render::Renderer& renderer);
+  void draw_surroundings(render::Renderer& renderer, const scene::Scene& scene,
+                         const std::vector<render::Reflector>& reflectors);
   int find_near(const render::Renderer& renderer, const render::Reflector& reflector);
   void draw_own_reflections(const render::View& view);
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
@@ -54,12 +56,14 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;
-  std::vector<ShownPatch> shown_;                ///< in the order of their numbers in the stencil
-  std::vector<ShownPatch> all_;                  ///< whether the main view shows them or not
-  std::vector<std::vector<std::uint8_t>> near_;  ///< objects that stand near: as many as a frame ever needed
-  std::size_t near_count_ = 0;                   ///< of this frame
-  const ShownPatch* current_ = nullptr;          ///< while its mirrored view is drawn
-  int layer_ = -1;                               ///< of it, if it may show a vertex several times
+  std::vector<ShownPatch> shown_;                 ///< in the order of their numbers in the stencil
+  std::vector<ShownPatch> all_;                   ///< whether the main view shows them or not
+  std::vector<std::vector<std::uint8_t>> near_;   ///< objects that stand near: as many as a frame ever needed
+  std::size_t near_count_ = 0;                    ///< of this frame
+  std::vector<std::vector<std::uint8_t>> large_;  ///< by reflector: objects that its surroundings show
+  std::vector<render::Reflector> with_large_;
+  const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn
+  int layer_ = -1;                       ///< of it, if it may show a vertex several times
 };
 
 /// Handed to the renderer; both outlive it. See VirtualObjects::create.

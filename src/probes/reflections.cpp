@@ -42,9 +42,10 @@ std::unique_ptr<render::Reflections> make_surroundings(const scene::Scene& scene
   return std::make_unique<TimeSlicedCubeMap>(scene.reflection);
 }
 
-void CubeMapReflections::draw_whole(render::CubeMap& map, render::Renderer& renderer, glm::vec3 centre,
-                                    int excluded) {
-  for (int face = 0; face < 6; ++face) map.draw_face(renderer, face, centre, excluded);
+void CubeMapReflections::draw_whole(render::CubeMap& map, render::Renderer& renderer,
+                                    const render::Reflector& reflector) {
+  for (int face = 0; face < 6; ++face)
+    map.draw_face(renderer, face, reflector.centre, reflector.object, render::Subjects::all, reflector.shown);
   map.update_levels();
   faces_drawn_ += 6;
 }

@@ -24,7 +24,7 @@ class CubeMapReflections : public render::Reflections {
   std::string fragment_shader() const override { return "probes/cube_map.frag"; }
 
  protected:
-  void draw_whole(render::CubeMap& map, render::Renderer& renderer, glm::vec3 centre, int excluded);
+  void draw_whole(render::CubeMap& map, render::Renderer& renderer, const render::Reflector& reflector);
   static void bind_map(const gl::Program& program, const render::CubeMap& map);
 };
 

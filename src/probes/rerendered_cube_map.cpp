@@ -38,7 +38,7 @@ void RerenderedCubeMap::update_maps(render::Renderer& renderer, const scene::Sce
     render::CubeMap& map =
         take(settings_.uses_level_of_detail ? resolution_for(reflector.size_px, settings_.resolution)
                                             : settings_.resolution);
-    draw_whole(map, renderer, reflector.centre, reflector.object);
+    draw_whole(map, renderer, reflector);
     map_of_object_[reflector.object] = &map;
     if (is_far) shared = &map;
   }

@@ -12,7 +12,8 @@ constexpr int forgotten_after = 120;  // frames unseen
 
 void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer, const render::Reflector& reflector) {
   Sliced& sliced = maps_.at(reflector.object);
-  sliced.map.draw_face(renderer, sliced.next_face, reflector.centre, reflector.object);
+  sliced.map.draw_face(renderer, sliced.next_face, reflector.centre, reflector.object, render::Subjects::all,
+                       reflector.shown);
   sliced.map.update_levels();
   sliced.next_face = (sliced.next_face + 1) % 6;
   sliced.drawn_at = ++faces_so_far_;
@@ -27,7 +28,7 @@ void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Sce
     const auto [place, is_new] = maps_.try_emplace(reflector.object, render::CubeMap(settings_.resolution));
     place->second.idle_frames = 0;
     if (is_new)  // a map with empty faces would be black
-      draw_whole(place->second.map, renderer, reflector.centre, reflector.object);
+      draw_whole(place->second.map, renderer, reflector);
     else
       waiting_.push_back(reflector);
   }

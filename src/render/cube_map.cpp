@@ -43,11 +43,13 @@ CubeMap::CubeMap(int resolution)
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
-void CubeMap::draw_face(Renderer& renderer, int face, glm::vec3 centre, int excluded, Subjects subjects) {
+void CubeMap::draw_face(Renderer& renderer, int face, glm::vec3 centre, int excluded, Subjects subjects,
+                        const std::vector<std::uint8_t>* shown) {
   glNamedFramebufferTextureLayer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), 0, face);
   View view = face_view(face, centre, resolution_, framebuffer_.name());
   view.excluded_object = excluded;
   view.subjects = subjects;
+  view.shown_objects = shown;
   renderer.draw_view(view);
 }
 

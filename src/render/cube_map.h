@@ -13,9 +13,10 @@ class CubeMap {
  public:
   explicit CubeMap(int resolution);
 
-  /// Draws one face (0..5 in OpenGL's order), seen from `centre`, without the object `excluded` (-1: all).
+  /// Draws one face (0..5 in OpenGL's order), seen from `centre`, without the object `excluded` (-1: all);
+  /// `shown`: as in View.
   void draw_face(Renderer& renderer, int face, glm::vec3 centre, int excluded,
-                 Subjects subjects = Subjects::all);
+                 Subjects subjects = Subjects::all, const std::vector<std::uint8_t>* shown = nullptr);
   /// To be called when faces have changed.
   void update_levels();
 

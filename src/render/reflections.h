@@ -14,6 +14,8 @@ struct Reflector {
   int object;        ///< index in the scene
   glm::vec3 centre;  ///< of its bounds, in the world
   float size_px;     ///< diameter on the screen
+  /// A flag for each object that its surroundings are to show; null: all.
+  const std::vector<std::uint8_t>* shown = nullptr;
 };
 
 /// Reflectors that the prepared main view shows, the largest first.
