@@ -33,14 +33,16 @@ void measure_placement(const scene::Scene& scene, Report& report) {
   const HeightPyramid heights(heights_of(scene));
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, judged_points, judging_seed);
   const std::vector<glm::vec3> even = spread_places(scene, heights, most_maps);
-  const auto count = [&](float sharpness) {
+  const auto enough = [&](float sharpness) {  // as the points that judge have it, not those that place
     PlacementGoal goal;
     goal.most = most_maps;
-    goal.share_shown = wanted_share;
+    goal.share_shown = 0.5f * (1.0f + wanted_share);
     goal.sharpness = {sharpness};
-    return place_by_coverage(scene, heights, goal).places;
+    std::vector<glm::vec3> places = place_by_coverage(scene, heights, goal).places;
+    places.resize(std::min(places.size(), maps_enough(heights, places, points, sharpness)));
+    return places;
   };
-  const std::vector<glm::vec3> plain = count(any_sharpness), sharply = count(sharp);
+  const std::vector<glm::vec3> plain = enough(any_sharpness), sharply = enough(sharp);
   const std::size_t spread = maps_enough(heights, even, points, any_sharpness);
   report.add("placement_maps", double(plain.size()));
   report.add("placement_valid_percent", 100.0 * double(coverage(heights, plain, points).back()));

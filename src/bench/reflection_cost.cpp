@@ -20,31 +20,31 @@ Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
   std::vector<ReflectionCost> costs(methods.size());
   std::vector<double> passes_ms(methods.size()), cars_ms(methods.size());
   render::Renderer& renderer = stage.renderer();
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  for (int repeat = -1; repeat < repeats; ++repeat) {  // the first makes what is made once
     renderer.begin_frame(stage.scene(), camera);
     for (std::size_t turn = 0; turn < methods.size(); ++turn) {
       const std::size_t m = repeat % 2 == 0 ? turn : methods.size() - 1 - turn;
       if (Status status = renderer.set_reflection(methods[m].reflections.get()); !status)
         return status.errors();
       renderer.prepare_main_view(camera, width, height, render::Subjects::moving);
-      methods[m].reflections->update(renderer, stage.scene(), camera);
-      renderer.draw_main_view();  // makes what is made once
       passes_ms[m] = finished_ms([&] { methods[m].reflections->update(renderer, stage.scene(), camera); });
       cars_ms[m] = finished_ms([&] { renderer.draw_main_view(); });
       if (frames == Frames::left_out) continue;
       renderer.prepare_main_view(camera, width, height);
-      costs[m].frame_ms.push_back(passes_ms[m] + finished_ms([&] { renderer.draw_main_view(); }));
+      const double picture_ms = finished_ms([&] { renderer.draw_main_view(); });
+      if (repeat >= 0) costs[m].frame_ms.push_back(passes_ms[m] + picture_ms);
     }
-    for (std::size_t m = 0; m < methods.size(); ++m)
+    for (std::size_t m = 0; repeat >= 0 && m < methods.size(); ++m)
       costs[m].ms.push_back(passes_ms[m] + cars_ms[m] - cars_ms.front());
   }
   return costs;
 }
 
-Median ratio(const Median& over, const Median& under) {
+Median ratio(const std::vector<double>& over, const std::vector<double>& under) {
   constexpr double least_ms = 1e-3;
-  return {over.value / std::max(under.value, least_ms), over.low / std::max(under.high, least_ms),
-          over.high / std::max(under.low, least_ms)};
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < over.size(); ++i) ratios.push_back(over[i] / std::max(under[i], least_ms));
+  return median(std::move(ratios));
 }
 
 }  // namespace parvis::bench

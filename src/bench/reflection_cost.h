@@ -19,14 +19,14 @@ struct ReflectionCost {
 /// Whether frames are timed, too.
 enum class Frames : bool { left_out, whole };
 
-/// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn; the
-/// first must be the method without reflections, whose cost is nothing.
+/// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn, after a
+/// turn that is not timed; the first must be the method without reflections, whose cost is nothing.
 Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
                                                      Frames frames = Frames::whole);
 
-/// Ratio of two medians; its interval is the widest that both of theirs allow.
-Median ratio(const Median& over, const Median& under);
+/// The median of the ratios of samples taken in turn: what slows both for a while leaves it.
+Median ratio(const std::vector<double>& over, const std::vector<double>& under);
 
 }  // namespace parvis::bench
