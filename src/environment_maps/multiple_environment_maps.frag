@@ -41,6 +41,7 @@ const int most_maps = detail == all_detail ? 2 : 1;
 const float greatest_radiance = 30000.0f;  // the picture holds half floats
 const float least_weight = 0.05f;    // of a second map: what is less is left out
 const float shade_reach_m = 25.0f;   // ground nearer than this may lie in the shade of moving bodies
+const float most_ground_error_m = 0.2f;  // a cell has one height: beside a kerb its point may lie in the pavement
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
@@ -103,7 +104,8 @@ vec3 share_left_by_bodies(vec3 met) {
   vec3 sky = sky_share_of_normal(sky_visibility_cell(met, normal), normal) * sky_irradiance(sh, normal);
   vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
   float fixed_sun = visible_sun_without_bodies(met, normal);
-  float sun_share = min(visible_sun(met, normal), fixed_sun);
+  vec3 above_ground = met + most_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
+  float sun_share = min(visible_sun(above_ground, normal), fixed_sun);
   float sky_share = sky_share_beside_bodies(met, normal, -1);
   return (sky_share * sky + sun_share * sun) / max(sky + fixed_sun * sun, vec3(1e-4f));
 }
