@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "shading/glass.h"
 
 namespace parvis::reference {
 namespace {
@@ -120,6 +121,25 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   return true;
 }
 
+/// At solid glass the path is reflected or goes through, by chance, as light is shared; false where it ends.
+bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const {
+  const vec3 normal = point.surface.normal, before = path.ray.direction;
+  const vec3 bent = shading::refracted(before, normal, point.is_back ? ior : 1.0f / ior);
+  const vec3 outside = point.is_back ? bent : before;
+  const float reflected =
+      bent == vec3(0.0f) ? 1.0f : shading::inner_reflectance(ior, -glm::dot(outside, normal));
+  const glm::vec2 choices = path.numbers.next_2d();
+  if (!(choices.y < greatest_survival)) return false;
+  path.throughput /= greatest_survival;
+  const bool reflects = choices.x < reflected;
+  const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : bent;
+  path.ray = {point.position + (reflects ? off_surface_m : -off_surface_m) * point.geometric_normal, after};
+  path.density = 0.0f;  // as a mirror's
+  path.width_m = width_m;
+  path.passage.sees_backs = true;
+  return true;
+}
+
 PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequence& numbers,
                                       std::uint64_t chance_seed) const {
   Path path{.ray = ray, .spread = spread, .numbers = numbers, .passage = {Random(chance_seed), false}};
@@ -143,6 +163,11 @@ PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequen
     point.surface.normal = kept_above(point.surface.normal, -path.ray.direction);
     light += path.throughput * point.surface.emission;
     if (options_.bounces && bounce >= *options_.bounces) break;
+    if (const scene::Material& glass = *hit->place->material; glass.refracts()) {
+      if (point.is_back) path.throughput *= glm::exp(-hit->distance_m * glass.absorption_per_m);
+      if (!passes_glass(point, glass.ior, width_m, path)) break;
+      continue;
+    }
     const Scatter scatter(point.surface, -path.ray.direction);
     if (scatter.spreads()) light += path.throughput * light_at(point, scatter, path);
     if (!goes_on(point, scatter, width_m, path)) break;

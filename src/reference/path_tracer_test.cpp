@@ -275,5 +275,19 @@ TEST(PathTracer, AnEmptySceneShowsTheSkyAndTheSunsDisc) {
   EXPECT_GT(radiance(scene, constant_sky(0.5f), {vec3(0), to_sun}, 10).mean, 1e4);
 }
 
+TEST(PathTracer, SolidGlassKeepsLightAndAbsorbsByBeersLaw) {
+  scene::Material glass;
+  glass.ior = 1.5f;
+  const Mesh ball = scene::sphere(vec3(0.0f), 1.0f, 64);
+  expect_agrees(radiance(of(ball, glass), constant_sky(2.0f), {{0.6f, 0.3f, 4}, {0, 0, -1}}, 4000), 2.0,
+                0.005);
+  // Through the middle: what comes straight through, and what is reflected inside twice, four times, ...
+  glass.absorption_per_m = vec3(0.4f);
+  const double f = 0.04, left = std::exp(-0.8);
+  const double through = (1.0 - f) * (1.0 - f) * left / (1.0 - f * left);
+  expect_agrees(radiance(of(ball, glass), constant_sky(2.0f), {{0, 0, 4}, {0, 0, -1}}, 4000),
+                2.0 * (f + through), 0.005);
+}
+
 }  // namespace
 }  // namespace parvis::reference

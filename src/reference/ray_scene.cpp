@@ -60,11 +60,13 @@ bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunct
   return place.part->casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments);
 }
 
-/// A ray to the sun meets from behind what the sun sees from the front; what blends throws no shadow.
+/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass throw no
+/// shadow.
 template <bool is_shadow>
 bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
   const scene::Material& material = *place.material;
-  if (is_shadow && (!place.part->casts_shadow || material.alpha_mode == scene::Alpha::blend)) return false;
+  const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
+  if (is_shadow && (!place.part->casts_shadow || lets_through)) return false;
   if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
   return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments) >= 0.5f;
 }

@@ -8,9 +8,9 @@ namespace parvis::reference {
 namespace {
 
 void add_material(ContentHash& hash, const scene::Material& m) {
-  for (const glm::vec3 colour : {m.base_colour, m.emission}) hash.add(colour);
+  for (const glm::vec3 colour : {m.base_colour, m.emission, m.absorption_per_m}) hash.add(colour);
   for (const float value : {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness,
-                            m.translucency, m.normal_scale, m.relief_m})
+                            m.translucency, m.normal_scale, m.relief_m, m.ior})
     hash.add(value);
   for (const int texture : {m.base_colour_texture, m.normal_texture, m.surface_texture, m.emission_texture})
     hash.add(texture);

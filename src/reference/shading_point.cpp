@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shading/glass.h"
+
 namespace parvis::reference {
 namespace {
 
@@ -95,7 +97,8 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
     uv += weights[k] * corners.uv[k];
   }
   normal = unit_or(normal, facet);
-  if (glm::dot(facet, direction) > 0.0f) normal = -normal;  // seen from behind
+  const bool is_back = glm::dot(facet, direction) > 0.0f;
+  if (is_back) normal = -normal;
 
   const float width_in_uv = width_m * uv_per_m(corners, facet);
   const auto mips_of = [&](int texture) -> const MipTexture& {
@@ -123,7 +126,8 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
 
   point.position = position;
   point.geometric_normal = normal;
-  point.curvature_per_m = place.is_mirror ? curvature_per_m(corners, facet) : 0.0f;
+  point.curvature_per_m = place.is_mirror || material.refracts() ? curvature_per_m(corners, facet) : 0.0f;
+  point.is_back = is_back;
   point.alpha = base.w * material.alpha;
   shading::Surface& s = point.surface;
   s.normal = material.normal_texture == scene::no_index
@@ -137,6 +141,7 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   s.translucency = material.translucency;
   s.occlusion = detail.x;
   s.emission = material.emission * vec3(sampled(material.emission_texture, white));
+  if (material.refracts()) s = shading::glass_surface(s, material.ior);
   return point;
 }
 

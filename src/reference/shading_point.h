@@ -8,11 +8,12 @@
 namespace parvis::reference {
 
 struct ShadingPoint {
-  shading::Surface surface;
+  shading::Surface surface;    ///< of solid glass: as one that reflects alone
   glm::vec3 position;          ///< in the world
   glm::vec3 geometric_normal;  ///< interpolated over the triangle, on the viewer's side
   float curvature_per_m;       ///< how fast that normal turns, in radians a metre: spreads reflected cones
   float alpha;
+  bool is_back;  ///< seen from behind
   Relief relief;
 };
 

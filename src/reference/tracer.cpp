@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/random.h"
 #include "reference/camera_ray.h"
+#include "reference/glass_walk.h"
 #include "reference/shading_point.h"
 #include "shading/lighting.h"
 #include "shading/tone_curve.h"
@@ -21,12 +22,6 @@ using shading::Surface;
 constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
 constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
 constexpr int most_blended_layers = 8;
-
-/// A ray with the width of what its pixel sees: `width_m` at its origin, growing by `spread` a metre.
-struct Cone {
-  Ray ray;
-  float width_m, spread;
-};
 
 /// Keeps a reflected ray above the surface, where interpolated normals would send it below.
 vec3 kept_above(vec3 direction, vec3 normal) {
@@ -81,7 +76,7 @@ class Tracer {
       ++ray_count;
       const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
       if (!hit) return sum + left * sky_radiance(sky_, cone.ray.direction, 0.0f);
-      const float width_m = cone.width_m + cone.spread * hit->distance_m;
+      const float width_m = std::abs(cone.width_m + cone.spread * hit->distance_m);
       const ShadingPoint point = shading_point(*hit, cone.ray.direction, width_m);
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
       const float alpha = blends && layer + 1 < most_blended_layers ? point.alpha : 1.0f;
@@ -108,7 +103,7 @@ class Tracer {
 
   vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
              LobePoints& lobe_points, std::uint64_t& ray_count) const {
-    const Surface& s = point.surface;
+    Surface s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
@@ -143,8 +138,29 @@ class Tracer {
         base_reflection /= float(lobe_samples);
       }
     }
+    if (hit.place->material->refracts()) {
+      const vec3 ahead = cone.ray.direction;
+      const vec3 through =
+          traces ? light_through(point, hit, cone, width_m, bounce, lobe_points, ray_count)
+                 : shading::sky_share_of_direction(sky_cell, ahead) * sky_radiance(sky_, ahead, 0.0f);
+      s.emission +=
+          (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
+          through;
+    }
     return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count),
                         shading::sky_share_of_normal(sky_cell, s.normal), base_reflection, coat_reflection);
+  }
+
+  /// What enters the eye through solid glass at a point of its surface.
+  vec3 light_through(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
+                     LobePoints& lobe_points, std::uint64_t& ray_count) const {
+    vec3 sum(0.0f);
+    const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
+    for (const GlassExit& exit : glass_exits(rays_, hit, point, cone, width_m)) {
+      ++ray_count;
+      sum += exit.share * radiance(exit.cone, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
+    }
+    return sum;
   }
 
   /// What the place sees of the sky.

@@ -14,7 +14,7 @@ void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts) {
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      if (material.alpha_mode == scene::Alpha::opaque)
+      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts())
         visit(object, part, object.world_from_model * pose[std::size_t(part.node)]);
     }
   }

@@ -19,7 +19,8 @@ struct MaterialBlock {
   glm::vec4 emission;                 // rgb, normal scale
   glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
   glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
-  glm::vec4 relief_mirrors;   // x: metres; y: 1 if it takes the scene's reflection method
+  glm::vec4 relief_mirrors_ior;  // x: metres; y: 1 if it takes the scene's reflection method; z: index of
+                                 // refraction
 };
 
 MaterialBlock block_of(const scene::Material& material) {
@@ -29,7 +30,7 @@ MaterialBlock block_of(const scene::Material& material) {
           {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
           {glm::vec4(rows[0], material.translucency),
            glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)},
-          {material.relief_m, material.is_mirror_like ? 1.0f : 0.0f, 0.0f, 0.0f}};
+          {material.relief_m, material.is_mirror_like ? 1.0f : 0.0f, material.ior, 0.0f}};
 }
 
 Pass pass_of(scene::Alpha alpha) {
@@ -57,8 +58,9 @@ gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& leve
   return texture;
 }
 
-std::uint8_t features_of(const scene::Material& material) {
-  std::uint8_t features = 0;
+std::uint16_t features_of(const scene::Material& material) {
+  std::uint16_t features = 0;
+  if (material.refracts()) features |= surface_is_glass;
   if (material.normal_texture != scene::no_index) {
     features |= surface_has_normal_map;
     if (material.relief_m > 0.0f) features |= surface_has_relief;
@@ -110,9 +112,11 @@ void GpuScene::add_models(const scene::Scene& scene) {
     if (!is_new) continue;
     const int first_material = int(materials_.size());
     upload_model_materials(model);
-    for (const scene::Part& part : model.parts)
+    for (const scene::Part& part : model.parts) {
+      const bool lets_through = model.materials[std::size_t(part.material)].refracts();
       parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
-                        part.mesh.bounds(), part.casts_shadow, 0, 0});
+                        part.mesh.bounds(), part.casts_shadow && !lets_through, 0, 0});
+    }
   }
 }
 

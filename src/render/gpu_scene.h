@@ -31,7 +31,7 @@ struct PartRange : MeshRange {
 };
 
 /// What the surface shader must look up for a material.
-enum SurfaceFeature : std::uint8_t {
+enum SurfaceFeature : std::uint16_t {
   surface_has_normal_map = 1,
   surface_has_surface_map = 2,
   surface_has_emission_map = 4,
@@ -39,9 +39,10 @@ enum SurfaceFeature : std::uint8_t {
   surface_has_backs = 16,
   surface_has_holes = 32,
   surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
-  surface_has_relief = 128
+  surface_has_relief = 128,
+  surface_is_glass = 256  ///< solid: light goes through it, bent
 };
-inline constexpr std::size_t surface_feature_combinations = 256;
+inline constexpr std::size_t surface_feature_combinations = 512;
 
 /// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
 /// it.
@@ -51,7 +52,7 @@ struct GpuMaterial {
   GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
   Pass pass;
   bool is_double_sided, is_mirror_like;
-  std::uint8_t features;  ///< of SurfaceFeature
+  std::uint16_t features;  ///< of SurfaceFeature
 };
 
 /// One part of one object. `record` is what the vertex shader reads for it.

@@ -7,6 +7,7 @@ layout(std140) uniform Material {
   vec4 material_texture_v;    // w: 1 where alpha cuts out
   float material_relief_m;    // depth of the normal texture's alpha 0
   float material_mirrors;     // 1: takes the scene's reflection method on things that do
+  float material_ior;         // of solid glass
 };
 uniform sampler2D base_colour_texture;
 uniform sampler2D normal_texture;

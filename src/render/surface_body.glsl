@@ -9,6 +9,7 @@
 #include "render/sky_lookup.glsl"
 #include "render/sun_lookup.glsl"
 #include "shading/surface.glsl"
+#include "shading/glass.glsl"
 #include "shading/lighting.glsl"
 #include "shading/octahedral.glsl"
 
@@ -55,6 +56,19 @@ vec3 behind_near(vec3 far_radiance, float roughness) {
 }
 #else
 #define behind_near(far_radiance, roughness) far_radiance
+#endif
+
+#ifdef IS_GLASS
+#ifdef HAS_GLASS_PICTURE
+uniform sampler2D glass_picture;  // of the main view's size: what glass lets through; coverage in alpha
+
+vec3 light_through(vec3 ahead) {
+  vec4 seen = texelFetch(glass_picture, ivec2(gl_FragCoord.xy), 0);
+  return seen.rgb / max(seen.a, 0.125f);
+}
+#else
+vec3 light_through(vec3 ahead) { return sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f); }
+#endif
 #endif
 
 // Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
@@ -174,6 +188,10 @@ void main() {
   s.emission *= looked_up(emission_texture, texture_uv, uv_along_x, uv_along_y).rgb;
 #endif
 
+#ifdef IS_GLASS
+  s = glass_surface(s, material_ior);
+#endif
+
   vec3 mirrored = reflect(-to_viewer, s.normal);
 #ifdef WRITES_RAYS
   ray_start = vec4(position, s.roughness);
@@ -201,6 +219,9 @@ void main() {
       behind_near(reflected_radiance(s.clear_coat_roughness, coat_layer), s.clear_coat_roughness);
 #else
   vec3 coat_reflection = vec3(0.0f);
+#endif
+#ifdef IS_GLASS
+  s.emission += (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, to_viewer), 1e-4f, 1.0f))) * light_through(-to_viewer);
 #endif
   vec3 light_out = lit_radiance(s, light, to_viewer, sun,
                                 sky_share_of_normal(surface_sky_cell, s.normal), base_reflection, coat_reflection);

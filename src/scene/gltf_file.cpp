@@ -163,7 +163,8 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
     for (const Json& name : *required)
       if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" &&
           name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength" &&
-          name != "KHR_materials_transmission" && name != "KHR_materials_unlit" &&
+          name != "KHR_materials_transmission" && name != "KHR_materials_ior" &&
+          name != "KHR_materials_volume" && name != "KHR_materials_unlit" &&
           name != "EXT_meshopt_compression" && name != "KHR_draco_mesh_compression")
         gltf_fail(
             "it requires the extension {}, which is not supported; {}", name.dump(),

@@ -42,6 +42,17 @@ std::string file_name(const fs::path& file, const std::string& name) {
   return plain_name(file.stem().string()) + "_" + name;
 }
 
+/// Solid glass. Its thickness is a hint for viewers that do not follow rays: here the mesh tells.
+Json volume_json(glm::vec3 absorption_per_m) {
+  Json volume{{"thicknessFactor", 0.1f}};
+  const float most = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
+  if (most > 0.0f) {
+    volume["attenuationDistance"] = 1.0f / most;
+    volume["attenuationColor"] = array_of(glm::exp(-absorption_per_m / most));
+  }
+  return volume;
+}
+
 Image8 without_alpha(const Image8& image) {
   Image8 colour(image.width, image.height, 3);
   for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
@@ -122,6 +133,13 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
     json["extensions"]["KHR_materials_clearcoat"] = {
         {"clearcoatFactor", material.clear_coat},
         {"clearcoatRoughnessFactor", material.clear_coat_roughness}};
+  }
+  if (material.refracts()) {
+    for (const char* extension : {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"})
+      use(extension);
+    json["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1.0f}};
+    json["extensions"]["KHR_materials_ior"] = {{"ior", material.ior}};
+    json["extensions"]["KHR_materials_volume"] = volume_json(material.absorption_per_m);
   }
   if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
   if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";

@@ -95,12 +95,32 @@ class MaterialReader {
     m.translucency = gltf_number(parvis, "translucency", 0.0f);
     m.relief_m = gltf_number(parvis, "relief_m", 0.0f);
     m.is_mirror_like = parvis.value("mirror_like", false);
-    if (gltf_number(gltf_extension(source, "KHR_materials_transmission"), "transmissionFactor", 0.0f) >
-        0.5f) {
-      m.base_colour *= 0.1f;  // panes are shown dark and mirroring, as they look by day
-      m.is_mirror_like = true;
-    }
+    if (gltf_number(gltf_extension(source, "KHR_materials_transmission"), "transmissionFactor", 0.0f) <= 0.5f)
+      return m;
+    m.is_mirror_like = true;
+    const Json& volume = gltf_extension(source, "KHR_materials_volume");
+    if (gltf_number(volume, "thicknessFactor", 0.0f) > 0.0f)
+      make_solid(m, gltf_extension(source, "KHR_materials_ior"), volume);
+    if (!m.refracts()) m.base_colour *= 0.1f;  // panes are shown dark and mirroring, as they look by day
     return m;
+  }
+
+  /// A body of glass, as against a pane.
+  void make_solid(Material& m, const Json& ior, const Json& volume) {
+    constexpr float usual_ior = 1.5f, greatest_ior = 4.0f;
+    m.ior = gltf_number(ior, "ior", usual_ior);
+    if (!(m.ior >= 1.0f && m.ior <= greatest_ior)) {
+      warnings_.push_back({fmt::format("material \"{}\": its index of refraction is {}; expected 1 to {}; {} "
+                                       "stands for it",
+                                       m.name, m.ior, greatest_ior, usual_ior),
+                           {file_.path().string(), 0, 0}});
+      m.ior = usual_ior;
+    }
+    m.alpha_mode = Alpha::opaque, m.is_double_sided = false;
+    const glm::vec3 left = gltf_vector<3>(volume, "attenuationColor", glm::vec3(1.0f));
+    const float distance_m = gltf_number(volume, "attenuationDistance", 0.0f);  // absent: infinitely far
+    if (distance_m > 0.0f)
+      m.absorption_per_m = -glm::log(glm::clamp(left, glm::vec3(1e-6f), glm::vec3(1.0f))) / distance_m;
   }
 
   Result<Image8> read_picture(int image, std::string& name) const {

@@ -1,5 +1,6 @@
-// Materials of glTF 2.0 (section 3.9), with KHR_texture_transform, _clearcoat, _emissive_strength and
-// _transmission, and their pictures.
+// Materials of glTF 2.0 (section 3.9), with KHR_texture_transform, _clearcoat, _emissive_strength,
+// _transmission, _ior and _volume, and their pictures. What transmits light and has a volume is solid glass,
+// else a pane.
 #pragma once
 
 #include "scene/gltf_file.h"

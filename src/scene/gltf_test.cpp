@@ -32,7 +32,11 @@ Model small_model() {
   leaf.translucency = 0.5f;
   leaf.relief_m = 0.25f;
   leaf.is_double_sided = true;
-  model.materials = {paint, leaf};
+  Material glass;
+  glass.name = "glass";
+  glass.ior = 1.75f;
+  glass.absorption_per_m = {0.5f, 0.0f, 20.0f};
+  model.materials = {paint, leaf, glass};
   model.nodes.push_back({"wheel_left", 0, {1, 2, 3}, glm::angleAxis(0.5f, glm::vec3(0, 0, 1)), glm::vec3(2)});
   Mesh triangle;
   triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -84,9 +88,41 @@ TEST(Gltf, WhatIsWrittenReadsTheSame) {
   EXPECT_EQ(leaf.translucency, 0.5f);
   EXPECT_EQ(leaf.relief_m, 0.25f);
   EXPECT_TRUE(leaf.is_double_sided);
+  EXPECT_EQ(again.materials[2].ior, 1.75f);
+  EXPECT_LT(glm::distance(again.materials[2].absorption_per_m, model.materials[2].absorption_per_m), 1e-4f);
+  EXPECT_FALSE(paint.refracts());
   EXPECT_EQ(again.textures[0].image.pixels, model.textures[0].image.pixels);
   ASSERT_EQ(again.animations.size(), 1u);
   EXPECT_EQ(again.nodes[std::size_t(again.animations[0].channels[0].node)].name, "wheel_left");
+}
+
+TEST(Gltf, AGlassBodyHasAVolumeAPaneHasNone) {
+  const TestFolder folder;
+  const auto material = [&](const std::string& extensions) {
+    const fs::path file = folder.path() / "glass.gltf";
+    EXPECT_TRUE(write_file(file, R"({"asset":{"version":"2.0"},"materials":[{"name":"pane","extensions":{)" +
+                                     extensions + R"(}}],
+      "scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+      "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+      "bufferViews":[{"buffer":0,"byteLength":36}],
+      "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAA"}]})"));
+    Errors warnings;
+    Result<Model> model = read_gltf(file, warnings);
+    EXPECT_TRUE(model) << to_string(model.errors());
+    return std::pair(model ? model->materials.at(0) : Material(), to_string(warnings));
+  };
+  const std::string clear = R"("KHR_materials_transmission":{"transmissionFactor":1})",
+                    thick = clear + R"(,"KHR_materials_volume":{"thicknessFactor":0.5})";
+  EXPECT_FALSE(material(clear).first.refracts());
+  EXPECT_TRUE(material(clear).first.is_mirror_like);
+  EXPECT_EQ(material(thick).first.ior, 1.5f);
+  EXPECT_EQ(material(thick + R"(,"KHR_materials_ior":{"ior":1.33})").first.ior, 1.33f);
+  EXPECT_FALSE(material(thick + R"(,"KHR_materials_ior":{"ior":1})").first.refracts()) << "as air";
+  for (const char* bad : {"0.5", "-1", "100"}) {
+    const auto [glass, warning] = material(thick + R"(,"KHR_materials_ior":{"ior":)" + bad + "}");
+    EXPECT_EQ(glass.ior, 1.5f);
+    EXPECT_NE(warning.find("index of refraction"), std::string::npos) << warning;
+  }
 }
 
 TEST(Gltf, MatrixNodesTurnAsTheirMatrixSays) {

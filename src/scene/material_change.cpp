@@ -31,6 +31,14 @@ Material changed(Material material, const MaterialChange& change, const std::str
     material.emission = *change.emission;
     material.emission_texture = no_index;
   }
+  if (change.metallic && !change.ior) material.ior = 1.0f;  // another surface than glass
+  if (change.ior) {
+    material.ior = *change.ior;
+    material.alpha_mode = Alpha::opaque;  // what one sees through it is worked out, not blended
+    material.is_double_sided = false;
+    material.is_mirror_like = true;
+  }
+  override_with(material.absorption_per_m, change.absorption_per_m);
   override_with(material.is_mirror_like, change.is_mirror_like);
   return material;
 }
@@ -128,6 +136,9 @@ std::span<const MaterialPreset> material_presets() {
         .clear_coat = 0.0f,
         .alpha = 0.25f,
         .is_mirror_like = true}},
+      {"solid_glass",
+       "a closed body of clear glass that bends light: a ball, a lens, a paperweight",
+       {.roughness = 0.0f, .metallic = 0.0f, .clear_coat = 0.0f, .ior = 1.5f, .is_mirror_like = true}},
       {"lamp",
        "the picture's colours behind clear glass",
        {.roughness = 0.3f, .metallic = 0.0f, .clear_coat = 1.0f, .is_mirror_like = true}},
@@ -162,6 +173,8 @@ MaterialChange merged(const MaterialChange& under, const MaterialChange& over) {
           either(over.clear_coat, under.clear_coat),
           either(over.alpha, under.alpha),
           either(over.emission, under.emission),
+          either(over.ior, under.ior),
+          either(over.absorption_per_m, under.absorption_per_m),
           either(over.is_mirror_like, under.is_mirror_like)};
 }
 

@@ -17,6 +17,8 @@ struct MaterialChange {
   std::optional<glm::vec3> colour = {};  ///< linear; in place of the picture's
   std::optional<float> roughness = {}, metallic = {}, clear_coat = {}, alpha = {};
   std::optional<glm::vec3> emission = {};
+  std::optional<float> ior = {};  ///< makes it solid glass
+  std::optional<glm::vec3> absorption_per_m = {};
   std::optional<bool> is_mirror_like = {};
 };
 

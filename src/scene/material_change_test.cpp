@@ -145,5 +145,23 @@ TEST(NamePattern, HostilePatternsEnd) {
   EXPECT_TRUE(matches(pattern, name));
 }
 
+TEST(MaterialChange, SolidGlassIsMadeAndTakenAway) {
+  Model model = palette_model();
+  model.materials[0].alpha_mode = Alpha::blend;
+  change(model, {}, {.ior = 1.4f, .absorption_per_m = glm::vec3(2.0f)});
+  const Material& glass = model.materials[std::size_t(model.parts[0].material)];
+  EXPECT_TRUE(glass.refracts());
+  EXPECT_EQ(glass.ior, 1.4f);
+  EXPECT_EQ(glass.absorption_per_m, glm::vec3(2.0f));
+  EXPECT_EQ(glass.alpha_mode, Alpha::opaque);
+  EXPECT_TRUE(glass.is_mirror_like);
+  for (const MaterialPreset& preset : material_presets()) {
+    Model other = model;
+    change(other, {}, preset.change);
+    EXPECT_EQ(other.materials[std::size_t(other.parts[0].material)].refracts(), preset.name == "solid_glass")
+        << preset.name;
+  }
+}
+
 }  // namespace
 }  // namespace parvis::scene

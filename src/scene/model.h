@@ -51,12 +51,18 @@ struct Material {
   int surface_texture = no_index;  ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
   int emission_texture = no_index;
   float normal_scale = 1.0f;
+  /// Of solid glass: how much slower light is in it. Above 1 the surface bounds a closed body that light
+  /// enters, bent; it has no colour of its own then.
+  float ior = 1.0f;
+  glm::vec3 absorption_per_m{0.0f};  ///< of that body
   float relief_m = 0.0f;  ///< depth below the surface where the normal texture's alpha is 0; 0: it is flat
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;
   bool is_double_sided = false;
   bool is_mirror_like =
       false;  ///< paint, glass, chrome of movable things: takes the scene's reflection method
+
+  bool refracts() const { return ior > 1.0f; }
 };
 
 /// Triangles of one material that hang on one node.

@@ -54,6 +54,17 @@ NodeSchema material_schema() {
             .help = "radiance of its own",
             .unit = "W/m2/sr",
             .minimum = 0},
+           {.name = "ior",
+            .type = AttributeType::number,
+            .help = "index of refraction: makes it a closed body of solid glass (1.33 water, 1.5 glass, 2.42 "
+                    "diamond)",
+            .minimum = 1,
+            .maximum = 4},
+           {.name = "absorption",
+            .type = AttributeType::colour,
+            .help = "of red, green and blue light on its way through solid glass; 0 is clear",
+            .unit = "1/m",
+            .minimum = 0},
            {.name = "mirror_like",
             .type = AttributeType::flag,
             .help = "takes the scene's reflection method on reflective models"}},
@@ -90,9 +101,10 @@ MaterialChange change_of(const Node& node) {
   };
   if (node.gives("colour")) given.colour = node.vec3("colour");
   if (node.gives("emission")) given.emission = node.vec3("emission");
+  if (node.gives("absorption")) given.absorption_per_m = node.vec3("absorption");
   if (node.gives("mirror_like")) given.is_mirror_like = node.flag("mirror_like");
   given.roughness = number("roughness"), given.metallic = number("metallic");
-  given.clear_coat = number("clear_coat"), given.alpha = number("alpha");
+  given.clear_coat = number("clear_coat"), given.alpha = number("alpha"), given.ior = number("ior");
   for (const MaterialPreset& preset : material_presets())
     if (node.text("preset") == preset.name) return merged(preset.change, given);
   return given;

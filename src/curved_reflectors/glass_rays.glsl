@@ -1,0 +1,21 @@
+// Where a ray within a body of solid glass leaves it, by the body's map: Newton's method with tangent planes. A convex body lies
+// behind each of them, so that from outside every step comes nearer and none goes past. From the host:
+//   SurfacePoint surface_at(vec3 direction)   what a ray from the centre meets; the direction has any length
+// Needs surface_point.glsl.
+
+const int far_side_steps = 6;
+
+// `start` lies in the body or on its surface; `reach`: the surface's greatest distance from the centre.
+GLSL_FUNCTION SurfacePoint far_side(vec3 centre, float reach, vec3 start, vec3 direction) {
+  vec3 from_centre = start - centre;
+  float middle = dot(from_centre, direction);
+  float along = sqrt(max(middle * middle + reach * reach - dot(from_centre, from_centre), 0.0f)) - middle;
+  vec3 normal = direction;
+  for (int i = 0; i < far_side_steps; ++i) {
+    SurfacePoint at = surface_at(from_centre + along * direction);
+    float to_plane = dot(at.position - start, at.normal) / max(dot(at.normal, direction), 1e-3f);
+    along = clamp(to_plane, 0.0f, along);
+    normal = at.normal;
+  }
+  return SurfacePoint(start + along * direction, normal);
+}
