@@ -9,7 +9,8 @@ namespace parvis::bench {
 
 Status measure_kitchen(bool is_quick, Report& report);
 
-/// Writes the kitchen into a folder and opens it. Needs a current context.
-Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& folder);
+/// Writes the kitchen into a folder and opens one of its scripts. Needs a current context.
+Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& folder,
+                                                   const std::string& script);
 
 }  // namespace parvis::bench

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "city/kitchen_glass.h"
 #include "city/kitchen_light.h"
 #include "city/kitchen_materials.h"
 #include "city/kitchen_mirrors.h"
@@ -41,6 +42,11 @@ Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
   jobs.push_back([script = kitchen_script(mirrors)](const fs::path& to) {
     return write_file(to / "kitchen.xp", script);
   });
+  std::vector<KitchenMirror> glass = kitchen_glass();
+  jobs.push_back([script = kitchen_glass_script(mirrors, glass)](const fs::path& to) {
+    return write_file(to / "glass.xp", script);
+  });
+  mirrors.insert(mirrors.end(), std::make_move_iterator(glass.begin()), std::make_move_iterator(glass.end()));
   for (KitchenMirror& mirror : mirrors)
     jobs.push_back([model = std::move(mirror.model)](const fs::path& to) {
       return scene::write_gltf(to / (model.name + ".glb"), model);

@@ -13,7 +13,8 @@ namespace parvis::city {
 /// Everything that does not mirror, with its materials.
 scene::Model make_kitchen(std::uint64_t seed);
 
-/// Writes the script `kitchen.xp`, models, textures and the light into `folder`, as write_paper_city does.
+/// Writes the scripts `kitchen.xp` and `glass.xp` (solid glass on the same worktop), models, textures and the
+/// light into `folder`, as write_paper_city does.
 Status write_kitchen(const std::filesystem::path& folder, std::uint64_t seed);
 
 }  // namespace parvis::city

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "city/kitchen_glass.h"
 #include "city/kitchen_light.h"
 #include "city/kitchen_mirrors.h"
 #include "city/kitchen_room.h"
@@ -34,6 +35,18 @@ TEST(Kitchen, ItsMirrorsMirrorAndStandApart) {
     }
     EXPECT_GE(mirror_like, 1) << mirror.model.name;
     EXPECT_NEAR(bounds(mirror.model).min.z, 0.0f, 0.004f) << mirror.model.name;
+  }
+}
+
+TEST(Kitchen, ItsGlassIsSolidAndStandsOnTheWorktop) {
+  for (const KitchenMirror& body : kitchen_glass()) {
+    ASSERT_EQ(body.model.parts.size(), 1u);
+    EXPECT_TRUE(check(body.model.parts[0].mesh, body.model.name));
+    EXPECT_TRUE(body.model.materials[0].refracts());
+    EXPECT_NEAR(bounds(body.model).min.z, 0.0f, 1e-4f);
+    EXPECT_FLOAT_EQ(body.foot.z, worktop_height_m);
+    EXPECT_NE(kitchen_glass_script(kitchen_mirrors(), kitchen_glass()).find(body.model.name),
+              std::string::npos);
   }
 }
 

@@ -9,7 +9,9 @@ namespace parvis::curved_reflectors {
 namespace {
 
 constexpr float longest_angle = 0.18f;  // radians under which a reflector may see an edge
-constexpr float least_reach = 1.1f;     // radii: what is nearer is treated as if it stood there
+constexpr float longest_angle_in_glass = 0.05f;
+constexpr float focal_reach = 2.5f;  // radii: what is farther, glass makes smaller
+constexpr float least_reach = 1.1f;  // radii: what is nearer is treated as if it stood there
 constexpr int most_rounds = 16;
 constexpr std::size_t most_triangles_of_a_part = 200000;
 
@@ -25,7 +27,8 @@ bool is_long(glm::vec3 a, glm::vec3 b, std::span<const ReflectorBall> balls) {
   if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);  // rounded alike from both sides
   return std::any_of(balls.begin(), balls.end(), [&](const ReflectorBall& ball) {
     const float reach = std::max(distance_to_segment(ball.centre, a, b), least_reach * ball.radius);
-    return glm::distance(a, b) > longest_angle * reach;
+    const bool is_enlarged = ball.is_glass && reach < focal_reach * ball.radius;
+    return glm::distance(a, b) > (is_enlarged ? longest_angle_in_glass : longest_angle) * reach;
   });
 }
 
@@ -100,12 +103,17 @@ std::vector<ReflectorBall> reflector_balls(const scene::Scene& scene) {
     if (!object.takes_reflection || !object.is_visible) continue;
     const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
     Bounds bounds;
-    for (const scene::Part& part : object.model->parts)
-      if (object.model->materials[std::size_t(part.material)].is_mirror_like)
-        bounds.add(transformed(object.world_from_model * pose[std::size_t(part.node)], part.mesh.bounds()));
+    bool is_glass = false;
+    for (const scene::Part& part : object.model->parts) {
+      const scene::Material& material = object.model->materials[std::size_t(part.material)];
+      if (!material.is_mirror_like) continue;
+      is_glass |= material.refracts();
+      bounds.add(transformed(object.world_from_model * pose[std::size_t(part.node)], part.mesh.bounds()));
+    }
     // Half the greatest side: a box's corners are beyond what it encloses.
     const glm::vec3 size = bounds.size();
-    if (!bounds.empty()) balls.push_back({bounds.centre(), 0.5f * std::max({size.x, size.y, size.z})});
+    if (!bounds.empty())
+      balls.push_back({bounds.centre(), 0.5f * std::max({size.x, size.y, size.z}), is_glass});
   }
   return balls;
 }

@@ -12,6 +12,7 @@ namespace parvis::curved_reflectors {
 struct ReflectorBall {
   glm::vec3 centre;
   float radius;
+  bool is_glass = false;  ///< solid: it enlarges what stands near its focus
 };
 
 /// The mesh with long edges halved, again and again: long beside their distance from a ball, so that their

@@ -36,13 +36,17 @@ std::uint64_t reflector_key(const Mesh& mesh, const std::string& name, int side)
 
 }  // namespace
 
-Mesh mirror_mesh(const scene::Model& model) {
+Mesh mesh_of(const scene::Model& model, bool (*wanted)(const scene::Material&)) {
   Mesh mesh;
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   for (const scene::Part& part : model.parts)
-    if (model.materials[std::size_t(part.material)].is_mirror_like)
+    if (wanted(model.materials[std::size_t(part.material)]))
       append(mesh, part.mesh, pose[std::size_t(part.node)]);
   return mesh;
+}
+
+Mesh mirror_mesh(const scene::Model& model) {
+  return mesh_of(model, [](const scene::Material& material) { return material.is_mirror_like; });
 }
 
 ReflectorCache::ReflectorCache(const scene::Scene& scene)

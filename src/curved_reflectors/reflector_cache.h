@@ -7,7 +7,9 @@
 
 namespace parvis::curved_reflectors {
 
-/// The mirror-like parts of a model at rest, in one piece.
+/// The parts of a model at rest whose materials are `wanted`, in one piece.
+Mesh mesh_of(const scene::Model& model, bool (*wanted)(const scene::Material&));
+/// Those that are mirror-like.
 Mesh mirror_mesh(const scene::Model& model);
 
 class ReflectorCache {
@@ -22,6 +24,8 @@ class ReflectorCache {
   bool has(const scene::Object& object) const;
   Status keep(const scene::Object& object, const Reflector& reflector) const;
 
+  /// Texels a side of a usual map.
+  int side() const { return side_; }
   /// Empty for a scene that was made in memory.
   const std::filesystem::path& folder() const { return folder_; }
   /// Where an object's reflector is kept; empty: nowhere.

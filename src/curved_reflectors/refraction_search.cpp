@@ -17,8 +17,28 @@ struct Ring {
 constexpr std::array<Ring, 5> rings{{{0.0f, 1}, {0.35f, 6}, {0.65f, 10}, {0.85f, 10}, {0.96f, 10}}};
 
 struct TracedRay {
-  glm::vec3 entry, exit, way;
+  glm::vec3 entry, inside, exit, way;  ///< points, and unit directions behind them
 };
+
+/// Where neighbours of a ray come from a point and go on in a direction: how far ahead (or, below 0, behind)
+/// they meet it. The area between them vanishes there: det(apart + t turned) = 0. None: a distance that is
+/// reached nowhere.
+glm::vec2 foci_of(glm::vec3 way, const std::array<glm::vec3, 2>& points_apart,
+                  const std::array<glm::vec3, 2>& ways_apart) {
+  const glm::vec3 x =
+      glm::normalize(glm::cross(std::abs(way.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), way));
+  const glm::vec3 y = glm::cross(way, x);
+  const auto across = [&](glm::vec3 d) { return glm::dvec2(glm::dot(d, x), glm::dot(d, y)); };
+  const glm::dmat2 apart(across(points_apart[0]), across(points_apart[1]));
+  const glm::dmat2 turned(across(ways_apart[0]), across(ways_apart[1]));
+  const double a = glm::determinant(turned), c = glm::determinant(apart);
+  const double b = apart[0][0] * turned[1][1] + turned[0][0] * apart[1][1] - apart[0][1] * turned[1][0] -
+                   turned[0][1] * apart[1][0];
+  const double inner = b * b - 4.0 * a * c;
+  if (inner < 0.0 || a == 0.0) return glm::vec2(no_focus);
+  const double root = std::sqrt(inner), most = no_focus;
+  return {std::clamp((-b - root) / (2.0 * a), -most, most), std::clamp((-b + root) / (2.0 * a), -most, most)};
+}
 
 class ViewThrough {
  public:
@@ -38,7 +58,7 @@ class ViewThrough {
     const auto exit = search_.far_side(body_.centre, body_.reach, entry->first, inside);
     const glm::vec3 way = refracted(inside, -exit.normal, body_.ior);
     if (way == glm::vec3(0.0f)) return std::nullopt;
-    return TracedRay{entry->first, exit.position, way};
+    return TracedRay{entry->first, inside, exit.position, way};
   }
 
   /// How far beside the centre the body reaches that way.
@@ -60,7 +80,7 @@ class ViewThrough {
     const float off = aside * body_.reach;
     glm::vec2 foci(no_focus);
     const auto along_u = trace(beside + glm::vec2(off, 0.0f)), along_v = trace(beside + glm::vec2(0.0f, off));
-    if (along_u && along_v) foci = foci_of(ray, *along_u, *along_v);
+    if (along_u && along_v) foci = foci_behind(ray, *along_u, *along_v);
     return {glm::vec4(ray.entry, foci.x), glm::vec4(ray.exit, foci.y), glm::vec4(ray.way, 0.0f),
             glm::vec4(0.0f)};
   }
@@ -69,37 +89,36 @@ class ViewThrough {
   /// Where a ray from the viewer enters. Tangent planes again: each step stays outside.
   std::optional<std::pair<glm::vec3, glm::vec3>> near_side(glm::vec3 direction) const {
     const glm::vec3 to_centre = body_.centre - viewer_;
-    const float middle = glm::dot(to_centre, direction);
-    const float squared = middle * middle + body_.reach * body_.reach - glm::dot(to_centre, to_centre);
+    const glm::vec3 passing =
+        glm::dot(to_centre, direction) * direction - to_centre;  // nearest to the centre
+    const float squared = body_.reach * body_.reach - glm::dot(passing, passing);
     if (squared <= 0.0f) return std::nullopt;
-    float along = std::max(middle - std::sqrt(squared), 0.0f);
-    for (int i = 0; i < 24; ++i) {
-      const glm::vec3 point = viewer_ + along * direction;
-      const auto [position, normal] = body_.surface(point - body_.centre);
-      const float height = glm::dot(point - position, normal), slope = glm::dot(direction, normal);
-      if (height < 1e-5f * body_.reach) return std::pair(point, normal);
+    const float half = std::sqrt(squared);
+    float along = std::max(-half, -glm::dot(to_centre, direction));  // not behind the viewer
+    for (int i = 0; i < 24 && along <= half; ++i) {
+      const glm::vec3 from_centre = passing + along * direction;
+      const auto [position, normal] = body_.surface(from_centre);
+      const float height = glm::dot(body_.centre + from_centre - position, normal);
+      const float slope = glm::dot(direction, normal);
+      if (height < 1e-5f * body_.reach) return std::pair(body_.centre + from_centre, normal);
       if (slope > -1e-3f) return std::nullopt;
       along -= height / slope;
-      if (along > middle + std::sqrt(squared)) return std::nullopt;
     }
     return std::nullopt;
   }
 
-  /// Distances behind the exit at which neighbouring rays meet: where the area between them vanishes.
-  static glm::vec2 foci_of(const TracedRay& ray, const TracedRay& along_u, const TracedRay& along_v) {
-    const glm::vec3 x = glm::normalize(
-        glm::cross(std::abs(ray.way.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), ray.way));
-    const glm::vec3 y = glm::cross(ray.way, x);
-    const auto across = [&](glm::vec3 d) { return glm::dvec2(glm::dot(d, x), glm::dot(d, y)); };
-    const glm::dmat2 apart(across(along_u.exit - ray.exit), across(along_v.exit - ray.exit));
-    const glm::dmat2 turned(across(along_u.way - ray.way), across(along_v.way - ray.way));
-    const double a = glm::determinant(turned), c = glm::determinant(apart);
-    const double b = apart[0][0] * turned[1][1] + turned[0][0] * apart[1][1] - apart[0][1] * turned[1][0] -
-                     turned[0][1] * apart[1][0];
-    const double inner = b * b - 4.0 * a * c;
-    if (inner < 0.0 || a == 0.0) return glm::vec2(no_focus);
-    const auto distance = [](double t) { return t > 0.0 ? float(std::min(t, double(no_focus))) : no_focus; };
-    return {distance((-b - std::sqrt(inner)) / (2.0 * a)), distance((-b + std::sqrt(inner)) / (2.0 * a))};
+  /// Distances behind the exit; 0 for a focus that lies in the body already.
+  static glm::vec2 foci_behind(const TracedRay& ray, const TracedRay& u, const TracedRay& v) {
+    const glm::vec2 within = foci_of(ray.inside, {u.entry - ray.entry, v.entry - ray.entry},
+                                     {u.inside - ray.inside, v.inside - ray.inside});
+    glm::vec2 behind =
+        foci_of(ray.way, {u.exit - ray.exit, v.exit - ray.exit}, {u.way - ray.way, v.way - ray.way});
+    const float length = glm::distance(ray.entry, ray.exit);
+    int passed = 0;
+    for (int k = 0; k < 2; ++k) passed += within[k] > 0.0f && within[k] < length ? 1 : 0;
+    for (int k = 0; k < 2; ++k)
+      if (behind[k] <= 0.0f) behind[k] = passed-- > 0 ? 0.0f : no_focus;
+    return behind;
   }
 
   const GlassBody& body_;

@@ -77,24 +77,50 @@ GLSL_FUNCTION mat4 bends_of_way(RefractionTask task, GlassWay way, vec3 entry_be
   return mat4(vec4(e.x, e.y, uu, uv), vec4(e.y, e.z, vu, vv), vec4(uu, vu, x.x, x.y), vec4(uv, vv, x.y, x.z));
 }
 
-// In how many directions is the way longest? The negative pivots of its second derivatives (Sylvester's law of inertia).
-GLSL_FUNCTION int passed_foci(mat4 bends) {
-  int count = 0;
-  for (int k = 0; k < 4; ++k) {
-    float pivot = bends[k][k];
-    if (pivot < 0.0f) ++count;
-    if (abs(pivot) < 1e-9f) pivot = 1e-9f;
-    for (int i = k + 1; i < 4; ++i) bends[i] -= bends[k] * (bends[i][k] / pivot);
-  }
-  return count;
+// Equations with a symmetric matrix, by elimination: their solution, and the number of negative pivots. That is the number of
+// directions in which the way is longest (Sylvester's law of inertia). Written out: not all compilers of shaders index a matrix by
+// a variable as they should.
+struct Solution {
+  vec4 x;
+  int negative_pivots;
+};
+
+GLSL_FUNCTION float pivot_of(float x) { return abs(x) < 1e-9f ? 1e-9f : x; }
+
+GLSL_FUNCTION Solution solution(mat4 symmetric, vec4 r) {
+  vec4 a = symmetric[0], b = symmetric[1], c = symmetric[2], d = symmetric[3];
+  float pa = pivot_of(a.x);
+  float fb = b.x / pa, fc = c.x / pa, fd = d.x / pa;
+  b -= a * fb;
+  c -= a * fc;
+  d -= a * fd;
+  r -= vec4(0.0f, fb, fc, fd) * r.x;
+  float pb = pivot_of(b.y);
+  fc = c.y / pb;
+  fd = d.y / pb;
+  c -= b * fc;
+  d -= b * fd;
+  r -= vec4(0.0f, 0.0f, fc, fd) * r.y;
+  float pc = pivot_of(c.z);
+  fd = d.z / pc;
+  d -= c * fd;
+  r -= vec4(0.0f, 0.0f, 0.0f, fd) * r.z;
+  float pd = pivot_of(d.w);
+  vec4 x;
+  x.w = r.w / pd;
+  x.z = (r.z - c.w * x.w) / pc;
+  x.y = (r.y - b.z * x.z - b.w * x.w) / pb;
+  x.x = (r.x - a.y * x.y - a.z * x.z - a.w * x.w) / pa;
+  return Solution(x, (pa < 0.0f ? 1 : 0) + (pb < 0.0f ? 1 : 0) + (pc < 0.0f ? 1 : 0) + (pd < 0.0f ? 1 : 0));
 }
 
 // Where the slope vanishes, if the way bends as it does here; else downhill for the error.
 GLSL_FUNCTION vec4 refraction_step(vec4 slope, mat4 bends, bool goes_downhill) {
   vec4 uphill = bends * slope, change = bends * uphill;
   vec4 downhill = -uphill * (dot(uphill, uphill) / max(dot(change, change), 1e-20f));
-  vec4 newton = -(inverse(bends) * slope);
-  return goes_downhill || !(dot(newton, newton) < 1e12f) ? downhill : newton;
+  vec4 newton = -solution(bends, slope).x;
+  bool is_usable = dot(newton, newton) < 1e12f;
+  return goes_downhill || !is_usable ? downhill : newton;
 }
 
 // The last way of a search.
@@ -131,7 +157,7 @@ GLSL_FUNCTION RefractedPoint search_refraction(RefractionTask task, vec3 to_entr
     }
   }
   return RefractedPoint(way.entry.at, way.exit.at, way.lengths.x + way.lengths.y + way.lengths.z, sqrt(way.error),
-                        passed_foci(bends_of_way(task, way, entry_bend, exit_bend)));
+                        solution(bends_of_way(task, way, entry_bend, exit_bend), way.slope).negative_pivots);
 }
 
 // How far a ray that was traced misses the vertex, squared, as an angle; 5 where it has passed another number of foci.
@@ -147,9 +173,8 @@ GLSL_FUNCTION bool is_refracted(RefractedPoint p, int foci) { return p.error < r
 
 // The image of the vertex that has passed so many foci; told by is_refracted.
 GLSL_FUNCTION RefractedPoint refracted_vertex(RefractionTask task, int foci) {
-  RefractedPoint best;
-  best.error = 4.0f;
-  best.foci = -1;
+  SurfacePoint nowhere = SurfacePoint(task.centre, vec3(0.0f));
+  RefractedPoint best = RefractedPoint(nowhere, nowhere, 0.0f, 4.0f, -1);
   float tried = -1.0f;  // the misses of starts that were: those that are left miss by more
   for (int k = 0; k < refraction_attempts; ++k) {
     int next = -1;

@@ -38,7 +38,6 @@ struct RefractionSearch {
   //
 #include "curved_reflectors/refraction_search.glsl"
 
-  static mat4 inverse(const mat4& m) { return glm::inverse(m); }
   SurfacePoint surface_at(vec3 direction) {
     const auto [position, normal] = body.surface(direction);
     return {position, normal};

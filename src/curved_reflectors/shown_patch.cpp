@@ -1,6 +1,18 @@
 #include "curved_reflectors/shown_patch.h"
 
+#include <algorithm>
+
 namespace parvis::curved_reflectors {
+
+bool is_scaled_evenly(const glm::mat4& m) {
+  const glm::vec3 sizes(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+  const float least = std::min({sizes.x, sizes.y, sizes.z}), most = std::max({sizes.x, sizes.y, sizes.z});
+  return least > 0.999f * most && glm::determinant(glm::mat3(m)) > 0.0f;
+}
+
+glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
+  return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
+}
 
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
                   std::span<const ShownPatch> patches) {

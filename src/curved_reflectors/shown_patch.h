@@ -8,6 +8,11 @@
 
 namespace parvis::curved_reflectors {
 
+/// Angles stay as they are; else normals of the maps would be wrong.
+bool is_scaled_evenly(const glm::mat4& world_from_reflector);
+
+glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point);
+
 struct ShownPatch {
   int object;
   int near;  ///< the list of objects that stand near, all that it is to show; below 0: all objects

@@ -25,17 +25,6 @@ std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const sc
   return std::make_unique<GpuReflector>(*made);
 }
 
-/// Angles stay as they are; else normals of the maps would be wrong.
-bool is_scaled_evenly(const glm::mat4& m) {
-  const glm::vec3 sizes(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
-  const float least = std::min({sizes.x, sizes.y, sizes.z}), most = std::max({sizes.x, sizes.y, sizes.z});
-  return least > 0.999f * most && glm::determinant(glm::mat3(m)) > 0.0f;
-}
-
-glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
-  return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
-}
-
 /// What the first mirror-like material gives back, seen from before it.
 glm::vec3 mirror_colour(const scene::Model& model) {
   constexpr float coat = 0.04f;
@@ -106,15 +95,10 @@ void VirtualObjects::find_all_patches(const render::Renderer& renderer) {
 
 /// Of a reflector: a further entry of `near_`, or below 0 where nothing stands near.
 int VirtualObjects::find_near(const render::Renderer& renderer, const render::Reflector& reflector) {
-  const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
   if (near_.size() == near_count_) near_.emplace_back();
-  std::vector<std::uint8_t>& near = near_[near_count_];
-  near.assign(bounds.size(), 0);
-  for (std::size_t o = 0; o < bounds.size(); ++o)
-    near[o] =
-        int(o) != reflector.object && renderer.gpu().is_visible(int(o)) &&
-        render::stands_near(bounds[std::size_t(reflector.object)], bounds[o], settings_.virtual_within_m);
-  return std::ranges::find(near, 1) == near.end() ? -1 : int(near_count_++);
+  const bool has_near =
+      render::find_near(renderer, reflector.object, settings_.virtual_within_m, near_[near_count_]);
+  return has_near ? int(near_count_++) : -1;
 }
 
 void VirtualObjects::find_patches(const render::Renderer& renderer,

@@ -24,6 +24,9 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
 
   std::string fragment_shader() const override;
   gl::Defines defines() const override;
+  const render::CubeMap* surroundings_of(int object) const override {
+    return surroundings_ ? surroundings_->surroundings_of(object) : nullptr;
+  }
   bool takes_rays() const override { return surroundings_ && surroundings_->takes_rays(); }
   void bind(const gl::Program& program, int object) override;
   void frame_took(double update_ms, double rest_ms) override {

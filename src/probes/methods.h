@@ -25,6 +25,7 @@ class RerenderedCubeMap final : public CubeMapReflections {
  public:
   explicit RerenderedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
   void bind(const gl::Program& program, int object) override;
+  const render::CubeMap* surroundings_of(int object) const override { return map_of_object_.at(object); }
 
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
@@ -42,6 +43,7 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
   explicit TimeSlicedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
   void bind(const gl::Program& program, int object) override;
+  const render::CubeMap* surroundings_of(int object) const override { return &maps_.at(object).map; }
 
  private:
   struct Sliced {
@@ -65,6 +67,7 @@ class SharedCubeMap final : public CubeMapReflections {
  public:
   explicit SharedCubeMap(const scene::Reflection& reflection) : map_(reflection.resolution) {}
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
+  const render::CubeMap* surroundings_of(int) const override { return &map_; }
 
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
@@ -79,6 +82,10 @@ class BoxProjectedProbe final : public CubeMapReflections {
  public:
   explicit BoxProjectedProbe(const scene::Scene& scene);
   void bind(const gl::Program& program, int object) override;
+  const render::CubeMap* surroundings_of(int object) const override {
+    const Probe& probe = *probe_of_object_.at(object);
+    return probe.map ? &*probe.map : nullptr;
+  }
 
  private:
   struct Probe {

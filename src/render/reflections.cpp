@@ -24,6 +24,15 @@ bool stands_near(const Bounds& reflector, const Bounds& object, float within_m) 
   return !object.empty() && glm::all(glm::greaterThanEqual(glm::min(low, high), glm::vec3(0.0f)));
 }
 
+bool find_near(const Renderer& renderer, int object, float within_m, std::vector<std::uint8_t>& near) {
+  const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
+  near.assign(bounds.size(), 0);
+  for (std::size_t o = 0; o < bounds.size(); ++o)
+    near[o] = int(o) != object && renderer.gpu().is_visible(int(o)) &&
+              stands_near(bounds[std::size_t(object)], bounds[o], within_m);
+  return std::ranges::find(near, 1) != near.end();
+}
+
 void Reflections::update(Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
   find_reflectors(renderer, scene, camera, reflectors_);
   update_for(renderer, scene, reflectors_);

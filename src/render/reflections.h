@@ -22,8 +22,14 @@ struct Reflector {
 void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const Camera& camera,
                      std::vector<Reflector>& reflectors);
 
+class CubeMap;
+
 /// Does an object stand wholly so near to a reflector? `within_m` from its box, to each side.
 bool stands_near(const Bounds& reflector, const Bounds& object, float within_m);
+
+/// Which objects, of all that are visible, stand so near to the reflector `object`: a flag for each. False:
+/// none.
+bool find_near(const Renderer& renderer, int object, float within_m, std::vector<std::uint8_t>& near);
 
 /// One method of reflection. Made for a renderer and a scene, both of which outlive it.
 class Reflections : public ReflectionSource {
@@ -33,6 +39,10 @@ class Reflections : public ReflectionSource {
 
   /// The same for reflectors that are known: for a method that lies over another.
   void update_for(Renderer& renderer, const scene::Scene& scene, const std::vector<Reflector>& reflectors);
+
+  /// The cube map of an object's surroundings that the last update made; null: the method has none. For
+  /// glass, whose rays leave elsewhere than mirror rays.
+  virtual const CubeMap* surroundings_of(int /*object*/) const { return nullptr; }
 
   /// What the last update took by the clock, and all the rest of its frame: for methods that hold a budget.
   /// Told in windows alone, so that pictures and films can be repeated.

@@ -62,13 +62,17 @@ vec3 behind_near(vec3 far_radiance, float roughness) {
 #ifdef HAS_GLASS_PICTURE
 uniform sampler2D glass_picture;  // of the main view's size: what glass lets through; coverage in alpha
 
-vec3 light_through(vec3 ahead) {
-  vec4 seen = texelFetch(glass_picture, ivec2(gl_FragCoord.xy), 0);
-  return seen.rgb / max(seen.a, 0.125f);
-}
-#else
-vec3 light_through(vec3 ahead) { return sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f); }
 #endif
+
+// What comes through glass; where that is not followed, the sky straight through it.
+vec3 light_through(vec3 ahead) {
+  vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
+#ifdef HAS_GLASS_PICTURE
+  vec4 seen = texelFetch(glass_picture, ivec2(gl_FragCoord.xy), 0);
+  if (seen.a > 0.0f) return seen.rgb / seen.a;
+#endif
+  return sky;
+}
 #endif
 
 // Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.

@@ -3,6 +3,7 @@
 #include "action/action_nodes.h"
 #include "city/city_nodes.h"
 #include "curved_reflectors/long_edges.h"
+#include "curved_reflectors/refracted_objects.h"
 #include "curved_reflectors/virtual_objects.h"
 #include "environment_maps/local_environment_maps.h"
 #include "environment_maps/multiple_environment_maps.h"
@@ -64,8 +65,8 @@ Result<Play> open_play(const std::filesystem::path& script,
 
 namespace {
 
-Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& scene,
-                                                         render::Renderer& renderer) {
+Result<std::unique_ptr<render::Reflections>> make_method_below(const scene::Scene& scene,
+                                                               render::Renderer& renderer) {
   switch (scene.reflection.method) {
     case scene::ReflectionMethod::multiple_environment_maps:
       return environment_maps::make_reflections(scene, renderer);
@@ -80,16 +81,24 @@ Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& sce
   }
 }
 
-}  // namespace
-
-Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
-                                                              render::Renderer& renderer) {
-  Result<std::unique_ptr<render::Reflections>> method = make_method(scene, renderer);
+/// With virtual objects over it, where they are wanted.
+Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& scene,
+                                                         render::Renderer& renderer) {
+  Result<std::unique_ptr<render::Reflections>> method = make_method_below(scene, renderer);
   const scene::Reflection& reflection = scene.reflection;
   if (!method || reflection.virtual_within_m <= 0.0f ||
       reflection.method == scene::ReflectionMethod::virtual_objects)
     return method;
   return curved_reflectors::make_virtual_objects(scene, renderer, *std::move(method));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer) {
+  Result<std::unique_ptr<render::Reflections>> method = make_method(scene, renderer);
+  if (!method || !curved_reflectors::has_glass(scene)) return method;
+  return curved_reflectors::make_refracted_objects(scene, renderer, *std::move(method));
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)

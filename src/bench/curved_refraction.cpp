@@ -1,0 +1,31 @@
+#include "bench/curved_refraction.h"
+
+#include <array>
+
+#include "bench/beside_rerendered.h"
+#include "bench/curved_kitchen.h"
+#include "bench/scratch_folder.h"
+#include "gl/context.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr std::array cameras{"ball", "egg", "both"};
+constexpr std::size_t quick_cameras = 2;
+constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
+
+}  // namespace
+
+Status measure_refraction(bool is_quick, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  const ScratchFolder folder;
+  Result<std::unique_ptr<stage::Stage>> stage = open_kitchen(folder.path, "glass.xp");
+  if (!stage) return stage.errors();
+  return measure_beside_rerendered(**stage,
+                                   std::span(cameras).first(is_quick ? quick_cameras : cameras.size()),
+                                   is_quick ? quick_width : width, is_quick ? quick_height : height,
+                                   "refraction_flip_over_rerendered", report);
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,11 @@
+// Solid glass on the kitchen's worktop, in the bench "curved": how near its pictures by virtual objects come
+// to ray tracing beside cube maps drawn anew.
+#pragma once
+
+#include "bench/report.h"
+
+namespace parvis::bench {
+
+Status measure_refraction(bool is_quick, Report& report);
+
+}  // namespace parvis::bench

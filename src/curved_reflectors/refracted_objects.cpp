@@ -1,0 +1,227 @@
+#include "curved_reflectors/refracted_objects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "curved_reflectors/reflector_cache.h"
+#include "render/bindings.h"
+#include "render/cube_map.h"
+#include "render/frustum.h"
+
+namespace parvis::curved_reflectors {
+namespace {
+
+constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
+constexpr float ways_apart =
+    0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
+constexpr std::size_t most_shown = 255;  // numbers of the stencil
+
+bool refracts(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
+
+/// Of the first material of glass.
+const scene::Material& glass_material(const scene::Model& model) {
+  return *std::ranges::find_if(model.materials, refracts);
+}
+
+bool has_glass(const scene::Model& model) { return std::ranges::any_of(model.materials, refracts); }
+
+}  // namespace
+
+bool has_glass(const scene::Scene& scene) {
+  return std::ranges::any_of(scene.objects, [](const scene::Object& object) {
+    return object.takes_reflection && has_glass(*object.model);
+  });
+}
+
+Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
+    const scene::Scene& scene, const render::Renderer& renderer,
+    std::unique_ptr<render::Reflections> reflections) {
+  Result<gl::Program> patch_pixels =
+      gl::Program::create("curved_reflectors/patch_pixels.vert", "curved_reflectors/patch_pixels.frag");
+  if (!patch_pixels) return patch_pixels.errors();
+  Result<gl::Program> glass_light =
+      gl::Program::create("curved_reflectors/own_reflection.vert", "curved_reflectors/glass_light.frag");
+  if (!glass_light) return glass_light.errors();
+  render::assign_bindings(*glass_light);
+  Result<render::SurfacePrograms> programs =
+      render::SurfacePrograms::create("curved_reflectors/refracted_surface.frag", renderer.gpu().materials(),
+                                      "curved_reflectors/refracted_vertices.vert", {{"IS_MIRRORED", ""}});
+  if (!programs) return programs.errors();
+  return std::unique_ptr<RefractedObjects>(
+      new RefractedObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(glass_light),
+                           std::move(reflections)));
+}
+
+RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs,
+                                   gl::Program patch_pixels, gl::Program glass_light,
+                                   std::unique_ptr<render::Reflections> reflections)
+    : VirtualVertices(std::move(programs)),
+      patch_pixels_(std::move(patch_pixels)),
+      glass_light_(std::move(glass_light)),
+      settings_(scene.reflection),
+      reflections_(std::move(reflections)) {
+  const int side = ReflectorCache(scene).side();
+  for (const scene::Object& object : scene.objects) {
+    const scene::Model* model = object.model.get();
+    model_of_object_.push_back(model);
+    if (object.takes_reflection && has_glass(*model) && !glass_.contains(model))
+      glass_[model] = glass_of(object, side);
+  }
+}
+
+std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const scene::Object& object, int side) {
+  const auto refuse = [&](const std::string& why) {
+    fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n", why);
+    return nullptr;
+  };
+  const scene::Model& model = *object.model;
+  const std::string name = object.name.empty() ? model.name : object.name;
+  const Result<Reflector> made = make_reflector(mesh_of(model, refracts), name, side);
+  if (!made) return refuse(to_string(made.errors().front()));
+  if (made->mesh.open_edges > 0)
+    return refuse(fmt::format("{}: {} edges of its glass have not two triangles; close its holes", name,
+                              made->mesh.open_edges));
+  if (made->patches.size() != 1 || !made->maps.front().is_convex || !made->maps.front().is_whole_body())
+    return refuse(fmt::format("{}: its glass is not one convex body", name));
+  const scene::Material& glass = glass_material(model);
+  return std::make_unique<Glass>(
+      Glass{GpuReflector(*made), made->maps.front(), glass.ior, glass.absorption_per_m});
+}
+
+void RefractedObjects::find_glass(const render::Renderer& renderer,
+                                  const std::vector<render::Reflector>& reflectors) {
+  shown_.clear();
+  through_.clear();
+  const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
+  for (const render::Reflector& reflector : reflectors) {
+    const auto found = glass_.find(model_of_object_[std::size_t(reflector.object)]);
+    if (found == glass_.end() || !found->second || shown_.size() == most_shown) continue;
+    const Glass& glass = *found->second;
+    const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
+    if (!is_scaled_evenly(world_from_reflector)) continue;
+    const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
+    const auto [nearest, normal] = glass.map.surface(viewer - glass.map.window.centre);
+    if (glm::dot(viewer - nearest, normal) <= 0.0f) continue;  // within the glass nothing of it is drawn
+    const GpuReflector::Patch& patch = glass.gpu.patches().front();
+    shown_.push_back({reflector.object, -1, &glass.gpu, &patch, world_from_reflector, viewer});
+    const auto surface = [&](glm::vec3 direction) { return glass.map.surface(direction); };
+    const GlassBody body{surface, patch.window.centre, patch.window.reach, glass.ior};
+    through_.push_back({&glass, refraction_rays(body, viewer), {}});
+    if (!shows_all)
+      render::find_near(renderer, reflector.object, settings_.virtual_within_m, through_.back().near);
+  }
+}
+
+/// The pixels of one body: by virtual objects where they are wanted, before the cube map of its surroundings.
+void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, render::View view) {
+  const std::vector<std::uint8_t>& near = through_[i].near;
+  if (!near.empty() && std::ranges::find(near, 1) == near.end()) return draw_light(view, i, Share::all_light);
+  draw_light(view, i, Share::behind_glass);
+  current_ = i;
+  view.excluded_object = shown_[i].object;
+  view.shown_objects = near.empty() ? nullptr : &near;
+  for (foci_ = 0; foci_ < layers; ++foci_) {
+    renderer.draw_view(view);
+    view.clears = false;
+  }
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+  draw_light(view, i, Share::let_through);
+  glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+  draw_light(view, i, Share::from_inside);
+  glDisable(GL_BLEND);
+}
+
+void RefractedObjects::draw_light(const render::View& view, std::size_t i, Share share) const {
+  const ShownPatch& shown = shown_[i];
+  const Glass& glass = *through_[i].glass;
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glass_light_.use();
+  GpuReflector::bind(glass_light_, *shown.patch, shown.world_from_reflector, render::virtual_vertex_unit);
+  const render::CubeMap* surroundings = reflections_->surroundings_of(shown.object);
+  if (surroundings) glBindTextureUnit(render::first_reflection_unit, surroundings->texture());
+  glass_light_.set("surroundings", int(render::first_reflection_unit));
+  glass_light_.set("surroundings_levels",
+                   surroundings ? std::log2(float(surroundings->resolution())) : -1.0f);
+  glass_light_.set("clip_from_reflector", view.clip_from_world * shown.world_from_reflector);
+  glass_light_.set("viewer_in_reflector", shown.viewer);
+  glass_light_.set("glass_ior", glass.ior);
+  glass_light_.set("glass_absorption", glm::length(shown.world_from_reflector[0]) * glass.absorption_per_m);
+  glass_light_.set("shown_share", int(share));
+  shown.reflector->draw(*shown.patch);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                                   const std::vector<render::Reflector>& reflectors) {
+  reflections_->update_for(renderer, scene, reflectors);
+  faces_drawn_ = reflections_->faces_drawn();
+  picture_.resize(renderer.width(), renderer.height());
+  picture_.clear();
+  find_glass(renderer, reflectors);
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrored;
+  view.virtual_vertices = this;
+  view.framebuffer = picture_.framebuffer();
+  view.culls_hidden = false;
+  view.subjects = render::Subjects::all;
+  glEnable(GL_STENCIL_TEST);
+  mark_patches(patch_pixels_, view, shown_);
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
+    draw_through(renderer, i, view);
+  }
+  glDisable(GL_STENCIL_TEST);
+  picture_.resolve();
+}
+
+void RefractedObjects::bind(const gl::Program& program) {
+  const ShownPatch& shown = shown_[current_];
+  GpuReflector::bind(program, *shown.patch, shown.world_from_reflector, render::virtual_vertex_unit);
+  program.set("refraction_rays", std::span<const glm::mat4>(through_[current_].rays));
+  program.set("glass_ior", through_[current_].glass->ior);
+  program.set("passed_by_light", foci_);
+}
+
+/// Does a ray that leaves the glass come near, having passed as many foci as those of this layer?
+bool RefractedObjects::may_show(const Bounds& bounds) const {
+  if (bounds.empty()) return false;
+  const glm::mat4& world_from_reflector = shown_[current_].world_from_reflector;
+  const glm::vec3 centre = in_reflector(world_from_reflector, bounds.centre());
+  const float radius = bounds.radius() / glm::length(world_from_reflector[0]);
+  return std::ranges::any_of(through_[current_].rays, [&](const glm::mat4& ray) {
+    const glm::vec3 to_centre = centre - glm::vec3(ray[1]);
+    const float distance = glm::length(to_centre);
+    const auto foci_at = [&](float far) { return int(far > ray[0].w) + int(far > ray[1].w); };
+    // Foci lie nearer, and farther, between the rays that were traced.
+    if (foci_ < foci_at(0.8f * (distance - radius)) || foci_ > foci_at(1.25f * (distance + radius)))
+      return false;
+    if (distance <= radius) return true;
+    const float angle = std::acos(std::clamp(glm::dot(to_centre, glm::vec3(ray[2])) / distance, -1.0f, 1.0f));
+    return angle < std::asin(radius / distance) + ways_apart;
+  });
+}
+
+gl::Defines RefractedObjects::defines() const {
+  gl::Defines defines = reflections_->defines();
+  defines.emplace_back("HAS_GLASS_PICTURE", "");
+  return defines;
+}
+
+void RefractedObjects::bind(const gl::Program& program, int object) {
+  glBindTextureUnit(render::glass_picture_unit, picture_.texture());
+  reflections_->bind(program, object);
+}
+
+Result<std::unique_ptr<render::Reflections>> make_refracted_objects(
+    const scene::Scene& scene, render::Renderer& renderer, std::unique_ptr<render::Reflections> reflections) {
+  Result<std::unique_ptr<RefractedObjects>> made =
+      RefractedObjects::create(scene, renderer, std::move(reflections));
+  if (!made) return made.errors();
+  std::unique_ptr<render::Reflections> all = *std::move(made);
+  if (Status status = renderer.set_reflection(all.get()); !status) return status.errors();
+  return all;
+}
+
+}  // namespace parvis::curved_reflectors

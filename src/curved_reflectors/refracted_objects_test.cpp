@@ -1,0 +1,102 @@
+#include "curved_reflectors/refracted_objects.h"
+
+#include "curved_reflectors/test_boxes.h"
+#include "curved_reflectors/virtual_objects.h"
+#include "gl/test_context.h"
+#include "render/golden.h"
+
+namespace parvis::curved_reflectors {
+namespace {
+
+scene::Material glass(float ior = 1.5f) {
+  scene::Material material;
+  material.ior = ior;
+  material.roughness = 0.0f;
+  material.is_mirror_like = true;
+  return material;
+}
+
+enum class Shown { sky, objects };
+
+Compared draw(scene::Scene scene, glm::vec3 eye, glm::vec3 target, Shown shown = Shown::objects) {
+  if (shown == Shown::sky)
+    scene.reflection.method = scene::ReflectionMethod::rerendered_cube_map;  // and no map
+  return draw_by(scene, eye, target, [](const scene::Scene& all, render::Renderer& renderer) {
+    Result<std::unique_ptr<render::Reflections>> mirrors = make_virtual_objects(all, renderer);
+    if (!mirrors) return mirrors;
+    return make_refracted_objects(all, renderer, *std::move(mirrors));
+  });
+}
+
+class RefractedObjectsTest : public gl::ContextTest {};
+
+const glm::vec3 eye{2.4f, -5.2f, 2.6f}, target{0, 0, 1};
+
+// FLIP's floor is what four samples a pixel make of edges, of which a ball lens shows many.
+TEST_F(RefractedObjectsTest, ABallShowsItsSurroundingsUpsideDown) {
+  const scene::Scene scene =
+      among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), glass(), placed({0, 0, 1.1f}));
+  const Compared ball = draw(scene, eye, target);
+  EXPECT_LT(ball.flip(), 0.08);
+  EXPECT_GT(draw(scene, eye, target, Shown::sky).flip(), 3.0 * ball.flip());
+  const render::GoldenTolerance tolerance{160, 24, 0.005, 0.2};
+  const Status golden = render::matches_golden(ball.ours, "glass-ball", tolerance, PARVIS_SOURCE_DIR);
+  EXPECT_TRUE(golden) << to_string(golden.errors());
+}
+
+TEST_F(RefractedObjectsTest, SoDoEllipsoidsThatAreTurnedAndScaled) {
+  Mesh mesh;
+  append(mesh, scene::sphere(glm::vec3(0.0f), 2.0f, 64), glm::scale(glm::mat4(1.0f), {1.2f, 0.9f, 1.0f}));
+  const glm::mat4 half = glm::scale(glm::rotate(placed({0, 0, 1.2f}), 0.5f, {0, 0, 1}), glm::vec3(0.5f));
+  const scene::Scene scene = among_boxes(mesh, glass(1.7f), half);
+  EXPECT_LT(draw(scene, eye, target).flip(), 0.15);
+}
+
+TEST_F(RefractedObjectsTest, TintedGlassAbsorbs) {
+  scene::Material green = glass();
+  green.absorption_per_m = {0.8f, 0.1f, 0.7f};
+  EXPECT_LT(
+      draw(among_boxes(scene::sphere(glm::vec3(0.0f), 0.8f, 48), green, placed({0, 0, 0.9f})), eye, target)
+          .flip(),
+      0.08);
+}
+
+TEST_F(RefractedObjectsTest, TwoBodiesEachShowTheirOwn) {
+  scene::Scene scene =
+      among_boxes(scene::sphere(glm::vec3(0.0f), 0.6f, 48), glass(), placed({-0.9f, 0, 0.8f}));
+  scene.objects.push_back(scene.objects.back());
+  scene.objects.back().world_from_model = placed({0.9f, -0.4f, 0.8f});
+  EXPECT_LT(draw(scene, eye, target).flip(), 0.12);
+}
+
+/// What can not be followed shows the sky straight through: as if no method were there.
+TEST_F(RefractedObjectsTest, OpenSeveralAndSqueezedBodiesAreNotRefracted) {
+  Mesh open = scene::sphere(glm::vec3(0.0f), 1.0f, 24);
+  open.indices.resize(open.indices.size() / 2);
+  const auto shown_by_sky = [](const scene::Scene& scene) {
+    const Compared ours = draw(scene, eye, target);
+    const Compared plain =
+        draw_by(scene, eye, target, [](const scene::Scene& all, render::Renderer& renderer) {
+          Result<std::unique_ptr<render::Reflections>> mirrors = make_virtual_objects(all, renderer);
+          return mirrors;
+        });
+    return reference::compare(ours.ours, plain.ours, {})->flip;
+  };
+  EXPECT_LT(shown_by_sky(among_boxes(open, glass(), placed({0, 0, 1.1f}))), 1e-3);
+  Mesh two = scene::sphere({-0.7f, 0, 0}, 0.6f, 24);
+  append(two, scene::sphere({0.7f, 0, 0}, 0.6f, 24));
+  EXPECT_LT(shown_by_sky(among_boxes(two, glass(), placed({0, 0, 1.1f}))), 1e-3);
+  const glm::mat4 squeezed = glm::scale(placed({0, 0, 1.1f}), {1, 1, 0.5f});
+  EXPECT_LT(shown_by_sky(among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 24), glass(), squeezed)), 1e-3);
+}
+
+TEST_F(RefractedObjectsTest, AViewerWithinAndThingsThatTouchAreStood) {
+  scene::Scene scene =
+      among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 24), glass(), placed({0, 0, 0.4f}));  // in the floor
+  EXPECT_LT(draw(scene, eye, target).flip(), 0.5);  // what stands in the glass is not shown
+  const Compared within = draw(scene, {0, 0, 0.4f}, {3, 0, 0.4f});
+  EXPECT_LT(reference::compare(within.ours, within.traced, {})->flip, 0.05);
+}
+
+}  // namespace
+}  // namespace parvis::curved_reflectors
