@@ -39,6 +39,8 @@ const int one_map = 1;
 const int all_detail = 2;
 const int most_maps = detail == all_detail ? 2 : 1;
 const float greatest_radiance = 30000.0f;  // the picture holds half floats
+const float least_wide_lobe = 0.3f;  // roughness
+const float share_over_ground = 0.4f;
 const float least_weight = 0.05f;    // of a second map: what is less is left out
 const float shade_reach_m = 25.0f;   // ground nearer than this may lie in the shade of moving bodies
 const float most_ground_error_m = 0.2f;  // a cell has one height: beside a kerb its point may lie in the pavement
@@ -57,6 +59,8 @@ struct Sight {
   float distance;
   vec3 across;       // how far the pixel's cone reaches there, the way that it is widest
   float narrow;      // and the other way, metres
+  vec3 direction;    // of the mirror ray
+  bool is_ground;    // that is met
   vec3 shade;        // what moving bodies leave of its light
   bool is_body;      // of those that move, which no map shows
   vec3 body_radiance;
@@ -185,6 +189,7 @@ void trace(vec3 at, vec3 direction) {
   }
 
   sight.distance = hit.distance;
+  sight.is_ground = hit.met == met_top;
   if (hit.met == met_side && detail == all_detail)
     sight.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
   met = at + sight.distance * direction;
@@ -212,6 +217,8 @@ vec3 change_of_way(vec3 way, ivec2 here, ivec2 step) {
 
 void look_along(vec3 at, vec3 direction) {
   sight.is_body = false;
+  sight.is_ground = false;
+  sight.direction = direction;
   sight.shade = vec3(1.0f);
   sight.weight[1] = 0.0f;
   ivec2 here = ivec2(gl_FragCoord.xy);
@@ -244,23 +251,27 @@ vec3 sharp_radiance(int k, float lobe) {
   return sum / taps;
 }
 
-vec3 glossy_radiance(int k, float roughness) {
+vec3 glossy_radiance(int k, vec3 direction, float roughness) {
   vec3 tiles = gloss_tiles(roughness);
-  vec2 uv = layer_uv(normalize(sight.to_met[k]), gloss_side, gloss_border);
+  vec2 uv = layer_uv(direction, gloss_side, gloss_border);
   vec3 sharper = textureLod(map_glosses, vec3(gloss_uv(uv, tiles.x), sight.map[k]), 0.0f).rgb;
   vec3 rougher = textureLod(map_glosses, vec3(gloss_uv(uv, tiles.y), sight.map[k]), 0.0f).rgb;
   return mix(sharper, rougher, tiles.z);
 }
 
-vec3 reflected_radiance(float roughness) {
+// `over_ground`: of the lobe, the share that passes over the ground that its middle meets, to what stands beyond.
+vec3 reflected_radiance(float roughness, float over_ground) {
   vec3 sum = vec3(0.0f);
   for (int k = 0; k < most_maps; ++k) {
     if (sight.weight[k] == 0.0f) continue;
     // A lobe that ends near the surface is narrow for a map that is farther away.
     float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
-    sum += sight.weight[k] * (seen_roughness < least_gloss
-                                  ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
-                                  : glossy_radiance(k, seen_roughness));
+    vec3 to_met = normalize(sight.to_met[k]);
+    vec3 seen = seen_roughness < least_gloss ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
+                                             : glossy_radiance(k, to_met, seen_roughness);
+    if (over_ground > 0.0f)
+      seen = mix(seen, glossy_radiance(k, normalize(to_met + sight.direction), roughness), over_ground);
+    sum += sight.weight[k] * seen;
   }
   return min(sight.is_body ? sight.body_radiance : sight.shade * sum, vec3(greatest_radiance));
 }
@@ -270,6 +281,7 @@ void main() {
   vec4 start = texelFetch(ray_starts, here, 0), way = texelFetch(ray_ways, here, 0);
   if (int(way.w) != reflecting_object + 1) discard;
   look_along(start.xyz, octahedral_direction(way.xy));
-  base_radiance = vec4(reflected_radiance(start.w), 1.0f);
-  coat_radiance = reflected_radiance(way.z);
+  bool passes_ground = sight.is_ground && start.w > least_wide_lobe;
+  base_radiance = vec4(reflected_radiance(start.w, passes_ground ? share_over_ground : 0.0f), 1.0f);
+  coat_radiance = reflected_radiance(way.z, 0.0f);
 }
