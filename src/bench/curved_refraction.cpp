@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array cameras{"ball", "egg", "both"};
 constexpr std::size_t quick_cameras = 2;
-constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
+constexpr int width = 960, height = 600, quick_width = 320, quick_height = 200;
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr int rings = 96, sides = 192;  // the ray tracer follows the facets
+constexpr int rings = 48, sides = 96;  // the ray tracer follows the facets
 
 /// An ellipsoid that stands on the origin.
 scene::Model glass_body(const char* name, glm::vec3 radii, glm::vec3 absorption_per_m) {

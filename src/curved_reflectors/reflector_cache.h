@@ -24,8 +24,6 @@ class ReflectorCache {
   bool has(const scene::Object& object) const;
   Status keep(const scene::Object& object, const Reflector& reflector) const;
 
-  /// Texels a side of a usual map.
-  int side() const { return side_; }
   /// Empty for a scene that was made in memory.
   const std::filesystem::path& folder() const { return folder_; }
   /// Where an object's reflector is kept; empty: nowhere.

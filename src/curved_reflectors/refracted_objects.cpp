@@ -13,7 +13,8 @@ namespace {
 
 constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
 constexpr float ways_apart =
-    0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
+    0.45f;                     // radians: how far a body may stand beside each traced ray and still be shown
+constexpr int map_side = 512;  // texels: smooth bodies to a hundredth of a degree
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
 
 bool refracts(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
@@ -60,23 +61,22 @@ RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePro
       glass_light_(std::move(glass_light)),
       settings_(scene.reflection),
       reflections_(std::move(reflections)) {
-  const int side = ReflectorCache(scene).side();
   for (const scene::Object& object : scene.objects) {
     const scene::Model* model = object.model.get();
     model_of_object_.push_back(model);
     if (object.takes_reflection && has_glass(*model) && !glass_.contains(model))
-      glass_[model] = glass_of(object, side);
+      glass_[model] = glass_of(object);
   }
 }
 
-std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const scene::Object& object, int side) {
+std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const scene::Object& object) {
   const auto refuse = [&](const std::string& why) {
     fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n", why);
     return nullptr;
   };
   const scene::Model& model = *object.model;
   const std::string name = object.name.empty() ? model.name : object.name;
-  const Result<Reflector> made = make_reflector(mesh_of(model, refracts), name, side);
+  const Result<Reflector> made = make_reflector(mesh_of(model, refracts), name, map_side);
   if (!made) return refuse(to_string(made.errors().front()));
   if (made->mesh.open_edges > 0)
     return refuse(fmt::format("{}: {} edges of its glass have not two triangles; close its holes", name,

@@ -55,7 +55,7 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
 
   RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
                    gl::Program glass_light, std::unique_ptr<render::Reflections> reflections);
-  static std::unique_ptr<Glass> glass_of(const scene::Object& object, int side);
+  static std::unique_ptr<Glass> glass_of(const scene::Object& object);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void find_glass(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);

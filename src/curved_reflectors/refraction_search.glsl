@@ -160,13 +160,17 @@ GLSL_FUNCTION RefractedPoint search_refraction(RefractionTask task, vec3 to_entr
                         solution(bends_of_way(task, way, entry_bend, exit_bend), way.slope).negative_pivots);
 }
 
-// How far a ray that was traced misses the vertex, squared, as an angle; 5 where it has passed another number of foci.
-GLSL_FUNCTION float miss_of_start(mat4 start, vec3 vertex, int foci) {
-  vec3 to_vertex = vertex - vec3(start[1].x, start[1].y, start[1].z);
-  float far = max(length(to_vertex), 1e-12f);
-  vec3 off = to_vertex / far - vec3(start[2].x, start[2].y, start[2].z);
+// How far a ray that was traced misses the vertex, squared: about an angle, and for what is near a share of the body. No more than
+// most_miss lies between two rays, so what all of them miss by more is not shown: that is most of a scene.
+const float most_miss = 0.36f;
+
+GLSL_FUNCTION float miss_of_start(RefractionTask task, mat4 start, int foci) {
+  vec3 exit = vec3(start[1].x, start[1].y, start[1].z);
+  vec3 to_vertex = task.vertex - exit;
+  float far = length(to_vertex);
+  vec3 off = (to_vertex - far * vec3(start[2].x, start[2].y, start[2].z)) / (far + 0.5f * length(exit - task.centre));
   int passed = (far > start[0].w ? 1 : 0) + (far > start[1].w ? 1 : 0);
-  return passed == foci ? dot(off, off) : 5.0f;
+  return passed == foci ? dot(off, off) : 2.0f * most_miss;
 }
 
 GLSL_FUNCTION bool is_refracted(RefractedPoint p, int foci) { return p.error < refraction_lost && p.foci == foci; }
@@ -178,9 +182,9 @@ GLSL_FUNCTION RefractedPoint refracted_vertex(RefractionTask task, int foci) {
   float tried = -1.0f;  // the misses of starts that were: those that are left miss by more
   for (int k = 0; k < refraction_attempts; ++k) {
     int next = -1;
-    float least = 4.5f;
+    float least = most_miss;
     for (int i = 0; i < refraction_start_count; ++i) {
-      float miss = miss_of_start(refraction_start(i), task.vertex, foci);
+      float miss = miss_of_start(task, refraction_start(i), foci);
       if (miss > tried && miss < least) {
         least = miss;
         next = i;
