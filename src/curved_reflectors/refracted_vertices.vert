@@ -17,6 +17,7 @@ const float nearly_refracted = 0.3f;
 
 out vec3 seen_from;
 out float is_lost;
+out float is_elsewhere;
 out vec3 image_in_glass;  // in the body's frame
 
 void main() {
@@ -26,6 +27,7 @@ void main() {
   bool is_smooth = surface_kind(found.entry.position - map_centre) == kind_surface &&
                    surface_kind(found.exit.position - map_centre) == kind_surface;
   is_lost = found.error < nearly_refracted && is_smooth ? 0.0f : 1.0f;
+  is_elsewhere = found.error < refraction_lost && found.foci != passed_by_light ? 1.0f : 0.0f;
   seen_from = moved(world_from_reflector, found.exit.position);
   vec3 image = viewer + found.length * normalize(found.entry.position - viewer);
   if (is_lost > 0.0f) image = map_centre;  // finite; the triangle is not drawn
