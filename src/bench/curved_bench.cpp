@@ -3,6 +3,7 @@
 #include "bench/curved_bonnet.h"
 #include "bench/curved_cost.h"
 #include "bench/curved_edges.h"
+#include "bench/curved_explosion.h"
 #include "bench/curved_grids.h"
 #include "bench/curved_kitchen.h"
 #include "bench/curved_refraction.h"
@@ -14,9 +15,25 @@ namespace parvis::bench {
 
 Result<Report> curved_bench(bool is_quick) {
   Report report("curved");
-  for (const auto measure : {measure_search, measure_roots, measure_edges, measure_cost, measure_grids,
-                             measure_kitchen, measure_bonnet, measure_two_bounces, measure_refraction})
-    if (Status status = measure(is_quick, report); !status) return status.errors();
+  struct Part {
+    const char* name;
+    Status (*measure)(bool, Report&);
+  };
+  for (const Part& part : {Part{"explosion maps", measure_explosion_maps},
+                           {"search", measure_search},
+                           {"roots", measure_roots},
+                           {"edges", measure_edges},
+                           {"cost", measure_cost},
+                           {"grids", measure_grids},
+                           {"kitchen", measure_kitchen},
+                           {"bonnet", measure_bonnet},
+                           {"two bounces", measure_two_bounces},
+                           {"refraction", measure_refraction}}) {
+    Status status = Done{};
+    const double ms = milliseconds([&] { status = part.measure(is_quick, report); });
+    if (!status) return status.errors();
+    report.note(fmt::format("{} took {:.0f} s", part.name, 1e-3 * ms));
+  }
   return report;
 }
 

@@ -45,6 +45,7 @@ scene::Scene balls_round_a_mirror() {
       scene::add(scene, mirror, true, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, 1.1f)));
   scene.objects[std::size_t(object)].takes_reflection = true;
   scene.reflection.method = scene::ReflectionMethod::virtual_objects;
+  scene.reflection.uses_level_of_detail = false;  // no virtual grids: every vertex is searched for
   return scene;
 }
 

@@ -88,10 +88,11 @@ std::vector<VirtualPoint> all_by(const Shows& shows, glm::vec3 viewer, std::span
   return points;
 }
 
-std::vector<VirtualPoint> by_grid(const VirtualGrid& grid, glm::vec3 viewer, std::size_t vertices) {
+std::vector<VirtualPoint> by_grid(const VirtualGrid& grid, glm::vec3 viewer,
+                                  std::span<const glm::vec3> vertices) {
   const std::vector<VirtualPoint> corners = all_by(by_newton, viewer, grid.corners());
-  std::vector<VirtualPoint> points(vertices);
-  grid.interpolate(corners, points);
+  std::vector<VirtualPoint> points(vertices.size());
+  grid.interpolate(vertices, corners, points);
   return points;
 }
 
@@ -143,7 +144,7 @@ void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, bool is_quick, R
   parallel_for(std::size_t(frames), [&](std::size_t f) {
     const Camera camera = camera_at(int(f));
     const glm::vec3 viewer = camera.position_in_world();
-    const std::vector<VirtualPoint> of_grid = by_grid(grid, viewer, mesh.positions.size()),
+    const std::vector<VirtualPoint> of_grid = by_grid(grid, viewer, mesh.positions),
                                     fixed = all_by(by_midpoint, viewer, watched),
                                     truth = all_by(exactly, viewer, watched);
     for (std::size_t i = 0; i < watched.size(); ++i) {
@@ -162,17 +163,16 @@ void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, bool is_quick, R
 
 void measure_time(const Mesh& mesh, bool is_quick, Report& report) {
   const glm::vec3 viewer = camera_at(frames / 2).position_in_world();
-  for (const float share : VirtualGridLevels::shares) {
+  for (const float share : grid_shares) {
     const VirtualGrid grid(mesh.positions, share);
     std::vector<double> ratios;
     for (int turn = 0; turn < (is_quick ? quick_turns : turns); ++turn) {
       const double all = milliseconds([&] { all_by(by_newton, viewer, mesh.positions); });
-      ratios.push_back(milliseconds([&] { by_grid(grid, viewer, mesh.positions.size()); }) / all);
+      ratios.push_back(milliseconds([&] { by_grid(grid, viewer, mesh.positions); }) / all);
     }
-    report.note(
-        fmt::format("a grid of {:.1f} %: {} corners in {} cells for {} vertices, {:.3f} of the time of all",
-                    100.0f * share, grid.corners().size(), grid.cell_count(), mesh.positions.size(),
-                    median(ratios).value));
+    report.note(fmt::format("a grid of {:.1f} %: {} corners for {} vertices, {:.3f} of the time of all",
+                            100.0f * share, grid.corners().size(), mesh.positions.size(),
+                            median(ratios).value));
     if (share == grid10_share) report.add("grid10_over_all_time", median(ratios));
   }
 }
@@ -202,9 +202,8 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
   std::string row =
       fmt::format("FLIP of the virtual mesh against exact vertices: all {:.5f}, 9 midpoint iterations {:.5f}",
                   *all, *midpoint);
-  for (const float share : VirtualGridLevels::shares) {
-    const Result<double> flip =
-        flip_of(by_grid(VirtualGrid(mesh.positions, share), viewer, mesh.positions.size()));
+  for (const float share : grid_shares) {
+    const Result<double> flip = flip_of(by_grid(VirtualGrid(mesh.positions, share), viewer, mesh.positions));
     if (!flip) return flip.errors();
     row += fmt::format(", a grid of {:.1f} % {:.5f}", 100.0f * share, *flip);
     if (share == grid10_share) report.add("grid10_flip_over_all", *flip / *midpoint);

@@ -36,6 +36,21 @@ bool PatchBounds::may_show(glm::vec3 viewer, glm::vec3 centre, float radius) con
   return off >= all_around || angle_between(glm::reflect(-to_viewer, axis), to_mesh) <= off;
 }
 
+// The image in a ball of radius r of what stands at distance d above it lies at d r / (2 d + r) below, and is
+// smaller by as much. A hollow may show anything as wide as itself.
+float PatchBounds::image_width(glm::vec3 viewer, glm::vec3 centre, float radius, bool is_convex) const {
+  const auto distance_to_box = [&](glm::vec3 from) {
+    return glm::distance(from, glm::clamp(from, box.min, box.max));
+  };
+  const float viewer_distance = std::max(distance_to_box(viewer), 1e-6f);
+  const float patch_width = 2.0f * box.radius() / viewer_distance;
+  if (!is_convex) return patch_width;
+  const float bend_radius = box.radius() / std::max(std::sin(std::min(spread, 1.5707964f)), 1e-6f);
+  const float distance = std::max(distance_to_box(centre) - radius, 0.0f);
+  const float share = bend_radius / (2.0f * distance + bend_radius);
+  return std::min(patch_width, 2.0f * radius * share / (viewer_distance + distance * share));
+}
+
 PatchBounds patch_bounds(const ReflectorMesh& mesh, const ReflectorPatch& patch) {
   PatchBounds bounds;
   glm::vec3 sum(0.0f);

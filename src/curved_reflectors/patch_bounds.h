@@ -16,6 +16,9 @@ struct PatchBounds {
   bool may_be_seen(glm::vec3 viewer) const;
   /// False only where nothing within `radius` of `centre` can be mirrored to the viewer.
   bool may_show(glm::vec3 viewer, glm::vec3 centre, float radius) const;
+  /// About how wide the viewer sees the image of a ball of `radius` about `centre`, as the tangent of an
+  /// angle: as in a mirror ball that bends as the patch does as a whole, and no wider than the patch itself.
+  float image_width(glm::vec3 viewer, glm::vec3 centre, float radius, bool is_convex) const;
 };
 
 PatchBounds patch_bounds(const ReflectorMesh& mesh, const ReflectorPatch& patch);

@@ -14,6 +14,23 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
   return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
 }
 
+glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view) {
+  const glm::ivec2 size(view.width, view.height);
+  const Bounds& box = patch.patch->bounds.box;
+  glm::vec2 low(1e9f), high(-1e9f);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                      corner & 4 ? box.max.z : box.min.z);
+    const glm::vec4 clip = view.clip_from_world * patch.world_from_reflector * glm::vec4(p, 1.0f);
+    if (clip.w < 1e-3f) return {0, 0, size};  // beside the eye
+    const glm::vec2 at = (0.5f + 0.5f * glm::vec2(clip) / clip.w) * glm::vec2(size);
+    low = glm::min(low, at), high = glm::max(high, at);
+  }
+  const glm::vec2 end(size);
+  const glm::ivec2 first(glm::clamp(glm::floor(low), glm::vec2(0.0f), end - 1.0f));
+  return {first, glm::ivec2(glm::clamp(glm::ceil(high), glm::vec2(first) + 1.0f, end)) - first};
+}
+
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
                   std::span<const ShownPatch> patches) {
   glBindFramebuffer(GL_FRAMEBUFFER, view.framebuffer);

@@ -22,6 +22,9 @@ struct ShownPatch {
   glm::vec3 viewer;  ///< in the reflector's frame
 };
 
+/// The rectangle of the view, from the lower left, that holds all of a patch's pixels.
+glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
+
 /// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1.
 /// `patch_pixels`: patch_pixels.vert and .frag. The view's stencil test is on.
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,

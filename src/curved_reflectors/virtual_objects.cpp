@@ -25,6 +25,12 @@ std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const sc
   return std::make_unique<GpuReflector>(*made);
 }
 
+/// For shaders with virtual_point.glsl.
+gl::Defines search_defines(const scene::Reflection& reflection) {
+  if (reflection.search == scene::ReflectionSearch::newton) return {};
+  return {{"MIDPOINT_ITERATIONS", std::to_string(reflection.iterations)}};
+}
+
 /// What the first mirror-like material gives back, seen from before it.
 glm::vec3 mirror_colour(const scene::Model& model) {
   constexpr float coat = 0.04f;
@@ -46,7 +52,11 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   if (!own_reflection) return own_reflection.errors();
   render::assign_bindings(*own_reflection);
   std::unique_ptr<MirrorsInMirrors> in_mirrors;
-  gl::Defines defines{{"IS_MIRRORED", ""}};
+  gl::Defines defines = search_defines(scene.reflection);
+  Result<GridSearch> grids = GridSearch::create(scene, renderer.gpu(), defines);
+  if (!grids) return grids.errors();
+  defines.emplace_back("IS_MIRRORED", "");
+  if (grids->has_any()) defines.emplace_back("HAS_VIRTUAL_GRIDS", "");
   if (scene.reflection.method == scene::ReflectionMethod::virtual_objects && scene.reflection.bounces > 1) {
     Result<std::unique_ptr<MirrorsInMirrors>> made = MirrorsInMirrors::create(renderer);
     if (!made) return made.errors();
@@ -59,16 +69,17 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   if (!programs) return programs.errors();
   return std::unique_ptr<VirtualObjects>(
       new VirtualObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(own_reflection),
-                         std::move(in_mirrors), std::move(surroundings)));
+                         *std::move(grids), std::move(in_mirrors), std::move(surroundings)));
 }
 
 VirtualObjects::VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs,
-                               gl::Program patch_pixels, gl::Program own_reflection,
+                               gl::Program patch_pixels, gl::Program own_reflection, GridSearch grids,
                                std::unique_ptr<MirrorsInMirrors> in_mirrors,
                                std::unique_ptr<render::Reflections> surroundings)
     : VirtualVertices(std::move(programs)),
       patch_pixels_(std::move(patch_pixels)),
       own_reflection_(std::move(own_reflection)),
+      grids_(std::move(grids)),
       in_mirrors_(std::move(in_mirrors)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
@@ -126,6 +137,7 @@ void VirtualObjects::find_patches(const render::Renderer& renderer,
 void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view) {
   current_ = &patch;
   view.excluded_object = patch.object;
+  view.part = pixels_of(patch, view);
   view.shown_objects = patch.near < 0 ? nullptr : &near_[std::size_t(patch.near)];
   const int first = patch.patch->shows_once ? -1 : 0, end = patch.patch->shows_once ? 0 : layer_count;
   for (layer_ = first; layer_ < end; ++layer_) {
@@ -185,6 +197,8 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
     in_mirrors_->draw(renderer, patch_pixels_, shown_, all_);
   }
   render::View view = renderer.main_view();
+  pixels_a_radian_ =
+      0.5f * float(view.height) * glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]));
   view.kind = render::ViewKind::mirrored;
   view.virtual_vertices = this;
   view.framebuffer = picture_.framebuffer();
@@ -203,6 +217,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
 
 void VirtualObjects::bind(const gl::Program& program) {
   GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit);
+  grids_.bind(program);
   program.set("patch_layer", layer_);
   if (in_mirrors_) glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
 }
@@ -213,6 +228,23 @@ bool VirtualObjects::may_show(const Bounds& bounds) const {
   return current_->patch->bounds.may_show(current_->viewer,
                                           in_reflector(world_from_reflector, bounds.centre()),
                                           bounds.radius() / glm::length(world_from_reflector[0]));
+}
+
+glm::ivec2 VirtualObjects::add(const render::Item& item) {
+  const glm::mat4& world_from_reflector = current_->world_from_reflector;
+  const float width_px =
+      pixels_a_radian_ * current_->patch->bounds.image_width(
+                             current_->viewer, in_reflector(world_from_reflector, item.bounds.centre()),
+                             item.bounds.radius() / glm::length(world_from_reflector[0]),
+                             current_->patch->is_convex);
+  return grids_.add(item, 0.7853982f * width_px * width_px);  // of a disc
+}
+
+void VirtualObjects::prepare() {
+  grids_.search([this](const gl::Program& program) {
+    bind(program);
+    program.set("viewer_in_reflector", current_->viewer);
+  });
 }
 
 std::string VirtualObjects::fragment_shader() const {

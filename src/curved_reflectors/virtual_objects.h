@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "curved_reflectors/grid_search.h"
 #include "curved_reflectors/mirrors_in_mirrors.h"
 #include "curved_reflectors/virtual_picture.h"
 #include "render/reflections.h"
@@ -34,10 +35,12 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   }
   void bind(const gl::Program& program) override;
   bool may_show(const Bounds& bounds) const override;
+  glm::ivec2 add(const render::Item& item) override;
+  void prepare() override;
 
  private:
   VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
-                 gl::Program own_reflection, std::unique_ptr<MirrorsInMirrors> in_mirrors,
+                 gl::Program own_reflection, GridSearch grids, std::unique_ptr<MirrorsInMirrors> in_mirrors,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
@@ -56,6 +59,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
+  GridSearch grids_;
   std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;
@@ -66,6 +70,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::vector<std::vector<std::uint8_t>> large_;  ///< by reflector: objects that its surroundings show
   std::vector<render::Reflector> with_large_;
   const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn
+  float pixels_a_radian_ = 0.0f;         ///< of the main view
   int layer_ = -1;                       ///< of it, if it may show a vertex several times
 };
 

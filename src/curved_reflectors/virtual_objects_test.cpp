@@ -51,6 +51,34 @@ TEST_F(VirtualObjectsTest, AnEllipsoidThatIsTurnedAndScaledDoes) {
   EXPECT_LT(draw(among_boxes(mesh, half), eye, target).flip(), 0.04);
 }
 
+/// Section 5: the corners of a grid searched for, the boxes' vertices interpolated. (The floor's squares have
+/// too few for a grid.)
+TEST_F(VirtualObjectsTest, AVirtualGridShowsTheSame) {
+  scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
+  const Compared searched = draw(scene, eye, target);
+  scene.reflection.uses_level_of_detail = false;
+  double last = 1.0;
+  for (const float share : {0.01f, 0.041f, 0.143f}) {
+    scene.reflection.virtual_grid = share;
+    const Compared interpolated = draw(scene, eye, target);
+    const double flip = reference::compare(interpolated.ours, searched.ours, searched.mirrors)->flip;
+    EXPECT_GT(flip, 0.0) << "no grid was used";
+    EXPECT_LT(flip, last) << "more corners are nearer";
+    last = flip;
+  }
+  EXPECT_LT(last, 0.01);
+}
+
+/// A search that may take one step alone ends beside the reflection points; nine are near them.
+TEST_F(VirtualObjectsTest, TheMidpointSearchComesNearerWithEachIteration) {
+  scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
+  scene.reflection.search = scene::ReflectionSearch::midpoint;
+  scene.reflection.iterations = 1;
+  const double one = draw(scene, eye, target).flip();
+  scene.reflection.iterations = 9;
+  EXPECT_LT(draw(scene, eye, target).flip(), 0.5 * one);
+}
+
 /// The inside of a ball, open toward the viewer, and so shallow that it hardly shows itself.
 TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   Mesh bowl = scene::sphere(glm::vec3(0.0f), 1.0f, 64);

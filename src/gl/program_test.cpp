@@ -49,10 +49,12 @@ TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
 bool is_for_the_desktop_alone(std::string_view path) { return path == "render/resolve.frag"; }
 
 TEST_F(ProgramTest, EveryDisplayShaderCompilesInBothDialects) {
-  const Defines all{{"HAS_NORMAL_MAP", ""},   {"HAS_SURFACE_MAP", ""},    {"HAS_EMISSION_MAP", ""},
-                    {"HAS_COAT", ""},         {"HAS_BACKS", ""},          {"HAS_HOLES", ""},
-                    {"IS_LEAF", ""},          {"ANISOTROPY_BY_TAPS", ""}, {"IS_GLASS", ""},
-                    {"HAS_GLASS_PICTURE", ""}};
+  const Defines all{{"HAS_NORMAL_MAP", ""},    {"HAS_SURFACE_MAP", ""},
+                    {"HAS_EMISSION_MAP", ""},  {"HAS_COAT", ""},
+                    {"HAS_BACKS", ""},         {"HAS_HOLES", ""},
+                    {"IS_LEAF", ""},           {"ANISOTROPY_BY_TAPS", ""},
+                    {"HAS_VIRTUAL_GRIDS", ""}, {"MIDPOINT_ITERATIONS", "9"},
+                    {"IS_GLASS", ""},          {"HAS_GLASS_PICTURE", ""}};
   for (const ShaderFile* file = embedded_shaders; file->path; ++file) {
     const std::string_view path = file->path;
     if (path.ends_with(".glsl"sv)) continue;

@@ -60,6 +60,7 @@ struct Item {
   struct Record {
     glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;
+    glm::ivec2 virtual_grid{0};  ///< of mirrored views: as VirtualVertices::add has it
   };
   Record record;
   Bounds bounds;  ///< in the world

@@ -26,6 +26,9 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   glEnableVertexArrayAttrib(name, 6);
   glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object
   glVertexArrayAttribBinding(name, 6, 1);
+  glEnableVertexArrayAttrib(name, 7);
+  glVertexArrayAttribIFormat(name, 7, 2, GL_INT, offsetof(Item::Record, virtual_grid));
+  glVertexArrayAttribBinding(name, 7, 1);
   glVertexArrayBindingDivisor(name, 1, 1);
   return array;
 }
@@ -226,6 +229,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
     const int level =
         view.kind == ViewKind::mirrored || view.kind == ViewKind::picking ? 0 : level_of(item, scale);
     list.order.push_back({sort_key(item, level, view), int(i), level});
+    if (view.kind == ViewKind::mirrored) list.order.back().virtual_grid = view.virtual_vertices->add(item);
   }
   sort(list);
 }
@@ -247,7 +251,7 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
   list.records.clear();
   list.commands.clear();
   for (std::vector<Batch>& batches : list.batches) batches.clear();
-  for (const auto& [key, index, level] : list.order) {
+  for (const auto& [key, index, level, virtual_grid] : list.order) {
     const Item& item = gpu_.items()[std::size_t(index)];
     const PartRange& part = gpu_.parts()[std::size_t(item.part)];
     const MeshRange& mesh =
@@ -266,6 +270,7 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
       ++batches.back().command_count;
     }
     list.records.push_back(item.record);
+    list.records.back().virtual_grid = virtual_grid;
     list.statistics.triangles += mesh.index_count / 3;
   }
   list.statistics.draws = int(list.commands.size());
@@ -280,6 +285,7 @@ void SceneDrawable::prepare(const View& view) {
   batch(view, list);
   list.first_record = list.record_store.append(std::span<const Item::Record>(list.records), 64);
   list.first_command = list.command_store.append(std::span<const Command>(list.commands), 4);
+  if (view.kind == ViewKind::mirrored) view.virtual_vertices->prepare();
   if (view.kind != ViewKind::main) return;
   visible_objects_.clear();
   for (const ViewList::Entry& entry : list.order)

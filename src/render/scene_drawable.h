@@ -88,6 +88,7 @@ class SceneDrawable final : public Drawable {
       std::uint64_t key;  ///< by which entries are sorted
       int item;
       int level;  ///< 0: the mesh itself; then of the scene's levels
+      glm::ivec2 virtual_grid{0};
     };
     std::vector<Entry> order;
     std::vector<Item::Record> records;

@@ -16,6 +16,10 @@ class VirtualVertices {
   virtual void bind(const gl::Program& program) = 0;
   /// May that reflector show any of what lies within these bounds? Else it is left out.
   virtual bool may_show(const Bounds& bounds) const = 0;
+  /// The next view shows an item: what its vertices read as attribute 7, two integers.
+  virtual glm::ivec2 add(const Item& /*item*/) { return {}; }
+  /// All items of the next view have been added, and nothing is drawn yet: here it may draw elsewhere.
+  virtual void prepare() {}
 
   const gl::Program& program_of(const GpuMaterial& material) const { return programs_.of(material, true); }
 

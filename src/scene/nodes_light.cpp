@@ -195,6 +195,30 @@ NodeSchema reflection_schema() {
                 .minimum = 1,
                 .maximum = 2,
                 .is_live = true},
+               {.name = "virtual_grid",
+                .type = AttributeType::number,
+                .help = "of virtual objects: reflection points are searched for the corners of a grid about "
+                        "each mesh, at most this share of as many as it has vertices, and its vertices are "
+                        "interpolated between them; 1: for each vertex itself. With level_of_detail fewer "
+                        "where that is not seen",
+                .fallback = "1",
+                .minimum = 0,
+                .maximum = 1,
+                .is_live = true},
+               {.name = "search",
+                .type = AttributeType::choice,
+                .help = "of virtual objects: how reflection points are searched for; midpoint is the method "
+                        "of Estalella and others 2005, drawn however far it has come",
+                .fallback = reflection_search_names[0],
+                .choices = {reflection_search_names.begin(), reflection_search_names.end()},
+                .is_live = true},
+               {.name = "iterations",
+                .type = AttributeType::integer,
+                .help = "of search=midpoint",
+                .fallback = "9",
+                .minimum = 1,
+                .maximum = 100,
+                .is_live = true},
                {.name = "show",
                 .type = AttributeType::choice,
                 .help = "of local_environment_maps, to look into it: its mesh in red over the maps, or "
@@ -218,6 +242,10 @@ void build_reflection(const Node& node, SceneBuilder& builder) {
   reflection.faces_a_frame = int(node.integer("faces_a_frame"));
   reflection.virtual_within_m = float(node.number("virtual_within"));
   reflection.bounces = int(node.integer("bounces"));
+  reflection.virtual_grid = float(node.number("virtual_grid"));
+  for (std::size_t i = 0; i < reflection_search_names.size(); ++i)
+    if (node.text("search") == reflection_search_names[i]) reflection.search = ReflectionSearch(i);
+  reflection.iterations = int(node.integer("iterations"));
   for (std::size_t i = 0; i < reflection_view_names.size(); ++i)
     if (node.text("show") == reflection_view_names[i]) reflection.shown = ReflectionView(i);
 }

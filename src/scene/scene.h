@@ -96,6 +96,10 @@ enum class ReflectionView : std::uint8_t {
 };
 inline constexpr std::array reflection_view_names{"radiance", "mesh", "weights"};
 
+/// How the reflection point of a vertex is searched for.
+enum class ReflectionSearch : std::uint8_t { newton, midpoint };
+inline constexpr std::array reflection_search_names{"newton", "midpoint"};
+
 struct Reflection {
   ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
   int resolution = 128;              ///< pixels along a face's edge
@@ -105,7 +109,10 @@ struct Reflection {
   float budget_ms = 0.0f;         ///< of a frame, held by choosing levels of detail; 0: none
   int faces_a_frame = 0;          ///< of time-sliced maps, over all reflectors; 0: one for each of them
   float virtual_within_m = 0.0f;  ///< what stands wholly so near to a mirror is drawn as virtual objects
-  int bounces = 1;  ///< of the ray tracer and virtual objects: 2, mirrors show what mirrors show
+  float virtual_grid = 1.0f;  ///< of a mesh's vertices, the greatest share of corners; 1: each vertex itself
+  ReflectionSearch search = ReflectionSearch::newton;
+  int iterations = 9;  ///< of the midpoint search
+  int bounces = 1;     ///< of the ray tracer and virtual objects: 2, mirrors show what mirrors show
 
   bool operator==(const Reflection&) const = default;
 };

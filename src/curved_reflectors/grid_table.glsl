@@ -1,0 +1,17 @@
+// All virtual grids of a scene in one texture, as GridSearch lays them out: for each grid its origin, its cells a metre, its
+// count of cells, its corners (their count stands beside the origin), then the numbers of the corners by their place in the
+// grid's box, four to a texel; a place without a corner holds -1.
+uniform highp sampler2D grid_table;
+
+vec4 grid_texel(int texel) {
+  int width = textureSize(grid_table, 0).x;
+  return texelFetch(grid_table, ivec2(texel % width, texel / width), 0);
+}
+
+int corner_count(int grid) { return int(grid_texel(grid).w); }
+
+vec3 corner_position(int grid, int corner) { return grid_texel(grid + 3 + corner).xyz; }
+
+int corner_at(int grid, int place_in_box) {
+  return int(grid_texel(grid + 3 + corner_count(grid) + place_in_box / 4)[place_in_box % 4]);
+}

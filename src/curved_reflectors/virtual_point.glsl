@@ -1,0 +1,46 @@
+// Where one mirror shows a point of the scene (Estalella and others 2005, sections 3, 4 and 6.1). All in the mirror's frame.
+#include "curved_reflectors/patch_uniforms.glsl"
+#include "curved_reflectors/newton_search.glsl"
+#include "curved_reflectors/patch_search.glsl"
+#include "curved_reflectors/midpoint_search.glsl"
+
+struct VirtualPoint {
+  vec3 image;      // behind the surface, as behind the plane that touches there
+  vec3 seen_from;  // the reflection point
+  vec3 shown_by;   // the surface's normal there
+  bool is_lost;    // the mirror has no place that shows it
+};
+
+PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f, patch_layer < 0); }
+
+#ifdef MIDPOINT_ITERATIONS
+// The paper's search takes as many steps as it is told to, and draws what it has come to.
+bool is_near_enough(PatchPoint found) { return true; }
+
+PatchPoint point_of_mirror(ReflectionTask task, PatchKind kind) {
+  vec3 start = task.vertex - task.centre;
+  if (patch_layer < search_start_count) start = search_start(max(patch_layer, 0)).position - task.centre;
+  if (patch_layer < 0 && kind.is_whole_body) start = first_direction(task);
+  ReflectionPoint point = search_by_midpoint(task, start, MIDPOINT_ITERATIONS, found_error);
+  return PatchPoint(point, surface_kind(point.direction));
+}
+#else
+bool is_near_enough(PatchPoint found) { return found.point.angle < found_angle; }
+
+PatchPoint point_of_mirror(ReflectionTask task, PatchKind kind) { return search_patch(task, kind, patch_layer); }
+#endif
+
+// Points beyond a rim are no reflections, but corners of triangles that reach over it. What closes a hollow lies between it and
+// the viewer: there they are not even that.
+bool has_place(PatchPoint found, PatchKind kind) {
+  return is_near_enough(found) && (found.kind == kind_surface || (found.kind == kind_closed && kind.is_convex));
+}
+
+VirtualPoint virtual_point(vec3 viewer, vec3 vertex) {
+  PatchKind kind = patch_kind_of_mirror();
+  PatchPoint found = point_of_mirror(ReflectionTask(viewer, vertex, map_centre), kind);
+  bool is_lost = !has_place(found, kind);
+  vec3 image = virtual_vertex(vertex, found.point.position, found.point.normal);
+  if (is_lost) image = map_centre;  // finite; the triangle is not drawn
+  return VirtualPoint(image, found.point.position, found.point.normal, is_lost);
+}
