@@ -146,7 +146,7 @@ Status measure_body_count(const scene::Scene& city, const scene::Reflection& ref
     return samples;
   };
   const std::vector<double> of_one = ns_a_pixel(*one), of_many = ns_a_pixel(*many);
-  report.add("cost_ratio_100_over_1", ratio(of_many, of_one));
+  report.add("cost_ratio_100_over_1", ratio_in_turn(of_many, of_one));
   report.add("pixel_ns", median(of_one));
   return Done{};
 }
@@ -174,7 +174,7 @@ Status measure_city_size(const scene::Scene& city, const scene::Reflection& refl
   };
   cost("1 km2", first->places.size(), *here);
   cost("10 km2", large.reference_maps.places.size(), *there);
-  report.add("city_10km2_cost_over_1km2", ratio(there->ms, here->ms));
+  report.add("city_10km2_cost_over_1km2", ratio_in_turn(there->ms, here->ms));
   return Done{};
 }
 

@@ -3,6 +3,8 @@
 namespace parvis::bench {
 namespace {
 
+constexpr double least_ms = 1e-3;
+
 double finished_ms(const std::function<void()>& work) {
   glFinish();
   return milliseconds([&] {
@@ -40,8 +42,12 @@ Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
   return costs;
 }
 
-Median ratio(const std::vector<double>& over, const std::vector<double>& under) {
-  constexpr double least_ms = 1e-3;
+Median ratio(const Median& over, const Median& under) {
+  return {over.value / std::max(under.value, least_ms), over.low / std::max(under.high, least_ms),
+          over.high / std::max(under.low, least_ms)};
+}
+
+Median ratio_in_turn(const std::vector<double>& over, const std::vector<double>& under) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < over.size(); ++i) ratios.push_back(over[i] / std::max(under[i], least_ms));
   return median(std::move(ratios));

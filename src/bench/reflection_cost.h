@@ -26,7 +26,10 @@ Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const Camera& camera, int width, int height, int repeats,
                                                      Frames frames = Frames::whole);
 
-/// The median of the ratios of samples taken in turn: what slows both for a while leaves it.
-Median ratio(const std::vector<double>& over, const std::vector<double>& under);
+/// Ratio of two medians; its interval is the widest that both of theirs allow.
+Median ratio(const Median& over, const Median& under);
+
+/// The median of the ratios of samples taken in turn: what slows both for a while leaves it as it is.
+Median ratio_in_turn(const std::vector<double>& over, const std::vector<double>& under);
 
 }  // namespace parvis::bench
