@@ -36,7 +36,7 @@ void add_bench(CLI::App& app, Chosen& chosen) {
           "objects against the fine mesh")
       ->required()
       ->check(CLI::IsMember({"frame", "doors", "mem", "curved"}));
-  command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: done within three minutes");
+  command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: minutes in place of an hour");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");
   command->callback([arguments, &chosen] { chosen = [arguments] { return measure(*arguments); }; });
