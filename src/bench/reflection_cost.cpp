@@ -49,6 +49,7 @@ Median ratio(const Median& over, const Median& under) {
 
 Median ratio_in_turn(const std::vector<double>& over, const std::vector<double>& under) {
   std::vector<double> ratios;
+  ratios.reserve(over.size());
   for (std::size_t i = 0; i < over.size(); ++i) ratios.push_back(over[i] / std::max(under[i], least_ms));
   return median(std::move(ratios));
 }
