@@ -52,15 +52,9 @@ void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const Sho
 
 /// Each pixel of the first gets the number of the nearest second that it shows.
 void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) {
-  glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
-  glViewport(0, 0, view.width, view.height);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_CULL_FACE);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  begin_marks(view);
+  glDisable(GL_CULL_FACE);  // a mirror image may be turned over
   glStencilMask(second_bits);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   mirrored_patch_.use();
   mirrored_patch_.set("clip_from_world", view.clip_from_world);
   mirrored_patch_.set("viewer_in_world", view.position_in_world);
@@ -74,30 +68,23 @@ void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) 
     seconds_[i].reflector->draw(*seconds_[i].patch);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
   }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(~0u);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  end_marks();
 }
 
 void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch_pixels,
                             std::span<const ShownPatch> first, std::span<const ShownPatch> second) {
-  picture_.resize(renderer.width(), renderer.height());
-  picture_.clear();
   firsts_.clear();
   for (const ShownPatch& patch : first)
     if (patch.patch->shows_once && firsts_.size() < most) firsts_.push_back(patch);
-  render::View view = renderer.main_view();
-  view.kind = render::ViewKind::mirrored;
-  view.virtual_vertices = this;
-  view.framebuffer = picture_.framebuffer();
-  view.culls_hidden = false;
-  view.subjects = render::Subjects::all;
+  render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels, view, firsts_);
   for (std::size_t f = 0; f < firsts_.size(); ++f) {
     first_ = &firsts_[f];
     find_seconds(*first_, second);
     picture_.clear_depth();
+    view.part = pixels_of(*first_, view);
     mark_seconds(view, int(f) + 1);
     for (std::size_t s = 0; s < seconds_.size(); ++s) {
       second_ = &seconds_[s];

@@ -157,15 +157,8 @@ void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scen
                                    const std::vector<render::Reflector>& reflectors) {
   reflections_->update_for(renderer, scene, reflectors);
   faces_drawn_ = reflections_->faces_drawn();
-  picture_.resize(renderer.width(), renderer.height());
-  picture_.clear();
   find_glass(renderer, reflectors);
-  render::View view = renderer.main_view();
-  view.kind = render::ViewKind::mirrored;
-  view.virtual_vertices = this;
-  view.framebuffer = picture_.framebuffer();
-  view.culls_hidden = false;
-  view.subjects = render::Subjects::all;
+  const render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels_, view, shown_);
   for (std::size_t i = 0; i < shown_.size(); ++i) {

@@ -31,8 +31,7 @@ glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view) {
   return {first, glm::ivec2(glm::clamp(glm::ceil(high), glm::vec2(first) + 1.0f, end)) - first};
 }
 
-void mark_patches(const gl::Program& patch_pixels, const render::View& view,
-                  std::span<const ShownPatch> patches) {
+void begin_marks(const render::View& view) {
   glBindFramebuffer(GL_FRAMEBUFFER, view.framebuffer);
   glViewport(0, 0, view.width, view.height);
   glEnable(GL_DEPTH_TEST);
@@ -41,14 +40,23 @@ void mark_patches(const gl::Program& patch_pixels, const render::View& view,
   glEnable(GL_CULL_FACE);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // a shader without colour leaves it undefined
+}
+
+void end_marks() {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+}
+
+void mark_patches(const gl::Program& patch_pixels, const render::View& view,
+                  std::span<const ShownPatch> patches) {
+  begin_marks(view);
   patch_pixels.use();
   for (std::size_t i = 0; i < patches.size(); ++i) {
     glStencilFunc(GL_ALWAYS, GLint(i) + 1, 0xff);
     patch_pixels.set("clip_from_reflector", view.clip_from_world * patches[i].world_from_reflector);
     patches[i].reflector->draw(*patches[i].patch);
   }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  end_marks();
 }
 
 }  // namespace parvis::curved_reflectors

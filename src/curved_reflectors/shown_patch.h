@@ -25,6 +25,10 @@ struct ShownPatch {
 /// The rectangle of the view, from the lower left, that holds all of a patch's pixels.
 glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
 
+/// Between them all that is drawn changes depth and, where it is nearest, the stencil alone.
+void begin_marks(const render::View& view);
+void end_marks();
+
 /// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1.
 /// `patch_pixels`: patch_pixels.vert and .frag. The view's stencil test is on.
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,

@@ -189,21 +189,14 @@ void VirtualObjects::draw_surroundings(render::Renderer& renderer, const scene::
 void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                  const std::vector<render::Reflector>& reflectors) {
   if (surroundings_) draw_surroundings(renderer, scene, reflectors);
-  picture_.resize(renderer.width(), renderer.height());
-  picture_.clear();
   find_patches(renderer, reflectors);
   if (in_mirrors_) {
     find_all_patches(renderer);
     in_mirrors_->draw(renderer, patch_pixels_, shown_, all_);
   }
-  render::View view = renderer.main_view();
+  const render::View view = picture_.begin(renderer, *this);
   pixels_a_radian_ =
       0.5f * float(view.height) * glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]));
-  view.kind = render::ViewKind::mirrored;
-  view.virtual_vertices = this;
-  view.framebuffer = picture_.framebuffer();
-  view.culls_hidden = false;
-  view.subjects = render::Subjects::all;
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels_, view, shown_);
   for (std::size_t i = 0; i < shown_.size(); ++i) {

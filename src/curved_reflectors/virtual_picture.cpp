@@ -26,10 +26,18 @@ void VirtualPicture::resize(int width, int height) {
   glNamedFramebufferTexture(resolved_.name(), GL_COLOR_ATTACHMENT0, picture_.name(), 0);
 }
 
-void VirtualPicture::clear() const {
+render::View VirtualPicture::begin(const render::Renderer& renderer, render::VirtualVertices& vertices) {
+  resize(renderer.width(), renderer.height());
   constexpr GLfloat nothing[4]{};
   glClearNamedFramebufferfv(drawn_.name(), GL_COLOR, 0, nothing);
   glClearNamedFramebufferfi(drawn_.name(), GL_DEPTH_STENCIL, 0, 1.0f, 0);
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrored;
+  view.virtual_vertices = &vertices;
+  view.framebuffer = drawn_.name();
+  view.culls_hidden = false;
+  view.subjects = render::Subjects::all;
+  return view;
 }
 
 void VirtualPicture::clear_depth() const {

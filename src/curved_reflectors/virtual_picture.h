@@ -3,21 +3,23 @@
 #pragma once
 
 #include "gl/objects.h"
+#include "render/renderer.h"
 
 namespace parvis::curved_reflectors {
 
 class VirtualPicture {
  public:
-  void resize(int width, int height);
-  /// To draw into: RGBA16F, depth and stencil, multisampled.
-  GLuint framebuffer() const { return drawn_.name(); }
-  void clear() const;
+  /// Clears the picture, made as large as the main view, and gives the mirrored view to draw into it with,
+  /// all that `vertices` show: RGBA16F, depth and stencil, multisampled.
+  render::View begin(const render::Renderer& renderer, render::VirtualVertices& vertices);
   void clear_depth() const;
   /// Brings the samples together in `texture`.
   void resolve() const;
   GLuint texture() const { return picture_.name(); }
 
  private:
+  void resize(int width, int height);
+
   int width_ = 0, height_ = 0;
   gl::Texture samples_, depth_stencil_, picture_;
   gl::Framebuffer drawn_, resolved_;
