@@ -7,8 +7,8 @@
 namespace parvis::bench {
 
 /// `budget_p95_error_percent`: of a drive of so many seconds behind a car, at thirty frames a second and
-/// width x height. The budget lies midway between what frames take with the cheapest reflections and the best
-/// ones.
+/// width x height. The budget lies midway between what frames take with the fewest pixels and the cheapest
+/// reflections, and with all pixels and the best.
 Status measure_budget(stage::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
                       int height, Report& report);
 

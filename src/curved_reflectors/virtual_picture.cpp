@@ -14,11 +14,12 @@ gl::Texture multisampled(GLenum format, int width, int height) {
 }  // namespace
 
 void VirtualPicture::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  samples_ = multisampled(GL_RGBA16F, width, height);
-  depth_stencil_ = multisampled(GL_DEPTH32F_STENCIL8, width, height);
-  picture_ = gl::texture_2d(GL_RGBA16F, width, height);
+  if (width <= room_.x && height <= room_.y) return;
+  room_ = glm::max(room_, glm::ivec2(width, height));
+  samples_ = multisampled(GL_RGBA16F, room_.x, room_.y);
+  depth_stencil_ = multisampled(GL_DEPTH32F_STENCIL8, room_.x, room_.y);
+  picture_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
   drawn_ = gl::Framebuffer::create();
   glNamedFramebufferTexture(drawn_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
   glNamedFramebufferTexture(drawn_.name(), GL_DEPTH_STENCIL_ATTACHMENT, depth_stencil_.name(), 0);

@@ -21,6 +21,7 @@ class VirtualPicture {
   void resize(int width, int height);
 
   int width_ = 0, height_ = 0;
+  glm::ivec2 room_{0};  ///< of the textures, which never shrink
   gl::Texture samples_, depth_stencil_, picture_;
   gl::Framebuffer drawn_, resolved_;
 };

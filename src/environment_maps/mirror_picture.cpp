@@ -37,13 +37,14 @@ MirrorPicture::MirrorPicture(gl::Program spread)
     : spread_(std::move(spread)), no_attributes_(gl::VertexArray::create()) {}
 
 void MirrorPicture::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  starts_ = gl::texture_2d(GL_RGBA32F, width, height);
-  ways_ = gl::texture_2d(GL_RGBA32F, width, height);
-  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, width, height);
-  base_light_ = gl::texture_2d(GL_RGBA16F, width, height);
-  coat_light_ = gl::texture_2d(GL_R11F_G11F_B10F, width, height);
+  if (width <= room_.x && height <= room_.y) return;
+  room_ = glm::max(room_, glm::ivec2(width, height));
+  starts_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
+  ways_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
+  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
+  base_light_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
+  coat_light_ = gl::texture_2d(GL_R11F_G11F_B10F, room_.x, room_.y);
   const auto framebuffer_of = [&](const gl::Texture& first, const gl::Texture& second) {
     gl::Framebuffer framebuffer = gl::Framebuffer::create();
     glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, first.name(), 0);

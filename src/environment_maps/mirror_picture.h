@@ -33,6 +33,7 @@ class MirrorPicture {
   void bind_rays(const gl::Program& program) const;
 
   int width_ = 0, height_ = 0;
+  glm::ivec2 room_{0};  ///< of the textures, which never shrink
   gl::Program spread_;
   gl::Texture starts_, ways_, depth_;  ///< of rays; the nearest in each pixel
   gl::Texture base_light_, coat_light_;

@@ -2,6 +2,7 @@
 #include "shading/tone_curve.glsl"
 
 uniform sampler2D radiance_texture;
+uniform vec2 drawn;  // pixels: the first of the texture's
 uniform float exposure;
 in vec2 screen_uv;
 out vec4 colour;
@@ -11,6 +12,7 @@ vec3 srgb_encoded(vec3 linear) {
 }
 
 void main() {
-  vec3 exposed = exposure * textureLod(radiance_texture, screen_uv, 0.0f).rgb;
+  vec2 pixel = clamp(screen_uv * drawn, vec2(0.5f), drawn - 0.5f);
+  vec3 exposed = exposure * textureLod(radiance_texture, pixel / vec2(textureSize(radiance_texture, 0)), 0.0f).rgb;
   colour = vec4(srgb_encoded(tone_mapped(exposed)), 1.0f);
 }

@@ -29,21 +29,23 @@ PictureTarget::PictureTarget(gl::Program resolve, gl::Program display)
     : resolve_(std::move(resolve)), display_(std::move(display)), no_attributes_(gl::VertexArray::create()) {}
 
 void PictureTarget::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  samples_ = multisampled_texture(GL_RGBA16F, width, height);
-  sample_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, width, height);
-  radiance_ = gl::texture_2d(GL_RGBA16F, width, height);
-  picture_ = gl::texture_2d(GL_RGBA8, width, height);
+  if (width <= room_.x && height <= room_.y) return;
+  room_ = glm::max(room_, glm::ivec2(width, height));
+  samples_ = multisampled_texture(GL_RGBA16F, room_.x, room_.y);
+  sample_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
+  radiance_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
+  picture_ = gl::texture_2d(GL_RGBA8, room_.x, room_.y);
   multisampled_ = framebuffer_of(samples_);
   glNamedFramebufferTexture(multisampled_.name(), GL_DEPTH_ATTACHMENT, sample_depth_.name(), 0);
   resolved_ = framebuffer_of(radiance_);
   displayed_ = framebuffer_of(picture_);
 }
 
-void PictureTarget::draw_screen(const gl::Program& program, GLuint framebuffer, GLuint texture) const {
+void PictureTarget::draw_screen(const gl::Program& program, GLuint framebuffer, glm::ivec2 size,
+                                GLuint texture) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, size.x, size.y);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   program.use();
@@ -54,32 +56,34 @@ void PictureTarget::draw_screen(const gl::Program& program, GLuint framebuffer, 
 
 void PictureTarget::resolve(float exposure) {
   resolve_.set("exposure", exposure);
-  draw_screen(resolve_, resolved_.name(), samples_.name());
+  draw_screen(resolve_, resolved_.name(), {width_, height_}, samples_.name());
 }
 
-void PictureTarget::display(GLuint framebuffer, float exposure) const {
+void PictureTarget::display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
   display_.set("exposure", exposure);
-  draw_screen(display_, framebuffer, radiance_.name());
+  display_.set("drawn", glm::vec2(float(width_), float(height_)));
+  draw_screen(display_, framebuffer, size, radiance_.name());
 }
 
 void PictureTarget::start_reading(float exposure, GLsizeiptr bytes) const {
-  display(displayed_.name(), exposure);
-  glGetTextureImage(picture_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(bytes), nullptr);
+  display(displayed_.name(), {width_, height_}, exposure);
+  glGetTextureSubImage(picture_.name(), 0, 0, 0, 0, width_, height_, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                       GLsizei(bytes), nullptr);
 }
 
 Image8 PictureTarget::read_picture(float exposure) const {
-  display(displayed_.name(), exposure);
+  display(displayed_.name(), {width_, height_}, exposure);
   Image8 picture(width_, height_, 4);
-  glGetTextureImage(picture_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(picture.pixels.size()),
-                    picture.pixels.data());
+  glGetTextureSubImage(picture_.name(), 0, 0, 0, 0, width_, height_, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                       GLsizei(picture.pixels.size()), picture.pixels.data());
   flip_rows(picture);
   return picture;
 }
 
 ImageF PictureTarget::read_radiance() const {
   ImageF radiance(width_, height_, 4);
-  glGetTextureImage(radiance_.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(radiance.pixels.size() * sizeof(float)),
-                    radiance.pixels.data());
+  glGetTextureSubImage(radiance_.name(), 0, 0, 0, 0, width_, height_, 1, GL_RGBA, GL_FLOAT,
+                       GLsizei(radiance.pixels.size() * sizeof(float)), radiance.pixels.data());
   flip_rows(radiance);
   return radiance;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/vec2.hpp>
 
 #include "base/image.h"
 #include "base/result.h"
@@ -15,18 +16,18 @@ class PictureTarget {
  public:
   static Result<PictureTarget> create();
 
+  /// Its textures grow with it and never shrink: a size that changes from frame to frame allocates nothing.
   void resize(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
 
   /// To draw into: RGBA16F and depth, multisampled.
   GLuint framebuffer() const { return multisampled_.name(); }
-  /// Brings the samples together, weighed for a picture of this exposure.
+  /// Brings the samples together to linear radiance, one value a pixel, weighed for a picture of this
+  /// exposure.
   void resolve(float exposure);
-  /// What `resolve` made: linear radiance, one value a pixel.
-  GLuint radiance_texture() const { return radiance_.name(); }
-  /// Tone-maps into a framebuffer of the same size.
-  void display(GLuint framebuffer, float exposure) const;
+  /// Tone-maps into the first `size` pixels of a framebuffer, enlarged where there are more than were drawn.
+  void display(GLuint framebuffer, glm::ivec2 size, float exposure) const;
 
   // Readbacks wait for the GPU: for stills and tests. Films read through render/picture_reader.h.
   /// Tone-maps and lets the GPU copy the picture, bottom row first, RGBA, into the bound pixel pack buffer.
@@ -36,9 +37,10 @@ class PictureTarget {
 
  private:
   PictureTarget(gl::Program resolve, gl::Program display);
-  void draw_screen(const gl::Program& program, GLuint framebuffer, GLuint texture) const;
+  void draw_screen(const gl::Program& program, GLuint framebuffer, glm::ivec2 size, GLuint texture) const;
 
   int width_ = 0, height_ = 0;
+  glm::ivec2 room_{0};  ///< of the textures
   gl::Program resolve_, display_;
   gl::VertexArray no_attributes_;
   gl::Texture samples_, sample_depth_, radiance_, picture_;

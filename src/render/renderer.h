@@ -40,20 +40,21 @@ class Renderer {
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }
-  /// Draws the view that was prepared, four samples a pixel, into `radiance_texture`.
+  /// Draws the view that was prepared, four samples a pixel.
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
   void draw_view(const View& view);
   /// A readback: for tools and tests, not for frames.
   ObjectPicture pick(const Camera& camera, int width, int height, bool culls_hidden);
 
-  /// Tone-maps the main view into a framebuffer of its size (0: the window's).
-  void display(GLuint framebuffer, float exposure) const { target_.display(framebuffer, exposure); }
+  /// Tone-maps the main view into the first `size` pixels of a framebuffer (0: the window's).
+  void display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
+    target_.display(framebuffer, size, exposure);
+  }
   void start_reading(float exposure, GLsizeiptr bytes) const { target_.start_reading(exposure, bytes); }
   Image8 read_picture(float exposure) const { return target_.read_picture(exposure); }
   ImageF read_radiance() const { return target_.read_radiance(); }
 
-  GLuint radiance_texture() const { return target_.radiance_texture(); }
   int width() const { return target_.width(); }
   int height() const { return target_.height(); }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }

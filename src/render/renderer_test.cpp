@@ -50,6 +50,52 @@ TEST_F(RendererTest, AnEmptySceneShowsTheSky) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(radiance.at(16, 16)[c], zenith[c], 0.02f * zenith[c]);
 }
 
+/// A wall in a plain, seen aslant.
+struct WallView {
+  WallView() {
+    add(scene, model_of(ground(30), matt(glm::vec3(0.3f))));
+    add(scene, model_of(box({-2, 6, 0}, {2, 7, 3}), matt({0.6f, 0.3f, 0.2f})));
+    camera.world_from_camera = look_at({-3, 0, 1.7f}, {0, 6, 1.5f});
+  }
+  scene::Scene scene;
+  Camera camera;
+};
+
+TEST_F(RendererTest, ASmallPictureIsTheSameAfterALargeOne) {
+  const WallView wall;
+  const auto fresh = renderer_of(wall.scene), used = renderer_of(wall.scene);
+  draw(*fresh, wall.scene, wall.camera, 64, 48);
+  draw(*used, wall.scene, map_camera(30, 40), 160, 96);  // elsewhere
+  draw(*used, wall.scene, wall.camera, 64, 48);
+  EXPECT_EQ(used->read_picture(1.0f).pixels, fresh->read_picture(1.0f).pixels);
+  EXPECT_EQ(used->read_radiance().pixels, fresh->read_radiance().pixels);
+}
+
+TEST_F(RendererTest, ASmallPictureIsShownEnlarged) {
+  constexpr int width = 160, height = 120;
+  const WallView wall;
+  const auto renderer = renderer_of(wall.scene);
+  draw(*renderer, wall.scene, wall.camera, width, height);
+  const Image8 whole = renderer->read_picture(1.0f);
+  draw(*renderer, wall.scene, wall.camera, width / 2, height / 2);
+  const gl::Texture colour = gl::texture_2d(GL_RGBA8, width, height);
+  const gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, colour.name(), 0);
+  renderer->display(framebuffer.name(), {width, height}, 1.0f);
+  Image8 enlarged(width, height, 4);
+  glGetTextureImage(colour.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(enlarged.pixels.size()),
+                    enlarged.pixels.data());
+  flip_rows(enlarged);
+  int far_off = 0;  // but for edges, which are wider
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+    far_off += std::abs(int(whole.pixels[i]) - int(enlarged.pixels[i])) > 6;
+  EXPECT_LT(far_off, int(whole.pixels.size()) / 20);
+  for (const glm::ivec2 corner : {glm::ivec2(0, 0), {width - 1, 0}, {0, height - 1}, {width - 1, height - 1}})
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(enlarged.at(corner.x, corner.y)[c], whole.at(corner.x, corner.y)[c], 6)
+          << corner.x << ", " << corner.y;
+}
+
 TEST_F(RendererTest, AWallStandsWhereTrigonometrySays) {
   scene::Scene scene;
   add(scene, model_of(quad({-3, 10, 1}, {5, 10, 1}, {5, 10, 4}, {-3, 10, 4}), matt(glm::vec3(0.5f))));

@@ -161,9 +161,10 @@ NodeSchema reflection_schema() {
                 .is_live = true},
                {.name = "budget_ms",
                 .type = AttributeType::number,
-                .help = "of the two methods with environment_maps: the time of a frame that is held by "
-                        "making less of small "
-                        "reflections; in pictures and films by what they are known to cost; 0: none",
+                .help = "the time of a frame that is held: the two methods with environment_maps make "
+                        "less of small reflections, and windows draw fewer pixels, enlarged, where that is "
+                        "not enough; pictures and films go by what reflections are known to cost and keep "
+                        "their pixels; 0: none",
                 .fallback = "0",
                 .unit = "ms",
                 .minimum = 0,

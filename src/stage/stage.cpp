@@ -127,17 +127,21 @@ void Stage::follow_clock() {
   double update_ms = 0.0, rest_ms = 0.0;
   for (const gl::PassTime& pass : pass_times_.latest())
     (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;
-  if (!pass_times_.latest().empty()) reflections_->frame_took(update_ms, rest_ms);
+  if (pass_times_.latest().empty()) return;
+  reflections_->frame_took(update_ms, rest_ms);
+  scale_.frame_took(update_ms + rest_ms, double(play_.scene.reflection.budget_ms));
 }
 
 void Stage::draw(const Camera& camera, int width, int height) {
   if (play_.scene.reflection != shown_reflection_)
     if (const Status status = set_reflection(play_.scene.reflection); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
+  width_ = width, height_ = height;
   pass_times_.begin_frame();
   renderer_->begin_frame(play_.scene, camera);
   pass_times_.end_pass("shadows");
-  renderer_->prepare_main_view(camera, width, height);
+  const glm::ivec2 drawn = scale_.drawn_size(width, height);
+  renderer_->prepare_main_view(camera, drawn.x, drawn.y);
   reflections_->update(*renderer_, play_.scene, camera);
   pass_times_.end_pass("reflections");
   renderer_->draw_main_view();

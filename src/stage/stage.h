@@ -11,6 +11,7 @@
 #include "action/actions.h"
 #include "gl/pass_times.h"
 #include "reference/tracer.h"
+#include "render/picture_scale.h"
 #include "render/reflections.h"
 #include "scene/scene_loader.h"
 #include "stage/scene_camera.h"
@@ -66,8 +67,8 @@ class Stage {
   /// Changes the method of reflection.
   Status set_reflection(const scene::Reflection& reflection);
 
-  /// Lets a method of reflection that holds a budget know how long the passes of a frame took. For windows:
-  /// pictures that follow a clock cannot be repeated.
+  /// Holds the scene's budget by how long the passes of a frame took: by the levels of reflections, and by
+  /// the size at which the picture is drawn. For windows: pictures that follow a clock cannot be repeated.
   void follow_clock();
 
   /// See Play::camera.
@@ -76,6 +77,13 @@ class Stage {
   /// Draws the frame of now: shadows, reflections, picture. Takes over what scenarios and messages have
   /// changed.
   void draw(const Camera& camera, int width, int height);
+  /// Shows what was drawn last in a framebuffer (0: the window's).
+  void display(GLuint framebuffer) const {
+    renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
+  }
+  /// Of the picture that was drawn last, as it is shown.
+  int width() const { return width_; }
+  int height() const { return height_; }
   /// What was drawn last, tone-mapped with the scene's exposure.
   Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
   /// The same by the ray tracer, with the renderer's own shadow maps; all of it or a window.
@@ -90,6 +98,8 @@ class Stage {
   std::unique_ptr<render::Reflections> reflections_;
   scene::Reflection shown_reflection_;
   gl::PassTimes pass_times_;
+  render::PictureScale scale_;
+  int width_ = 0, height_ = 0;
 };
 
 }  // namespace parvis::stage

@@ -96,6 +96,24 @@ TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
   EXPECT_GT(later->flip, 0.04);
 }
 
+TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
+  constexpr int width = 160, height = 90, frames = 12;  // times come frames later
+  scene::Scene scene = street();
+  scene.reflection.budget_ms = 0.001f;
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
+  for (int frame = 0; frame < frames; ++frame) (*stage)->draw(camera, width, height);
+  EXPECT_EQ((*stage)->renderer().width(), width);
+  for (int frame = 0; frame < frames; ++frame) {
+    (*stage)->follow_clock();
+    (*stage)->draw(camera, width, height);
+  }
+  EXPECT_LT((*stage)->renderer().width(), width);
+  EXPECT_EQ((*stage)->width(), width);
+}
+
 /// A board that stands on the ground, whose only target lays its upper edge down to the east within a second.
 std::shared_ptr<scene::Model> falling_board() {
   auto model = model_of(quad({0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {0, 0, 3}), matt({0.7f, 0.2f, 0.1f}));

@@ -69,7 +69,7 @@ class PanelTest : public SquareTest {
     for (int i = 0; i < 2; ++i) frame();
     const Screen screen;
     stage_->draw(visit_->camera(), width - int(panel_->width()), height);
-    stage_->renderer().display(screen.framebuffer.name(), stage_->scene().exposure);
+    stage_->display(screen.framebuffer.name());
     imgui_->begin_frame();
     panel_->draw(*visit_, statistics_);
     glBindFramebuffer(GL_FRAMEBUFFER, screen.framebuffer.name());

@@ -97,10 +97,9 @@ void Visit::show_next_scenario() {
 }
 
 const scene::Node* Visit::node_at(glm::ivec2 pixel) {
-  render::Renderer& renderer = stage_.renderer();
-  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= renderer.width() || pixel.y >= renderer.height())
-    return nullptr;
-  const render::ObjectPicture objects = renderer.pick(camera(), renderer.width(), renderer.height(), false);
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= stage_.width() || pixel.y >= stage_.height()) return nullptr;
+  const render::ObjectPicture objects =
+      stage_.renderer().pick(camera(), stage_.width(), stage_.height(), false);
   const std::uint32_t object_and_one = *objects.at(pixel.x, pixel.y);
   return object_and_one == 0 ? nullptr : actions().live().maker_of(scene(), int(object_and_one) - 1);
 }

@@ -131,7 +131,7 @@ class Frames {
     stage::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_a_point);
     stage.draw(visit_.camera(), std::max(width_ - covered, 1), height_);
-    stage.renderer().display(0, stage.scene().exposure);
+    stage.display(0);
     stage.pass_times().end_pass("display");
     glViewport(0, 0, width_, height_);
     imgui_.draw();
