@@ -76,6 +76,7 @@ Status measure_cost(bool is_quick, Report& report) {
   Result<std::unique_ptr<render::Reflections>> reflections =
       curved_reflectors::make_virtual_objects(scene, renderer);
   if (!reflections) return reflections.errors();
+  if (Status status = renderer.set_reflection(reflections->get()); !status) return status.errors();
   Camera camera;
   camera.world_from_camera = look_at({2.4f, -5.2f, 2.6f}, {0.0f, 0.0f, 1.0f});
   const PlainTarget target;

@@ -49,18 +49,14 @@ class ExplosionMap {
     }
   }
 
-  /// Where the triangle found there shows a vertex, as position and normal out of its corners. None: the map
-  /// knows no triangle.
-  std::optional<std::pair<glm::vec3, glm::vec3>> place(glm::vec3 vertex) const {
+  /// Where the triangle found there shows a vertex, out of its corners. None: the map knows no triangle.
+  std::optional<glm::vec3> place(glm::vec3 vertex) const {
     const glm::ivec2 at = glm::clamp(glm::ivec2(pixel_of(vertex)), 0, explosion_side - 1);
     const Pixel& pixel = pixels_[std::size_t(at.y) * explosion_side + std::size_t(at.x)];
     if (pixel.triangle == none) return {};
     const std::uint32_t* corner = &mesh_.indices[3 * std::size_t(pixel.triangle)];
-    const auto mixed = [&](const std::vector<glm::vec3>& values) {
-      return pixel.shares.x * values[corner[0]] + pixel.shares.y * values[corner[1]] +
-             pixel.shares.z * values[corner[2]];
-    };
-    return std::pair(mixed(mesh_.positions), glm::normalize(mixed(mesh_.normals)));
+    return pixel.shares.x * mesh_.positions[corner[0]] + pixel.shares.y * mesh_.positions[corner[1]] +
+           pixel.shares.z * mesh_.positions[corner[2]];
   }
 
  private:
@@ -181,7 +177,7 @@ Status measure_explosion_maps(bool is_quick, Report& report) {
     judge(far_map, [&](auto& found) {
       const ExplosionMap map(mesh, viewer, 4.0f);
       for (std::size_t v = 0; v < shown.size(); ++v)
-        if (const auto place = map.place(shown[v])) found[v] = place->first;
+        if (const auto place = map.place(shown[v])) found[v] = *place;
     });
     // For near and for far, mixed by the inverse of the vertex's distance.
     judge(two_maps, [&](auto& found) {
@@ -190,9 +186,9 @@ Status measure_explosion_maps(bool is_quick, Report& report) {
         const auto a = near.place(shown[v]), b = far.place(shown[v]);
         const float share = (1.0f / glm::length(shown[v]) - 0.25f) / (1.0f / 1.1f - 0.25f);
         if (a && b)
-          found[v] = glm::mix(b->first, a->first, share);
+          found[v] = glm::mix(*b, *a, share);
         else if (a || b)
-          found[v] = (a ? a : b)->first;
+          found[v] = a ? *a : *b;
       }
     });
   }

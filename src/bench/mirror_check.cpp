@@ -137,15 +137,9 @@ class SwappedFaces final : public probes::CubeMapReflections {
 Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
-  std::unique_ptr<render::Reflections> reflections;
-  if (swaps_faces) {
-    reflections = std::make_unique<SwappedFaces>();
-    if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
-  } else {
-    Result<std::unique_ptr<render::Reflections>> made = probes::make_reflections(scene, **renderer);
-    if (!made) return made.errors();
-    reflections = *std::move(made);
-  }
+  const std::unique_ptr<render::Reflections> reflections =
+      swaps_faces ? std::make_unique<SwappedFaces>() : probes::make_reflections(scene);
+  if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
   Camera camera;
   camera.world_from_camera = look_at({1.2f, -3.0f, 0.9f}, {0, 0, 0});
   (*renderer)->begin_frame(scene, camera);

@@ -26,6 +26,14 @@ std::vector<float> shares_up_to(float greatest, bool follows_area) {
   return shares;
 }
 
+/// At most, in the table.
+std::size_t texels_of(std::span<const VirtualGrid> grids) {
+  std::size_t texels = 0;
+  for (const VirtualGrid& grid : grids)
+    texels += 4 + grid.corners().size() + grid.numbers_in_box().size() / 4;
+  return texels;
+}
+
 /// As grid_table.glsl has it; returns where the grid begins.
 int append(const VirtualGrid& grid, std::vector<glm::vec4>& table) {
   const int first = int(table.size());
@@ -74,7 +82,7 @@ Result<GridSearch> GridSearch::create(const scene::Scene& scene, const render::G
   std::vector<MeshGrids> of_part(meshes.size());
   std::vector<glm::vec4> table(1);  // 0 stands for no grid
   for (std::size_t p = 0; p < meshes.size(); ++p) {
-    if (!meshes[p] || table.size() > most_in_table) continue;
+    if (!meshes[p] || table.size() + texels_of(grids[p]) > most_in_table) continue;
     of_part[p].vertex_count = meshes[p]->positions.size();
     for (const VirtualGrid& grid : grids[p]) {
       of_part[p].corner_counts.push_back(std::uint32_t(grid.corners().size()));

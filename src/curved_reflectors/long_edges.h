@@ -21,8 +21,8 @@ struct ReflectorBall {
 Mesh with_short_edges(const Mesh& mesh, const glm::mat4& world_from_mesh,
                       std::span<const ReflectorBall> balls, std::size_t most_triangles);
 
-/// Divides what a scene's reflectors show; models that several objects share are divided for the nearest of
-/// them. A reflector that moves stands for where it begins. Tells on standard error what would get too large.
+/// Divides what a scene's reflectors show; models that several objects share are divided for all of
+/// them. A reflector that moves stands for where it begins.
 void divide_long_edges(scene::Scene& scene);
 
 }  // namespace parvis::curved_reflectors

@@ -91,7 +91,6 @@ std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const scene:
 void RefractedObjects::find_glass(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
-  through_.clear();
   const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
   for (const render::Reflector& reflector : reflectors) {
     const auto found = glass_.find(model_of_object_[std::size_t(reflector.object)]);
@@ -104,22 +103,25 @@ void RefractedObjects::find_glass(const render::Renderer& renderer,
     if (glm::dot(viewer - nearest, normal) <= 0.0f) continue;  // within the glass nothing of it is drawn
     const GpuReflector::Patch& patch = glass.gpu.patches().front();
     shown_.push_back({reflector.object, -1, &glass.gpu, &patch, world_from_reflector, viewer});
+    if (through_.size() < shown_.size()) through_.emplace_back();
     const auto surface = [&](glm::vec3 direction) { return glass.map.surface(direction); };
     const GlassBody body{surface, patch.window.centre, patch.window.reach, glass.ior};
-    through_.push_back({&glass, refraction_rays(body, viewer), {}});
-    if (!shows_all)
-      render::find_near(renderer, reflector.object, settings_.virtual_within_m, through_.back().near);
+    ViewThrough& through = through_[shown_.size() - 1];
+    through.glass = &glass;
+    through.shows_objects =
+        shows_all || render::find_near(renderer, reflector.object, settings_.virtual_within_m, through.near);
+    if (through.shows_objects) through.rays = refraction_rays(body, viewer);
   }
 }
 
 /// The pixels of one body: by virtual objects where they are wanted, before the cube map of its surroundings.
 void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, render::View view) {
-  const std::vector<std::uint8_t>& near = through_[i].near;
-  if (!near.empty() && std::ranges::find(near, 1) == near.end()) return draw_light(view, i, Share::all_light);
+  if (!through_[i].shows_objects) return draw_light(view, i, Share::all_light);
   draw_light(view, i, Share::behind_glass);
   current_ = i;
   view.excluded_object = shown_[i].object;
-  view.shown_objects = near.empty() ? nullptr : &near;
+  view.part = pixels_of(shown_[i], view);
+  view.shown_objects = through_[i].near.empty() ? nullptr : &through_[i].near;
   for (foci_ = 0; foci_ < layers; ++foci_) {
     renderer.draw_view(view);
     view.clears = false;
@@ -204,6 +206,7 @@ gl::Defines RefractedObjects::defines() const {
 
 void RefractedObjects::bind(const gl::Program& program, int object) {
   glBindTextureUnit(render::glass_picture_unit, picture_.texture());
+  program.set("glass_share", is_shown(shown_, object) ? 1.0f : 0.0f);
   reflections_->bind(program, object);
 }
 
@@ -212,9 +215,7 @@ Result<std::unique_ptr<render::Reflections>> make_refracted_objects(
   Result<std::unique_ptr<RefractedObjects>> made =
       RefractedObjects::create(scene, renderer, std::move(reflections));
   if (!made) return made.errors();
-  std::unique_ptr<render::Reflections> all = *std::move(made);
-  if (Status status = renderer.set_reflection(all.get()); !status) return status.errors();
-  return all;
+  return std::unique_ptr<render::Reflections>(*std::move(made));
 }
 
 }  // namespace parvis::curved_reflectors

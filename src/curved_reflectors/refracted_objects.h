@@ -47,9 +47,10 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   };
   /// What a frame knows of one beside its patch.
   struct ViewThrough {
-    const Glass* glass;
-    std::array<glm::mat4, refraction_ray_count> rays;
-    std::vector<std::uint8_t> near;  ///< of all objects, which it is to show; empty: all
+    const Glass* glass = nullptr;
+    bool shows_objects = false;                        ///< before the light of its surroundings
+    std::array<glm::mat4, refraction_ray_count> rays;  ///< if it shows objects
+    std::vector<std::uint8_t> near;                    ///< of all objects, which; empty: all
   };
   enum class Share { behind_glass, let_through, from_inside, all_light };  ///< as in glass_light.frag
 
@@ -68,16 +69,16 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   VirtualPicture picture_;
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> reflections_;
-  std::vector<ShownPatch> shown_;  ///< in the order of their numbers in the stencil
-  std::vector<ViewThrough> through_;
-  std::size_t current_ = 0;  ///< of them, while its mirrored view is drawn
-  int foci_ = 0;             ///< that the light of its layer has passed
+  std::vector<ShownPatch> shown_;     ///< in the order of their numbers in the stencil
+  std::vector<ViewThrough> through_;  ///< of each of them, and room for more
+  std::size_t current_ = 0;           ///< of them, while its mirrored view is drawn
+  int foci_ = 0;                      ///< that the light of its layer has passed
 };
 
 /// Is there glass in a scene that shows more than the sky?
 bool has_glass(const scene::Scene& scene);
 
-/// Handed to the renderer; both outlive it. See RefractedObjects::create.
+/// See RefractedObjects::create; scene and renderer outlive it.
 Result<std::unique_ptr<render::Reflections>> make_refracted_objects(
     const scene::Scene& scene, render::Renderer& renderer, std::unique_ptr<render::Reflections> reflections);
 

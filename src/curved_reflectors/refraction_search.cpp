@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace parvis::curved_reflectors {
@@ -15,6 +16,9 @@ struct Ring {
   int rays;
 };
 constexpr std::array<Ring, 5> rings{{{0.0f, 1}, {0.35f, 6}, {0.65f, 10}, {0.85f, 10}, {0.96f, 10}}};
+static_assert(std::accumulate(rings.begin(), rings.end(), 0, [](int sum, const Ring& r) {
+                return sum + r.rays;
+              }) == int(refraction_ray_count));
 
 struct TracedRay {
   glm::vec3 entry, inside, exit, way;  ///< points, and unit directions behind them

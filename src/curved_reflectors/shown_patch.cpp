@@ -14,6 +14,10 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
   return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
 }
 
+bool is_shown(std::span<const ShownPatch> patches, int object) {
+  return std::ranges::any_of(patches, [&](const ShownPatch& patch) { return patch.object == object; });
+}
+
 glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view) {
   const glm::ivec2 size(view.width, view.height);
   const Bounds& box = patch.patch->bounds.box;

@@ -22,6 +22,9 @@ struct ShownPatch {
   glm::vec3 viewer;  ///< in the reflector's frame
 };
 
+/// Is any of the patches one of this object?
+bool is_shown(std::span<const ShownPatch> patches, int object);
+
 /// The rectangle of the view, from the lower left, that holds all of a patch's pixels.
 glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
 

@@ -88,18 +88,20 @@ struct Compared {
   }
 };
 
-/// `make(scene, renderer)` gives the method, handed to the renderer.
+/// `make(scene, renderer)` gives the method; null: mirrors show the sky.
 template <class Make>
 Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Make make) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   EXPECT_TRUE(renderer) << to_string(renderer.errors());
   Result<std::unique_ptr<render::Reflections>> reflections = make(scene, **renderer);
   EXPECT_TRUE(reflections) << to_string(reflections.errors());
+  const Status set = (*renderer)->set_reflection(reflections->get());
+  EXPECT_TRUE(set) << to_string(set.errors());
   Camera camera;
   camera.world_from_camera = look_at(eye, target);
   (*renderer)->begin_frame(scene, camera);
   (*renderer)->prepare_main_view(camera, width, height);
-  (*reflections)->update(**renderer, scene, camera);
+  if (*reflections) (*reflections)->update(**renderer, scene, camera);
   (*renderer)->draw_main_view();
   reference::TraceOptions options;
   const shading::DrawnLight light = (*renderer)->drawn_light();

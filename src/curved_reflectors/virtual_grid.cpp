@@ -79,7 +79,7 @@ void VirtualGrid::interpolate(std::span<const glm::vec3> vertices, std::span<con
                               std::span<VirtualPoint> shown) const {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const glm::ivec3 cell = layout_.cell_of(vertices[i]);
-    const glm::vec3 part = (vertices[i] - layout_.origin) / layout_.cell - glm::vec3(cell);
+    const glm::vec3 part = layout_.place_of(vertices[i]) - glm::vec3(cell);
     VirtualPoint sum;
     for (int c = 0; c < 8; ++c) {
       const glm::ivec3 corner = corner_of(cell, c);

@@ -23,8 +23,10 @@ struct GridLayout {
   glm::vec3 origin{0.0f}, cell{1.0f};  ///< cell: its edges
   glm::ivec3 count{1};                 ///< of cells
 
+  /// In cells from the origin: the sum that grid_interpolation.glsl does, to the last bit.
+  glm::vec3 place_of(glm::vec3 vertex) const { return (vertex - origin) * (1.0f / cell); }
   glm::ivec3 cell_of(glm::vec3 vertex) const {
-    return glm::clamp(glm::ivec3(glm::floor((vertex - origin) / cell)), glm::ivec3(0), count - 1);
+    return glm::clamp(glm::ivec3(glm::floor(place_of(vertex))), glm::ivec3(0), count - 1);
   }
   /// Corners of the whole box, used or not, and the place of one among them; x changes fastest.
   std::size_t box_size() const {

@@ -85,9 +85,9 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, render::SurfaceProgram
       surroundings_(std::move(surroundings)) {
   const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
-    model_of_object_.push_back(object.model.get());
-    if (!object.takes_reflection || reflectors_.contains(object.model.get())) continue;
-    reflectors_[object.model.get()] = reflector_of(cache, object);
+    model_of_object_.push_back(object.takes_reflection ? object.model.get() : nullptr);
+    if (object.takes_reflection && !reflectors_.contains(object.model.get()))
+      reflectors_[object.model.get()] = reflector_of(cache, object);
   }
 }
 
@@ -212,7 +212,9 @@ void VirtualObjects::bind(const gl::Program& program) {
   GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit);
   grids_.bind(program);
   program.set("patch_layer", layer_);
-  if (in_mirrors_) glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
+  if (!in_mirrors_) return;
+  glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
+  program.set("near_share", 1.0f);
 }
 
 bool VirtualObjects::may_show(const Bounds& bounds) const {
@@ -252,6 +254,7 @@ gl::Defines VirtualObjects::defines() const {
 
 void VirtualObjects::bind(const gl::Program& program, int object) {
   glBindTextureUnit(render::near_picture_unit, picture_.texture());
+  program.set("near_share", is_shown(shown_, object) ? 1.0f : 0.0f);
   if (surroundings_) surroundings_->bind(program, object);
 }
 
@@ -261,9 +264,7 @@ Result<std::unique_ptr<render::Reflections>> make_virtual_objects(
   Result<std::unique_ptr<VirtualObjects>> made =
       VirtualObjects::create(scene, renderer, std::move(surroundings));
   if (!made) return made.errors();
-  std::unique_ptr<render::Reflections> reflections = *std::move(made);
-  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
-  return reflections;
+  return std::unique_ptr<render::Reflections>(*std::move(made));
 }
 
 }  // namespace parvis::curved_reflectors

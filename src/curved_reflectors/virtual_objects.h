@@ -74,7 +74,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   int layer_ = -1;                       ///< of it, if it may show a vertex several times
 };
 
-/// Handed to the renderer; both outlive it. See VirtualObjects::create.
+/// See VirtualObjects::create; scene and renderer outlive it.
 Result<std::unique_ptr<render::Reflections>> make_virtual_objects(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<render::Reflections> surroundings = nullptr);

@@ -14,9 +14,8 @@ enum class Mirrored { sky, objects };
 Compared draw(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target,
               Mirrored mirrored = Mirrored::objects) {
   return draw_by(scene, eye, target, [&](const scene::Scene& shown, render::Renderer& renderer) {
-    Result<std::unique_ptr<render::Reflections>> reflections = make_virtual_objects(shown, renderer);
-    EXPECT_TRUE(mirrored == Mirrored::objects || renderer.set_reflection(nullptr));
-    return reflections;
+    return mirrored == Mirrored::objects ? make_virtual_objects(shown, renderer)
+                                         : std::unique_ptr<render::Reflections>();
   });
 }
 
@@ -55,8 +54,12 @@ TEST_F(VirtualObjectsTest, AnEllipsoidThatIsTurnedAndScaledDoes) {
 /// too few for a grid.)
 TEST_F(VirtualObjectsTest, AVirtualGridShowsTheSame) {
   scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
-  const Compared searched = draw(scene, eye, target);
+  const Compared by_area = draw(scene, eye, target);
   scene.reflection.uses_level_of_detail = false;
+  const Compared searched = draw(scene, eye, target);
+  const double by_area_flip = reference::compare(by_area.ours, searched.ours, searched.mirrors)->flip;
+  EXPECT_GT(by_area_flip, 0.0) << "no grid was used";
+  EXPECT_LT(by_area_flip, 0.003);
   double last = 1.0;
   for (const float share : {0.01f, 0.041f, 0.143f}) {
     scene.reflection.virtual_grid = share;
@@ -91,6 +94,57 @@ TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   const glm::mat4 tilted =
       glm::rotate(glm::rotate(placed({0, 0.8f, 1.3f}), 0.4f, {0, 0, 1}), 1.2f, {1, 0, 0});
   EXPECT_LT(draw(among_boxes(bowl, tilted), eye, target).flip(), 0.08);
+}
+
+/// A ball beside a box, and a smaller ball before it, as the eye sees them, that has nothing near.
+scene::Scene two_balls(glm::vec3 box_colour, bool has_front) {
+  scene::Scene scene;
+  scene.reflection.virtual_within_m = 1.0f;
+  scene.reflection.uses_level_of_detail = false;
+  scene::add(scene, scene::model_of(divided(scene::box({0.7f, -1.4f, 0.4f}, {1.6f, -0.7f, 1.8f}), 12),
+                                    scene::matt(box_colour)));
+  const scene::Material& mirror = render::mirror_box(1.0f)->materials.front();
+  const auto add_ball = [&](glm::vec3 centre, float radius) {
+    const auto ball = scene::model_of(scene::sphere(glm::vec3(0.0f), radius, 48), mirror);
+    scene.objects[std::size_t(scene::add(scene, ball, true, placed(centre)))].takes_reflection = true;
+  };
+  add_ball({0, 0, 1.1f}, 1.0f);
+  if (has_front) add_ball({0.3f, -2.9f, 1.1f}, 0.2f);
+  return scene;
+}
+
+TEST_F(VirtualObjectsTest, AMirrorShowsNothingOfWhatAnotherMirrorsBehindIt) {
+  const glm::vec3 before{0.3f, -5.2f, 1.1f}, ahead{0.3f, 0, 1.1f};
+  const auto picture = [&](glm::vec3 box_colour, bool has_front) {
+    return draw(two_balls(box_colour, has_front), before, ahead).ours;
+  };
+  const Image8 red = picture({0.8f, 0, 0}, true), green = picture({0, 0.8f, 0}, true);
+  const Image8 red_behind = picture({0.8f, 0, 0}, false), green_behind = picture({0, 0.8f, 0}, false);
+  const scene::Scene scene = two_balls(glm::vec3(0.5f), true);
+  Camera camera;
+  camera.world_from_camera = look_at(before, ahead);
+  const reference::ObjectPicture objects =
+      reference::trace_objects(reference::RayScene(scene), camera, width, height);
+  const std::uint32_t front = std::uint32_t(scene.objects.size());
+  const auto is_all_front = [&](int x, int y) {
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        if (*objects.at(x + i, y + j) != front) return false;
+    return true;
+  };
+  const auto differs = [](const Image8& a, const Image8& b, int x, int y) {
+    return std::abs(a.at(x, y)[0] - b.at(x, y)[0]) > 8;
+  };
+  int seen_through = 0, behind = 0, beside = 0;
+  for (int y = 1; y < height - 1; ++y)
+    for (int x = 1; x < width - 1; ++x) {
+      seen_through += is_all_front(x, y) && differs(red, green, x, y);
+      behind += is_all_front(x, y) && differs(red_behind, green_behind, x, y);
+      beside += *objects.at(x, y) + 1 == front && differs(red, green, x, y);
+    }
+  EXPECT_GT(behind, 20) << "the ball in front hides what the other mirrors";
+  EXPECT_GT(beside, 20);
+  EXPECT_EQ(seen_through, 0);
 }
 
 /// A torus shows most things twice: on its outside, and within its ring.

@@ -1,4 +1,4 @@
-// What curved reflectors show: surfaces that mirror the sky alone, where virtual_vertices.vert has put them.
+// What curved reflectors show: surfaces that mirror the sky, or what HAS_NEAR_PICTURE has found in them, where virtual_vertices.vert has put them.
 #include "render/surface.frag"
 #include "curved_reflectors/patch_uniforms.glsl"
 #include "curved_reflectors/mirrored_triangle.glsl"

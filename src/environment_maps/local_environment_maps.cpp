@@ -175,9 +175,7 @@ Result<std::unique_ptr<render::Reflections>> make_local_environment_maps(const s
                                                                          render::Renderer& renderer) {
   Result<std::unique_ptr<LocalEnvironmentMaps>> made = LocalEnvironmentMaps::create(scene, renderer);
   if (!made) return made.errors();
-  std::unique_ptr<render::Reflections> reflections = *std::move(made);
-  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
-  return reflections;
+  return std::unique_ptr<render::Reflections>(*std::move(made));
 }
 
 }  // namespace parvis::environment_maps

@@ -13,7 +13,7 @@
 
 namespace parvis::environment_maps {
 
-/// Makes the method for a scene and hands it to the renderer: bakes the reference maps, which takes some
+/// Makes the method for a scene: bakes the reference maps, which takes some
 /// seconds.
 Result<std::unique_ptr<render::Reflections>> make_local_environment_maps(const scene::Scene& scene,
                                                                          render::Renderer& renderer);

@@ -62,6 +62,7 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
   ASSERT_TRUE(renderer);
   Result<std::unique_ptr<render::Reflections>> reflections = make_reflections(scene_, **renderer);
   ASSERT_TRUE(reflections);
+  ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
   const auto faces_of_a_frame = [&] {
     Camera camera;
     camera.world_from_camera = look_at({7, 3, 1}, {3, 0, 0});

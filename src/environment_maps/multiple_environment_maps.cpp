@@ -180,9 +180,7 @@ Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene
                                                               render::Renderer& renderer) {
   Result<std::unique_ptr<MultipleEnvironmentMaps>> made = MultipleEnvironmentMaps::create(scene, renderer);
   if (!made) return made.errors();
-  std::unique_ptr<render::Reflections> reflections = *std::move(made);
-  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
-  return reflections;
+  return std::unique_ptr<render::Reflections>(*std::move(made));
 }
 
 }  // namespace parvis::environment_maps

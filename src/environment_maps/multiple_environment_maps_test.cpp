@@ -116,6 +116,7 @@ TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   const auto reflections = make_reflections(scene, **renderer);
   ASSERT_TRUE(reflections) << to_string(reflections.errors());
+  ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
   for (GLuint unit = 0; unit < 16; ++unit) glBindTextureUnit(unit, 0);
   Camera camera;
   camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});

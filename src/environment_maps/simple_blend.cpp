@@ -26,10 +26,8 @@ Result<std::unique_ptr<render::Reflections>> make_simple_blend(const scene::Scen
   Result<ReferenceMaps> maps = bake_maps(scene, heights, renderer);
   if (!maps) return maps.errors();
   MapChoice choice(maps->places(), heights);
-  std::unique_ptr<render::Reflections> reflections =
-      std::make_unique<SimpleBlend>(*std::move(maps), std::move(choice));
-  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
-  return reflections;
+  return std::unique_ptr<render::Reflections>(
+      std::make_unique<SimpleBlend>(*std::move(maps), std::move(choice)));
 }
 
 }  // namespace parvis::environment_maps

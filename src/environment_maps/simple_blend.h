@@ -9,7 +9,7 @@
 
 namespace parvis::environment_maps {
 
-/// Makes the method for a scene and hands it to the renderer: bakes the reference maps.
+/// Makes the method for a scene: bakes the reference maps.
 Result<std::unique_ptr<render::Reflections>> make_simple_blend(const scene::Scene& scene,
                                                                render::Renderer& renderer);
 

@@ -57,6 +57,8 @@ inline double flip_of(const scene::Scene& scene, const MakeReflections& make, gl
     Result<std::unique_ptr<render::Reflections>> made = make(scene, **renderer);
     EXPECT_TRUE(made) << to_string(made.errors());
     reflections = *std::move(made);
+    const Status set = (*renderer)->set_reflection(reflections.get());
+    EXPECT_TRUE(set) << to_string(set.errors());
   }
   (*renderer)->begin_frame(scene, camera);
   (*renderer)->prepare_main_view(camera, test_width, test_height);

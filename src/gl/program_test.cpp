@@ -54,14 +54,24 @@ TEST_F(ProgramTest, EveryDisplayShaderCompilesInBothDialects) {
                     {"HAS_BACKS", ""},         {"HAS_HOLES", ""},
                     {"IS_LEAF", ""},           {"ANISOTROPY_BY_TAPS", ""},
                     {"HAS_VIRTUAL_GRIDS", ""}, {"MIDPOINT_ITERATIONS", "9"},
-                    {"IS_GLASS", ""},          {"HAS_GLASS_PICTURE", ""}};
+                    {"IS_GLASS", ""},          {"HAS_GLASS_PICTURE", ""},
+                    {"HAS_NEAR_PICTURE", ""},  {"HAS_RELIEF", ""},
+                    {"ONE_SAMPLE", ""}};
+  Defines mirrored = all;  // what a mirror shows, and a mirror in a mirror
+  mirrored.emplace_back("IS_MIRRORED", "");
+  const auto variants_of = [&](std::string_view path) -> std::vector<Defines> {
+    if (path.find("twice_virtual") != path.npos) return {{{"IS_MIRRORED", ""}, {"MIRRORS", "2"}}};
+    if (path.find("virtual_") != path.npos || path.find("refracted_") != path.npos)
+      return {{{"IS_MIRRORED", ""}}, mirrored};
+    return {Defines{}, all};
+  };
   for (const ShaderFile* file = embedded_shaders; file->path; ++file) {
     const std::string_view path = file->path;
     if (path.ends_with(".glsl"sv)) continue;
     const GLenum stage = path.ends_with(".vert"sv) ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER;
     for (const Dialect dialect : {Dialect::desktop_450, Dialect::es_300}) {
       if (dialect == Dialect::es_300 && is_for_the_desktop_alone(path)) continue;
-      for (const Defines& defines : {Defines{}, all}) {
+      for (const Defines& defines : variants_of(path)) {
         const Result<GLuint> shader = compile_shader(stage, file->path, defines, dialect);
         ASSERT_TRUE(shader) << path << (dialect == Dialect::es_300 ? " as GLSL ES 3.00: " : ": ")
                             << to_string(shader.errors());

@@ -5,9 +5,8 @@
 #include "probes/methods.h"
 
 namespace parvis::probes {
-namespace {
 
-std::unique_ptr<render::Reflections> method_of(const scene::Scene& scene) {
+std::unique_ptr<render::Reflections> make_reflections(const scene::Scene& scene) {
   switch (scene.reflection.method) {
     case scene::ReflectionMethod::none:
       return std::make_unique<NoReflection>();
@@ -27,15 +26,6 @@ std::unique_ptr<render::Reflections> method_of(const scene::Scene& scene) {
   }
   assert(false);  // another room's
   return std::make_unique<NoReflection>();
-}
-
-}  // namespace
-
-Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
-                                                              render::Renderer& renderer) {
-  std::unique_ptr<render::Reflections> reflections = method_of(scene);
-  if (Status status = renderer.set_reflection(reflections.get()); !status) return status.errors();
-  return reflections;
 }
 
 std::unique_ptr<render::Reflections> make_surroundings(const scene::Scene& scene) {

@@ -10,12 +10,11 @@
 
 namespace parvis::probes {
 
-/// Makes the method that the scene names, one of this room's, and hands it to the renderer.
-Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
-                                                              render::Renderer& renderer);
+/// The method that the scene names, one of this room's.
+std::unique_ptr<render::Reflections> make_reflections(const scene::Scene& scene);
 
 /// What curved mirrors show where virtual objects show nothing: a cube map for each, drawn whole when it is
-/// first seen and then a face a frame. For a method that lies over it, which hands it to the renderer.
+/// first seen and then a face a frame. For a method that lies over it.
 std::unique_ptr<render::Reflections> make_surroundings(const scene::Scene& scene);
 
 /// A method that looks cube maps up.

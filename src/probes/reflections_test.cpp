@@ -21,9 +21,9 @@ class Show {
     Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     renderer_ = *std::move(renderer);
-    Result<std::unique_ptr<render::Reflections>> reflections = make_reflections(scene_, *renderer_);
-    EXPECT_TRUE(reflections) << to_string(reflections.errors());
-    reflections_ = *std::move(reflections);
+    reflections_ = make_reflections(scene_);
+    const Status set = renderer_->set_reflection(reflections_.get());
+    EXPECT_TRUE(set) << to_string(set.errors());
   }
 
   /// Draws a frame and returns the faces that were drawn for it.

@@ -14,12 +14,6 @@ constexpr int most_inner_bounces = 8;
 constexpr float least_share = 2e-3f;    // of the light, that is followed
 constexpr float off_surface_m = 1e-4f;  // where rays begin, so that they do not meet where they come from
 
-/// Keeps the width positive, so that a cone that narrows has a negative spread.
-Cone upright(Cone cone) {
-  if (cone.width_m < 0.0f) cone.width_m = -cone.width_m, cone.spread = -cone.spread;
-  return cone;
-}
-
 /// A cone that a surface bends by `turn_per_m` of its width.
 Cone bent(Ray ray, const Cone& before, float ratio, float turn_per_m) {
   return {ray, before.width_m, ratio * before.spread - turn_per_m * before.width_m};
@@ -27,14 +21,20 @@ Cone bent(Ray ray, const Cone& before, float ratio, float turn_per_m) {
 
 }  // namespace
 
+Cone widened(Cone cone, float distance_m) {
+  cone.width_m += cone.spread * distance_m;
+  if (cone.width_m < 0.0f) cone.width_m = -cone.width_m, cone.spread = -cone.spread;
+  return cone;
+}
+
 std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const ShadingPoint& entry,
-                                   const Cone& seen, float width_m) {
+                                   const Cone& seen) {
   const scene::Material& glass = *hit.place->material;
   std::vector<GlassExit> exits;
   const float into = 1.0f / glass.ior;  // ratio of the indices
   Cone cone = bent({entry.position - off_surface_m * entry.geometric_normal,
                     shading::refracted(seen.ray.direction, entry.surface.normal, into)},
-                   {{}, width_m, seen.spread}, into, (1.0f - into) * entry.curvature_per_m);
+                   seen, into, (1.0f - into) * entry.curvature_per_m);
   vec3 share(1.0f);
   Passage passage{Random(0), true};
   for (int bounce = 0; bounce <= most_inner_bounces; ++bounce) {
@@ -43,8 +43,7 @@ std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const S
       exits.push_back({cone, share});
       break;
     }
-    cone.width_m += cone.spread * met->distance_m;
-    cone = upright(cone);
+    cone = widened(cone, met->distance_m);
     share *= glm::exp(-met->distance_m * glass.absorption_per_m);
     const ShadingPoint point = shading_point(*met, cone.ray.direction, cone.width_m);
     const vec3 normal = point.surface.normal;

@@ -16,16 +16,19 @@ struct Cone {
   float width_m, spread;
 };
 
+/// A cone so far along itself: its width stays positive, and beyond a focus it grows.
+Cone widened(Cone cone, float distance_m);
+
 struct GlassExit {
   Cone cone;
   glm::vec3 share;  ///< of the light along the cone that reaches the point of entry
 };
 
-/// `direction` enters at `entry`, a point of a part that refracts, seen from outside. What stands in the
-/// glass ends the ray: its cone begins before it. A body with a hole has no other side there: the ray goes
-/// straight on. The shares add up to less than 1; what they lack is absorbed, or still goes round after
-/// `most_inner_bounces`.
+/// `seen` enters at `entry`, a point of a part that refracts, seen from outside; it is as wide as there. What
+/// stands in the glass ends the ray: its cone begins before it. A body with a hole has no other side there:
+/// the ray goes straight on. The shares add up to less than 1; what they lack is absorbed, or still goes
+/// round after `most_inner_bounces`.
 std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const ShadingPoint& entry,
-                                   const Cone& seen, float width_m);
+                                   const Cone& seen);
 
 }  // namespace parvis::reference

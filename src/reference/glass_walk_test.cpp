@@ -32,7 +32,7 @@ std::vector<GlassExit> through(const scene::Scene& scene, const Ray& ray) {
   const std::optional<Hit> hit = rays.nearest_hit(ray);
   EXPECT_TRUE(hit);
   if (!hit) return {};
-  return glass_exits(rays, *hit, shading_point(*hit, ray.direction, 0.0f), {ray, 0.0f, 0.0f}, 0.0f);
+  return glass_exits(rays, *hit, shading_point(*hit, ray.direction, 0.0f), {ray, 0.0f, 0.0f});
 }
 
 vec3 sum_of_shares(const std::vector<GlassExit>& exits) {
@@ -73,9 +73,7 @@ TEST(GlassWalk, AConeNarrowsTowardTheFocus) {
   ASSERT_TRUE(hit);
   constexpr float width_m = 0.01f;
   const Cone cone =
-      glass_exits(rays, *hit, shading_point(*hit, ray.direction, width_m), {ray, width_m, 0.0f}, width_m)
-          .front()
-          .cone;
+      glass_exits(rays, *hit, shading_point(*hit, ray.direction, width_m), {ray, width_m, 0.0f}).front().cone;
   EXPECT_NEAR(-cone.width_m / cone.spread, 0.5f, 0.05f) << "1.5 radii from the centre";
 }
 

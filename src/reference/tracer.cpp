@@ -1,5 +1,6 @@
 #include "reference/tracer.h"
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -30,11 +31,15 @@ vec3 kept_above(vec3 direction, vec3 normal) {
 }
 
 /// Points of the unit square for the lobe rays of one pixel, each far from those before it: the R2 sequence
-/// (Roberts 2018), begun elsewhere in each pixel. Its noise is a fraction of that of chance.
+/// (Roberts 2018), begun elsewhere in each pixel and at each bounce. Its noise is a fraction of that of
+/// chance.
 struct LobePoints {
-  glm::vec2 last;
+  std::array<glm::vec2, 2> last;  ///< by bounce; none goes on from the second
 
-  glm::vec2 next() { return last = glm::fract(last + glm::vec2(0.75487767f, 0.56984029f)); }
+  glm::vec2 next(int bounce) {
+    glm::vec2& point = last[std::size_t(bounce)];
+    return point = glm::fract(point + glm::vec2(0.75487767f, 0.56984029f));
+  }
 };
 
 /// A half vector of the GGX distribution about `normal`, by a point of the unit square.
@@ -76,12 +81,12 @@ class Tracer {
       ++ray_count;
       const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
       if (!hit) return sum + left * sky_radiance(sky_, cone.ray.direction, 0.0f);
-      const float width_m = std::abs(cone.width_m + cone.spread * hit->distance_m);
-      const ShadingPoint point = shading_point(*hit, cone.ray.direction, width_m);
+      const Cone seen = widened(cone, hit->distance_m);
+      const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
       const float alpha = blends && layer + 1 < most_blended_layers ? point.alpha : 1.0f;
       if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
-      const vec3 shaded = shade(point, *hit, cone, width_m, bounce, lobe_points, ray_count);
+      const vec3 shaded = shade(point, *hit, seen, bounce, lobe_points, ray_count);
       sum += left * alpha *
              shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
       left *= 1.0f - alpha;
@@ -101,8 +106,8 @@ class Tracer {
     return hit;
   }
 
-  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
-             LobePoints& lobe_points, std::uint64_t& ray_count) const {
+  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce, LobePoints& lobe_points,
+             std::uint64_t& ray_count) const {
     Surface s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
@@ -115,8 +120,8 @@ class Tracer {
     const auto traced = [&](vec3 direction) {
       const vec3 away = kept_above(direction, point.geometric_normal);
       // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
-      const float spread = cone.spread + 2.0f * point.curvature_per_m * width_m;
-      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, width_m, spread};
+      const float spread = cone.spread + 2.0f * point.curvature_per_m * cone.width_m;
+      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, cone.width_m, spread};
       const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
       return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
     };
@@ -133,15 +138,15 @@ class Tracer {
       if (s.roughness > sharp_roughness) {
         base_reflection = vec3(0.0f);
         for (int i = 0; i < lobe_samples; ++i)
-          base_reflection += traced(
-              glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next())));
+          base_reflection += traced(glm::reflect(
+              cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
         base_reflection /= float(lobe_samples);
       }
     }
     if (hit.place->material->refracts()) {
       const vec3 ahead = cone.ray.direction;
       const vec3 through =
-          traces ? light_through(point, hit, cone, width_m, bounce, lobe_points, ray_count)
+          traces ? light_through(point, hit, cone, bounce, lobe_points, ray_count)
                  : shading::sky_share_of_direction(sky_cell, ahead) * sky_radiance(sky_, ahead, 0.0f);
       s.emission +=
           (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
@@ -152,11 +157,11 @@ class Tracer {
   }
 
   /// What enters the eye through solid glass at a point of its surface.
-  vec3 light_through(const ShadingPoint& point, const Hit& hit, const Cone& cone, float width_m, int bounce,
+  vec3 light_through(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
                      LobePoints& lobe_points, std::uint64_t& ray_count) const {
     vec3 sum(0.0f);
     const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
-    for (const GlassExit& exit : glass_exits(rays_, hit, point, cone, width_m)) {
+    for (const GlassExit& exit : glass_exits(rays_, hit, point, cone)) {
       ++ray_count;
       sum += exit.share * radiance(exit.cone, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
     }
@@ -225,7 +230,8 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
     for (int column = 0; column < window.width; ++column) {
       const int x = window.x + column, y = window.y + int(row);
       Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
-      LobePoints lobe_points{{random.uniform(), random.uniform()}};
+      LobePoints lobe_points{
+          {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
       vec3 sum(0.0f);
       float weights = 0.0f;
       int mirrors = 0;

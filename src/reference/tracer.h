@@ -36,11 +36,9 @@ struct TracedPicture {
 using ObjectPicture = BasicImage<std::uint32_t>;
 ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height);
 
-/// Solid glass shows what its refracted rays meet, with Fresnel's share at each surface and reflections
-/// inside; in mirrors, and on objects that take no reflections, the sky straight through it. It throws no
-/// shadow.
-///
-/// Traces one picture. Mirror-like parts of objects that take reflections show what their mirror rays hit,
+/// Traces one picture. Solid glass shows what its refracted rays meet, with Fresnel's share at each surface
+/// and reflections inside; in mirrors, and on objects that take no reflections, the sky straight through it.
+/// It throws no shadow. Mirror-like parts of objects that take reflections show what their mirror rays hit,
 /// shaded by the same recipe; after as many mirrors as reflection(bounces=) says they reflect the sky, as all
 /// other surfaces do. The same options
 /// give the same picture for any number of threads.

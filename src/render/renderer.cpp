@@ -107,7 +107,8 @@ void Renderer::draw_prepared(const View& view) {
   if (has_colour(view)) {
     if (view.kind != ViewKind::mirrored) sky_.draw(view);
     glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                        GL_ONE_MINUS_SRC_ALPHA);  // alpha: coverage
     glDepthMask(GL_FALSE);
     for (Drawable* drawable : drawables_) drawable->draw(view, Pass::blend);
     glDepthMask(GL_TRUE);

@@ -65,7 +65,8 @@ class Renderer {
 
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return sky_.light(); }
-  /// A readback: for pictures that are traced.
+  /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
+  /// begins.
   shading::DrawnLight drawn_light() const { return {shadows_.read_back(), &sky_.visibility(), &body_shade_}; }
 
  private:

@@ -150,7 +150,7 @@ Status SceneDrawable::link(ReflectionSource& source) const {
   return Done{};
 }
 
-/// Elsewhere than in the main view reflections end: mirrors show the sky.
+/// Methods serve the main view alone: in others mirrors show the sky, or what a room's own programs show.
 bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
 }
@@ -343,10 +343,12 @@ void SceneDrawable::draw(const View& view, Pass pass) {
   const gl::Program* current = nullptr;
   for (const Batch& batch : batches) {
     const gl::Program& program = program_for(view, batch);
-    if (current != &program) program.use();
+    if (current != &program) {
+      program.use();
+      if (view.kind == ViewKind::mirrored) view.virtual_vertices->bind(program);
+    }
     current = &program;
     if (batch.mirror_object >= 0) reflection_->bind(program, batch.mirror_object);
-    if (view.kind == ViewKind::mirrored) view.virtual_vertices->bind(program);
     gpu_.bind_material(batch.material);
     if (view.kind == ViewKind::mirrored) GpuScene::cull_faces(false);
     draw_commands(list, batch.first_command, batch.command_count);

@@ -47,10 +47,11 @@ vec3 reflected_radiance(float roughness, int layer);
 
 #ifdef HAS_NEAR_PICTURE
 uniform sampler2D near_picture;  // of the main view's size: what stands near, as its mirrors show it; coverage in alpha
+uniform float near_share;        // 0: it shows what another mirror mirrors there, behind this one
 
 // The picture is sharp. A rough layer blurs it widely: it shows that much less of it.
 vec3 behind_near(vec3 far_radiance, float roughness) {
-  float sharp = material_mirrors * (1.0f - smoothstep(0.15f, 0.72f, roughness));
+  float sharp = near_share * material_mirrors * (1.0f - smoothstep(0.15f, 0.72f, roughness));
   vec4 seen = sharp * texelFetch(near_picture, ivec2(gl_FragCoord.xy), 0);
   return seen.rgb + (1.0f - seen.a) * far_radiance;
 }
@@ -61,7 +62,7 @@ vec3 behind_near(vec3 far_radiance, float roughness) {
 #ifdef IS_GLASS
 #ifdef HAS_GLASS_PICTURE
 uniform sampler2D glass_picture;  // of the main view's size: what glass lets through; coverage in alpha
-
+uniform float glass_share;        // 0: it shows what another glass lets through there
 #endif
 
 // What comes through glass; where that is not followed, the sky straight through it.
@@ -69,7 +70,7 @@ vec3 light_through(vec3 ahead) {
   vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
 #ifdef HAS_GLASS_PICTURE
   vec4 seen = texelFetch(glass_picture, ivec2(gl_FragCoord.xy), 0);
-  if (seen.a > 0.0f) return seen.rgb / seen.a;
+  if (glass_share * seen.a > 0.0f) return seen.rgb / seen.a;
 #endif
   return sky;
 }

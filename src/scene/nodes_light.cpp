@@ -209,7 +209,8 @@ NodeSchema reflection_schema() {
                {.name = "search",
                 .type = AttributeType::choice,
                 .help = "of virtual objects: how reflection points are searched for; midpoint is the method "
-                        "of Estalella and others 2005, drawn however far it has come",
+                        "of Estalella and others 2005, drawn however far it has come (mirrors in mirrors are "
+                        "searched for by newton)",
                 .fallback = reflection_search_names[0],
                 .choices = {reflection_search_names.begin(), reflection_search_names.end()},
                 .is_live = true},

@@ -77,7 +77,7 @@ Result<std::unique_ptr<render::Reflections>> make_method_below(const scene::Scen
     case scene::ReflectionMethod::virtual_objects:
       return curved_reflectors::make_virtual_objects(scene, renderer, probes::make_surroundings(scene));
     default:
-      return probes::make_reflections(scene, renderer);
+      return probes::make_reflections(scene);
   }
 }
 
@@ -97,8 +97,11 @@ Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& sce
 Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
                                                               render::Renderer& renderer) {
   Result<std::unique_ptr<render::Reflections>> method = make_method(scene, renderer);
-  if (!method || !curved_reflectors::has_glass(scene)) return method;
-  return curved_reflectors::make_refracted_objects(scene, renderer, *std::move(method));
+  if (method && curved_reflectors::has_glass(scene))
+    method = curved_reflectors::make_refracted_objects(scene, renderer, *std::move(method));
+  if (!method) return method;
+  if (Status status = renderer.set_reflection(method->get()); !status) return status.errors();
+  return method;
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
@@ -115,11 +118,10 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
 }
 
 Status Stage::set_reflection(const scene::Reflection& reflection) {
-  play_.scene.reflection = reflection;
+  play_.scene.reflection = shown_reflection_ = reflection;
   Result<std::unique_ptr<render::Reflections>> made = make_reflections(play_.scene, *renderer_);
   if (!made) return made.errors();
   reflections_ = *std::move(made);
-  shown_reflection_ = reflection;
   return Done{};
 }
 

@@ -96,6 +96,35 @@ TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
   EXPECT_GT(later->flip, 0.04);
 }
 
+/// Glass over a method with cube maps: light that leaves it is looked up in the map of its surroundings.
+TEST_F(StageTest, AGlassBallShowsItsCubeMapUpsideDown) {
+  constexpr int width = 240, height = 180;
+  scene::Scene scene = street();
+  scene::Material glass;
+  glass.ior = 1.5f;
+  glass.roughness = 0.0f;
+  glass.is_mirror_like = true;
+  const int ball = add(scene, model_of(scene::sphere(glm::vec3(0.0f), 1.0f, 48), glass), true,
+                       glm::translate(glm::mat4(1.0f), {-3.5f, -2.0f, 1.2f}));
+  scene.objects[std::size_t(ball)].takes_reflection = true;
+  Camera camera;
+  camera.world_from_camera = look_at({-4.5f, -6.5f, 1.7f}, {-3.5f, -2.0f, 1.2f});
+  const auto flip_of = [&](scene::ReflectionMethod method) {
+    scene.reflection.method = method;
+    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+    EXPECT_TRUE(stage) << to_string(stage.errors());
+    (*stage)->draw(camera, width, height);
+    const Image8 drawn = (*stage)->picture();
+    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
+    return reference::compare(drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure),
+                              truth.mirror_mask)
+        ->flip;
+  };
+  const double by_map = flip_of(scene::ReflectionMethod::rerendered_cube_map);
+  EXPECT_LT(by_map, 0.15);
+  EXPECT_GT(flip_of(scene::ReflectionMethod::none), 1.5 * by_map);
+}
+
 TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
   constexpr int width = 160, height = 90, frames = 12;  // times come frames later
   scene::Scene scene = street();
