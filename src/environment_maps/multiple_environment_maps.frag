@@ -31,6 +31,7 @@ uniform vec2 layer_size;    // texels a side, and of its border
 const float reach_m = 1000.0f;
 const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
 const float most_taps = 4.0f;
+const int most_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
 #ifndef DETAIL
 #define DETAIL 2
 #endif
@@ -173,15 +174,37 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
   }
 }
 
+// Does a map see on through a point? Else something is met there, or is before it.
+bool is_seen_through(vec3 point, vec4 place) {
+  vec3 to_point = point - place.xyz;
+  float distance_m = length(to_point);
+  return seen_distance(to_point / distance_m, place.w) > distance_m + slack_m(distance_m, height_grid.z);
+}
+
+// Heights have no air under bridges, balconies and arches. Where the ray meets the side of a cell and the map that shows it
+// best sees on through it, the ray goes on to the next cell.
+HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2]) {
+  HeightHit hit = walk_pyramid(grid, at, direction, reach);
+  choose_maps(at, direction, at + hit.distance * direction, places, weights);
+  if (detail != all_detail) return hit;
+  for (int i = 0; i < most_cells_under; ++i) {
+    if (hit.met != met_side || !is_seen_through(at + hit.distance * direction, places[0])) break;
+    float from = hit.distance + 0.01f * grid.cell_m;  // within the cell, which it leaves freely
+    hit = walk_pyramid(grid, at + from * direction, direction, reach - from);
+    hit.distance += from;
+    choose_maps(at, direction, at + hit.distance * direction, places, weights);
+  }
+  return hit;
+}
+
 void trace(vec3 at, vec3 direction) {
   HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
   BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
   if (detail == all_detail) body = meet_bodies(at, direction, reach_m);
-  HeightHit hit = walk_pyramid(grid, at, direction, body.distance);
-  vec3 met = at + hit.distance * direction;
   vec4 places[2];
   float weights[2];
-  choose_maps(at, direction, met, places, weights);
+  HeightHit hit = walk_under(grid, at, direction, body.distance, places, weights);
+  vec3 met = at + hit.distance * direction;
   sight.is_body = hit.met == met_nothing && body.body >= 0;
   if (sight.is_body) {
     sight.body_radiance = radiance_of_body(body, met, direction, places[0].w);

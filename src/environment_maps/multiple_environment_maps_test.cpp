@@ -107,6 +107,16 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
   EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
 }
 
+// Heights have no air under what spans the ground.
+TEST_F(EnvironmentMapsTest, AMirrorShowsWhatStandsBeyondABridge) {
+  scene::Scene scene = tower_square();
+  const Mesh bridge = scene::box({-11, -40, 3.5f}, {-8, 40, 4.5f});
+  scene::add(scene, scene::model_of(bridge, lamp({0.9f, 0.5f, 0.2f})));
+  const Mesh arcade = scene::box({-30, -12, 4.0f}, {30, -9, 5.0f});
+  scene::add(scene, scene::model_of(arcade, lamp({0.2f, 0.5f, 0.4f})));
+  EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
+}
+
 // Light is worked out before the first view is drawn; maps that were kept have drawn nothing either.
 TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   scene::Scene scene = tower_square();
