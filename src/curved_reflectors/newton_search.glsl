@@ -1,11 +1,15 @@
 // The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
 // method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails; after two failures the paper's direction is followed instead.
+// Steps stay in a region that shrinks when one fails, and how the surface bends is measured again; after two failures the paper's
+// direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a little: there a step is
+// right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
 // Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
-// Needs reflection_point.glsl.
+// From the host, beside surface_at:
+//   MapWindow map_window()   what its centre sees of the reflector
+// Needs reflection_point.glsl and map_window.glsl.
 #include "curved_reflectors/surface_bend.glsl"
 
-const float first_region = 0.25f;      // of the distance from the centre: the longest first step
+const float first_region = 0.25f;      // radians: the longest first step
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
@@ -29,7 +33,7 @@ struct Way {
 GLSL_FUNCTION Way way_over(ReflectionTask task, vec3 direction, vec3 u) {
   Way way;
   way.direction = direction;
-  way.plane = tangent_plane(surface_at(direction), u);
+  way.plane = tangent_plane(surface_at(direction), window_frame(map_window(), direction, u));
   vec3 normal = way.plane.at.normal;
   vec3 to_viewer = task.viewer - way.plane.at.position, to_vertex = task.vertex - way.plane.at.position;
   float viewer_m = max(length(to_viewer), 1e-12f), vertex_m = max(length(to_vertex), 1e-12f);
@@ -62,28 +66,49 @@ GLSL_FUNCTION vec2 newton_step(Way way, vec3 surface, bool is_convex) {
   return vec2(way.slope.y * bend.y - way.slope.x * bend.z, way.slope.x * bend.y - way.slope.y * bend.x) / determinant;
 }
 
+// Radians that the normal turns by, or the place as the centre sees it.
+GLSL_FUNCTION float step_size(vec2 d, vec3 surface, float distance) {
+  return max(length(times(surface, d)), length(d) / distance);
+}
+
+// What Newton's method has to go where its slope would be another.
+GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex) {
+  way.slope = slope;
+  return length(newton_step(way, surface, is_convex));
+}
+
 GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float most_growth,
                                                int most_steps, float least_error) {
+  float breadth = window_breadth(map_window());
+  bool is_band = map_window().extent == 0.0f;
   Way way = way_over(task, start, vec3(0.0f));
-  vec3 surface = surface_bend(way.plane, task.centre);  // before the loop: software renderers run both sides of a branch
-  float region = first_region * length(way.plane.at.position - task.centre);
+  vec3 surface = surface_bend(way.plane, task.centre, breadth);  // before the loop: software renderers run both sides of a branch
+  float region = first_region;
   int failures = 0;
   for (int i = 0; i < most_steps && way.error >= least_error; ++i) {
-    vec2 d = newton_step(way, surface, is_convex);
-    if (failures >= 2) d = -way.slope / max(way.bend.x + way.bend.z + abs(way.lift) * length(surface), 1e-12f);
-    d = shortened(d, region);
-    Way next = way_over(task, on_tangent_plane(way.plane, d) - task.centre, way.plane.u);
-    vec3 moved = next.plane.at.position - way.plane.at.position;
-    surface = bend_after_step(surface, in_tangent_plane(way.plane, moved), in_tangent_plane(way.plane, next.plane.at.normal));
+    vec2 whole = newton_step(way, surface, is_convex);
+    float to_go = length(whole);
+    if (failures >= 2) whole = -way.slope / max(way.bend.x + way.bend.z + abs(way.lift) * length(surface), 1e-12f);
+    vec3 from_centre = way.plane.at.position - task.centre;
+    float size = step_size(whole, surface, length(from_centre));
+    float part = min(1.0f, region / max(size, 1e-12f));
+    vec2 d = part * whole;
+    Way next = way_over(task, window_step(map_window(), from_centre, d.x * way.plane.u + d.y * way.plane.v), way.plane.u);
     bool is_shorter = is_convex && way.length_m - next.length_m > -0.1f * dot(way.slope, d);
-    if (next.error < most_growth * way.error || (is_shorter && next.error < seen_error)) {
-      region = max(region, 2.0f * length(d));
+    bool is_nearer = is_band && way_to_go(way, next.slope, surface, is_convex) < (1.0f - 0.25f * part) * to_go;
+    bool is_better = next.error < mix(1.0f, most_growth, part) * way.error ||
+                     ((is_shorter || is_nearer) && next.error < seen_error);
+    if (is_better) {
+      vec3 moved = next.plane.at.position - way.plane.at.position;
+      surface = bend_after_step(surface, in_tangent_plane(way.plane, moved), in_tangent_plane(way.plane, next.plane.at.normal));
+      region = max(region, 2.0f * part * size);
       failures = 0;
       way = next;
     } else {
-      region = 0.3f * length(d);
+      region = 0.3f * part * size;
       failures += 1;
     }
+    for (int probes = is_better ? 0 : 1; probes > 0; --probes) surface = surface_bend(way.plane, task.centre, breadth);
   }
   return reflection_point(way.plane.at, normalize(way.direction), way.error);
 }

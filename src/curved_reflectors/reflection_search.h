@@ -27,6 +27,10 @@ struct ReflectionSearch {
   //
 #include "curved_reflectors/patch_search.glsl"
 
+  MapWindow map_window() const {
+    if constexpr (requires { reflector.window; }) return reflector.window;
+    return all_directions;
+  }
   SurfacePoint surface_at(vec3 direction) {
     const auto [position, normal] = reflector.surface(direction);
     return {position, normal};

@@ -25,9 +25,15 @@ struct Sampler {
 #define GLSL_FUNCTION inline
 };
 
+constexpr float pi = 3.14159265f;
 constexpr float window_margin = 1.1f;   // about the patch
 constexpr float widest_window = 0.9f;   // beyond it, all directions
+constexpr float least_breadth = 1e-3f;  // radians, of a band
+constexpr float band_share = 0.25f;     // of a square window's solid angle, from which on a band is better
+constexpr float middle_share = 0.3f;    // of a band's breadth, in which searches begin
+constexpr double most_sides = 2.0;      // of the usual, of the largest maps
 constexpr double usual_share = 0.020;   // of a reflector's surface, that a map of the usual side holds
+constexpr double creased_share = 0.01;  // of a map: it is made again, twice as wide
 constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off between them
 constexpr float crease_depth = 0.005f;  // of the distance
 
@@ -40,14 +46,46 @@ glm::vec3 texel_direction(const MapWindow& window, glm::vec2 texel) {
   return window_direction(window, (texel + 0.5f) / window.side);
 }
 
-/// A window that holds all corners of a patch, seen from its centre.
+/// Calls `visit(direction)` for every corner of a patch, seen from its centre along the window's axes.
+template <class Visit>
+void for_each_corner(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes,
+                     Visit&& visit) {
+  for (const std::uint32_t t : patch.triangles)
+    for (const glm::vec3& corner : mesh.corners(t))
+      visit(glm::transpose(axes) * glm::normalize(corner - patch.centre));
+}
+
+/// Of an octahedral layer about the third axis, what holds all corners of a patch.
+float square_extent(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes) {
+  float reach = 0.0f;
+  for_each_corner(mesh, patch, axes, [&](glm::vec3 direction) {
+    const glm::vec2 uv = octahedral_uv(direction);
+    reach = std::max({reach, std::abs(2.0f * uv.x - 1.0f), std::abs(2.0f * uv.y - 1.0f)});
+  });
+  return window_margin * reach < widest_window ? window_margin * reach : 1.0f;
+}
+
+/// The band all around the third axis that holds all corners of a patch.
+glm::vec3 band_around(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes) {
+  float least = pi, most = 0.0f;
+  for_each_corner(mesh, patch, axes, [&](glm::vec3 direction) {
+    const float off_axis = std::atan2(glm::length(glm::vec2(direction)), direction.z);
+    least = std::min(least, off_axis), most = std::max(most, off_axis);
+  });
+  const float margin = 0.5f * (window_margin - 1.0f) * (most - least);
+  least = std::max(least - margin, 0.0f), most = std::min(most + margin, pi);
+  return {pi, least, most - least};
+}
+
+/// A window that holds all corners of a patch, seen from its centre: the one of the smaller solid angle.
 MapWindow window_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side) {
   glm::vec3 middle(0.0f);
   for (const std::uint32_t t : patch.triangles) {
     const auto [a, b, c] = mesh.corners(t);
     middle += glm::length(glm::cross(b - a, c - a)) * glm::normalize(a + b + c - 3.0f * patch.centre);
   }
-  MapWindow window{patch.centre, glm::mat3(1.0f), 1.0f, float(side), 0.0f};
+  MapWindow window = all_directions;
+  window.centre = patch.centre, window.side = float(side), window.reach = 0.0f;
   for (const std::vector<std::uint32_t>* triangles : {&patch.triangles, &patch.around})
     for (const std::uint32_t t : *triangles)
       for (const glm::vec3& corner : mesh.corners(t))
@@ -57,13 +95,14 @@ MapWindow window_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, int 
   const glm::vec3 x =
       glm::normalize(glm::cross(std::abs(z.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), z));
   window.axes = {x, glm::cross(z, x), z};
-  float reach = 0.0f;
-  for (const std::uint32_t t : patch.triangles)
-    for (const glm::vec3& corner : mesh.corners(t)) {
-      const glm::vec2 uv = octahedral_uv(glm::transpose(window.axes) * glm::normalize(corner - patch.centre));
-      reach = std::max({reach, std::abs(2.0f * uv.x - 1.0f), std::abs(2.0f * uv.y - 1.0f)});
-    }
-  if (window_margin * reach < widest_window) window.extent = window_margin * reach;
+  const float extent = square_extent(mesh, patch, window.axes);
+  const glm::vec3 band = band_around(mesh, patch, window.axes);
+  const float of_square = 4.0f * pi * extent * extent,
+              of_band = 2.0f * pi * (std::cos(band.y) - std::cos(band.y + band.z));
+  if (band.z > least_breadth && of_band < band_share * of_square)
+    window.extent = 0.0f, window.band = band;
+  else
+    window.extent = extent;
   return window;
 }
 
@@ -201,15 +240,27 @@ void encode(ReflectorMap& map, const PatchRays& rays, const std::vector<char>& i
   for (std::size_t i = 0; i < kinds.size(); ++i) map.texels.pixels[4 * i + 3] += kinds[i];
 }
 
+/// Directions to the triangles of a patch; of a rim, to those along its middle: beside its edges normals
+/// point away from most that it shows.
+std::vector<glm::vec3> start_directions(const ReflectorMesh& mesh, const ReflectorPatch& patch,
+                                        const MapWindow& window) {
+  std::vector<glm::vec3> all, in_middle;
+  for (const std::uint32_t t : patch.triangles) {
+    const auto [a, b, c] = mesh.corners(t);
+    all.push_back(glm::normalize(a + b + c - 3.0f * patch.centre));
+    const float off_axis = std::acos(glm::clamp(glm::dot(all.back(), window.axes[2]), -1.0f, 1.0f));
+    const float off_middle = off_axis - window.band.y - 0.5f * window.band.z;
+    if (std::abs(off_middle) < 0.5f * middle_share * window.band.z) in_middle.push_back(all.back());
+  }
+  return in_middle.empty() ? all : in_middle;
+}
+
 /// Directions to triangles of the patch, the first near its middle, each of the others as far as can be from
 /// those before.
 std::array<glm::vec3, start_count> spread_starts(const ReflectorMesh& mesh, const ReflectorPatch& patch,
-                                                 glm::vec3 middle) {
-  std::vector<glm::vec3> directions;
-  for (const std::uint32_t t : patch.triangles) {
-    const auto [a, b, c] = mesh.corners(t);
-    directions.push_back(glm::normalize(a + b + c - 3.0f * patch.centre));
-  }
+                                                 const MapWindow& window) {
+  const glm::vec3 middle = window.axes[2];
+  const std::vector<glm::vec3> directions = start_directions(mesh, patch, window);
   std::array<glm::vec3, start_count> starts;
   starts[0] = *std::max_element(directions.begin(), directions.end(), [&](glm::vec3 a, glm::vec3 b) {
     return glm::dot(a, middle) < glm::dot(b, middle);
@@ -224,13 +275,25 @@ std::array<glm::vec3, start_count> spread_starts(const ReflectorMesh& mesh, cons
 }
 
 /// Texels for a patch's share of the surface, so that all patches are sampled about as finely: `side` where
-/// that is `usual_share`, and for a body that is one patch.
+/// that is `usual_share`.
 int side_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, double surface, int side) {
-  if (patch.triangles.size() == mesh.neighbours.size()) return side;
   double area = 0.0;
   for (const std::uint32_t t : patch.triangles) area += area_of(mesh, t);
   const double fitting = side * std::sqrt(area / (usual_share * surface));
-  return int(std::clamp(fitting, 0.25 * side, 2.0 * side));
+  return int(std::clamp(fitting, 0.25 * side, most_sides * side));
+}
+
+bool has_many_creases(const ReflectorMap& map) {
+  std::size_t creases = 0;
+  for (std::size_t i = 3; i < map.texels.pixels.size(); i += 4)
+    creases += std::floor(map.texels.pixels[i]) == kind_crease ? 1 : 0;
+  return 4.0 * double(creases) > creased_share * double(map.texels.pixels.size());
+}
+
+/// Of a body in one piece, which most often is round: `side` texels wide if that will do.
+ReflectorMap map_of_body(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side) {
+  ReflectorMap map = reflector_map(mesh, patch, side);
+  return has_many_creases(map) ? reflector_map(mesh, patch, int(most_sides * side)) : map;
 }
 
 std::vector<std::string> remarks_on(const ReflectorMesh& mesh, const std::string& name) {
@@ -273,7 +336,7 @@ ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patc
     is_open.push_back(map.texels.pixels[i] == 0.0f);
   close(map.texels, map.window, map.is_convex);
   encode(map, rays, is_open);
-  const std::array<glm::vec3, start_count> starts = spread_starts(mesh, patch, map.window.axes[2]);
+  const std::array<glm::vec3, start_count> starts = spread_starts(mesh, patch, map.window);
   for (std::size_t i = 0; i < starts.size(); ++i) map.starts[i] = map.surface(starts[i]);
   return map;
 }
@@ -291,7 +354,10 @@ Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int 
   for (std::size_t t = 0; t < reflector.mesh.neighbours.size(); ++t) surface += area_of(reflector.mesh, t);
   parallel_for(reflector.maps.size(), [&](std::size_t i) {
     const ReflectorPatch& patch = reflector.patches[i];
-    reflector.maps[i] = reflector_map(reflector.mesh, patch, side_of(reflector.mesh, patch, surface, side));
+    reflector.maps[i] =
+        reflector.patches.size() == 1
+            ? map_of_body(reflector.mesh, patch, side)
+            : reflector_map(reflector.mesh, patch, side_of(reflector.mesh, patch, surface, side));
   });
   std::size_t without = 0;
   for (std::size_t i = reflector.maps.size(); i < reflector.patches.size(); ++i)

@@ -16,7 +16,7 @@ inline constexpr std::size_t start_count = 16;  ///< as in patch_search.glsl
 
 /// Position and normal of a patch by direction from its centre; see reflector_map.glsl.
 struct ReflectorMap {
-  MapWindow window{glm::vec3(0.0f), glm::mat3(1.0f), 1.0f, 0.0f, 1.0f};
+  MapWindow window = all_directions;
   bool is_convex = true;
   bool shows_once = true;  ///< as its patch; else a vertex is searched for layer by layer (patch_search.glsl)
   /// Positions and normals spread over the patch, the first near its middle: where searches may begin.

@@ -252,6 +252,56 @@ TEST(ReflectorMap, RealBodiesReflectRightOrTell) {
   }
 }
 
+/// The upper part of a ring of radius 1, as the rims of pans have.
+Mesh rim(float thickness) {
+  constexpr int around = 256, across = 16;
+  Mesh mesh;
+  for (int i = 0; i <= around; ++i)
+    for (int k = 0; k <= across; ++k) {
+      const float turn = 6.2831853f * float(i % around) / around, tilt = 0.4f + 2.34f * float(k) / across;
+      const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
+      mesh.normals.push_back(std::cos(tilt) * out + std::sin(tilt) * glm::vec3(0, 0, 1));
+      mesh.positions.push_back(out + thickness * mesh.normals.back());
+      mesh.uvs.emplace_back(0.0f);
+    }
+  const auto at = [](int i, int k) { return std::uint32_t(i * (across + 1) + k); };
+  for (int i = 0; i < around; ++i)
+    for (int k = 0; k < across; ++k)
+      for (const std::uint32_t v :
+           {at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1)})
+        mesh.indices.push_back(v);
+  return mesh;
+}
+
+TEST(ReflectorMap, AThinRimIsABandOfDirectionsAndShowsWhatItMirrors) {
+  const Reflector ring = reflector(rim(0.015f));
+  ASSERT_EQ(ring.maps.size(), 1u);
+  const ReflectorMap& map = ring.maps[0];
+  EXPECT_EQ(map.window.extent, 0.0f);
+  Search search{map};
+  const SurfaceRays rays(ring.mesh, ring.patches[0].triangles);
+  Random random(5);
+  int shown = 0, found = 0;
+  while (shown < 300) {
+    const float turn = random.uniform(0.0f, 6.2831853f);
+    const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
+    const std::optional<MetSurface> at =
+        rays.along(map.window.centre, out + random.uniform(-0.01f, 0.01f) * out - map.window.centre);
+    const glm::vec3 viewer = 4.0f * chance_direction(random);
+    if (!at || glm::dot(glm::normalize(viewer - at->position), at->normal) < 0.3f) continue;
+    ++shown;
+    const glm::vec3 vertex =
+        at->position + 1.5f * glm::reflect(glm::normalize(at->position - viewer), at->normal);
+    for (int layer = 0; layer < search.layer_count; ++layer) {
+      const auto point = search.search_patch({viewer, vertex, map.window.centre}, search.patch_kind(), layer);
+      if (!search.is_found(point) || glm::distance(point.point.position, at->position) > 0.01f) continue;
+      ++found;
+      break;
+    }
+  }
+  EXPECT_GT(found, 280);
+}
+
 TEST(HostileMesh, IsRefusedByNameOrHasADefinedMap) {
   const auto refused = [](const Mesh& mesh, const std::string& words) {
     const Result<Reflector> made = make_reflector(mesh, "kettle", 32);

@@ -134,7 +134,7 @@ struct RefractedPoint {
 
 GLSL_FUNCTION RefractedPoint search_refraction(RefractionTask task, vec3 to_entry, vec3 to_exit) {
   GlassWay way = glass_way(task, to_entry, to_exit, vec3(0.0f), vec3(0.0f));
-  vec3 entry_bend = surface_bend(way.entry, task.centre), exit_bend = surface_bend(way.exit, task.centre);
+  vec3 entry_bend = surface_bend(way.entry, task.centre, 1.0f), exit_bend = surface_bend(way.exit, task.centre, 1.0f);
   float region = longest_refraction_step * length(to_entry);
   int failures = 0;
   for (int i = 0; i < refraction_steps && way.error >= refraction_found * refraction_found; ++i) {

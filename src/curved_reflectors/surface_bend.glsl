@@ -3,7 +3,7 @@
 //   SurfacePoint surface_at(vec3 direction)   what a ray from the centre meets; the direction has any length
 // Needs surface_point.glsl.
 
-const float probe_size = 0.02f;  // of the distance from the centre: how far off the surface's bend is measured
+const float probe_size = 0.02f;  // of the distance from the centre, for a body seen all around: how far off its bend is measured
 
 struct TangentPlane {
   SurfacePoint at;
@@ -30,10 +30,11 @@ GLSL_FUNCTION vec2 times(vec3 symmetric, vec2 d) {
   return vec2(symmetric.x * d.x + symmetric.y * d.y, symmetric.y * d.x + symmetric.z * d.y);
 }
 
-// How the normal turns along u and v, as a symmetric matrix (uu, uv, vv): by two points nearby.
-GLSL_FUNCTION vec3 surface_bend(TangentPlane plane, vec3 centre) {
+// How the normal turns along u and v, as a symmetric matrix (uu, uv, vv): by two points, nearer for a patch that its centre sees in
+// a `breadth` below 1.
+GLSL_FUNCTION vec3 surface_bend(TangentPlane plane, vec3 centre, float breadth) {
   vec3 from_centre = plane.at.position - centre;
-  float probe = probe_size * length(from_centre);
+  float probe = probe_size * breadth * length(from_centre);
   SurfacePoint along_u = surface_at(from_centre + probe * plane.u), along_v = surface_at(from_centre + probe * plane.v);
   vec2 su = in_tangent_plane(plane, along_u.position - plane.at.position), nu = in_tangent_plane(plane, along_u.normal);
   vec2 sv = in_tangent_plane(plane, along_v.position - plane.at.position), nv = in_tangent_plane(plane, along_v.normal);

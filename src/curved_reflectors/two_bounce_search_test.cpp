@@ -44,6 +44,7 @@ struct Pair {
         {std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z});
   }
   static float surface_kind(glm::vec3) { return kind_surface; }
+  static MapWindow map_window() { return all_directions; }
 #undef GLSL_FUNCTION
 #define GLSL_FUNCTION inline
 };
