@@ -1,5 +1,6 @@
 #include "city/kitchen_room.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "city/kitchen_light.h"
@@ -103,10 +104,28 @@ void add_cupboards(scene::Model& model) {
     add_front(model, {east - float(2 - i) * unit, upper, foot}, unit, head - foot, false);
 }
 
+/// What of a mesh does not lie within a box.
+Mesh outside(Mesh mesh, const Bounds& box) {
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::uint32_t* corner = &mesh.indices[i];
+    const auto is_within = [&](std::uint32_t v) {
+      return glm::clamp(mesh.positions[v], box.min, box.max) == mesh.positions[v];
+    };
+    if (!std::all_of(corner, corner + 3, is_within)) kept.insert(kept.end(), corner, corner + 3);
+  }
+  mesh.indices = std::move(kept);
+  return mesh;
+}
+
+/// With an opening for the hob: two layers that all but touch would show through one another in mirrors.
 void add_worktop(scene::Model& model) {
   constexpr float thick = 0.04f, high = worktop_height_m;
+  const Bounds hob_box{{hob_x_m - 0.29f, -0.56f, high - 0.01f}, {hob_x_m + 0.29f, -0.07f, hob_height_m}};
   add_part(model, "worktop",
-           panel({west, worktop_front_m, high}, {worktop_m[0], 0, 0}, {0, worktop_m[1], 0}, nearest_cell_m),
+           outside(panel({west, worktop_front_m, high}, {worktop_m[0], 0, 0}, {0, worktop_m[1], 0},
+                         nearest_cell_m),
+                   hob_box),
            worktop);
   add_part(model, "worktop edge",
            panel({west, worktop_front_m, high - thick}, {worktop_m[0], 0, 0}, {0, 0, thick}, near_cell_m),
@@ -115,8 +134,7 @@ void add_worktop(scene::Model& model) {
       model, "worktop below",
       panel({west, -0.6f, high - thick}, {worktop_m[0], 0, 0}, {0, worktop_front_m + 0.6f, 0}, far_cell_m),
       worktop);
-  add_box(model, "hob", {hob_x_m - 0.29f, -0.56f, high - 0.01f}, {hob_x_m + 0.29f, -0.07f, hob_height_m}, hob,
-          near_cell_m);
+  add_box(model, "hob", hob_box.min, hob_box.max, hob, nearest_cell_m);
 }
 
 void add_shelf(scene::Model& model) {
