@@ -24,7 +24,7 @@ using Search = ReflectionSearch<Ellipsoid>;
 
 constexpr int width = 640, height = 480, samples_a_pixel = 9;
 constexpr int frames = 120;
-constexpr std::size_t stride = 20, quick_stride = 60;  // of the vertices whose flicker is measured
+constexpr std::size_t stride = 20, quick_stride = 120;  // of the vertices whose flicker is measured
 constexpr int turns = 9, quick_turns = 3;
 constexpr int paper_iterations = 9, newton_steps = 12, exact_starts = 8;
 constexpr float search_ends = 2e-9f;    // error, 0.005 degrees

@@ -7,6 +7,7 @@
 #include "bench/reflected_points.h"
 #include "bench/scratch_folder.h"
 #include "city/kitchen.h"
+#include "curved_reflectors/reflector_cache.h"
 #include "gl/context.h"
 
 namespace parvis::bench {
@@ -45,6 +46,8 @@ Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& 
   if (Status status = city::write_kitchen(folder, 1); !status) return status.errors();
   Result<stage::Play> play = stage::open_play(folder / script, {});
   if (!play) return play.errors();
+  // Once for all: the points, the stage and the method that is judged each need them.
+  if (const auto baked = curved_reflectors::bake_reflectors(play->scene); !baked) return baked.errors();
   return stage::Stage::create(*std::move(play));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "curved_reflectors/exact_reflection.h"
 #include "curved_reflectors/reflection_search.h"
@@ -180,11 +181,13 @@ Status measure_shape(const JudgedShape& shape, std::size_t count, Report& report
   const SurfaceRays whole(made->mesh, all);
   const AllPoints points(*std::move(made));
 
-  PixelErrors errors;
-  std::size_t most = 0, truths = 0;
   Random random(4);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Task task = shape.task(random);
+  std::vector<Task> asked(count);
+  for (Task& task : asked) task = shape.task(random);
+  std::vector<PixelErrors> errors_of(count);
+  std::vector<std::size_t> counted(count);
+  parallel_for(count, [&](std::size_t i) {
+    const Task& task = asked[i];
     const auto is_clear = [&](glm::vec3 from, glm::vec3 to) {
       const std::optional<MetSurface> met = whole.along(from, to - from);
       return !met || glm::distance(met->position, from) > 0.999f * glm::distance(from, to) - 1e-3f;
@@ -202,12 +205,17 @@ Status measure_shape(const JudgedShape& shape, std::size_t count, Report& report
       return all_points;
     };
     const std::vector<Point> truth = judged(shape.truth(task));
-    const std::size_t counted =
+    counted[i] =
         std::size_t(std::count_if(truth.begin(), truth.end(), [](const Point& p) { return p.counts; }));
-    most = std::max(most, counted);
-    truths += counted;
-    compare(truth, judged(points.of(task)), task.viewer, errors);
+    compare(truth, judged(points.of(task)), task.viewer, errors_of[i]);
+  });
+  PixelErrors errors;
+  for (const PixelErrors& of_task : errors_of) {
+    errors.px.insert(errors.px.end(), of_task.px.begin(), of_task.px.end());
+    errors.missed += of_task.missed, errors.extra += of_task.extra;
   }
+  const std::size_t most = *std::ranges::max_element(counted),
+                    truths = std::accumulate(counted.begin(), counted.end(), std::size_t(0));
   report.add(shape.key, percentile(errors.px, 0.99));
   report.note(
       fmt::format("{}: {} points of {} vertices, at most {} of one: {} missed, {} extra; median {:.3f} px",
