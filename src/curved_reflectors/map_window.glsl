@@ -18,12 +18,13 @@ const float kind_closed = 2.0f;  // none: what closes an open surface, so that s
 
 const float map_border = 1.0f;  // texels that repeat what lies across the sides
 
+// For loops in place of branches: software renderers run both sides of those.
+GLSL_FUNCTION int band_count(MapWindow window) { return window.extent > 0.0f ? 0 : 1; }
+
 GLSL_FUNCTION vec2 window_uv(MapWindow window, vec3 direction) {
   vec3 d = vec3(dot(window.axes[0], direction), dot(window.axes[1], direction), dot(window.axes[2], direction));
-  vec2 uv;
-  if (window.extent > 0.0f)
-    uv = (octahedral_uv(d) - vec2(0.5f)) / window.extent + vec2(0.5f);
-  else
+  vec2 uv = (octahedral_uv(d) - vec2(0.5f)) / max(window.extent, 1e-12f) + vec2(0.5f);
+  for (int bands = band_count(window); bands > 0; --bands)
     uv = vec2(0.5f * atan(d.y, d.x) / window.band.x + 0.5f,
               (atan(length(vec2(d.x, d.y)), d.z) - window.band.y) / window.band.z);
   return uv_in_layer(clamp(uv, vec2(0.0f), vec2(1.0f)), window.side, map_border);
@@ -42,14 +43,17 @@ GLSL_FUNCTION float window_breadth(MapWindow window) { return window.extent > 0.
 
 // A step from a place of the patch, both from the centre; over a band it turns about the axis, as rims do.
 GLSL_FUNCTION vec3 window_step(MapWindow window, vec3 from_centre, vec3 step) {
-  vec3 axis = window.axes[2];
-  vec3 off_axis = from_centre - dot(from_centre, axis) * axis;
-  float radius = length(off_axis);
-  if (window.extent > 0.0f || radius == 0.0f) return from_centre + step;
-  vec3 outward = off_axis / radius, around = cross(axis, outward);
-  float turn = dot(step, around) / radius;
-  return from_centre - off_axis + dot(step, axis) * axis +
+  vec3 to = from_centre + step;
+  for (int bands = band_count(window); bands > 0; --bands) {
+    vec3 axis = window.axes[2];
+    vec3 off_axis = from_centre - dot(from_centre, axis) * axis;
+    float radius = max(length(off_axis), 1e-12f);
+    vec3 outward = off_axis / radius, around = cross(axis, outward);
+    float turn = dot(step, around) / radius;
+    to = from_centre - off_axis + dot(step, axis) * axis +
          (radius + dot(step, outward)) * (cos(turn) * outward + sin(turn) * around);
+  }
+  return to;
 }
 
 // About where a tangent plane's first axis is to point at a place, `u`: where it pointed at the place before.

@@ -80,7 +80,6 @@ GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex)
 GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float most_growth,
                                                int most_steps, float least_error) {
   float breadth = window_breadth(map_window());
-  bool is_band = map_window().extent == 0.0f;
   Way way = way_over(task, start, vec3(0.0f));
   vec3 surface = surface_bend(way.plane, task.centre, breadth);  // before the loop: software renderers run both sides of a branch
   float region = first_region;
@@ -95,7 +94,9 @@ GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, 
     vec2 d = part * whole;
     Way next = way_over(task, window_step(map_window(), from_centre, d.x * way.plane.u + d.y * way.plane.v), way.plane.u);
     bool is_shorter = is_convex && way.length_m - next.length_m > -0.1f * dot(way.slope, d);
-    bool is_nearer = is_band && way_to_go(way, next.slope, surface, is_convex) < (1.0f - 0.25f * part) * to_go;
+    bool is_nearer = false;
+    for (int bands = band_count(map_window()); bands > 0; --bands)
+      is_nearer = way_to_go(way, next.slope, surface, is_convex) < (1.0f - 0.25f * part) * to_go;
     bool is_better = next.error < mix(1.0f, most_growth, part) * way.error ||
                      ((is_shorter || is_nearer) && next.error < seen_error);
     if (is_better) {
