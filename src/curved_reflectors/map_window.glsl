@@ -18,8 +18,13 @@ const float kind_closed = 2.0f;  // none: what closes an open surface, so that s
 
 const float map_border = 1.0f;  // texels that repeat what lies across the sides
 
-// For loops in place of branches: software renderers run both sides of those.
+// 1 or 0, for loops in place of branches: software renderers run both sides of those. WITHOUT_BANDS: no reflector has one, and
+// what they cost falls away.
+#ifdef WITHOUT_BANDS
+#define band_count(window) 0
+#else
 GLSL_FUNCTION int band_count(MapWindow window) { return window.extent > 0.0f ? 0 : 1; }
+#endif
 
 GLSL_FUNCTION vec2 window_uv(MapWindow window, vec3 direction) {
   vec3 d = vec3(dot(window.axes[0], direction), dot(window.axes[1], direction), dot(window.axes[2], direction));
@@ -32,14 +37,14 @@ GLSL_FUNCTION vec2 window_uv(MapWindow window, vec3 direction) {
 
 GLSL_FUNCTION vec3 window_direction(MapWindow window, vec2 uv) {
   vec2 within = (uv * window.side - vec2(map_border)) / (window.side - 2.0f * map_border);
-  if (window.extent > 0.0f)
+  if (band_count(window) == 0)
     return window.axes * octahedral_direction((within - vec2(0.5f)) * window.extent + vec2(0.5f));
   float turn = (2.0f * within.x - 1.0f) * window.band.x, off_axis = window.band.y + within.y * window.band.z;
   return window.axes * vec3(sin(off_axis) * cos(turn), sin(off_axis) * sin(turn), cos(off_axis));
 }
 
 // Of the patch as its centre sees it, 1: all around.
-GLSL_FUNCTION float window_breadth(MapWindow window) { return window.extent > 0.0f ? window.extent : window.band.z; }
+GLSL_FUNCTION float window_breadth(MapWindow window) { return band_count(window) == 0 ? window.extent : window.band.z; }
 
 // A step from a place of the patch, both from the centre; over a band it turns about the axis, as rims do.
 GLSL_FUNCTION vec3 window_step(MapWindow window, vec3 from_centre, vec3 step) {
@@ -58,5 +63,5 @@ GLSL_FUNCTION vec3 window_step(MapWindow window, vec3 from_centre, vec3 step) {
 
 // About where a tangent plane's first axis is to point at a place, `u`: where it pointed at the place before.
 GLSL_FUNCTION vec3 window_frame(MapWindow window, vec3 from_centre, vec3 u) {
-  return window.extent > 0.0f ? u : cross(window.axes[2], from_centre);
+  return band_count(window) == 0 ? u : cross(window.axes[2], from_centre);
 }

@@ -16,13 +16,15 @@ Bounds bounds_in_world(const ShownPatch& patch) {
 
 }  // namespace
 
-Result<std::unique_ptr<MirrorsInMirrors>> MirrorsInMirrors::create(const render::Renderer& renderer) {
-  Result<gl::Program> mirrored_patch =
-      gl::Program::create("curved_reflectors/mirrored_patch.vert", "curved_reflectors/mirrored_patch.frag");
+Result<std::unique_ptr<MirrorsInMirrors>> MirrorsInMirrors::create(const render::Renderer& renderer,
+                                                                   gl::Defines map_defines) {
+  Result<gl::Program> mirrored_patch = gl::Program::create(
+      "curved_reflectors/mirrored_patch.vert", "curved_reflectors/mirrored_patch.frag", map_defines);
   if (!mirrored_patch) return mirrored_patch.errors();
+  map_defines.insert(map_defines.end(), {{"IS_MIRRORED", ""}, {"MIRRORS", "2"}});
   Result<render::SurfacePrograms> programs = render::SurfacePrograms::create(
       "curved_reflectors/twice_virtual_surface.frag", renderer.gpu().materials(),
-      "curved_reflectors/twice_virtual_vertices.vert", {{"IS_MIRRORED", ""}, {"MIRRORS", "2"}});
+      "curved_reflectors/twice_virtual_vertices.vert", map_defines);
   if (!programs) return programs.errors();
   return std::unique_ptr<MirrorsInMirrors>(
       new MirrorsInMirrors(*std::move(programs), *std::move(mirrored_patch)));

@@ -16,7 +16,9 @@ namespace parvis::curved_reflectors {
 
 class MirrorsInMirrors final : public render::VirtualVertices {
  public:
-  static Result<std::unique_ptr<MirrorsInMirrors>> create(const render::Renderer& renderer);
+  /// `map_defines`: for map_window.glsl.
+  static Result<std::unique_ptr<MirrorsInMirrors>> create(const render::Renderer& renderer,
+                                                          gl::Defines map_defines);
 
   /// `first`: what the main view shows, ordered by size; `second`: all patches there are. Those that may show
   /// a vertex several times are left out, and all beyond the first fifteen of each.

@@ -1,6 +1,6 @@
 // The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
 // method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails, and how the surface bends is measured again; after two failures the paper's
+// Steps stay in a region that shrinks when one fails (on bands how the surface bends is measured again); after two failures the paper's
 // direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a little: there a step is
 // right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
 // Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
@@ -9,7 +9,7 @@
 // Needs reflection_point.glsl and map_window.glsl.
 #include "curved_reflectors/surface_bend.glsl"
 
-const float first_region = 0.25f;      // radians: the longest first step
+const float first_region = 0.25f;      // radians, as the centre sees it (on bands those that the normal turns by, too): the longest first step
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 
@@ -66,11 +66,6 @@ GLSL_FUNCTION vec2 newton_step(Way way, vec3 surface, bool is_convex) {
   return vec2(way.slope.y * bend.y - way.slope.x * bend.z, way.slope.x * bend.y - way.slope.y * bend.x) / determinant;
 }
 
-// Radians that the normal turns by, or the place as the centre sees it.
-GLSL_FUNCTION float step_size(vec2 d, vec3 surface, float distance) {
-  return max(length(times(surface, d)), length(d) / distance);
-}
-
 // What Newton's method has to go where its slope would be another.
 GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex) {
   way.slope = slope;
@@ -89,19 +84,23 @@ GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, 
     float to_go = length(whole);
     if (failures >= 2) whole = -way.slope / max(way.bend.x + way.bend.z + abs(way.lift) * length(surface), 1e-12f);
     vec3 from_centre = way.plane.at.position - task.centre;
-    float size = step_size(whole, surface, length(from_centre));
+    float size = length(whole) / length(from_centre);
+    for (int bands = band_count(map_window()); bands > 0; --bands) size = max(size, length(times(surface, whole)));
     float part = min(1.0f, region / max(size, 1e-12f));
     vec2 d = part * whole;
     Way next = way_over(task, window_step(map_window(), from_centre, d.x * way.plane.u + d.y * way.plane.v), way.plane.u);
     bool is_shorter = is_convex && way.length_m - next.length_m > -0.1f * dot(way.slope, d);
+    float growth = most_growth;
     bool is_nearer = false;
-    for (int bands = band_count(map_window()); bands > 0; --bands)
+    for (int bands = band_count(map_window()); bands > 0; --bands) {
+      growth = mix(1.0f, most_growth, part);
       is_nearer = way_to_go(way, next.slope, surface, is_convex) < (1.0f - 0.25f * part) * to_go;
-    bool is_better = next.error < mix(1.0f, most_growth, part) * way.error ||
+    }
+    bool is_better = next.error < growth * way.error ||
                      ((is_shorter || is_nearer) && next.error < seen_error);
+    vec3 moved = next.plane.at.position - way.plane.at.position;
+    surface = bend_after_step(surface, in_tangent_plane(way.plane, moved), in_tangent_plane(way.plane, next.plane.at.normal));
     if (is_better) {
-      vec3 moved = next.plane.at.position - way.plane.at.position;
-      surface = bend_after_step(surface, in_tangent_plane(way.plane, moved), in_tangent_plane(way.plane, next.plane.at.normal));
       region = max(region, 2.0f * part * size);
       failures = 0;
       way = next;
@@ -109,7 +108,7 @@ GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, 
       region = 0.3f * part * size;
       failures += 1;
     }
-    for (int probes = is_better ? 0 : 1; probes > 0; --probes) surface = surface_bend(way.plane, task.centre, breadth);
+    for (int probes = is_better ? 0 : band_count(map_window()); probes > 0; --probes) surface = surface_bend(way.plane, task.centre, breadth);
   }
   return reflection_point(way.plane.at, normalize(way.direction), way.error);
 }

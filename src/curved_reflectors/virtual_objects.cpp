@@ -25,10 +25,34 @@ std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const sc
   return std::make_unique<GpuReflector>(*made);
 }
 
+ReflectorsByModel reflectors_of(const scene::Scene& scene) {
+  const ReflectorCache cache(scene);
+  ReflectorsByModel reflectors;
+  for (const scene::Object& object : scene.objects)
+    if (object.takes_reflection && !reflectors.contains(object.model.get()))
+      reflectors[object.model.get()] = reflector_of(cache, object);
+  return reflectors;
+}
+
+bool has_band(const ReflectorsByModel& reflectors) {
+  return std::ranges::any_of(reflectors, [](const auto& made) {
+    return made.second && std::ranges::any_of(made.second->patches(), [](const GpuReflector::Patch& patch) {
+             return patch.window.extent == 0.0f;
+           });
+  });
+}
+
+/// For shaders with map_window.glsl.
+gl::Defines map_defines(const ReflectorsByModel& reflectors) {
+  return has_band(reflectors) ? gl::Defines{} : gl::Defines{{"WITHOUT_BANDS", ""}};
+}
+
 /// For shaders with virtual_point.glsl.
-gl::Defines search_defines(const scene::Reflection& reflection) {
-  if (reflection.search == scene::ReflectionSearch::newton) return {};
-  return {{"MIDPOINT_ITERATIONS", std::to_string(reflection.iterations)}};
+gl::Defines search_defines(const ReflectorsByModel& reflectors, const scene::Reflection& reflection) {
+  gl::Defines defines = map_defines(reflectors);
+  if (reflection.search == scene::ReflectionSearch::midpoint)
+    defines.emplace_back("MIDPOINT_ITERATIONS", std::to_string(reflection.iterations));
+  return defines;
 }
 
 /// What the first mirror-like material gives back, seen from before it.
@@ -52,13 +76,15 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   if (!own_reflection) return own_reflection.errors();
   render::assign_bindings(*own_reflection);
   std::unique_ptr<MirrorsInMirrors> in_mirrors;
-  gl::Defines defines = search_defines(scene.reflection);
+  ReflectorsByModel reflectors = reflectors_of(scene);
+  gl::Defines defines = search_defines(reflectors, scene.reflection);
   Result<GridSearch> grids = GridSearch::create(scene, renderer.gpu(), defines);
   if (!grids) return grids.errors();
   defines.emplace_back("IS_MIRRORED", "");
   if (grids->has_any()) defines.emplace_back("HAS_VIRTUAL_GRIDS", "");
   if (scene.reflection.method == scene::ReflectionMethod::virtual_objects && scene.reflection.bounces > 1) {
-    Result<std::unique_ptr<MirrorsInMirrors>> made = MirrorsInMirrors::create(renderer);
+    Result<std::unique_ptr<MirrorsInMirrors>> made =
+        MirrorsInMirrors::create(renderer, map_defines(reflectors));
     if (!made) return made.errors();
     in_mirrors = *std::move(made);
     defines.emplace_back("HAS_NEAR_PICTURE", "");
@@ -67,28 +93,26 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
       render::SurfacePrograms::create("curved_reflectors/virtual_surface.frag", renderer.gpu().materials(),
                                       "curved_reflectors/virtual_vertices.vert", defines);
   if (!programs) return programs.errors();
-  return std::unique_ptr<VirtualObjects>(
-      new VirtualObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(own_reflection),
-                         *std::move(grids), std::move(in_mirrors), std::move(surroundings)));
+  return std::unique_ptr<VirtualObjects>(new VirtualObjects(
+      scene, std::move(reflectors), *std::move(programs), *std::move(patch_pixels),
+      *std::move(own_reflection), *std::move(grids), std::move(in_mirrors), std::move(surroundings)));
 }
 
-VirtualObjects::VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs,
-                               gl::Program patch_pixels, gl::Program own_reflection, GridSearch grids,
+VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors,
+                               render::SurfacePrograms programs, gl::Program patch_pixels,
+                               gl::Program own_reflection, GridSearch grids,
                                std::unique_ptr<MirrorsInMirrors> in_mirrors,
                                std::unique_ptr<render::Reflections> surroundings)
     : VirtualVertices(std::move(programs)),
+      reflectors_(std::move(reflectors)),
       patch_pixels_(std::move(patch_pixels)),
       own_reflection_(std::move(own_reflection)),
       grids_(std::move(grids)),
       in_mirrors_(std::move(in_mirrors)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
-  const ReflectorCache cache(scene);
-  for (const scene::Object& object : scene.objects) {
+  for (const scene::Object& object : scene.objects)
     model_of_object_.push_back(object.takes_reflection ? object.model.get() : nullptr);
-    if (object.takes_reflection && !reflectors_.contains(object.model.get()))
-      reflectors_[object.model.get()] = reflector_of(cache, object);
-  }
 }
 
 /// All that may be seen in another.

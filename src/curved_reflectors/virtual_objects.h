@@ -15,6 +15,9 @@
 
 namespace parvis::curved_reflectors {
 
+/// Null: what the model is made of can not be searched on.
+using ReflectorsByModel = std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>>;
+
 class VirtualObjects final : public render::Reflections, public render::VirtualVertices {
  public:
   /// Makes the maps of all reflecting objects; tells on standard error what is wrong with their meshes. One
@@ -39,8 +42,9 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void prepare() override;
 
  private:
-  VirtualObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
-                 gl::Program own_reflection, GridSearch grids, std::unique_ptr<MirrorsInMirrors> in_mirrors,
+  VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors, render::SurfacePrograms programs,
+                 gl::Program patch_pixels, gl::Program own_reflection, GridSearch grids,
+                 std::unique_ptr<MirrorsInMirrors> in_mirrors,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
@@ -55,7 +59,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void draw_own_reflections(const render::View& view);
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
-  std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>> reflectors_;
+  ReflectorsByModel reflectors_;
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
