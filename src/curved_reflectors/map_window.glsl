@@ -18,9 +18,9 @@ const float kind_closed = 2.0f;  // none: what closes an open surface, so that s
 
 const float map_border = 1.0f;  // texels that repeat what lies across the sides
 
-// 1 or 0, for loops in place of branches: software renderers run both sides of those. WITHOUT_BANDS: no reflector has one, and
-// what they cost falls away.
-#ifdef WITHOUT_BANDS
+// 1 or 0, for loops in place of branches: software renderers run both sides of those. ALL_PLAIN: every patch is convex and none a
+// band, and what others cost falls away.
+#ifdef ALL_PLAIN
 #define band_count(window) 0
 #else
 GLSL_FUNCTION int band_count(MapWindow window) { return window.extent > 0.0f ? 0 : 1; }

@@ -1,6 +1,6 @@
 // The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
 // method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails (on bands how the surface bends is measured again); after two failures the paper's
+// Steps stay in a region that shrinks when one fails (over bands and hollows how the surface bends is measured again); after two failures the paper's
 // direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a little: there a step is
 // right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
 // Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
@@ -75,6 +75,11 @@ GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex)
 GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float most_growth,
                                                int most_steps, float least_error) {
   float breadth = window_breadth(map_window());
+#ifdef ALL_PLAIN
+  const int hard = 0;
+#else
+  int hard = is_convex ? band_count(map_window()) : 1;
+#endif
   Way way = way_over(task, start, vec3(0.0f));
   vec3 surface = surface_bend(way.plane, task.centre, breadth);  // before the loop: software renderers run both sides of a branch
   float region = first_region;
@@ -108,7 +113,7 @@ GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, 
       region = 0.3f * part * size;
       failures += 1;
     }
-    for (int probes = is_better ? 0 : band_count(map_window()); probes > 0; --probes) surface = surface_bend(way.plane, task.centre, breadth);
+    for (int probes = is_better ? 0 : hard; probes > 0; --probes) surface = surface_bend(way.plane, task.centre, breadth);
   }
   return reflection_point(way.plane.at, normalize(way.direction), way.error);
 }

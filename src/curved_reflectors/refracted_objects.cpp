@@ -41,12 +41,12 @@ Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
       gl::Program::create("curved_reflectors/patch_pixels.vert", "curved_reflectors/patch_pixels.frag");
   if (!patch_pixels) return patch_pixels.errors();
   Result<gl::Program> glass_light = gl::Program::create(
-      "curved_reflectors/own_reflection.vert", "curved_reflectors/glass_light.frag", {{"WITHOUT_BANDS", ""}});
+      "curved_reflectors/own_reflection.vert", "curved_reflectors/glass_light.frag", {{"ALL_PLAIN", ""}});
   if (!glass_light) return glass_light.errors();
   render::assign_bindings(*glass_light);
   Result<render::SurfacePrograms> programs = render::SurfacePrograms::create(
       "curved_reflectors/refracted_surface.frag", renderer.gpu().materials(),
-      "curved_reflectors/refracted_vertices.vert", {{"IS_MIRRORED", ""}, {"WITHOUT_BANDS", ""}});
+      "curved_reflectors/refracted_vertices.vert", {{"IS_MIRRORED", ""}, {"ALL_PLAIN", ""}});
   if (!programs) return programs.errors();
   return std::unique_ptr<RefractedObjects>(
       new RefractedObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(glass_light),

@@ -34,17 +34,17 @@ ReflectorsByModel reflectors_of(const scene::Scene& scene) {
   return reflectors;
 }
 
-bool has_band(const ReflectorsByModel& reflectors) {
-  return std::ranges::any_of(reflectors, [](const auto& made) {
+bool are_plain(const ReflectorsByModel& reflectors) {
+  return std::ranges::none_of(reflectors, [](const auto& made) {
     return made.second && std::ranges::any_of(made.second->patches(), [](const GpuReflector::Patch& patch) {
-             return patch.window.extent == 0.0f;
+             return !patch.is_convex || patch.window.extent == 0.0f;
            });
   });
 }
 
 /// For shaders with map_window.glsl.
 gl::Defines map_defines(const ReflectorsByModel& reflectors) {
-  return has_band(reflectors) ? gl::Defines{} : gl::Defines{{"WITHOUT_BANDS", ""}};
+  return are_plain(reflectors) ? gl::Defines{{"ALL_PLAIN", ""}} : gl::Defines{};
 }
 
 /// For shaders with virtual_point.glsl.
