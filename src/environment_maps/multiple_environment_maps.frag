@@ -31,6 +31,10 @@ uniform vec2 layer_size;    // texels a side, and of its border
 const float reach_m = 1000.0f;
 const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
 const float most_taps = 4.0f;
+const float first_step_m = 2.0f;     // through what a map saw
+const float step_growth = 1.4f;      // to 30 m
+const int most_steps = 9;
+const float greatest_crossing_m = 1.0f;  // of the map's distance, where a ray meets what it saw: at an edge it jumps
 const int most_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
 #ifndef DETAIL
 #define DETAIL 2
@@ -197,6 +201,38 @@ HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out 
   return hit;
 }
 
+// Trees with holes and railings are not among the heights. Where the nearest map sees something before what was met, the ray
+// is followed through what that map saw, in growing steps, to where it first passes behind it (relief mapping). Edges, behind
+// which rays pass, too, are no hits.
+float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
+  vec3 to_met = at + distance * direction - place.xyz;
+  float met_m = length(to_met);
+  bool is_hidden = seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
+  float near = 0.0f, far = first_step_m;
+  bool was_before = true;
+  for (int i = 0; is_hidden && far < distance && i < most_steps; ++i) {
+    vec3 to_far = at + far * direction - place.xyz;
+    float far_m = length(to_far);
+    bool is_before = far_m < seen_distance(to_far / far_m, place.w);
+    if (was_before && !is_before) {
+      float low = near, high = far, off = 0.0f;
+      for (int k = 0; k < 4; ++k) {
+        float middle = 0.5f * (low + high);
+        vec3 to_middle = at + middle * direction - place.xyz;
+        float middle_m = length(to_middle);
+        off = middle_m - seen_distance(to_middle / middle_m, place.w);
+        low = off < 0.0f ? middle : low;
+        high = off < 0.0f ? high : middle;
+      }
+      if (abs(off) < greatest_crossing_m) return high;
+    }
+    was_before = is_before;
+    near = far;
+    far *= step_growth;
+  }
+  return distance;
+}
+
 void trace(vec3 at, vec3 direction) {
   HeightGrid grid = HeightGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
   BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
@@ -204,6 +240,11 @@ void trace(vec3 at, vec3 direction) {
   vec4 places[2];
   float weights[2];
   HeightHit hit = walk_under(grid, at, direction, body.distance, places, weights);
+  float before = detail == all_detail ? hit_before(at, direction, hit.distance, place_of(maps_about(at).x)) : hit.distance;
+  if (before < hit.distance) {
+    hit = HeightHit(before, met_side);
+    choose_maps(at, direction, at + before * direction, places, weights);
+  }
   vec3 met = at + hit.distance * direction;
   sight.is_body = hit.met == met_nothing && body.body >= 0;
   if (sight.is_body) {
