@@ -117,8 +117,8 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsWhatStandsBeyondABridge) {
   EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.08);
 }
 
-// What has holes, crowns of trees say, is not among the heights: only the maps know it. A mirror that takes it for what lies
-// behind it stands at 0.268.
+// What has holes, crowns of trees say, is not among the heights: only the maps know it. A mirror that takes
+// it for what lies behind it stands at 0.268.
 TEST_F(EnvironmentMapsTest, AMirrorShowsACrownWhereItStands) {
   scene::Scene scene = tower_square();
   scene::Material leaves = lamp({0.3f, 0.7f, 0.2f});
