@@ -1,15 +1,15 @@
 // The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
 // method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails (over bands and hollows how the surface bends is measured again); after two failures the paper's
-// direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a little: there a step is
-// right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
+// Steps stay in a region that shrinks when one fails (over bands and hollows how the surface bends is measured again); after two
+// failures the paper's direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a
+// little: there a step is right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
 // Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
 // From the host, beside surface_at:
 //   MapWindow map_window()   what its centre sees of the reflector
 // Needs reflection_point.glsl and map_window.glsl.
 #include "curved_reflectors/surface_bend.glsl"
 
-const float first_region = 0.25f;      // radians, as the centre sees it (on bands those that the normal turns by, too): the longest first step
+const float first_region = 0.25f;      // the longest first step: radians seen from the centre; on bands the normal turns by no more
 const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
 

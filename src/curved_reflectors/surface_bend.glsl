@@ -53,8 +53,3 @@ GLSL_FUNCTION vec3 bend_after_step(vec3 bend, vec2 s, vec2 n) {
   return bend + vec3(2.0f * off.x * s.x / size - part * s.x * s.x, (off.x * s.y + off.y * s.x) / size - part * s.x * s.y,
                      2.0f * off.y * s.y / size - part * s.y * s.y);
 }
-
-GLSL_FUNCTION vec2 shortened(vec2 d, float longest) {
-  float size = length(d);
-  return size > longest ? d * (longest / size) : d;
-}
