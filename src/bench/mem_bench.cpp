@@ -108,7 +108,7 @@ Result<int> faces_for_the_same_time(stage::Stage& stage, int repeats, Report& re
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
     const Result<std::vector<ReflectionCost>> costs =
-        reflection_costs(stage, *methods, view->camera, width, height, repeats);
+        reflection_costs(stage, *methods, view->camera, width, height, repeats, Frames::left_out);
     if (!costs) return costs.errors();
     mem_ms.push_back(median((*costs)[1].ms).value);
     face_ms.push_back(median((*costs)[2].ms).value / std::max((*methods)[2].reflections->faces_drawn(), 1));
@@ -145,18 +145,19 @@ Status measure_motion(stage::Stage& stage, bool is_quick, Report& report) {
 
 /// Times methods beside one without reflections, and tells what each costs.
 Result<std::vector<ReflectionCost>> told_costs(
-    stage::Stage& stage, const Camera& camera, int repeats,
+    stage::Stage& stage, const Camera& camera, int repeats, Frames frames,
     const std::vector<std::pair<const char*, scene::Reflection>>& wanted, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, wanted);
   if (!methods) return methods.errors();
   Result<std::vector<ReflectionCost>> costs =
-      reflection_costs(stage, *methods, camera, width, height, repeats);
+      reflection_costs(stage, *methods, camera, width, height, repeats, frames);
   if (!costs) return costs.errors();
   for (std::size_t m = 0; m < methods->size(); ++m) {
     const Median ms = median((*costs)[m].ms);
-    report.note(fmt::format("{}: reflections {:.2f} ms ({:.2f} to {:.2f}), frame {:.1f} ms",
-                            (*methods)[m].name, ms.value, ms.low, ms.high,
-                            median((*costs)[m].frame_ms).value));
+    std::string row = fmt::format("{}: reflections {:.2f} ms ({:.2f} to {:.2f})", (*methods)[m].name,
+                                  ms.value, ms.low, ms.high);
+    if (frames == Frames::whole) row += fmt::format(", frame {:.1f} ms", median((*costs)[m].frame_ms).value);
+    report.note(row);
   }
   return costs;
 }
@@ -169,14 +170,14 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   if (!camera) return camera.errors();
   // What costs least differs least from none, and needs most samples.
   const Result<std::vector<ReflectionCost>> cheap =
-      told_costs(**stage, *camera, is_quick ? 20 : 60,
+      told_costs(**stage, *camera, is_quick ? 20 : 60, Frames::whole,
                  {{"none", usual(ReflectionMethod::none)},
                   {"mem", usual(ReflectionMethod::multiple_environment_maps)},
                   {"mem_lod", shipped()}},
                  report);
   if (!cheap) return cheap.errors();
   const Result<std::vector<ReflectionCost>> dear =
-      told_costs(**stage, *camera, is_quick ? 5 : 30,
+      told_costs(**stage, *camera, is_quick ? 5 : 30, Frames::left_out,
                  {{"none", usual(ReflectionMethod::none)},
                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
                   {"rerendered_lod", usual(ReflectionMethod::rerendered_cube_map, true)},

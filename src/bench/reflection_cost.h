@@ -24,7 +24,7 @@ enum class Frames : bool { left_out, whole };
 Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
-                                                     Frames frames = Frames::whole);
+                                                     Frames frames);
 
 /// Ratio of two medians; its interval is the widest that both of theirs allow.
 Median ratio(const Median& over, const Median& under);
