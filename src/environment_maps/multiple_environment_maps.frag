@@ -76,6 +76,12 @@ float seen_distance(vec3 to_point, float map) {
   return textureLod(map_distances, vec3(layer_uv(to_point, layer_size.x, layer_size.y), map), 0.0f).r;
 }
 
+// Of the texels that the filter mixes: it hangs curtains from the edges of what is near to what lies beyond, in colours, too.
+float least_seen_distance(vec3 to_point, float map) {
+  vec4 seen = textureGather(map_distances, vec3(layer_uv(to_point, layer_size.x, layer_size.y), map), 0);
+  return min(min(seen.x, seen.y), min(seen.z, seen.w));
+}
+
 // Two steps of the secant method (Szirmay-Kalos and others 2005, distance impostors) from the hit on the heights to where
 // the ray meets what the map saw.
 float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map) {
@@ -159,7 +165,7 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
     vec4 place = place_of(maps[k]);
     vec3 to_met = met - place.xyz;
     float distance_m = length(to_met);
-    float valid = validity(seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
+    float valid = validity(least_seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
     // The nearer a map stands to the ray, the less it shows at another place what is not quite where it is thought to be.
     vec3 away = place.xyz - at;
     float along = dot(away, direction);
@@ -215,16 +221,18 @@ float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
     float far_m = length(to_far);
     bool is_before = far_m < seen_distance(to_far / far_m, place.w);
     if (was_before && !is_before) {
-      float low = near, high = far, off = 0.0f;
+      float low = near, high = far;
       for (int k = 0; k < 4; ++k) {
         float middle = 0.5f * (low + high);
         vec3 to_middle = at + middle * direction - place.xyz;
         float middle_m = length(to_middle);
-        off = middle_m - seen_distance(to_middle / middle_m, place.w);
-        low = off < 0.0f ? middle : low;
-        high = off < 0.0f ? high : middle;
+        bool is_behind = middle_m > seen_distance(to_middle / middle_m, place.w);
+        low = is_behind ? low : middle;
+        high = is_behind ? middle : high;
       }
-      if (abs(off) < greatest_crossing_m) return high;
+      vec3 to_high = at + high * direction - place.xyz;
+      float high_m = length(to_high);
+      if (abs(high_m - least_seen_distance(to_high / high_m, place.w)) < greatest_crossing_m) return high;
     }
     was_before = is_before;
     near = far;

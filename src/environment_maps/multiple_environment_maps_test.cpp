@@ -118,14 +118,14 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsWhatStandsBeyondABridge) {
 }
 
 // What has holes, crowns of trees say, is not among the heights: only the maps know it. A mirror that takes
-// it for what lies behind it stands at 0.268.
+// it for what lies behind it stands at 0.268, and one that meets edges between crown and sky at 0.105.
 TEST_F(EnvironmentMapsTest, AMirrorShowsACrownWhereItStands) {
   scene::Scene scene = tower_square();
   scene::Material leaves = lamp({0.3f, 0.7f, 0.2f});
   leaves.alpha_mode = scene::Alpha::cutout;
   scene::add(scene, scene::model_of(scene::sphere({-5.0f, 5.5f, 2.5f}, 1.6f), leaves));
   scene::add(scene, scene::model_of(scene::sphere({6.0f, -5.0f, 2.5f}, 1.8f), leaves));
-  EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.13);
+  EXPECT_LT(flip_of(scene, make_reflections, {-2.5f, -3.5f, 2.2f}), 0.1);
 }
 
 // Light is worked out before the first view is drawn; maps that were kept have drawn nothing either.
