@@ -31,8 +31,8 @@ struct ProjectedBisector {
 GLSL_FUNCTION ProjectedBisector projected_bisector(ReflectionTask task, vec3 direction, vec3 axis) {
   SurfacePoint at = surface_at(direction);
   vec3 bisecting = bisector(task.viewer, task.vertex, at);
-  vec3 from = at.position - task.centre;
-  vec3 apart = on_face(from + length(from) * (bisecting - at.normal), axis) - from / dot(from, axis);
+  vec3 from = normalize(at.position - task.centre);
+  vec3 apart = on_face(from + bisecting - at.normal, axis) - from / dot(from, axis);
   return ProjectedBisector(apart - dot(apart, axis) * axis, bisector_error(bisecting, at.normal), at);
 }
 

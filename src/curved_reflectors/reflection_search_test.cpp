@@ -234,6 +234,24 @@ TEST(MidpointSearch, ConvergesOnABallWhoseViewerAndVertexAreFar) {
   EXPECT_LT(last, 0.01f);
 }
 
+// Mirrors in a kitchen are a tenth of a metre large: what ends well outside a face of the cube is an angle,
+// not a length.
+TEST(MidpointSearch, GoesTheSameWayOverSmallAndLargeBodies) {
+  Random random(9);
+  const Ellipsoid unit{{1, 0.6f, 0.8f}};
+  Search search{unit};
+  for (const float size : {0.05f, 20.0f}) {
+    const Ellipsoid scaled{size * unit.radii};
+    Search in_scale{scaled};
+    for (int i = 0; i < 200; ++i) {
+      const Task task = chance_task(unit, random, 2.5f);
+      const Point point = midpoint(search, task, 3),
+                  other = midpoint(in_scale, {size * task.viewer, size * task.vertex, vec3(0.0f)}, 3);
+      EXPECT_LT(distance(point.position, other.position / size), 0.01f);
+    }
+  }
+}
+
 // Row E7 says that more than nine iterations give no noticeable improvement.
 TEST(MidpointSearch, MoreThanNineIterationsDoImprove) {
   const Ellipsoid ellipsoid{{1, 0.6f, 0.8f}};
