@@ -14,8 +14,10 @@ struct VirtualPoint {
 PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f, patch_layer < 0); }
 
 #ifdef MIDPOINT_ITERATIONS
-// The paper's search takes as many steps as it is told to, and draws what it has come to.
-bool is_near_enough(PatchPoint found) { return true; }
+// The paper's search takes as many steps as it is told to, and what it has come to is drawn. Beyond this it was on its way to
+// nothing: the mirror does not show the vertex.
+const float astray_angle = 0.2f;  // radians, 11 degrees
+bool is_near_enough(PatchPoint found) { return found.point.angle < astray_angle; }
 
 PatchPoint point_of_mirror(ReflectionTask task, PatchKind kind) {
   vec3 start = task.vertex - task.centre;
