@@ -2,16 +2,19 @@
 // Needs virtual_point.glsl and grid_table.glsl.
 uniform highp sampler2DArray grid_results;  // of grid_search.frag
 
-// Of a vertex of a mesh, in the mesh's frame; `first_row` holds the grid's first corners. Lost where any corner is, and where
-// places that face too far apart show them: nothing is known of what lies between.
-VirtualPoint interpolated_point(int grid, int first_row, vec3 vertex) {
+struct InterpolatedPoint {
+  VirtualPoint point;   // lost where any corner is, and where places that face too far apart show them
+  bool is_between_lost; // all corners are: so is what lies between
+};
+
+// Of a vertex of a mesh, in the mesh's frame; `first_row` holds the grid's first corners.
+InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
   const float least_agreement = 0.95f;
   vec4 origin = grid_texel(grid);
   vec3 place = (vertex - origin.xyz) * grid_texel(grid + 1).xyz;
   ivec3 count = ivec3(grid_texel(grid + 2).xyz);
   ivec3 cell = clamp(ivec3(floor(place)), ivec3(0), count - 1);
   vec3 part = place - vec3(cell);
-  int width = textureSize(grid_results, 0).x;
   vec4 image = vec4(0.0f);
   vec3 seen_from = vec3(0.0f), shown_by = vec3(0.0f);
   for (int i = 0; i < 8; ++i) {
@@ -20,12 +23,12 @@ VirtualPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     int corner = corner_at(grid, (in_box.z * (count.y + 1) + in_box.y) * (count.x + 1) + in_box.x);
     vec3 shares = mix(1.0f - part, part, vec3(far));
     float share = shares.x * shares.y * shares.z;
-    ivec2 texel = ivec2(corner % width, first_row + corner / width);
+    ivec2 texel = ivec2(corner & (results_width - 1), first_row + corner / results_width);
     vec4 shown = texelFetch(grid_results, ivec3(texel, 0), 0);
     image += vec4(share * shown.xyz, shown.w);
     seen_from += share * texelFetch(grid_results, ivec3(texel, 1), 0).xyz;
     shown_by += share * texelFetch(grid_results, ivec3(texel, 2), 0).xyz;
   }
   bool is_lost = image.w > 0.0f || dot(shown_by, shown_by) < least_agreement;
-  return VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_lost);
+  return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_lost), image.w > 7.5f);
 }

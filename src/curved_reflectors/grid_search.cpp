@@ -10,7 +10,8 @@ namespace parvis::curved_reflectors {
 namespace {
 
 constexpr std::size_t least_vertices = 200;  // of a mesh: its coarsest grid has the corners of a cell
-constexpr int table_width = 1024, results_width = 64, most_result_rows = 16384;
+constexpr int table_width = 1024, results_width = 64;  // as in grid_table.glsl
+constexpr int most_result_rows = 16384;
 constexpr std::size_t most_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
 constexpr float stray_px = 0.3f;                                        // what of interpolation nobody sees
 constexpr int result_layers = 3;                                        // grid_search.frag's

@@ -3,15 +3,16 @@
 // grid's box, four to a texel; a place without a corner holds -1.
 uniform highp sampler2D grid_table;
 
-vec4 grid_texel(int texel) {
-  int width = textureSize(grid_table, 0).x;
-  return texelFetch(grid_table, ivec2(texel % width, texel / width), 0);
-}
+// Widths of the pictures, as GridSearch makes them: constant powers of two, for software renderers divide whole numbers one by one.
+const int table_width = 1024;
+const int results_width = 64;
+
+vec4 grid_texel(int texel) { return texelFetch(grid_table, ivec2(texel & (table_width - 1), texel / table_width), 0); }
 
 int corner_count(int grid) { return int(grid_texel(grid).w); }
 
 vec3 corner_position(int grid, int corner) { return grid_texel(grid + 3 + corner).xyz; }
 
 int corner_at(int grid, int place_in_box) {
-  return int(grid_texel(grid + 3 + corner_count(grid) + place_in_box / 4)[place_in_box % 4]);
+  return int(grid_texel(grid + 3 + corner_count(grid) + place_in_box / 4)[place_in_box & 3]);
 }
