@@ -2,6 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/reflection_cost.h"
 #include "curved_reflectors/virtual_objects.h"
 #include "gl/context.h"
 #include "render/test_room.h"
@@ -10,7 +11,9 @@ namespace parvis::bench {
 namespace {
 
 constexpr int width = 1280, height = 720;
+constexpr int small_width = 64, small_height = 36;  // few pixels: what is left is searching and interpolating
 constexpr int turns = 31, quick_turns = 15;
+constexpr float grid10_share = 0.096f;      // the paper's 9.6 %
 constexpr int balls = 10, ball_rings = 50;  // 100,000 triangles round the mirror
 constexpr float radians_a_turn = 6.28318531f;
 
@@ -61,12 +64,56 @@ struct PlainTarget {
   }
 };
 
+void show_balls(scene::Scene& scene, bool is_visible) {
+  for (int i = 0; i < balls; ++i) scene.objects[std::size_t(i)].is_visible = is_visible;
+}
+
+/// A share of the vertices that is searched for, by grids; 1: each vertex.
+struct SearchedShare {
+  float share;
+  std::unique_ptr<render::Reflections> reflections;
+  std::vector<double> ms;  ///< of its passes with the balls, less those without
+};
+
+/// What grids save where all is done on the GPU: the corners' pass and the vertices' interpolation beside a
+/// search for each vertex.
+Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer, const Camera& camera,
+                                 bool is_quick, Report& report) {
+  std::vector<SearchedShare> shares;
+  for (const float share : {1.0f, 0.143f, grid10_share, 0.055f, 0.041f}) {
+    scene.reflection.virtual_grid = share;
+    Result<std::unique_ptr<render::Reflections>> made =
+        curved_reflectors::make_virtual_objects(scene, renderer);
+    if (!made) return made.errors();
+    shares.push_back({share, *std::move(made), {}});
+  }
+  const auto passes_ms = [&](const SearchedShare& searched, bool has_balls) {
+    show_balls(scene, has_balls);
+    renderer.begin_frame(scene, camera);
+    renderer.prepare_main_view(camera, small_width, small_height);
+    return finished_ms([&] { searched.reflections->update(renderer, scene, camera); });
+  };
+  for (int turn = -1; turn < (is_quick ? quick_turns : turns); ++turn)  // the first makes what is made once
+    for (SearchedShare& searched : shares) {
+      const double without = passes_ms(searched, false), with = passes_ms(searched, true);
+      if (turn >= 0) searched.ms.push_back(with - without);
+    }
+  for (const SearchedShare& searched : shares) {
+    const Median over_all = ratio_in_turn(searched.ms, shares.front().ms);
+    report.note(fmt::format("{:.1f} % of the vertices searched for in the renderer: {:.1f} ms, {:.3f} of all",
+                            100.0f * searched.share, median(searched.ms).value, over_all.value));
+    if (searched.share == grid10_share) report.add("grid10_over_all_time", over_all);
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Status measure_cost(bool is_quick, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) {
-    report.skip("all_vertices_over_extra_draw", to_string(context.errors()));
+    for (const char* key : {"all_vertices_over_extra_draw", "grid10_over_all_time"})
+      report.skip(key, to_string(context.errors()));
     return Done{};
   }
   scene::Scene scene = balls_round_a_mirror();
@@ -86,7 +133,7 @@ Status measure_cost(bool is_quick, Report& report) {
 
   // Vertices alone: what the reflector's own pixels, clearing and resolving take is taken off.
   const auto passes_ms = [&](bool has_balls) {
-    for (int i = 0; i < balls; ++i) scene.objects[std::size_t(i)].is_visible = has_balls;
+    show_balls(scene, has_balls);
     renderer.begin_frame(scene, camera);
     renderer.prepare_main_view(camera, width, height);
     glEnable(GL_RASTERIZER_DISCARD);
@@ -107,7 +154,7 @@ Status measure_cost(bool is_quick, Report& report) {
   report.note(fmt::format(
       "{}: {} balls of {} triangles in an ellipsoid: search {:.1f} ms, a draw without light {:.1f} ms",
       gl::driver_name(), balls, 4 * ball_rings * ball_rings, median(search_ms).value, median(draw_ms).value));
-  return Done{};
+  return measure_grids_in_renderer(scene, renderer, camera, is_quick, report);
 }
 
 }  // namespace parvis::bench

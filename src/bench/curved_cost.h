@@ -1,4 +1,5 @@
-// What the search for all vertices costs on the GPU, beside drawing them once more.
+// What the search for all vertices costs on the GPU, beside drawing them once more, and what grids save of
+// it.
 #pragma once
 
 #include "bench/report.h"

@@ -25,7 +25,6 @@ using Search = ReflectionSearch<Ellipsoid>;
 constexpr int width = 640, height = 480, samples_a_pixel = 9;
 constexpr int frames = 120;
 constexpr std::size_t stride = 20, quick_stride = 120;  // of the vertices whose flicker is measured
-constexpr int turns = 9, quick_turns = 3;
 constexpr int paper_iterations = 9, newton_steps = 12, exact_starts = 8;
 constexpr float search_ends = 2e-9f;    // error, 0.005 degrees
 constexpr float found_angle = 0.0035f;  // radians; as in patch_search.glsl
@@ -161,22 +160,6 @@ void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, bool is_quick, R
   report.add("flicker_ratio_grid_over_fixed_iterations", of_grid / of_fixed);
 }
 
-void measure_time(const Mesh& mesh, bool is_quick, Report& report) {
-  const glm::vec3 viewer = camera_at(frames / 2).position_in_world();
-  for (const float share : grid_shares) {
-    const VirtualGrid grid(mesh.positions, share);
-    std::vector<double> ratios;
-    for (int turn = 0; turn < (is_quick ? quick_turns : turns); ++turn) {
-      const double all = milliseconds([&] { all_by(by_newton, viewer, mesh.positions); });
-      ratios.push_back(milliseconds([&] { by_grid(grid, viewer, mesh.positions); }) / all);
-    }
-    report.note(fmt::format("a grid of {:.1f} %: {} corners for {} vertices, {:.3f} of the time of all",
-                            100.0f * share, grid.corners().size(), mesh.positions.size(),
-                            median(ratios).value));
-    if (share == grid10_share) report.add("grid10_over_all_time", median(ratios));
-  }
-}
-
 Image8 where_different(const Image8& a, const Image8& b) {
   Image8 mask(a.width, a.height, 1, 0);
   for (int y = 0; y < a.height; ++y)
@@ -216,7 +199,6 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
 
 Status measure_grids(bool is_quick, Report& report) {
   const Mesh mesh = whale();
-  measure_time(mesh, is_quick, report);
   measure_flicker(mesh, VirtualGrid(mesh.positions, grid10_share), is_quick, report);
   return measure_pictures(mesh, report);
 }

@@ -1,5 +1,4 @@
-// Virtual grids, in the bench "curved": their time, their pictures and their flicker beside the search for
-// every vertex.
+// Virtual grids, in the bench "curved": their pictures and their flicker beside the search for every vertex.
 #pragma once
 
 #include "bench/report.h"

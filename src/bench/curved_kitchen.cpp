@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bench/beside_rerendered.h"
+#include "bench/curved_frames.h"
 #include "bench/reflected_points.h"
 #include "bench/scratch_folder.h"
 #include "city/kitchen.h"
@@ -58,10 +59,13 @@ Status measure_kitchen(bool is_quick, Report& report) {
   Result<std::unique_ptr<stage::Stage>> stage = open_kitchen(folder.path, "kitchen.xp");
   if (!stage) return stage.errors();
   if (Status status = measure_points(**stage, is_quick, report); !status) return status;
-  return measure_beside_rerendered(**stage,
-                                   std::span(cameras).first(is_quick ? quick_cameras : cameras.size()),
-                                   is_quick ? quick_width : width, is_quick ? quick_height : height,
-                                   "kitchen_flip_over_rerendered", report);
+  if (Status status = measure_beside_rerendered(
+          **stage, std::span(cameras).first(is_quick ? quick_cameras : cameras.size()),
+          is_quick ? quick_width : width, is_quick ? quick_height : height, "kitchen_flip_over_rerendered",
+          report);
+      !status)
+    return status;
+  return is_quick ? Status(Done{}) : measure_frames(**stage, report);  // minutes
 }
 
 }  // namespace parvis::bench

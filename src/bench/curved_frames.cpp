@@ -1,0 +1,71 @@
+#include "bench/curved_frames.h"
+
+#include <array>
+
+#include "bench/judged_method.h"
+
+namespace parvis::bench {
+namespace {
+
+/// The first shows no mirror but the kettle, which is convex; the second a hollow and rims, too, each drawn
+/// in 17 layers.
+constexpr std::array cameras{"bowl in the kettle", "at the kettle"};
+constexpr int width = 480, height = 300;
+constexpr int turns = 3;
+constexpr int baseline_faces_px = 512;
+
+std::vector<std::pair<std::string, scene::Reflection>> ways_to_reflect(const scene::Reflection& by_area) {
+  scene::Reflection every = by_area, baseline = by_area;
+  every.uses_level_of_detail = false;
+  baseline.method = scene::ReflectionMethod::rerendered_cube_map;
+  baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
+  std::vector<std::pair<std::string, scene::Reflection>> ways{{"every vertex", every}};
+  for (const float share : {0.143f, 0.096f, 0.055f, 0.041f}) {
+    scene::Reflection grid = every;
+    grid.virtual_grid = share;
+    ways.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
+  }
+  ways.emplace_back("grids by area", by_area);
+  ways.emplace_back("re-rendered cube maps", baseline);
+  return ways;
+}
+
+Status measure_view(stage::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
+                    Report& report) {
+  const Result<Camera> camera = stage.camera(name);
+  if (!camera) return camera.errors();
+  std::vector<std::vector<double>> frame_s(methods.size());
+  for (int turn = -1; turn < turns; ++turn)  // the first makes what is made once
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (Status status = stage.renderer().set_reflection(methods[m].reflections.get()); !status)
+        return status;
+      glFinish();
+      const double ms = milliseconds([&] {
+        draw_again(stage, methods[m], *camera, width, height);
+        glFinish();
+      });
+      if (turn >= 0) frame_s[m].push_back(1e-3 * ms);
+    }
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const Median s = median(frame_s[m]);
+    report.note(fmt::format("{}, {} x {}, {}: {:.2f} s a frame ({:.2f} to {:.2f})", name, width, height,
+                            methods[m].name, s.value, s.low, s.high));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Status measure_frames(stage::Stage& stage, Report& report) {
+  std::vector<JudgedMethod> methods;
+  for (const auto& [name, reflection] : ways_to_reflect(stage.scene().reflection)) {
+    Result<JudgedMethod> method = judged_method(stage, name, reflection);
+    if (!method) return method.errors();
+    methods.push_back(*std::move(method));
+  }
+  for (const char* name : cameras)
+    if (Status status = measure_view(stage, methods, name, report); !status) return status;
+  return Done{};
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,13 @@
+// The paper's frame rates made again, in the bench "curved": what a frame of the kitchen takes with every
+// vertex searched for, with its grids, and with cube maps drawn anew.
+#pragma once
+
+#include "bench/report.h"
+#include "stage/stage.h"
+
+namespace parvis::bench {
+
+/// Of the kitchen's stage. Told in rows: the paper's were those of its machine.
+Status measure_frames(stage::Stage& stage, Report& report);
+
+}  // namespace parvis::bench
