@@ -34,7 +34,7 @@ const float most_taps = 4.0f;
 const float first_step_m = 2.0f;     // through what a map saw
 const float step_growth = 1.4f;      // to 30 m
 const int most_steps = 9;
-const float greatest_crossing_m = 1.0f;  // of the map's distance, where a ray meets what it saw: at an edge it jumps
+const float greatest_crossing_m = 2.0f;  // of the map's distance, where a ray meets what it saw: at an edge it jumps
 const int most_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
 #ifndef DETAIL
 #define DETAIL 2
@@ -207,16 +207,16 @@ HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out 
   return hit;
 }
 
-// Trees with holes and railings are not among the heights. Where the nearest map sees something before what was met, the ray
-// is followed through what that map saw, in growing steps, to where it first passes behind it (relief mapping). Edges, behind
-// which rays pass, too, are no hits.
+// Trees with holes and railings are not among the heights. Where the nearest map sees something before what was met, or the
+// ray met the sky, before which a map sees a crown elsewhere, the ray is followed through what that map saw, in growing steps,
+// to where it first passes behind it (relief mapping). Edges, behind which rays pass, too, are no hits.
 float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   vec3 to_met = at + distance * direction - place.xyz;
   float met_m = length(to_met);
-  bool is_hidden = seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
+  bool may_be_hidden = distance >= reach_m || seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
   float near = 0.0f, far = first_step_m;
   bool was_before = true;
-  for (int i = 0; is_hidden && far < distance && i < most_steps; ++i) {
+  for (int i = 0; may_be_hidden && far < distance && i < most_steps; ++i) {
     vec3 to_far = at + far * direction - place.xyz;
     float far_m = length(to_far);
     bool is_before = far_m < seen_distance(to_far / far_m, place.w);
