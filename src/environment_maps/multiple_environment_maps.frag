@@ -78,8 +78,12 @@ float seen_distance(vec3 to_point, float map) {
 
 // Of the texels that the filter mixes: it hangs curtains from the edges of what is near to what lies beyond, in colours, too.
 float least_seen_distance(vec3 to_point, float map) {
-  vec4 seen = textureGather(map_distances, vec3(layer_uv(to_point, layer_size.x, layer_size.y), map), 0);
-  return min(min(seen.x, seen.y), min(seen.z, seen.w));
+  vec2 texel = layer_uv(to_point, layer_size.x, layer_size.y) * layer_size.x - 0.5f;
+  ivec3 low = ivec3(ivec2(clamp(texel, vec2(0.0f), layer_size.xx - 2.0f)), int(map));
+  vec2 south = vec2(texelFetch(map_distances, low, 0).r, texelFetch(map_distances, low + ivec3(1, 0, 0), 0).r);
+  vec2 north = vec2(texelFetch(map_distances, low + ivec3(0, 1, 0), 0).r, texelFetch(map_distances, low + ivec3(1, 1, 0), 0).r);
+  vec2 least = min(south, north);
+  return min(least.x, least.y);
 }
 
 // Two steps of the secant method (Szirmay-Kalos and others 2005, distance impostors) from the hit on the heights to where
