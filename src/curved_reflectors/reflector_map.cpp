@@ -223,6 +223,14 @@ float kind_between(const ReflectorMap& map, const PatchRays& rays, glm::vec2 fir
   return kind_surface;
 }
 
+/// Does the window end in the square between a texel and the next? All beyond is looked up there: what it
+/// holds is none of it.
+bool is_at_an_end(const MapWindow& window, std::size_t x, std::size_t y) {
+  const std::size_t last = std::size_t(window.side) - 2;
+  const bool ends_across = window.extent > 0.0f && window.extent < 1.0f;  // a band goes all around
+  return window.extent < 1.0f && (y == 0 || y == last || (ends_across && (x == 0 || x == last)));
+}
+
 /// Turns distances into what the map stores; `is_open` tells texels that met no surface.
 void encode(ReflectorMap& map, const PatchRays& rays, const std::vector<char>& is_open) {
   const int side = map.texels.width;
@@ -234,7 +242,7 @@ void encode(ReflectorMap& map, const PatchRays& rays, const std::vector<char>& i
       const std::size_t i = row * std::size_t(side) + x;
       const bool has_all = !is_open[i] && !is_open[i + 1] && !is_open[i + std::size_t(side)] &&
                            !is_open[i + std::size_t(side) + 1];
-      if (has_all) kinds[i] = kind_between(map, rays, {x, row});
+      if (has_all && !is_at_an_end(map.window, x, row)) kinds[i] = kind_between(map, rays, {x, row});
     }
   });
   for (std::size_t i = 0; i < kinds.size(); ++i) map.texels.pixels[4 * i + 3] += kinds[i];

@@ -129,24 +129,29 @@ TEST(ReflectorPatches, ABallIsOneAndABowlHasAConcaveInside) {
   expect_whole(made, patches);
 }
 
-/// A ring sees no centre whole: it is cut until each part does.
-TEST(ReflectorPatches, ATorusIsCutIntoPartsThatACentreSees) {
-  Mesh torus;
+/// A ring about z of radius 1.
+Mesh torus(float thickness) {
+  Mesh mesh;
   constexpr int around = 48, across = 24;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
       const float turn = 6.2831853f * float(i) / around, tilt = 6.2831853f * float(j) / across;
       const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
       const glm::vec3 normal = std::cos(tilt) * out + std::sin(tilt) * glm::vec3(0, 0, 1);
-      torus.positions.push_back(out + 0.4f * normal);
-      torus.normals.push_back(normal);
-      torus.uvs.emplace_back(0.0f);
+      mesh.positions.push_back(out + thickness * normal);
+      mesh.normals.push_back(normal);
+      mesh.uvs.emplace_back(0.0f);
       const auto at = [&](int a, int b) { return std::uint32_t((a % around) * across + b % across); };
       for (const std::uint32_t v :
            {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
-        torus.indices.push_back(v);
+        mesh.indices.push_back(v);
     }
-  const ReflectorMesh made = ordered(torus);
+  return mesh;
+}
+
+/// A ring sees no centre whole: it is cut until each part does.
+TEST(ReflectorPatches, ATorusIsCutIntoPartsThatACentreSees) {
+  const ReflectorMesh made = ordered(torus(0.4f));
   const std::vector<ReflectorPatch> patches = reflector_patches(made);
   EXPECT_GT(patches.size(), 1u);
   EXPECT_LT(patches.size(), 20u);
@@ -252,25 +257,54 @@ TEST(ReflectorMap, RealBodiesReflectRightOrTell) {
   }
 }
 
-/// The upper part of a ring of radius 1, as the rims of pans have.
-Mesh rim(float thickness) {
-  constexpr int around = 256, across = 16;
+/// A point of a profile, to be turned about z: position and normal, how far off the axis and how high.
+struct ProfilePoint {
+  glm::vec2 position, normal;
+};
+
+Mesh turned(const std::vector<ProfilePoint>& profile) {
+  constexpr int around = 256;
   Mesh mesh;
   for (int i = 0; i <= around; ++i)
-    for (int k = 0; k <= across; ++k) {
-      const float turn = 6.2831853f * float(i % around) / around, tilt = 0.4f + 2.34f * float(k) / across;
-      const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
-      mesh.normals.push_back(std::cos(tilt) * out + std::sin(tilt) * glm::vec3(0, 0, 1));
-      mesh.positions.push_back(out + thickness * mesh.normals.back());
+    for (const auto& [position, normal] : profile) {
+      const float turn = 6.2831853f * float(i % around) / around;
+      const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f), up(0, 0, 1);
+      mesh.normals.push_back(normal.x * out + normal.y * up);
+      mesh.positions.push_back(position.x * out + position.y * up);
       mesh.uvs.emplace_back(0.0f);
     }
-  const auto at = [](int i, int k) { return std::uint32_t(i * (across + 1) + k); };
-  for (int i = 0; i < around; ++i)
-    for (int k = 0; k < across; ++k)
+  const std::size_t width = profile.size();
+  const auto at = [&](std::size_t i, std::size_t k) { return std::uint32_t(i * width + k); };
+  for (std::size_t i = 0; i < around; ++i)
+    for (std::size_t k = 0; k + 1 < width; ++k)
       for (const std::uint32_t v :
            {at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1)})
         mesh.indices.push_back(v);
   return mesh;
+}
+
+/// The upper part of a ring of radius 1, as the rims of pans have.
+Mesh rim(float thickness) {
+  std::vector<ProfilePoint> profile;
+  for (int k = 0; k <= 16; ++k) {
+    const float tilt = 0.4f + 2.34f * float(k) / 16.0f;
+    const glm::vec2 normal(std::cos(tilt), std::sin(tilt));
+    profile.push_back({glm::vec2(1.0f, 0.0f) + thickness * normal, normal});
+  }
+  return turned(profile);
+}
+
+/// A cone with waves down its side, convex and hollow by turns.
+Mesh wavy_cone() {
+  constexpr float wave = 0.01f, frequency = 30.0f;
+  std::vector<ProfilePoint> profile;
+  for (int k = 0; k <= 64; ++k) {
+    const float down = 0.6f * float(k) / 64.0f;
+    const float slope = 1.0f + wave * frequency * std::cos(frequency * down);
+    profile.push_back(
+        {{0.4f + down + wave * std::sin(frequency * down), -down}, glm::normalize(glm::vec2(1.0f, slope))});
+  }
+  return turned(profile);
 }
 
 TEST(ReflectorMap, AThinRimIsABandOfDirectionsAndShowsWhatItMirrors) {
@@ -300,6 +334,26 @@ TEST(ReflectorMap, AThinRimIsABandOfDirectionsAndShowsWhatItMirrors) {
     }
   }
   EXPECT_GT(found, 280);
+}
+
+/// What a map does not hold is looked up where its window ends. The surface there goes on over neighbouring
+/// patches, yet is not what lies beyond.
+TEST(ReflectorMap, BeyondAWindowIsNoSurface) {
+  Random random(6);
+  int windows = 0, bands = 0;
+  for (const Mesh& mesh : {torus(0.4f), wavy_cone()})
+    for (const ReflectorMap& map : reflector(mesh).maps) {
+      if (map.is_whole_body()) continue;
+      ++(map.window.extent > 0.0f ? windows : bands);
+      for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 d = chance_direction(random);
+        const glm::vec3 looked_up = window_direction(map.window, window_uv(map.window, d));
+        if (glm::distance(d, looked_up) < 1e-3f) continue;
+        ASSERT_EQ(map.surface_kind(d), kind_closed);
+      }
+    }
+  EXPECT_GT(windows, 0);
+  EXPECT_GT(bands, 0);
 }
 
 TEST(HostileMesh, IsRefusedByNameOrHasADefinedMap) {
