@@ -29,11 +29,12 @@ constexpr double degrees = 57.29577951308232;
 
 /// The paper's search begins where the default one does, as far as that is told before.
 MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::ReflectionTask& task) {
-  const glm::vec3 start = search.reflector.is_whole_body() ? search.first_direction(task)
-                                                           : search.search_start(0).position - task.centre;
+  const glm::vec3 start = search.reflector.is_whole_body()
+                              ? search.first_direction(task)
+                              : search.search_start(0).plane.at.position - task.centre;
   const MapSearch::ReflectionPoint point =
       search.search_by_midpoint(task, start, paper_iterations, search_ends);
-  return {point, search.surface_kind(point.direction)};
+  return {point, kind_surface};  // no lookup more than the paper's
 }
 
 MapSearch::PatchPoint by_newton(MapSearch& search, const MapSearch::ReflectionTask& task) {

@@ -19,7 +19,7 @@ GLSL_FUNCTION SurfacePoint near_side(vec3 centre, float reach, vec3 start, vec3 
     along += max(height, 0.0f) / max(-dot(at.normal, direction), 1e-2f);
     normal = at.normal;
   }
-  return SurfacePoint(centre + passing + along * direction, normal);
+  return SurfacePoint(centre + passing + along * direction, normal, 0.0f);
 }
 
 // `start` lies in the body or on its surface; `reach`: the surface's greatest distance from the centre.
@@ -34,5 +34,5 @@ GLSL_FUNCTION SurfacePoint far_side(vec3 centre, float reach, vec3 start, vec3 d
     along = clamp(to_plane, 0.0f, along);
     normal = at.normal;
   }
-  return SurfacePoint(start + along * direction, normal);
+  return SurfacePoint(start + along * direction, normal, 0.0f);
 }

@@ -3,12 +3,22 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-gl::Texture upload(const ImageF& texels) {
-  gl::Texture texture = gl::texture_2d(GL_RGBA32F, texels.width, texels.height);
+/// A map's texels, and below them in rows its starts, four texels each: position, normal, axis, bend.
+gl::Texture upload(const ReflectorMap& map) {
+  const ImageF& texels = map.texels;
+  std::vector<glm::vec4> starts;
+  for (const MapStart& start : map.starts)
+    for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
+      starts.emplace_back(value, 0.0f);
+  const int rows = (int(starts.size()) + texels.width - 1) / texels.width;
+  starts.resize(std::size_t(rows * texels.width));
+  gl::Texture texture = gl::texture_2d(GL_RGBA32F, texels.width, texels.height + rows);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureSubImage2D(texture.name(), 0, 0, 0, texels.width, texels.height, GL_RGBA, GL_FLOAT,
                       texels.pixels.data());
+  glTextureSubImage2D(texture.name(), 0, 0, texels.height, texels.width, rows, GL_RGBA, GL_FLOAT,
+                      starts.data());
   return texture;
 }
 
@@ -18,7 +28,7 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < reflector.maps.size(); ++i) {
     const ReflectorMap& map = reflector.maps[i];
-    Patch patch{upload(map.texels),
+    Patch patch{upload(map),
                 patch_bounds(reflector.mesh, reflector.patches[i]),
                 map.window,
                 map.is_convex,
@@ -26,10 +36,14 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
                 map.shows_once,
                 {},
                 {},
+                {},
+                {},
                 GLsizei(indices.size()),
                 0};
-    for (std::size_t k = 0; k < start_count; ++k)
-      std::tie(patch.start_positions[k], patch.start_normals[k]) = map.starts[k];
+    for (std::size_t k = 0; k < layer_start_count; ++k) {
+      patch.start_positions[k] = map.starts[k].position, patch.start_normals[k] = map.starts[k].normal;
+      patch.start_axes[k] = map.starts[k].u, patch.start_bends[k] = map.starts[k].bend;
+    }
     for (const std::uint32_t t : reflector.patches[i].triangles)
       indices.insert(indices.end(), &reflector.mesh.mesh.indices[3 * t],
                      &reflector.mesh.mesh.indices[3 * t] + 3);
@@ -49,16 +63,17 @@ void GpuReflector::bind(const gl::Program& program, const Patch& patch, const gl
                         GLuint unit, int mirror) {
   // By mirror: each begins in the arrays of uniforms where the one before it ends.
   struct Names {
-    const char *texels, *from_world, *to_world, *centre, *size, *band, *axes, *kind, *positions, *normals;
+    const char *texels, *from_world, *to_world, *centre, *size, *band, *axes, *kind, *positions, *normals,
+        *start_axes, *start_bends;
   };
   constexpr std::array<Names, 2> names{
       {{"reflector_texels", "reflectors_from_world[0]", "world_from_reflectors[0]", "map_centres[0]",
         "map_sizes[0]", "map_bands[0]", "map_axes[0]", "patch_kinds[0]", "start_positions[0]",
-        "start_normals[0]"},
+        "start_normals[0]", "start_axes[0]", "start_bends[0]"},
        {"second_reflector_texels", "reflectors_from_world[1]", "world_from_reflectors[1]", "map_centres[1]",
         "map_sizes[1]", "map_bands[1]", "map_axes[3]", "patch_kinds[1]", "start_positions[16]",
-        "start_normals[16]"}}};
-  static_assert(start_count == 16);
+        "start_normals[16]", "start_axes[16]", "start_bends[16]"}}};
+  static_assert(layer_start_count == 16);
   const Names& name = names[std::size_t(mirror)];
   glBindTextureUnit(unit, patch.texels.name());
   program.set(name.texels, int(unit));
@@ -71,6 +86,8 @@ void GpuReflector::bind(const gl::Program& program, const Patch& patch, const gl
   program.set(name.kind, glm::vec2(patch.is_convex ? 1.0f : 0.0f, patch.is_whole_body ? 1.0f : 0.0f));
   program.set(name.positions, std::span<const glm::vec3>(patch.start_positions));
   program.set(name.normals, std::span<const glm::vec3>(patch.start_normals));
+  program.set(name.start_axes, std::span<const glm::vec3>(patch.start_axes));
+  program.set(name.start_bends, std::span<const glm::vec3>(patch.start_bends));
 }
 
 void GpuReflector::draw(const Patch& patch) const {

@@ -18,8 +18,8 @@ const float kind_closed = 2.0f;  // none: what closes an open surface, so that s
 
 const float map_border = 1.0f;  // texels that repeat what lies across the sides
 
-// 1 or 0, for loops in place of branches: software renderers run both sides of those. ALL_PLAIN: every patch is convex and none a
-// band, and what others cost falls away.
+// 1 or 0, for loops in place of branches: software renderers run both sides of those. ALL_PLAIN: every patch is convex, shows a vertex
+// once, and is no band: what others cost falls away.
 #ifdef ALL_PLAIN
 #define band_count(window) 0
 #else

@@ -1,17 +1,22 @@
-// The search over one patch of a reflector: Newton's method from the best of some places spread over the patch (for a body that is
-// one patch, from where a ball would reflect), then without the belief that the way is shortest there (patches are convex or
-// concave as a whole, not everywhere), then from the next best. From the host:
-//   SurfacePoint search_start(int i)    places spread over the patch
-//   float surface_kind(vec3 direction)  see reflector_map.glsl
+// The search over one patch of a reflector, by Newton's method from places spread over the patch, about each of which it is known
+// beforehand how the surface bends: first from that of the few from which it has the shortest way to go, then from those of many.
+// Each begins with a belief about whether the way is shortest at the point (patches are convex or concave as a whole, not
+// everywhere), and has a second turn with the other. They keep to the surface, and where all have failed one goes on beyond its rim,
+// where corners of triangles lie that reach over it. From the host:
+//   SearchStart search_start(int i)    a place; those of a layer first
+//   SearchStart further_start(int i)   the same, and all further ones
 // Needs newton_search.glsl and map_window.glsl.
 
 const int search_start_count = 16;
+const int all_start_count = 64;
 const int layer_count = search_start_count + 1;
-const int best_start_count = 6;  // tried where there is one point at most
-const int believing_starts = 6;
+const int most_attempts = 16;
 const int newton_steps = 20;
+const int most_failures = 4;
 const float found_error = 2e-9f;    // 0.005 degrees: a search ends
 const float found_angle = 0.0035f;  // radians, 0.2 degrees: beyond it a point is none
+const float second_turn = 16.0f;    // as if the way were so much longer, squared
+const float no_turn = 1e12f;
 
 struct PatchKind {
   bool is_convex;      // else the surface bends toward the side that it reflects
@@ -19,47 +24,80 @@ struct PatchKind {
   bool shows_once;     // hardly anywhere a saddle: a vertex has one image at most
 };
 
-struct PatchPoint {
-  ReflectionPoint point;
-  float kind;
-};
-
 // May it be drawn? Else it has been told, and an environment map stands in.
 GLSL_FUNCTION bool is_found(PatchPoint p) { return p.point.angle < found_angle && p.kind == kind_surface; }
 
+// From near a point of about the same task, over rims where they are in its way.
 GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_convex, float most_growth) {
-  ReflectionPoint point = search_by_newton(task, start, is_convex, most_growth, newton_steps, found_error);
-  return PatchPoint(point, surface_kind(point.direction));
+  SearchBounds bounds = SearchBounds(is_convex, most_growth, newton_steps, newton_steps, found_error, false);
+  return search_from(task, start_along(task, start), bounds).found;
+}
+
+// About what Newton's method has to go from a start, squared, for its distance from the centre.
+GLSL_FUNCTION float way_from_start(ReflectionTask task, SearchStart start, bool is_convex) {
+  vec3 position = start.plane.at.position, from_centre = position - task.centre;
+  vec3 to_viewer = task.viewer - position, to_vertex = task.vertex - position;
+  float viewer_bend = inversesqrt(dot(to_viewer, to_viewer)), vertex_bend = inversesqrt(dot(to_vertex, to_vertex));
+  vec3 sum = viewer_bend * to_viewer + vertex_bend * to_vertex;
+  vec2 lean = in_tangent_plane(start.plane, sum);
+  float lift = dot(sum, start.plane.at.normal), flat_bend = viewer_bend + vertex_bend;
+  float below = min(vertex_bend * dot(to_vertex, start.plane.at.normal), 0.0f), height = lift - 2.0f * below;  // seen_vertex
+  vec3 bend = vec3(flat_bend, 0.0f, flat_bend) + lift * start.bend;
+  vec2 turned = vec2(lean.x * bend.z - lean.y * bend.y, lean.y * bend.x - lean.x * bend.y);
+  float determinant = bend.x * bend.z - bend.y * bend.y;
+  float to_go = dot(turned, turned) / max(determinant * determinant, 1e-20f);
+  if (is_convex && (determinant <= 0.0f || bend.x <= 0.0f)) to_go *= 4.0f;
+  if (height <= 0.0f || dot(lean, lean) > 3.0f * height * height) to_go *= 1e3f;  // seen_error
+  return max(to_go / dot(from_centre, from_centre), 1e-12f);
+}
+
+// In what order starts have their turns; what is left to go is below 0 where there was a first one.
+GLSL_FUNCTION float rank_of(float to_go) { return to_go < 0.0f ? -second_turn * to_go : to_go; }
+
+// Does the way bend upward everywhere about a start, as at a point of a convex surface? At what the viewer does not see nothing is
+// known of that.
+GLSL_FUNCTION bool bends_upward(ReflectionTask task, SearchStart start) {
+  Way way = way_over(task, start.plane);
+  vec3 bend = way.bend + way.lift * start.bend;
+  return way.lift <= 0.0f || (bend.x > 0.0f && bend.x * bend.z > bend.y * bend.y);
 }
 
 // Hollows and saddles may show a vertex several times. A layer holds for each vertex the point that is found from one place, the
 // same for all, so that the corners of a triangle end in the same image of it; the last layer begins below the vertex, where the
 // points of what nearly touches a hollow are. `layer` -1: any point will do.
 GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int layer) {
-  PatchPoint best;
-  best.point.angle = 4.0f;
-  if (kind.is_whole_body || layer >= 0) {
-    vec3 start = layer < 0 ? first_direction(task) : task.vertex - task.centre;
-    if (layer >= 0 && layer < search_start_count) start = search_start(layer).position - task.centre;
-    best = patch_point(task, start, kind.is_convex && layer < 0, layer < 0 ? free_growth : steady_growth);
-    if (layer >= 0 || is_found(best)) return best;
+#ifndef ALL_PLAIN
+  if (layer >= 0) {
+    SearchBounds bounds = SearchBounds(false, steady_growth, newton_steps, newton_steps, found_error, false);
+    if (layer < search_start_count) return search_from(task, search_start(layer), bounds).found;
+    return search_from(task, start_along(task, task.vertex - task.centre), bounds).found;
   }
-  float errors[16];  // search_start_count
+#endif
+  float to_go[64];  // all_start_count
+  int next = 0, known = search_start_count;
+  float least = no_turn;
   for (int i = 0; i < search_start_count; ++i) {
-    SurfacePoint at = search_start(i);
-    errors[i] = bisector_error(bisector(task.viewer, task.vertex, at), at.normal);
+    to_go[i] = way_from_start(task, search_start(i), kind.is_convex);
+    next = to_go[i] < least ? i : next;
+    least = min(to_go[i], least);
   }
-  int attempts = kind.shows_once ? best_start_count : layer_count;
-  for (int k = 0; k < attempts; ++k) {
-    int next = 0;
-    for (int i = 1; i < search_start_count; ++i) next = errors[i] < errors[next] ? i : next;
-    errors[next] = 2.0f;  // more than any
-    vec3 start = (k < search_start_count ? search_start(next).position : task.vertex) - task.centre;
-    for (int belief = kind.is_convex && k < believing_starts ? 1 : 0; belief >= 0; --belief) {
-      PatchPoint other = patch_point(task, start, belief == 1, free_growth);
-      if (is_found(other)) return other;
-      if (other.point.angle < best.point.angle) best = other;
-    }
+  SearchEnd best;
+  best.found.point.angle = 4.0f;
+  bool is_done = false;
+  for (int k = 0; k <= most_attempts && !is_done; ++k) {
+    SearchStart start = further_start(next);
+    bool had_turn = to_go[next] < 0.0f, is_last = k == most_attempts;
+    to_go[next] = had_turn || !kind.is_convex ? no_turn : -to_go[next];
+    bool is_convex = kind.is_convex && (is_last || bends_upward(task, start) != had_turn);
+    if (is_last) start = best.last;
+    SearchEnd end =
+        search_from(task, start, SearchBounds(is_convex, free_growth, newton_steps, is_last ? newton_steps : most_failures,
+                                              found_error, !is_last));
+    is_done = is_found(end.found);
+    if (is_done || end.found.point.angle < best.found.point.angle) best = end;
+    for (; known < all_start_count && !is_done; ++known)
+      to_go[known] = way_from_start(task, further_start(known), kind.is_convex);
+    for (int i = 0; i < known && !is_done; ++i) next = rank_of(to_go[i]) < rank_of(to_go[next]) ? i : next;
   }
-  return best;
+  return best.found;
 }

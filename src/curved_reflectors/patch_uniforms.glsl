@@ -18,6 +18,8 @@ uniform vec2 patch_kinds[MIRRORS];    // convex; seen all around from the centre
 uniform int patch_layer;              // of what may show a vertex several times (patch_search.glsl); -1: it does not
 uniform vec3 start_positions[16 * MIRRORS];
 uniform vec3 start_normals[16 * MIRRORS];
+uniform vec3 start_axes[16 * MIRRORS];
+uniform vec3 start_bends[16 * MIRRORS];
 
 int mirror = 0;  // that all here speaks of
 #define reflector_from_world reflectors_from_world[mirror]
@@ -44,12 +46,10 @@ MapWindow map_window() {
 SurfacePoint surface_at(vec3 direction) {
   vec3 unit = normalize(direction);
   MapSample met = map_sample(map_window(), unit);
-  return SurfacePoint(map_centre + met.distance * unit, met.normal);
+  return SurfacePoint(map_centre + met.distance * unit, met.normal, met.kind);
 }
 
 float surface_kind(vec3 direction) { return map_sample(map_window(), normalize(direction)).kind; }
-
-SurfacePoint search_start(int i) { return SurfacePoint(start_positions[16 * mirror + i], start_normals[16 * mirror + i]); }
 
 vec3 moved(mat4 to_from, vec3 point) {
   vec4 p = to_from * vec4(point, 1.0f);

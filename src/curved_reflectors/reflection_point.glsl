@@ -20,6 +20,12 @@ struct ReflectionPoint {
   float angle;     // radians between bisector and normal
 };
 
+// What a search over a map has come to.
+struct PatchPoint {
+  ReflectionPoint point;
+  float kind;  // of what the map holds there
+};
+
 // Section 6.1: a vertex behind the surface is hidden, and stands for its mirror image in the plane of the surface.
 GLSL_FUNCTION vec3 seen_vertex(vec3 vertex, SurfacePoint at) {
   float height = dot(vertex - at.position, at.normal);

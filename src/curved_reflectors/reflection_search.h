@@ -9,8 +9,8 @@
 namespace parvis::curved_reflectors {
 
 /// `Reflector::surface(vec3 direction)` gives position and unit normal where a ray from the centre meets the
-/// reflector, as `std::pair<vec3, vec3>`. For `search_patch` it also has `starts` and `surface_kind`, as a
-/// ReflectorMap does.
+/// reflector, as `std::pair<vec3, vec3>`; or `Reflector::sample(vec3 direction)` also what is there. For
+/// `search_patch` it has `starts`, as a ReflectorMap does.
 template <class Reflector>
 struct ReflectionSearch {
   const Reflector& reflector;
@@ -32,14 +32,19 @@ struct ReflectionSearch {
     return all_directions;
   }
   SurfacePoint surface_at(vec3 direction) {
-    const auto [position, normal] = reflector.surface(direction);
-    return {position, normal};
+    if constexpr (requires { reflector.sample(direction); }) {
+      const auto [position, normal, kind] = reflector.sample(direction);
+      return {position, normal, kind};
+    } else {
+      const auto [position, normal] = reflector.surface(direction);
+      return {position, normal, kind_surface};
+    }
   }
-  SurfacePoint search_start(int i) {
-    const auto [position, normal] = reflector.starts[std::size_t(i)];
-    return {position, normal};
+  SearchStart search_start(int i) {
+    const auto& [position, normal, u, bend] = reflector.starts[std::size_t(i)];
+    return {{{position, normal, kind_surface}, u, cross(normal, u)}, bend};
   }
-  float surface_kind(vec3 direction) { return reflector.surface_kind(direction); }
+  SearchStart further_start(int i) { return search_start(i); }
   /// Of a ReflectorMap.
   PatchKind patch_kind() const {
     return {reflector.is_convex, reflector.is_whole_body(), reflector.shows_once};

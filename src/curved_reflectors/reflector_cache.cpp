@@ -10,7 +10,7 @@ namespace parvis::curved_reflectors {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int version = 3;  // of how reflectors are made: raise it when old ones no longer serve
+constexpr int version = 4;  // of how reflectors are made: raise it when old ones no longer serve
 constexpr std::string_view extension = ".reflector";
 constexpr int texels_a_face_texel =
     4;  // a map's side, for the resolution that scripts give for a cube map's face

@@ -64,10 +64,7 @@ void pass_map(Archive& archive, Map& map) {
   archive.value(map.window);
   archive.value(map.is_convex);
   archive.value(map.shows_once);
-  for (auto& [position, normal] : map.starts) {
-    archive.value(position);
-    archive.value(normal);
-  }
+  for (auto& start : map.starts) archive.value(start);
   archive.value(map.texels.width);
   archive.value(map.texels.height);
   archive.value(map.texels.channels);

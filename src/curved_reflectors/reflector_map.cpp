@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "curved_reflectors/reflection_search.h"
 #include "curved_reflectors/surface_rays.h"
 
 namespace parvis::curved_reflectors {
@@ -31,7 +32,9 @@ constexpr float widest_window = 0.9f;   // beyond it, all directions
 constexpr float least_breadth = 1e-3f;  // radians, of a band
 constexpr float band_share = 0.25f;     // of a square window's solid angle, from which on a band is better
 constexpr float middle_share = 0.3f;    // of a band's breadth, in which searches begin
-constexpr double most_sides = 2.0;      // of the usual, of the largest maps
+constexpr int bend_probes = 16, least_probes = 4;  // about a start
+constexpr float bend_reach = 0.6f;                 // of the way to the next start
+constexpr double most_sides = 2.0;                 // of the usual, of the largest maps
 constexpr double usual_share = 0.020;   // of a reflector's surface, that a map of the usual side holds
 constexpr double creased_share = 0.01;  // of a map: it is made again, twice as wide
 constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off between them
@@ -282,6 +285,51 @@ std::array<glm::vec3, start_count> spread_starts(const ReflectorMesh& mesh, cons
   return starts;
 }
 
+/// How a surface bends about a start, as far as `reach`: the symmetric matrix (uu, uv, vv) by which, over
+/// rings of probes, the normal's turn is best told from the way (least squares).
+glm::vec3 bend_about(const ReflectorMap& map, const ReflectionSearch<ReflectorMap>::TangentPlane& plane,
+                     float reach) {
+  using Search = ReflectionSearch<ReflectorMap>;
+  Search search{map};
+  glm::dmat3 sums(0.0);
+  glm::dvec3 turned(0.0);
+  int met = 0;
+  for (int i = 0; i < bend_probes; ++i) {
+    const float turn = 2.0f * pi * float(i) / bend_probes, way = i % 2 ? reach : 0.5f * reach;
+    const glm::vec2 off = way * glm::vec2(std::cos(turn), std::sin(turn));
+    const MapPoint at = map.sample(search.on_tangent_plane(plane, off) - map.window.centre);
+    if (at.kind == kind_closed) continue;
+    ++met;
+    const glm::dvec2 s(search.in_tangent_plane(plane, at.position - plane.at.position)),
+        n(search.in_tangent_plane(plane, at.normal));
+    const double weight = 1.0 / std::max(glm::dot(s, s), 1e-24);
+    const glm::dvec3 across_u(s.x, s.y, 0.0), across_v(0.0, s.x, s.y);
+    sums += weight * (glm::outerProduct(across_u, across_u) + glm::outerProduct(across_v, across_v));
+    turned += weight * (n.x * across_u + n.y * across_v);
+  }
+  if (met < least_probes) return search.surface_bend(plane, map.window.centre, window_breadth(map.window));
+  return {glm::inverse(sums) * turned};
+}
+
+std::array<MapStart, start_count> starts_at(const ReflectorMap& map,
+                                            const std::array<glm::vec3, start_count>& directions) {
+  ReflectionSearch<ReflectorMap> search{map};
+  std::array<MapStart, start_count> starts;
+  for (std::size_t i = 0; i < start_count; ++i)
+    std::tie(starts[i].position, starts[i].normal) = map.surface(directions[i]);
+  for (MapStart& start : starts) {
+    float nearest = map.window.reach;
+    for (const MapStart& other : starts)
+      if (&other != &start) nearest = std::min(nearest, glm::distance(other.position, start.position));
+    const glm::vec3 from_centre = start.position - map.window.centre;
+    const auto plane = search.tangent_plane({start.position, start.normal, kind_surface},
+                                            window_frame(map.window, from_centre, glm::vec3(0.0f)));
+    start.u = plane.u;
+    start.bend = bend_about(map, plane, bend_reach * std::max(nearest, 1e-3f * glm::length(from_centre)));
+  }
+  return starts;
+}
+
 /// Texels for a patch's share of the surface, so that all patches are sampled about as finely: `side` where
 /// that is `usual_share`.
 int side_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, double surface, int side) {
@@ -322,15 +370,18 @@ std::vector<std::string> remarks_on(const ReflectorMesh& mesh, const std::string
 
 }  // namespace
 
-std::pair<glm::vec3, glm::vec3> ReflectorMap::surface(glm::vec3 direction) const {
+MapPoint ReflectorMap::sample(glm::vec3 direction) const {
   const glm::vec3 unit = glm::normalize(direction);
   const Sampler::MapSample sample = Sampler{texels}.map_sample(window, unit);
-  return {window.centre + sample.distance * unit, sample.normal};
+  return {window.centre + sample.distance * unit, sample.normal, sample.kind};
 }
 
-float ReflectorMap::surface_kind(glm::vec3 direction) const {
-  return Sampler{texels}.map_sample(window, glm::normalize(direction)).kind;
+std::pair<glm::vec3, glm::vec3> ReflectorMap::surface(glm::vec3 direction) const {
+  const MapPoint at = sample(direction);
+  return {at.position, at.normal};
 }
+
+float ReflectorMap::surface_kind(glm::vec3 direction) const { return sample(direction).kind; }
 
 ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side) {
   ReflectorMap map;
@@ -344,8 +395,7 @@ ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patc
     is_open.push_back(map.texels.pixels[i] == 0.0f);
   close(map.texels, map.window, map.is_convex);
   encode(map, rays, is_open);
-  const std::array<glm::vec3, start_count> starts = spread_starts(mesh, patch, map.window);
-  for (std::size_t i = 0; i < starts.size(); ++i) map.starts[i] = map.surface(starts[i]);
+  map.starts = starts_at(map, spread_starts(mesh, patch, map.window));
   return map;
 }
 

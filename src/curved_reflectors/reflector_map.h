@@ -12,22 +12,34 @@
 
 namespace parvis::curved_reflectors {
 
-inline constexpr std::size_t start_count = 16;  ///< as in patch_search.glsl
+inline constexpr std::size_t layer_start_count = 16, start_count = 64;  ///< as in patch_search.glsl
+
+/// What a map holds along a direction.
+struct MapPoint {
+  glm::vec3 position, normal;
+  float kind;  ///< the surface, a crease, or what closes it; see reflector_map.glsl
+};
+
+/// Where searches may begin: a place, and how the surface bends about it, in the tangent plane of `normal`
+/// and `u` (patch_search.glsl).
+struct MapStart {
+  glm::vec3 position, normal, u, bend;
+  bool operator==(const MapStart&) const = default;
+};
 
 /// Position and normal of a patch by direction from its centre; see reflector_map.glsl.
 struct ReflectorMap {
   MapWindow window = all_directions;
   bool is_convex = true;
   bool shows_once = true;  ///< as its patch; else a vertex is searched for layer by layer (patch_search.glsl)
-  /// Positions and normals spread over the patch, the first near its middle: where searches may begin.
-  std::array<std::pair<glm::vec3, glm::vec3>, start_count> starts{};
-  ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
+  std::array<MapStart, start_count> starts{};  ///< spread over the patch, the first near its middle
+  ImageF texels;                               ///< square, 4 channels: as reflector_map.glsl has them
 
   /// Does the centre see surface all around?
   bool is_whole_body() const { return window.extent == 1.0f; }
   /// Where a ray from the centre meets the surface, or what closes it; `direction` has any length.
+  MapPoint sample(glm::vec3 direction) const;
   std::pair<glm::vec3, glm::vec3> surface(glm::vec3 direction) const;
-  /// What the map holds there: the surface, a crease, or what closes it; see reflector_map.glsl.
   float surface_kind(glm::vec3 direction) const;
 };
 

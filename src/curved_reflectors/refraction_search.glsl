@@ -177,7 +177,7 @@ GLSL_FUNCTION bool is_refracted(RefractedPoint p, int foci) { return p.error < r
 
 // The image of the vertex that has passed so many foci; told by is_refracted.
 GLSL_FUNCTION RefractedPoint refracted_vertex(RefractionTask task, int foci) {
-  SurfacePoint nowhere = SurfacePoint(task.centre, vec3(0.0f));
+  SurfacePoint nowhere = SurfacePoint(task.centre, vec3(0.0f), 0.0f);
   RefractedPoint best = RefractedPoint(nowhere, nowhere, 0.0f, 4.0f, -1);
   float tried = -1.0f;  // the misses of starts that were: those that are left miss by more
   for (int k = 0; k < refraction_attempts; ++k) {

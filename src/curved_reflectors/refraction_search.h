@@ -40,7 +40,7 @@ struct RefractionSearch {
 
   SurfacePoint surface_at(vec3 direction) {
     const auto [position, normal] = body.surface(direction);
-    return {position, normal};
+    return {position, normal, kind_surface};
   }
   mat4 refraction_start(int i) { return rays[std::size_t(i)]; }
 };

@@ -36,14 +36,17 @@ struct Pair {
   }
   SurfacePoint surface_at(glm::vec3 direction) const {
     const auto [position, normal] = mirrors[std::size_t(mirror)].surface(direction);
-    return {position, normal};
+    return {position, normal, kind_surface};
   }
-  SurfacePoint search_start(int i) const {
-    const float turn = 2.4f * float(i), z = -1.0f + (2.0f * float(i) + 1.0f) / float(start_count);
-    return surface_at(
-        {std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z});
+  SearchStart search_start(int i) {
+    const auto count = float(all_start_count);
+    const float turn = 2.4f * float(i), z = -1.0f + (2.0f * float((7 * i) % all_start_count) + 1.0f) / count;
+    const TangentPlane plane = tangent_plane(
+        surface_at({std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z}),
+        vec3(0.0f));
+    return {plane, surface_bend(plane, vec3(0.0f), 1.0f)};
   }
-  static float surface_kind(glm::vec3) { return kind_surface; }
+  SearchStart further_start(int i) { return search_start(i); }
   static MapWindow map_window() { return all_directions; }
 #undef GLSL_FUNCTION
 #define GLSL_FUNCTION inline

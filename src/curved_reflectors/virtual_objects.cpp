@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
 constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
 constexpr float large_radii = 3.0f;      // of a mirror: what is larger is in its surroundings
-constexpr int layer_count = int(start_count) + 1;  // as in patch_search.glsl
+constexpr int layer_count = int(layer_start_count) + 1;  // as in patch_search.glsl
 
 std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Object& object) {
   const Result<Reflector> made = cache.reflector(object);
@@ -37,7 +37,7 @@ ReflectorsByModel reflectors_of(const scene::Scene& scene) {
 bool are_plain(const ReflectorsByModel& reflectors) {
   return std::ranges::none_of(reflectors, [](const auto& made) {
     return made.second && std::ranges::any_of(made.second->patches(), [](const GpuReflector::Patch& patch) {
-             return !patch.is_convex || patch.window.extent == 0.0f;
+             return !patch.is_convex || !patch.shows_once || patch.window.extent == 0.0f;
            });
   });
 }

@@ -1,6 +1,26 @@
 // Where one mirror shows a point of the scene (Estalella and others 2005, sections 3, 4 and 6.1). All in the mirror's frame.
 #include "curved_reflectors/patch_uniforms.glsl"
 #include "curved_reflectors/newton_search.glsl"
+
+SearchStart search_start(int i) {
+  vec3 normal = start_normals[16 * mirror + i], axis = start_axes[16 * mirror + i];
+  SurfacePoint at = SurfacePoint(start_positions[16 * mirror + i], normal, kind_surface);
+  return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_bends[16 * mirror + i]);
+}
+
+// Of the rows below the map (gpu_reflector.cpp).
+vec3 start_texel(int i) {
+  int side = int(map_size.y);
+  vec4 texel = reflector_texel(ivec2(i % side, side + i / side));
+  return texel.xyz;
+}
+
+SearchStart further_start(int i) {
+  vec3 normal = start_texel(4 * i + 1), axis = start_texel(4 * i + 2);
+  SurfacePoint at = SurfacePoint(start_texel(4 * i), normal, kind_surface);
+  return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_texel(4 * i + 3));
+}
+
 #include "curved_reflectors/patch_search.glsl"
 #include "curved_reflectors/midpoint_search.glsl"
 
@@ -21,7 +41,7 @@ bool is_near_enough(PatchPoint found) { return found.point.angle < astray_angle;
 
 PatchPoint point_of_mirror(ReflectionTask task, PatchKind kind) {
   vec3 start = task.vertex - task.centre;
-  if (patch_layer < search_start_count) start = search_start(max(patch_layer, 0)).position - task.centre;
+  if (patch_layer < search_start_count) start = search_start(max(patch_layer, 0)).plane.at.position - task.centre;
   if (patch_layer < 0 && kind.is_whole_body) start = first_direction(task);
   ReflectionPoint point = search_by_midpoint(task, start, MIDPOINT_ITERATIONS, found_error);
   return PatchPoint(point, surface_kind(point.direction));
