@@ -51,9 +51,6 @@ GLSL_FUNCTION float way_from_start(ReflectionTask task, SearchStart start, bool 
   return max(to_go / dot(from_centre, from_centre), 1e-12f);
 }
 
-// In what order starts have their turns; what is left to go is below 0 where there was a first one.
-GLSL_FUNCTION float rank_of(float to_go) { return to_go < 0.0f ? -second_turn * to_go : to_go; }
-
 // Does the way bend upward everywhere about a start, as at a point of a convex surface? At what the viewer does not see nothing is
 // known of that.
 GLSL_FUNCTION bool bends_upward(ReflectionTask task, SearchStart start) {
@@ -73,7 +70,7 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     return search_from(task, start_along(task, task.vertex - task.centre), bounds).found;
   }
 #endif
-  float to_go[64];  // all_start_count
+  float to_go[64];  // all_start_count; below 0 where there was a first turn
   int next = 0, known = search_start_count;
   float least = no_turn;
   for (int i = 0; i < search_start_count; ++i) {
@@ -97,7 +94,12 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     if (is_done || end.found.point.angle < best.found.point.angle) best = end;
     for (; known < all_start_count && !is_done; ++known)
       to_go[known] = way_from_start(task, further_start(known), kind.is_convex);
-    for (int i = 0; i < known && !is_done; ++i) next = rank_of(to_go[i]) < rank_of(to_go[next]) ? i : next;
+    least = no_turn;
+    for (int i = 0; i < known && !is_done; ++i) {
+      float rank = to_go[i] < 0.0f ? -second_turn * to_go[i] : to_go[i];
+      next = rank < least ? i : next;
+      least = min(rank, least);
+    }
   }
   return best.found;
 }

@@ -307,7 +307,8 @@ glm::vec3 bend_about(const ReflectorMap& map, const ReflectionSearch<ReflectorMa
     sums += weight * (glm::outerProduct(across_u, across_u) + glm::outerProduct(across_v, across_v));
     turned += weight * (n.x * across_u + n.y * across_v);
   }
-  if (met < least_probes) return search.surface_bend(plane, map.window.centre, window_breadth(map.window));
+  if (met < least_probes || map.window.extent == 0.0f)  // a rim is narrower than the way to the next start
+    return search.surface_bend(plane, map.window.centre, window_breadth(map.window));
   return {glm::inverse(sums) * turned};
 }
 
