@@ -10,14 +10,14 @@ gl::Texture upload(const ReflectorMap& map) {
   for (const MapStart& start : map.starts)
     for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
       starts.emplace_back(value, 0.0f);
-  const int rows = (int(starts.size()) + texels.width - 1) / texels.width;
-  starts.resize(std::size_t(rows * texels.width));
-  gl::Texture texture = gl::texture_2d(GL_RGBA32F, texels.width, texels.height + rows);
+  const std::size_t width(texels.width), rows = (starts.size() + width - 1) / width;
+  starts.resize(rows * width);
+  gl::Texture texture = gl::texture_2d(GL_RGBA32F, texels.width, texels.height + int(rows));
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureSubImage2D(texture.name(), 0, 0, 0, texels.width, texels.height, GL_RGBA, GL_FLOAT,
                       texels.pixels.data());
-  glTextureSubImage2D(texture.name(), 0, 0, texels.height, texels.width, rows, GL_RGBA, GL_FLOAT,
+  glTextureSubImage2D(texture.name(), 0, 0, texels.height, texels.width, int(rows), GL_RGBA, GL_FLOAT,
                       starts.data());
   return texture;
 }

@@ -73,6 +73,7 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
   float to_go[64];  // all_start_count; below 0 where there was a first turn
   int next = 0, known = search_start_count;
   float least = no_turn;
+  to_go[0] = no_turn;
   for (int i = 0; i < search_start_count; ++i) {
     to_go[i] = way_from_start(task, search_start(i), kind.is_convex);
     next = to_go[i] < least ? i : next;
