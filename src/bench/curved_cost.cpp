@@ -12,7 +12,7 @@ namespace {
 
 constexpr int width = 1280, height = 720;
 constexpr int small_width = 64, small_height = 36;  // few pixels: what is left is searching and interpolating
-constexpr int turns = 31, quick_turns = 15;
+constexpr int turns = 31, quick_turns = 15, quick_turns_of_grids = 3;
 constexpr float grid10_share = 0.096f;      // the paper's 9.6 %
 constexpr int balls = 10, ball_rings = 50;  // 100,000 triangles round the mirror
 constexpr float radians_a_turn = 6.28318531f;
@@ -93,7 +93,8 @@ Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer
     renderer.prepare_main_view(camera, small_width, small_height);
     return finished_ms([&] { searched.reflections->update(renderer, scene, camera); });
   };
-  for (int turn = -1; turn < (is_quick ? quick_turns : turns); ++turn)  // the first makes what is made once
+  for (int turn = -1; turn < (is_quick ? quick_turns_of_grids : turns);
+       ++turn)  // the first makes what is made once
     for (SearchedShare& searched : shares) {
       const double without = passes_ms(searched, false), with = passes_ms(searched, true);
       if (turn >= 0) searched.ms.push_back(with - without);
