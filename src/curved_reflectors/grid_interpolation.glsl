@@ -2,6 +2,14 @@
 // Needs virtual_point.glsl and grid_table.glsl.
 uniform highp sampler2DArray grid_results;  // of grid_search.frag
 
+// Of a corner, or of a vertex that is one, as it was searched for.
+VirtualPoint searched_point(int corner, int first_row) {
+  ivec2 texel = ivec2(corner & (results_width - 1), first_row + corner / results_width);
+  vec4 shown = texelFetch(grid_results, ivec3(texel, 0), 0);
+  return VirtualPoint(shown.xyz, texelFetch(grid_results, ivec3(texel, 1), 0).xyz,
+                      texelFetch(grid_results, ivec3(texel, 2), 0).xyz, shown.w > 0.0f);
+}
+
 struct InterpolatedPoint {
   VirtualPoint point;   // lost where any corner is, and where places that face too far apart show them
   bool is_between_lost; // all corners are: so is what lies between
@@ -23,11 +31,10 @@ InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     int corner = corner_at(grid, (in_box.z * (count.y + 1) + in_box.y) * (count.x + 1) + in_box.x);
     vec3 shares = mix(1.0f - part, part, vec3(far));
     float share = shares.x * shares.y * shares.z;
-    ivec2 texel = ivec2(corner & (results_width - 1), first_row + corner / results_width);
-    vec4 shown = texelFetch(grid_results, ivec3(texel, 0), 0);
-    image += vec4(share * shown.xyz, shown.w);
-    seen_from += share * texelFetch(grid_results, ivec3(texel, 1), 0).xyz;
-    shown_by += share * texelFetch(grid_results, ivec3(texel, 2), 0).xyz;
+    VirtualPoint point = searched_point(corner, first_row);
+    image += vec4(share * point.image, point.is_lost ? 1.0f : 0.0f);
+    seen_from += share * point.seen_from;
+    shown_by += share * point.shown_by;
   }
   bool is_lost = image.w > 0.0f || dot(shown_by, shown_by) < least_agreement;
   return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_lost), image.w > 7.5f);

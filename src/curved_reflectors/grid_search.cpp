@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t least_vertices = 200;  // of a mesh: its coarsest grid has the corners of a cell
 constexpr int table_width = 1024, results_width = 64;  // as in grid_table.glsl
-constexpr int most_result_rows = 16384;
+constexpr int least_result_rows = 256, most_result_rows = 16384;
 constexpr std::size_t most_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
 constexpr float stray_px = 0.3f;                                        // what of interpolation nobody sees
 constexpr int result_layers = 3;                                        // grid_search.frag's
@@ -51,6 +51,15 @@ int append(const VirtualGrid& grid, std::vector<glm::vec4>& table) {
   return first;
 }
 
+/// A grid whose corners are the mesh's own vertices, in no cells; returns where it begins.
+int append(std::span<const glm::vec3> vertices, std::vector<glm::vec4>& table) {
+  const int first = int(table.size());
+  table.emplace_back(0.0f, 0.0f, 0.0f, float(vertices.size()));
+  table.resize(table.size() + 2);
+  for (const glm::vec3& vertex : vertices) table.emplace_back(vertex, 0.0f);
+  return first;
+}
+
 /// The mesh of each of the GPU scene's parts that a grid is worth making for; null: none.
 std::vector<const Mesh*> meshes_of_parts(const scene::Scene& scene, const render::GpuScene& gpu) {
   std::vector<const Mesh*> meshes(gpu.parts().size(), nullptr);
@@ -83,33 +92,31 @@ Result<GridSearch> GridSearch::create(const scene::Scene& scene, const render::G
   std::vector<MeshGrids> of_part(meshes.size());
   std::vector<glm::vec4> table(1);  // 0 stands for no grid
   for (std::size_t p = 0; p < meshes.size(); ++p) {
-    if (!meshes[p] || table.size() + texels_of(grids[p]) > most_in_table) continue;
-    of_part[p].vertex_count = meshes[p]->positions.size();
+    if (!meshes[p]) continue;
+    const std::vector<glm::vec3>& vertices = meshes[p]->positions;
+    if (table.size() + texels_of(grids[p]) + 3 + vertices.size() > most_in_table) continue;
+    of_part[p].vertex_count = vertices.size();
+    of_part[p].first_vertex = gpu.parts()[p].base_vertex;
+    of_part[p].vertices_in_table = append(vertices, table);
     for (const VirtualGrid& grid : grids[p]) {
       of_part[p].corner_counts.push_back(std::uint32_t(grid.corners().size()));
       of_part[p].in_table.push_back(append(grid, table));
     }
   }
-  int rows = 1;
-  for (const render::Item& item : gpu.items())
-    if (const MeshGrids& own = of_part[std::size_t(item.part)]; !own.corner_counts.empty())
-      rows += rows_of(own.corner_counts.front());
-  return GridSearch(*std::move(program), reflection, std::move(of_part), table,
-                    std::min(rows, most_result_rows));
+  return GridSearch(*std::move(program), reflection, std::move(of_part), table);
 }
 
 GridSearch::GridSearch(gl::Program program, const scene::Reflection& reflection,
-                       std::vector<MeshGrids> of_part, std::span<const glm::vec4> table, int rows)
+                       std::vector<MeshGrids> of_part, std::span<const glm::vec4> table)
     : program_(std::move(program)),
       follows_area_(reflection.uses_level_of_detail),
       is_asked_for_(reflection.virtual_grid < 1.0f),
       most_stray_px_(follows_area_ ? stray_px : std::numeric_limits<float>::max()),
       of_part_(std::move(of_part)),
       has_any_(table.size() > 1),
-      vertex_array_(gl::VertexArray::create()),
-      rows_(rows) {
+      vertex_array_(gl::VertexArray::create()) {
   upload_table(table);
-  make_results();
+  make_results(least_result_rows);
   const GLuint array = vertex_array_.name();
   for (GLuint row = 0; row < 3; ++row) {
     glEnableVertexArrayAttrib(array, row);
@@ -120,7 +127,6 @@ GridSearch::GridSearch(gl::Program program, const scene::Reflection& reflection,
   glVertexArrayAttribIFormat(array, 3, 2, GL_INT, offsetof(Instance, grid));
   glVertexArrayAttribBinding(array, 3, 0);
   glVertexArrayBindingDivisor(array, 0, 1);
-  program_.set("results_size", glm::vec2(results_width, rows_));
 }
 
 void GridSearch::upload_table(std::span<const glm::vec4> table) {
@@ -135,7 +141,9 @@ void GridSearch::upload_table(std::span<const glm::vec4> table) {
                         table.data() + std::ptrdiff_t(whole_rows) * table_width);
 }
 
-void GridSearch::make_results() {
+void GridSearch::make_results(int rows) {
+  rows_ = rows;
+  program_.set("results_size", glm::vec2(results_width, rows_));
   results_ = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
   glTextureStorage3D(results_.name(), 1, GL_RGBA32F, results_width, rows_, result_layers);
   glTextureParameteri(results_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -152,18 +160,19 @@ void GridSearch::make_results() {
 glm::ivec2 GridSearch::add(const render::Item& item, float area_px) {
   const MeshGrids& grids = of_part_[std::size_t(item.part)];
   auto level = follows_area_ ? grid_level(grids.corner_counts, grids.vertex_count, area_px) : std::nullopt;
-  if (!level && is_asked_for_) level = 0;
-  if (!level || grids.corner_counts.empty()) return {};
-  const int rows = rows_of(grids.corner_counts[*level]);
-  if (rows_taken_ + rows > rows_) return {};
-  instances_.push_back({{item.record.rows[0], item.record.rows[1], item.record.rows[2]},
-                        {grids.in_table[*level], rows_taken_}});
+  if (!level && is_asked_for_ && !grids.corner_counts.empty()) level = 0;
+  const int in_table = level ? grids.in_table[*level] : grids.vertices_in_table;
+  const int rows = rows_of(level ? grids.corner_counts[*level] : grids.vertex_count);
+  if (in_table == 0 || rows_taken_ + rows > most_result_rows) return {};
+  instances_.push_back(
+      {{item.record.rows[0], item.record.rows[1], item.record.rows[2]}, {in_table, rows_taken_}});
   rows_taken_ += rows;
-  return instances_.back().grid;
+  return {level ? in_table : -1 - grids.first_vertex, instances_.back().grid.y};
 }
 
 void GridSearch::search(const std::function<void(const gl::Program&)>& bind_patch) {
   if (instances_.empty()) return;
+  if (rows_taken_ > rows_) make_results(std::min(2 * rows_taken_, most_result_rows));
   const GLintptr first = instance_store_.append(std::span<const Instance>(instances_), 16);
   glVertexArrayVertexBuffer(vertex_array_.name(), 0, instance_store_.name(), first, sizeof(Instance));
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());

@@ -1,7 +1,8 @@
-// Virtual grids on the GPU (Estalella and others 2005, section 5): for each mirrored view one pass searches
-// for the corners of all grids that it needs, a texel of a picture each, which the vertex shader then
-// interpolates between. Nothing is read back; a fragment shader searches, for it needs neither compute
-// shaders nor storage buffers, and runs on all cores of a software renderer.
+// Searches ahead of a mirrored view, and virtual grids (Estalella and others 2005, section 5): for each view
+// one pass searches for the corners of all grids that it needs, and for all vertices of meshes without one, a
+// texel of a picture each, out of which the vertex shader then takes them or interpolates between them.
+// Nothing is read back; a fragment shader searches, for it needs neither compute shaders nor storage buffers,
+// and runs on all cores of a software renderer.
 #pragma once
 
 #include <functional>
@@ -23,10 +24,11 @@ class GridSearch {
   static Result<GridSearch> create(const scene::Scene& scene, const render::GpuScene& gpu,
                                    const gl::Defines& defines);
 
-  /// Is there a mesh with a grid? Else shaders need not know of them.
+  /// Is there a mesh whose vertices are not all searched for by themselves? Else shaders need not know.
   bool has_any() const { return has_any_; }
-  /// A grid for the next search, of an item whose image covers about so many pixels. Returns what its
-  /// vertices read: the grid in the table and the first row of its results; 0 where each is searched for.
+  /// A grid, or all vertices, for the next search, of an item whose image covers about so many pixels.
+  /// Returns what its vertices read: the grid in the table, or, below 0, the number before its first vertex,
+  /// turned round; and the first row of results. 0 where each vertex is searched for by itself.
   glm::ivec2 add(const render::Item& item, float area_px);
   /// Searches for all corners that were added. `bind_patch` hands the program the reflector's patch.
   void search(const std::function<void(const gl::Program&)>& bind_patch);
@@ -37,6 +39,8 @@ class GridSearch {
   /// From fine to coarse.
   struct MeshGrids {
     std::size_t vertex_count = 0;
+    int first_vertex = 0;       ///< of all on the GPU
+    int vertices_in_table = 0;  ///< 0: they are not
     std::vector<std::uint32_t> corner_counts;
     std::vector<int> in_table;
   };
@@ -46,9 +50,9 @@ class GridSearch {
   };
 
   GridSearch(gl::Program program, const scene::Reflection& reflection, std::vector<MeshGrids> of_part,
-             std::span<const glm::vec4> table, int rows);
+             std::span<const glm::vec4> table);
   void upload_table(std::span<const glm::vec4> table);
-  void make_results();
+  void make_results(int rows);
 
   gl::Program program_;
   bool follows_area_;               ///< coarser where the image is small
@@ -61,7 +65,7 @@ class GridSearch {
   gl::VertexArray vertex_array_;
   render::StreamBuffer instance_store_{1 << 14};
   std::vector<Instance> instances_;  ///< to be searched for next
-  int rows_, rows_taken_ = 0;        ///< of `results_`
+  int rows_ = 0, rows_taken_ = 0;    ///< of `results_`
 };
 
 }  // namespace parvis::curved_reflectors

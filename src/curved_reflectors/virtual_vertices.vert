@@ -1,5 +1,5 @@
-// Where a patch of a reflector shows each vertex of the scene (Estalella and others 2005, sections 3 to 6.1): out of the virtual
-// grid about its mesh, where it has one that tells, else by a search of its own. The vertex stands behind its reflection point
+// Where a patch of a reflector shows each vertex of the scene (Estalella and others 2005, sections 3 to 6.1): as it was searched for
+// ahead of the view, or out of the virtual grid about its mesh, where that tells, else by a search of its own. The vertex stands behind its reflection point
 // as behind the plane that touches there.
 #include "render/surface_vertex.glsl"
 #include "curved_reflectors/virtual_place.glsl"
@@ -8,7 +8,7 @@
 #include "curved_reflectors/grid_table.glsl"
 #include "curved_reflectors/grid_interpolation.glsl"
 
-layout(location = 7) in ivec2 virtual_grid;  // of each instance: the grid in the table, its first row of results; 0: none
+layout(location = 7) in ivec2 virtual_grid;  // of each instance, as GridSearch::add has it; 0: none
 
 uniform float most_stray_px;  // of what is interpolated, from where a search would put it
 
@@ -25,7 +25,8 @@ float stray_px(vec3 vertex, VirtualPoint point) {
 // Loops in place of branches: software renderers run both sides of those.
 VirtualPoint point_of_vertex(vec3 vertex) {
   VirtualPoint point;
-  int searches = 1;
+  int searches = virtual_grid.x < 0 ? 0 : 1;
+  for (int ahead = 1 - searches; ahead > 0; --ahead) point = searched_point(gl_VertexID + 1 + virtual_grid.x, virtual_grid.y);
   for (int grids = virtual_grid.x > 0 ? 1 : 0; grids > 0; --grids) {
     InterpolatedPoint between = interpolated_point(virtual_grid.x, virtual_grid.y, mesh_position);
     point = between.point;

@@ -217,7 +217,7 @@ HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out 
 float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   vec3 to_met = at + distance * direction - place.xyz;
   float met_m = length(to_met);
-  bool may_be_hidden = distance >= reach_m || seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
+  bool may_be_hidden = distance > 0.99f * reach_m || seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
   float near = 0.0f, far = first_step_m;
   bool was_before = true;
   for (int i = 0; may_be_hidden && far < distance && i < most_steps; ++i) {
