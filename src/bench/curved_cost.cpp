@@ -23,14 +23,6 @@ constexpr float grid10_share = 0.096f;      // the paper's 9.6 %
 constexpr int balls = 10, ball_rings = 50;  // 100,000 triangles round the mirror
 constexpr float radians_a_turn = 6.28318531f;
 
-double finished_ms(const std::function<void()>& work) {
-  glFinish();
-  return milliseconds([&] {
-    work();
-    glFinish();
-  });
-}
-
 /// Balls round an ellipsoid of 1, 0.6, 0.8, the last object.
 scene::Scene balls_round_a_mirror() {
   scene::Scene scene;

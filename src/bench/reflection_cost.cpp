@@ -5,6 +5,8 @@ namespace {
 
 constexpr double least_ms = 1e-3;
 
+}  // namespace
+
 double finished_ms(const std::function<void()>& work) {
   glFinish();
   return milliseconds([&] {
@@ -12,8 +14,6 @@ double finished_ms(const std::function<void()>& work) {
     glFinish();
   });
 }
-
-}  // namespace
 
 Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,

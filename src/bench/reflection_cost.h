@@ -2,6 +2,7 @@
 // with them than without.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "bench/judged_method.h"
@@ -9,6 +10,9 @@
 #include "stage/stage.h"
 
 namespace parvis::bench {
+
+/// Until OpenGL has done all of the work, and none that came before it.
+double finished_ms(const std::function<void()>& work);
 
 /// Milliseconds of one method, one sample a repetition.
 struct ReflectionCost {

@@ -21,7 +21,6 @@ const float no_turn = 1e12f;
 struct PatchKind {
   bool is_convex;      // else the surface bends toward the side that it reflects
   bool is_whole_body;  // its centre sees surface all around
-  bool shows_once;     // hardly anywhere a saddle: a vertex has one image at most
 };
 
 // May it be drawn? Else it has been told, and an environment map stands in.

@@ -46,9 +46,7 @@ struct ReflectionSearch {
   }
   SearchStart further_start(int i) { return search_start(i); }
   /// Of a ReflectorMap.
-  PatchKind patch_kind() const {
-    return {reflector.is_convex, reflector.is_whole_body(), reflector.shows_once};
-  }
+  PatchKind patch_kind() const { return {reflector.is_convex, reflector.is_whole_body()}; }
 };
 
 #undef GLSL_FUNCTION

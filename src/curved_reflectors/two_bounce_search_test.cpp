@@ -97,7 +97,7 @@ double share_found(Pair pair) {
     const std::optional<Way> way = chance_way(pair, random);
     if (!way) continue;
     ++ways;
-    const Pair::PatchKind whole{true, true, true};
+    const Pair::PatchKind whole{true, true};
     const Pair::TwoBounces at =
         pair.search_two_bounces({way->viewer, pair.second_place, glm::vec3(0.0f)}, whole,
                                 {glm::vec3(0.0f), way->vertex - pair.second_place, glm::vec3(0.0f)}, whole);

@@ -31,7 +31,7 @@ struct VirtualPoint {
   bool is_lost;    // the mirror has no place that shows it
 };
 
-PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f, patch_layer < 0); }
+PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f); }
 
 #ifdef MIDPOINT_ITERATIONS
 // The paper's search takes as many steps as it is told to, and what it has come to is drawn. Beyond this it was on its way to
