@@ -22,22 +22,13 @@ MapPainter::MapPainter(gl::Program distance, gl::Program colour, gl::Program glo
       colour_(std::move(colour)),
       gloss_(std::move(gloss)),
       cube_(drawn_resolution),
-      framebuffer_(gl::Framebuffer::create()),
-      no_attributes_(gl::VertexArray::create()) {}
+      framebuffer_(gl::Framebuffer::create()) {}
 
 void MapPainter::paint_layer(const gl::Program& program, GLuint source, GLuint target, glm::ivec2 size,
                              std::size_t map) const {
   glNamedFramebufferTextureLayer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, target, 0, GLint(map));
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, size.x, size.y);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  program.use();
   program.set("layer_size", glm::vec2(float(size.x), float(ReferenceMaps::border)));
-  glBindTextureUnit(0, source);
-  glBindVertexArray(no_attributes_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  screen_.draw(program, framebuffer_.name(), size, source);
 }
 
 void MapPainter::paint(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map) {

@@ -3,6 +3,7 @@
 
 #include "environment_maps/reference_maps.h"
 #include "render/cube_map.h"
+#include "render/whole_screen.h"
 
 namespace parvis::environment_maps {
 
@@ -23,7 +24,7 @@ class MapPainter {
   gl::Program distance_, colour_, gloss_;
   render::CubeMap cube_;
   gl::Framebuffer framebuffer_;
-  gl::VertexArray no_attributes_;
+  render::WholeScreen screen_;
 };
 
 }  // namespace parvis::environment_maps

@@ -26,7 +26,7 @@ Result<PictureTarget> PictureTarget::create() {
 }
 
 PictureTarget::PictureTarget(gl::Program resolve, gl::Program display)
-    : resolve_(std::move(resolve)), display_(std::move(display)), no_attributes_(gl::VertexArray::create()) {}
+    : resolve_(std::move(resolve)), display_(std::move(display)) {}
 
 void PictureTarget::resize(int width, int height) {
   width_ = width, height_ = height;
@@ -42,27 +42,15 @@ void PictureTarget::resize(int width, int height) {
   displayed_ = framebuffer_of(picture_);
 }
 
-void PictureTarget::draw_screen(const gl::Program& program, GLuint framebuffer, glm::ivec2 size,
-                                GLuint texture) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, size.x, size.y);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  program.use();
-  glBindTextureUnit(0, texture);
-  glBindVertexArray(no_attributes_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
 void PictureTarget::resolve(float exposure) {
   resolve_.set("exposure", exposure);
-  draw_screen(resolve_, resolved_.name(), {width_, height_}, samples_.name());
+  screen_.draw(resolve_, resolved_.name(), {width_, height_}, samples_.name());
 }
 
 void PictureTarget::display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
   display_.set("exposure", exposure);
   display_.set("drawn", glm::vec2(float(width_), float(height_)));
-  draw_screen(display_, framebuffer, size, radiance_.name());
+  screen_.draw(display_, framebuffer, size, radiance_.name());
 }
 
 void PictureTarget::start_reading(float exposure, GLsizeiptr bytes) const {

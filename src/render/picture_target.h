@@ -7,6 +7,7 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "gl/program.h"
+#include "render/whole_screen.h"
 
 namespace parvis::render {
 
@@ -37,12 +38,11 @@ class PictureTarget {
 
  private:
   PictureTarget(gl::Program resolve, gl::Program display);
-  void draw_screen(const gl::Program& program, GLuint framebuffer, glm::ivec2 size, GLuint texture) const;
 
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures
   gl::Program resolve_, display_;
-  gl::VertexArray no_attributes_;
+  WholeScreen screen_;
   gl::Texture samples_, sample_depth_, radiance_, picture_;
   gl::Framebuffer multisampled_, resolved_, displayed_;
 };

@@ -57,6 +57,7 @@ class Renderer {
 
   int width() const { return target_.width(); }
   int height() const { return target_.height(); }
+  float exposure() const { return exposure_; }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }
   const GpuScene& gpu() const { return scene_.gpu(); }
   /// How often fixed things have appeared, vanished or moved, or the sky has changed: what is kept of their
