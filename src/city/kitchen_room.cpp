@@ -16,22 +16,23 @@ using enum KitchenMaterial;
 constexpr float nearest_cell_m = 0.015f, near_cell_m = 0.03f, cell_m = 0.06f, far_cell_m = 0.15f;
 constexpr float east = room_east_m, west = -room_east_m, south = room_south_m, top = room_height_m;
 constexpr float worktop_front_m = -worktop_m[1];
+constexpr float wall_m = 0.16f;  // thick
 
 void add_box(scene::Model& model, const char* name, glm::vec3 low, glm::vec3 high, KitchenMaterial material,
              float cell = cell_m) {
   add_part(model, name, panelled_box(low, high, cell), material);
 }
 
-/// A wall with an opening is four panels about it.
-void add_window_wall(scene::Model& model) {
+/// A wall with an opening is four panels about it. It goes on for `beyond` past its corners.
+void add_window_wall(scene::Model& model, const char* name, float x, float beyond, float cell) {
   const auto piece = [&](float from_y, float to_y, float foot, float head) {
-    add_part(model, "west wall",
-             panel({west, from_y, foot}, {0, to_y - from_y, 0}, {0, 0, head - foot}, far_cell_m), plaster);
+    add_part(model, name, panel({x, from_y, foot}, {0, to_y - from_y, 0}, {0, 0, head - foot}, cell),
+             plaster);
   };
-  piece(south, window_south_m, 0, top);
-  piece(window_north_m, 0, 0, top);
+  piece(south - beyond, window_south_m, 0, top + beyond);
+  piece(window_north_m, beyond, 0, top + beyond);
   piece(window_south_m, window_north_m, 0, window_foot_m);
-  piece(window_south_m, window_north_m, window_top_m, top);
+  piece(window_south_m, window_north_m, window_top_m, top + beyond);
 }
 
 void add_shell(scene::Model& model) {
@@ -41,14 +42,25 @@ void add_shell(scene::Model& model) {
   add_part(model, "east wall", panel({east, 0, 0}, {0, south, 0}, {0, 0, top}, far_cell_m), plaster);
   add_part(model, "south wall", panel({east, south, 0}, {west - east, 0, 0}, {0, 0, top}, far_cell_m),
            plaster);
-  add_window_wall(model);
+  add_window_wall(model, "west wall", west, 0.0f, far_cell_m);
   add_part(model, "tiled wall",
            panel({west, -0.006f, worktop_height_m}, {tiled_m[0], 0, 0}, {0, 0, tiled_m[1]}, near_cell_m),
            tiles);
 }
 
+/// Walls and roof as the sun sees them: shadow maps let light in where a room's panels alone meet.
+void add_outside(scene::Model& model) {
+  constexpr float w = west - wall_m, e = east + wall_m, s = south - wall_m, n = wall_m, t = top + wall_m;
+  constexpr float cell = 2.0f * far_cell_m;
+  add_part(model, "roof", panel({w, s, t}, {e - w, 0, 0}, {0, n - s, 0}, cell), plaster);
+  add_part(model, "south face", panel({w, s, 0}, {e - w, 0, 0}, {0, 0, t}, cell), plaster);
+  add_part(model, "north face", panel({e, n, 0}, {w - e, 0, 0}, {0, 0, t}, cell), plaster);
+  add_part(model, "east face", panel({e, s, 0}, {0, n - s, 0}, {0, 0, t}, cell), plaster);
+  add_window_wall(model, "west face", w, wall_m, cell);
+}
+
 void add_window(scene::Model& model) {
-  constexpr float depth = 0.16f, bar = 0.05f, thin = 0.03f;
+  constexpr float depth = wall_m, bar = 0.05f, thin = 0.03f;
   const float s = window_south_m, n = window_north_m, f = window_foot_m, t = window_top_m, out = west - depth;
   const auto box = [&](float y0, float y1, float z0, float z1, float x0, float x1) {
     add_box(model, "window frame", {x0, y0, z0}, {x1, y1, z1}, frame);
@@ -150,6 +162,7 @@ void add_shelf(scene::Model& model) {
 
 void add_room(scene::Model& model) {
   add_shell(model);
+  add_outside(model);
   add_window(model);
   add_cupboards(model);
   add_worktop(model);
