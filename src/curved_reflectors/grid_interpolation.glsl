@@ -7,11 +7,11 @@ VirtualPoint searched_point(int corner, int first_row) {
   ivec2 texel = ivec2(corner & (results_width - 1), first_row + corner / results_width);
   vec4 shown = texelFetch(grid_results, ivec3(texel, 0), 0);
   return VirtualPoint(shown.xyz, texelFetch(grid_results, ivec3(texel, 1), 0).xyz,
-                      texelFetch(grid_results, ivec3(texel, 2), 0).xyz, shown.w > 0.0f);
+                      texelFetch(grid_results, ivec3(texel, 2), 0).xyz, shown.w);
 }
 
 struct InterpolatedPoint {
-  VirtualPoint point;   // lost where any corner is, and where places that face too far apart show them
+  VirtualPoint point;   // lost where a corner is not sure, and where places that face too far apart show them
   bool is_between_lost; // all corners are: so is what lies between
 };
 
@@ -32,10 +32,10 @@ InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     vec3 shares = mix(1.0f - part, part, vec3(far));
     float share = shares.x * shares.y * shares.z;
     VirtualPoint point = searched_point(corner, first_row);
-    image += vec4(share * point.image, point.is_lost ? 1.0f : 0.0f);
+    image += vec4(share * point.image, point.doubt);
     seen_from += share * point.seen_from;
     shown_by += share * point.shown_by;
   }
-  bool is_lost = image.w > 0.0f || dot(shown_by, shown_by) < least_agreement;
-  return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_lost), image.w > 7.5f);
+  bool is_sure = image.w == sure && dot(shown_by, shown_by) >= least_agreement;
+  return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_sure ? sure : lost), image.w >= 8.0f * lost);
 }

@@ -1,5 +1,5 @@
 // Where a patch shows the corners of virtual grids (Estalella and others 2005, section 5): a texel each. In the reflector's
-// frame; w of the image is 1 where the corner is lost.
+// frame; w of the image tells how doubtful the corner is.
 #include "curved_reflectors/virtual_point.glsl"
 #include "curved_reflectors/grid_table.glsl"
 
@@ -22,7 +22,7 @@ void main() {
   vec4 p = vec4(corner_position(grid_and_row.x, corner), 1.0f);
   vec3 in_world = vec3(dot(world_from_corner_row0, p), dot(world_from_corner_row1, p), dot(world_from_corner_row2, p));
   VirtualPoint point = virtual_point(viewer_in_reflector, moved(reflector_from_world, in_world));
-  image = vec4(point.image, point.is_lost ? 1.0f : 0.0f);
+  image = vec4(point.image, point.doubt);
   seen_from = vec4(point.seen_from, 0.0f);
   shown_by = vec4(point.shown_by, 0.0f);
 }

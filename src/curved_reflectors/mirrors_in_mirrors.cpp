@@ -21,17 +21,22 @@ Result<std::unique_ptr<MirrorsInMirrors>> MirrorsInMirrors::create(const render:
   Result<gl::Program> mirrored_patch = gl::Program::create(
       "curved_reflectors/mirrored_patch.vert", "curved_reflectors/mirrored_patch.frag", map_defines);
   if (!mirrored_patch) return mirrored_patch.errors();
+  Result<VirtualPicture> picture = VirtualPicture::create();
+  if (!picture) return picture.errors();
   map_defines.insert(map_defines.end(), {{"IS_MIRRORED", ""}, {"MIRRORS", "2"}});
   Result<render::SurfacePrograms> programs = render::SurfacePrograms::create(
       "curved_reflectors/twice_virtual_surface.frag", renderer.gpu().materials(),
       "curved_reflectors/twice_virtual_vertices.vert", map_defines);
   if (!programs) return programs.errors();
   return std::unique_ptr<MirrorsInMirrors>(
-      new MirrorsInMirrors(*std::move(programs), *std::move(mirrored_patch)));
+      new MirrorsInMirrors(*std::move(programs), *std::move(mirrored_patch), *std::move(picture)));
 }
 
-MirrorsInMirrors::MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch)
-    : VirtualVertices(std::move(programs)), mirrored_patch_(std::move(mirrored_patch)) {
+MirrorsInMirrors::MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch,
+                                   VirtualPicture picture)
+    : VirtualVertices(std::move(programs)),
+      mirrored_patch_(std::move(mirrored_patch)),
+      picture_(std::move(picture)) {
   for (gl::Query& query : is_seen_) query = gl::Query::create(GLenum(GL_ANY_SAMPLES_PASSED));
 }
 
@@ -82,6 +87,7 @@ void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch
   render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels, view, firsts_);
+  picture_.clear_colour();  // but for where they show mirrors
   for (std::size_t f = 0; f < firsts_.size(); ++f) {
     first_ = &firsts_[f];
     find_seconds(*first_, second);
@@ -98,7 +104,7 @@ void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch
     }
   }
   glDisable(GL_STENCIL_TEST);
-  picture_.resolve();
+  picture_.resolve(renderer);
 }
 
 void MirrorsInMirrors::bind(const gl::Program& program) {

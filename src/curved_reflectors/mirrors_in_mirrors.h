@@ -31,7 +31,7 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   bool may_show(const Bounds& bounds) const override { return !bounds.empty(); }
 
  private:
-  MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch);
+  MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch, VirtualPicture picture);
   void find_seconds(const ShownPatch& first, std::span<const ShownPatch> second);
   void mark_seconds(const render::View& view, int first_number);
 

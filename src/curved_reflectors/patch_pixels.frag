@@ -1,2 +1,4 @@
-// Depth and stencil alone.
-void main() {}
+// Depth, stencil, and that nothing is shown there yet.
+out vec4 radiance;
+
+void main() { radiance = vec4(0.0f); }

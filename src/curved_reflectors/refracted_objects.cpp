@@ -48,17 +48,20 @@ Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
       "curved_reflectors/refracted_surface.frag", renderer.gpu().materials(),
       "curved_reflectors/refracted_vertices.vert", {{"IS_MIRRORED", ""}, {"ALL_PLAIN", ""}});
   if (!programs) return programs.errors();
+  Result<VirtualPicture> picture = VirtualPicture::create();
+  if (!picture) return picture.errors();
   return std::unique_ptr<RefractedObjects>(
       new RefractedObjects(scene, *std::move(programs), *std::move(patch_pixels), *std::move(glass_light),
-                           std::move(reflections)));
+                           *std::move(picture), std::move(reflections)));
 }
 
 RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs,
-                                   gl::Program patch_pixels, gl::Program glass_light,
+                                   gl::Program patch_pixels, gl::Program glass_light, VirtualPicture picture,
                                    std::unique_ptr<render::Reflections> reflections)
     : VirtualVertices(std::move(programs)),
       patch_pixels_(std::move(patch_pixels)),
       glass_light_(std::move(glass_light)),
+      picture_(std::move(picture)),
       settings_(scene.reflection),
       reflections_(std::move(reflections)) {
   for (const scene::Object& object : scene.objects) {
@@ -168,7 +171,7 @@ void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scen
     draw_through(renderer, i, view);
   }
   glDisable(GL_STENCIL_TEST);
-  picture_.resolve();
+  picture_.resolve(renderer);
 }
 
 void RefractedObjects::bind(const gl::Program& program) {

@@ -55,7 +55,8 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   enum class Share { behind_glass, let_through, from_inside, all_light };  ///< as in glass_light.frag
 
   RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
-                   gl::Program glass_light, std::unique_ptr<render::Reflections> reflections);
+                   gl::Program glass_light, VirtualPicture picture,
+                   std::unique_ptr<render::Reflections> reflections);
   static std::unique_ptr<Glass> glass_of(const scene::Object& object);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;

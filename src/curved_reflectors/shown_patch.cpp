@@ -43,13 +43,9 @@ void begin_marks(const render::View& view) {
   glDepthMask(GL_TRUE);
   glEnable(GL_CULL_FACE);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // a shader without colour leaves it undefined
 }
 
-void end_marks() {
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-}
+void end_marks() { glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP); }
 
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
                   std::span<const ShownPatch> patches) {

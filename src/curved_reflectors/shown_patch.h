@@ -28,7 +28,8 @@ bool is_shown(std::span<const ShownPatch> patches, int object);
 /// The rectangle of the view, from the lower left, that holds all of a patch's pixels.
 glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
 
-/// Between them all that is drawn changes depth and, where it is nearest, the stencil alone.
+/// Between them what is drawn changes, where it is nearest, the stencil, too. Its colour is that of a patch
+/// that shows nothing yet (patch_pixels.frag).
 void begin_marks(const render::View& view);
 void end_marks();
 

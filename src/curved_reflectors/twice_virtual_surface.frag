@@ -2,12 +2,12 @@
 #include "render/surface.frag"
 #include "curved_reflectors/mirrored_triangle.glsl"
 
-in float is_lost;
+in float doubt;
 in float height;
 in vec3 shown_by;
 in vec3 shown_first_by;
 in float height_of_second;
 
 bool is_mirrored_here() {
-  return is_shown_whole(is_lost, height, shown_by) && is_shown_whole(is_lost, height_of_second, shown_first_by);
+  return is_shown_whole(doubt, height, shown_by) && is_shown_whole(doubt, height_of_second, shown_first_by);
 }

@@ -25,7 +25,7 @@ void main() {
   PatchKind second_kind = patch_kind_of_mirror();
   TwoBounces found = search_two_bounces(first, first_kind, second, second_kind);
   ReflectionPoint near = found.first.point, far = found.second.point;
-  is_lost = has_place(found.first, first_kind) && has_place(found.second, second_kind) ? 0.0f : 1.0f;
+  doubt = has_place(found.first, first_kind) && has_place(found.second, second_kind) ? sure : lost;
   height = dot(second.vertex - far.position, far.normal);
   shown_by = far.normal;
   seen_from = moved(world_from_reflector, far.position);
@@ -34,6 +34,6 @@ void main() {
   vec3 image = across(virtual_vertex(second.vertex, far.position, far.normal), 0);
   turn_to(0);
   image = virtual_vertex(image, near.position, near.normal);
-  if (is_lost > 0.0f) image = map_centre;  // finite; the triangle is not drawn
+  if (doubt == lost) image = map_centre;  // finite; the triangle is not drawn
   gl_Position = clip_from_world * vec4(moved(world_from_reflector, image), 1.0f);
 }

@@ -93,20 +93,24 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
       render::SurfacePrograms::create("curved_reflectors/virtual_surface.frag", renderer.gpu().materials(),
                                       "curved_reflectors/virtual_vertices.vert", defines);
   if (!programs) return programs.errors();
-  return std::unique_ptr<VirtualObjects>(new VirtualObjects(
-      scene, std::move(reflectors), *std::move(programs), *std::move(patch_pixels),
-      *std::move(own_reflection), *std::move(grids), std::move(in_mirrors), std::move(surroundings)));
+  Result<VirtualPicture> picture = VirtualPicture::create();
+  if (!picture) return picture.errors();
+  return std::unique_ptr<VirtualObjects>(
+      new VirtualObjects(scene, std::move(reflectors), *std::move(programs), *std::move(patch_pixels),
+                         *std::move(own_reflection), *std::move(picture), *std::move(grids),
+                         std::move(in_mirrors), std::move(surroundings)));
 }
 
 VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors,
                                render::SurfacePrograms programs, gl::Program patch_pixels,
-                               gl::Program own_reflection, GridSearch grids,
+                               gl::Program own_reflection, VirtualPicture picture, GridSearch grids,
                                std::unique_ptr<MirrorsInMirrors> in_mirrors,
                                std::unique_ptr<render::Reflections> surroundings)
     : VirtualVertices(std::move(programs)),
       reflectors_(std::move(reflectors)),
       patch_pixels_(std::move(patch_pixels)),
       own_reflection_(std::move(own_reflection)),
+      picture_(std::move(picture)),
       grids_(std::move(grids)),
       in_mirrors_(std::move(in_mirrors)),
       settings_(scene.reflection),
@@ -229,7 +233,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
   }
   draw_own_reflections(view);
   glDisable(GL_STENCIL_TEST);
-  picture_.resolve();
+  picture_.resolve(renderer);
 }
 
 void VirtualObjects::bind(const gl::Program& program) {

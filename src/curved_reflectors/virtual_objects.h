@@ -43,8 +43,8 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
 
  private:
   VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors, render::SurfacePrograms programs,
-                 gl::Program patch_pixels, gl::Program own_reflection, GridSearch grids,
-                 std::unique_ptr<MirrorsInMirrors> in_mirrors,
+                 gl::Program patch_pixels, gl::Program own_reflection, VirtualPicture picture,
+                 GridSearch grids, std::unique_ptr<MirrorsInMirrors> in_mirrors,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;

@@ -96,6 +96,44 @@ TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   EXPECT_LT(draw(among_boxes(bowl, tilted), eye, target).flip(), 0.08);
 }
 
+/// In a dark room under a bright sky: what covers a part of a pixel shows nothing of the sky in the others.
+TEST_F(VirtualObjectsTest, OutlinesShowNoSurroundingsThroughWhatCoversThem) {
+  scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
+  Mesh room = divided(scene::box(glm::vec3(-7.0f, -7.0f, -0.1f), glm::vec3(7.0f, 7.0f, 6.0f)), 24);
+  for (std::size_t i = 0; i < room.indices.size(); i += 3) std::swap(room.indices[i], room.indices[i + 1]);
+  for (glm::vec3& normal : room.normals) normal = -normal;
+  scene::add(scene, scene::model_of(room, scene::matt(glm::vec3(0.02f))));
+  scene.exposure = 4.0f;
+  const Compared ball = draw(scene, eye, target);
+  int lighter = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      lighter += ball.mirrors.at(x, y)[0] >= 128 && ball.ours.at(x, y)[2] > ball.traced.at(x, y)[2] + 60;
+  EXPECT_LE(lighter, 4);
+}
+
+/// A barrel whose normals turn down a little in its last row: what lies low is shown twice by it or not at
+/// all. Triangles that reach there are shown as far as it shows them.
+TEST_F(VirtualObjectsTest, ARimThatFlaresShowsWhatReachesIt) {
+  constexpr int around = 64, rows = 24;
+  Mesh barrel;
+  for (int row = 0; row <= rows; ++row)
+    for (int i = 0; i <= around; ++i) {
+      const float z = float(row) / rows - 0.5f, turn = 6.2831853f * float(i) / around;
+      const glm::vec3 outward(std::cos(turn), std::sin(turn), 0.0f);
+      const float flare = row == rows ? -0.12f : 0.0f;
+      barrel.positions.push_back((1.0f - 0.3f * z * z) * outward + glm::vec3(0, 0, z));
+      barrel.normals.push_back(glm::normalize(outward + glm::vec3(0, 0, 0.6f * z + flare)));
+      barrel.uvs.emplace_back(0.0f);
+    }
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < around; ++i) {
+      const std::uint32_t low = std::uint32_t(row * (around + 1) + i), high = low + around + 1;
+      barrel.indices.insert(barrel.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
+    }
+  EXPECT_LT(draw(among_boxes(barrel, placed({0, 0, 0.6f})), eye, target).flip(), 0.045);
+}
+
 /// A ball beside a box, and a smaller ball before it, as the eye sees them, that has nothing near.
 scene::Scene two_balls(glm::vec3 box_colour, bool has_front) {
   scene::Scene scene;

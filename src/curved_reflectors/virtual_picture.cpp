@@ -13,6 +13,13 @@ gl::Texture multisampled(GLenum format, int width, int height) {
 
 }  // namespace
 
+Result<VirtualPicture> VirtualPicture::create() {
+  Result<gl::Program> resolve =
+      gl::Program::create("render/whole_screen.vert", "curved_reflectors/virtual_picture.frag");
+  if (!resolve) return resolve.errors();
+  return VirtualPicture(*std::move(resolve));
+}
+
 void VirtualPicture::resize(int width, int height) {
   width_ = width, height_ = height;
   if (width <= room_.x && height <= room_.y) return;
@@ -29,8 +36,7 @@ void VirtualPicture::resize(int width, int height) {
 
 render::View VirtualPicture::begin(const render::Renderer& renderer, render::VirtualVertices& vertices) {
   resize(renderer.width(), renderer.height());
-  constexpr GLfloat nothing[4]{};
-  glClearNamedFramebufferfv(drawn_.name(), GL_COLOR, 0, nothing);
+  clear_colour();
   glClearNamedFramebufferfi(drawn_.name(), GL_DEPTH_STENCIL, 0, 1.0f, 0);
   render::View view = renderer.main_view();
   view.kind = render::ViewKind::mirrored;
@@ -41,14 +47,19 @@ render::View VirtualPicture::begin(const render::Renderer& renderer, render::Vir
   return view;
 }
 
+void VirtualPicture::clear_colour() const {
+  constexpr GLfloat unmarked[4]{0.0f, 0.0f, 0.0f, -1.0f};  // virtual_picture.frag
+  glClearNamedFramebufferfv(drawn_.name(), GL_COLOR, 0, unmarked);
+}
+
 void VirtualPicture::clear_depth() const {
   constexpr GLfloat farthest = 1.0f;
   glClearNamedFramebufferfv(drawn_.name(), GL_DEPTH, 0, &farthest);
 }
 
-void VirtualPicture::resolve() const {
-  glBlitNamedFramebuffer(drawn_.name(), resolved_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void VirtualPicture::resolve(const render::Renderer& renderer) const {
+  resolve_.set("exposure", renderer.exposure());
+  screen_.draw(resolve_, resolved_.name(), {width_, height_}, samples_.name());
 }
 
 }  // namespace parvis::curved_reflectors

@@ -2,14 +2,14 @@
 #include "curved_reflectors/virtual_point.glsl"
 
 out vec3 seen_from;
-out float is_lost;
+out float doubt;
 out vec3 shown_by;
 out float height;
 
 // Hands on a point that shows a vertex in the mirror's frame; the image, in the world.
 vec3 place_of(VirtualPoint point, vec3 vertex) {
-  is_lost = point.is_lost ? 1.0f : 0.0f;
-  height = dot(vertex - point.seen_from, point.shown_by);
+  doubt = point.doubt;
+  height = point.doubt == sure ? dot(vertex - point.seen_from, point.shown_by) : 0.0f;  // the others know
   shown_by = point.shown_by;
   seen_from = moved(world_from_reflector, point.seen_from);
   return moved(world_from_reflector, point.image);

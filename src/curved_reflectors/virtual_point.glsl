@@ -1,6 +1,7 @@
 // Where one mirror shows a point of the scene (Estalella and others 2005, sections 3, 4 and 6.1). All in the mirror's frame.
 #include "curved_reflectors/patch_uniforms.glsl"
 #include "curved_reflectors/newton_search.glsl"
+#include "curved_reflectors/mirrored_triangle.glsl"
 
 SearchStart search_start(int i) {
   vec3 normal = start_normals[16 * mirror + i], axis = start_axes[16 * mirror + i];
@@ -24,11 +25,13 @@ SearchStart further_start(int i) {
 #include "curved_reflectors/patch_search.glsl"
 #include "curved_reflectors/midpoint_search.glsl"
 
+const float doubtful_angle = 0.2f;  // radians
+
 struct VirtualPoint {
   vec3 image;      // behind the surface, as behind the plane that touches there
   vec3 seen_from;  // the reflection point
   vec3 shown_by;   // the surface's normal there
-  bool is_lost;    // the mirror has no place that shows it
+  float doubt;
 };
 
 PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f); }
@@ -61,8 +64,9 @@ bool has_place(PatchPoint found, PatchKind kind) {
 VirtualPoint virtual_point(vec3 viewer, vec3 vertex) {
   PatchKind kind = patch_kind_of_mirror();
   PatchPoint found = point_of_mirror(ReflectionTask(viewer, vertex, map_centre), kind);
-  bool is_lost = !has_place(found, kind);
+  float doubt = kind.is_convex && patch_layer < 0 && found.point.angle < doubtful_angle ? doubtful : lost;
+  if (has_place(found, kind)) doubt = sure;
   vec3 image = virtual_vertex(vertex, found.point.position, found.point.normal);
-  if (is_lost) image = map_centre;  // finite; the triangle is not drawn
-  return VirtualPoint(image, found.point.position, found.point.normal, is_lost);
+  if (doubt == lost) image = map_centre;  // finite; the triangle is not drawn
+  return VirtualPoint(image, found.point.position, found.point.normal, doubt);
 }

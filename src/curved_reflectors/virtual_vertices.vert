@@ -30,8 +30,8 @@ VirtualPoint point_of_vertex(vec3 vertex) {
   for (int grids = virtual_grid.x > 0 ? 1 : 0; grids > 0; --grids) {
     InterpolatedPoint between = interpolated_point(virtual_grid.x, virtual_grid.y, mesh_position);
     point = between.point;
-    bool is_doubtful = point.is_lost || stray_px(vertex, point) > most_stray_px;
-    searches = is_doubtful && !between.is_between_lost ? 1 : 0;
+    bool strays = point.doubt > sure || stray_px(vertex, point) > most_stray_px;
+    searches = strays && !between.is_between_lost ? 1 : 0;
   }
   for (; searches > 0; --searches) point = virtual_point(moved(reflector_from_world, viewer_position.xyz), vertex);
   return point;

@@ -46,7 +46,9 @@ TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
 }
 
 /// Multisampled textures are of OpenGL ES 3.10: there, the samples are brought together by a blit.
-bool is_for_the_desktop_alone(std::string_view path) { return path == "render/resolve.frag"; }
+bool is_for_the_desktop_alone(std::string_view path) {
+  return path == "render/resolve.frag" || path == "curved_reflectors/virtual_picture.frag";
+}
 
 TEST_F(ProgramTest, EveryDisplayShaderCompilesInBothDialects) {
   const Defines all{{"HAS_NORMAL_MAP", ""},    {"HAS_SURFACE_MAP", ""},
