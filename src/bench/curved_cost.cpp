@@ -84,7 +84,6 @@ class SearchAhead {
     search_.search([&](const gl::Program& program) {
       GpuReflector::bind(program, reflector_.patches().front(), world_from_mirror_,
                          render::virtual_vertex_unit);
-      program.set("patch_layer", -1);
       program.set("viewer_in_reflector", in_reflector(world_from_mirror_, camera.position_in_world()));
     });
   }

@@ -60,19 +60,19 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
 }
 
 void GpuReflector::bind(const gl::Program& program, const Patch& patch, const glm::mat4& world_from_reflector,
-                        GLuint unit, int mirror) {
+                        GLuint unit, int layer, int mirror) {
   // By mirror: each begins in the arrays of uniforms where the one before it ends.
   struct Names {
-    const char *texels, *from_world, *to_world, *centre, *size, *band, *axes, *kind, *positions, *normals,
-        *start_axes, *start_bends;
+    const char *texels, *from_world, *to_world, *centre, *size, *band, *axes, *kind, *layer, *positions,
+        *normals, *start_axes, *start_bends;
   };
   constexpr std::array<Names, 2> names{
       {{"reflector_texels", "reflectors_from_world[0]", "world_from_reflectors[0]", "map_centres[0]",
-        "map_sizes[0]", "map_bands[0]", "map_axes[0]", "patch_kinds[0]", "start_positions[0]",
-        "start_normals[0]", "start_axes[0]", "start_bends[0]"},
+        "map_sizes[0]", "map_bands[0]", "map_axes[0]", "patch_kinds[0]", "patch_layers[0]",
+        "start_positions[0]", "start_normals[0]", "start_axes[0]", "start_bends[0]"},
        {"second_reflector_texels", "reflectors_from_world[1]", "world_from_reflectors[1]", "map_centres[1]",
-        "map_sizes[1]", "map_bands[1]", "map_axes[3]", "patch_kinds[1]", "start_positions[16]",
-        "start_normals[16]", "start_axes[16]", "start_bends[16]"}}};
+        "map_sizes[1]", "map_bands[1]", "map_axes[3]", "patch_kinds[1]", "patch_layers[1]",
+        "start_positions[16]", "start_normals[16]", "start_axes[16]", "start_bends[16]"}}};
   static_assert(layer_start_count == 16);
   const Names& name = names[std::size_t(mirror)];
   glBindTextureUnit(unit, patch.texels.name());
@@ -84,6 +84,7 @@ void GpuReflector::bind(const gl::Program& program, const Patch& patch, const gl
   program.set(name.band, patch.window.band);
   program.set(name.axes, std::span<const glm::vec3>(&patch.window.axes[0], 3));
   program.set(name.kind, glm::vec2(patch.is_convex ? 1.0f : 0.0f, patch.is_whole_body ? 1.0f : 0.0f));
+  program.set(name.layer, layer);
   program.set(name.positions, std::span<const glm::vec3>(patch.start_positions));
   program.set(name.normals, std::span<const glm::vec3>(patch.start_normals));
   program.set(name.start_axes, std::span<const glm::vec3>(patch.start_axes));

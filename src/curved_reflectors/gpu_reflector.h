@@ -22,9 +22,9 @@ class GpuReflector {
   };
   const std::vector<Patch>& patches() const { return patches_; }
   /// Hands a patch's map to a program that has patch_uniforms.glsl, its texture to `unit`: as the first
-  /// mirror (0) there or the second.
+  /// mirror (0) there or the second. `layer`: of what may show a vertex several times.
   static void bind(const gl::Program& program, const Patch& patch, const glm::mat4& world_from_reflector,
-                   GLuint unit, int mirror = 0);
+                   GLuint unit, int layer = -1, int mirror = 0);
   /// Draws a patch's triangles; attribute 0 is the position.
   void draw(const Patch& patch) const;
 

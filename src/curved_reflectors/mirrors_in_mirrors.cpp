@@ -7,7 +7,8 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr float least_angle = 0.05f;  // radians: radius over distance of a mirror that is worth showing
+// Radians, radius over distance: a mirror that is worth showing, and a hollow, which is drawn in many layers.
+constexpr float least_angle = 0.05f, least_hollow_angle = 0.15f;
 constexpr GLuint first_bits = 0x0f, second_bits = 0xf0;
 
 Bounds bounds_in_world(const ShownPatch& patch) {
@@ -48,7 +49,9 @@ void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const Sho
     const Bounds bounds = bounds_in_world(patch);
     const float distance = std::max(glm::distance(bounds.centre(), before.centre()) - before.radius(), 1e-3f);
     const float angle = bounds.radius() / distance;
-    if (patch.object != first.object && patch.patch->shows_once && angle > least_angle)
+    const bool is_plain = patch.patch->shows_once;
+    if (patch.object != first.object && angle > (is_plain ? least_angle : least_hollow_angle) &&
+        (is_plain || first.patch->shows_once))
       candidates_.emplace_back(angle, &patch);
   }
   std::ranges::sort(candidates_, [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -65,25 +68,37 @@ void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) 
   mirrored_patch_.use();
   mirrored_patch_.set("clip_from_world", view.clip_from_world);
   mirrored_patch_.set("viewer_in_world", view.position_in_world);
-  mirrored_patch_.set("patch_layer", -1);
-  GpuReflector::bind(mirrored_patch_, *first_->patch, first_->world_from_reflector,
-                     render::virtual_vertex_unit);
+  const Layers first_layers = layers_of(*first_->patch);
   for (std::size_t i = 0; i < seconds_.size(); ++i) {
     glStencilFunc(GL_EQUAL, GLint((i + 1) << 4) | first_number, first_bits);
     mirrored_patch_.set("world_from_second", seconds_[i].world_from_reflector);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, is_seen_[i].name());
-    seconds_[i].reflector->draw(*seconds_[i].patch);
+    for (int layer = first_layers.first; layer < first_layers.end; ++layer) {
+      GpuReflector::bind(mirrored_patch_, *first_->patch, first_->world_from_reflector,
+                         render::virtual_vertex_unit, layer);
+      seconds_[i].reflector->draw(*seconds_[i].patch);
+    }
     glEndQuery(GL_ANY_SAMPLES_PASSED);
   }
   glStencilMask(~0u);
   end_marks();
 }
 
+/// All pairs of layers of one first and one second, of which but one has several.
+void MirrorsInMirrors::draw_layers(render::Renderer& renderer, render::View view) {
+  const Layers first = layers_of(*first_->patch), second = layers_of(*second_->patch);
+  for (first_layer_ = first.first; first_layer_ < first.end; ++first_layer_)
+    for (second_layer_ = second.first; second_layer_ < second.end; ++second_layer_) {
+      renderer.draw_view(view);
+      view.clears = false;
+    }
+}
+
 void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch_pixels,
                             std::span<const ShownPatch> first, std::span<const ShownPatch> second) {
   firsts_.clear();
   for (const ShownPatch& patch : first)
-    if (patch.patch->shows_once && firsts_.size() < most) firsts_.push_back(patch);
+    if (firsts_.size() < most) firsts_.push_back(patch);
   render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels, view, firsts_);
@@ -99,7 +114,7 @@ void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch
       view.excluded_object = second_->object;
       glStencilFunc(GL_EQUAL, GLint((s + 1) << 4) | (int(f) + 1), 0xff);
       glBeginConditionalRender(is_seen_[s].name(), GL_QUERY_WAIT);
-      renderer.draw_view(view);
+      draw_layers(renderer, view);
       glEndConditionalRender();
     }
   }
@@ -108,10 +123,10 @@ void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch
 }
 
 void MirrorsInMirrors::bind(const gl::Program& program) {
-  GpuReflector::bind(program, *first_->patch, first_->world_from_reflector, render::virtual_vertex_unit);
+  GpuReflector::bind(program, *first_->patch, first_->world_from_reflector, render::virtual_vertex_unit,
+                     first_layer_);
   GpuReflector::bind(program, *second_->patch, second_->world_from_reflector, render::first_reflection_unit,
-                     1);
-  program.set("patch_layer", -1);
+                     second_layer_, 1);
   program.set("second_middle", bounds_in_world(*second_).centre());
 }
 

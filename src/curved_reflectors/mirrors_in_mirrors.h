@@ -20,8 +20,8 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   static Result<std::unique_ptr<MirrorsInMirrors>> create(const render::Renderer& renderer,
                                                           gl::Defines map_defines);
 
-  /// `first`: what the main view shows, ordered by size; `second`: all patches there are. Those that may show
-  /// a vertex several times are left out, and all beyond the first fifteen of each.
+  /// `first`: what the main view shows, ordered by size; `second`: all patches there are. Left out are all
+  /// beyond the first fifteen of each, and a hollow in a hollow.
   void draw(render::Renderer& renderer, const gl::Program& patch_pixels, std::span<const ShownPatch> first,
             std::span<const ShownPatch> second);
   /// As large as the main view; coverage in alpha.
@@ -34,6 +34,7 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   MirrorsInMirrors(render::SurfacePrograms programs, gl::Program mirrored_patch, VirtualPicture picture);
   void find_seconds(const ShownPatch& first, std::span<const ShownPatch> second);
   void mark_seconds(const render::View& view, int first_number);
+  void draw_layers(render::Renderer& renderer, render::View view);
 
   static constexpr std::size_t most = 15;  ///< of each kind: their numbers share a stencil of eight bits
 
@@ -43,6 +44,7 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   std::vector<ShownPatch> firsts_, seconds_;
   std::vector<std::pair<float, const ShownPatch*>> candidates_;
   const ShownPatch *first_ = nullptr, *second_ = nullptr;  ///< while they are drawn
+  int first_layer_ = -1, second_layer_ = -1;
 };
 
 }  // namespace parvis::curved_reflectors

@@ -15,7 +15,7 @@ uniform vec3 map_sizes[MIRRORS];      // extent, side and reach of the window
 uniform vec3 map_bands[MIRRORS];
 uniform vec3 map_axes[3 * MIRRORS];
 uniform vec2 patch_kinds[MIRRORS];    // convex; seen all around from the centre
-uniform int patch_layer;              // of what may show a vertex several times (patch_search.glsl); -1: it does not
+uniform int patch_layers[MIRRORS];    // of what may show a vertex several times (patch_search.glsl); -1: it does not
 uniform vec3 start_positions[16 * MIRRORS];
 uniform vec3 start_normals[16 * MIRRORS];
 uniform vec3 start_axes[16 * MIRRORS];
@@ -27,6 +27,7 @@ int mirror = 0;  // that all here speaks of
 #define map_centre map_centres[mirror]
 #define map_size map_sizes[mirror]
 #define patch_kind patch_kinds[mirror]
+#define patch_layer patch_layers[mirror]
 
 #if MIRRORS == 2
 uniform highp sampler2D second_reflector_texels;
@@ -57,3 +58,10 @@ vec3 moved(mat4 to_from, vec3 point) {
 }
 
 #include "curved_reflectors/reflection_point.glsl"
+
+// Does the mirror show a point to a viewer about there? All in its frame.
+bool is_mirrored(vec3 viewer, vec3 seen_from, vec3 point) {
+  const float strayed_error = 2.5e-3f;  // 0.1 radians between bisector and normal
+  SurfacePoint at = surface_at(seen_from - map_centre);
+  return bisector_error(bisector(viewer, point, at), at.normal) < strayed_error;
+}

@@ -14,6 +14,10 @@ glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {
   return glm::inverse(world_from_reflector) * glm::vec4(point, 1.0f);
 }
 
+Layers layers_of(const GpuReflector::Patch& patch) {
+  return patch.shows_once ? Layers{-1, 0} : Layers{0, int(layer_start_count) + 1};
+}
+
 bool is_shown(std::span<const ShownPatch> patches, int object) {
   return std::ranges::any_of(patches, [&](const ShownPatch& patch) { return patch.object == object; });
 }

@@ -22,6 +22,12 @@ struct ShownPatch {
   glm::vec3 viewer;  ///< in the reflector's frame
 };
 
+/// What to draw a patch in: layers, as patch_search.glsl numbers them; from the first up to the end.
+struct Layers {
+  int first, end;
+};
+Layers layers_of(const GpuReflector::Patch& patch);
+
 /// Is any of the patches one of this object?
 bool is_shown(std::span<const ShownPatch> patches, int object);
 

@@ -11,6 +11,7 @@ vec3 across(vec3 point, int to) { return moved(reflectors_from_world[to], moved(
 
 uniform vec3 second_middle;  // in the world
 
+out vec3 seen_first_from;
 out vec3 shown_first_by;
 out float height_of_second;  // above the first
 
@@ -23,7 +24,7 @@ void main() {
   turn_to(1);
   ReflectionTask second = ReflectionTask(vec3(0.0f), moved(reflector_from_world, position), map_centre);
   PatchKind second_kind = patch_kind_of_mirror();
-  TwoBounces found = search_two_bounces(first, first_kind, second, second_kind);
+  TwoBounces found = search_two_bounces(first, first_kind, patch_layers[0], second, second_kind, patch_layers[1]);
   ReflectionPoint near = found.first.point, far = found.second.point;
   doubt = has_place(found.first, first_kind) && has_place(found.second, second_kind) ? sure : lost;
   height = dot(second.vertex - far.position, far.normal);
@@ -33,6 +34,7 @@ void main() {
   shown_first_by = near.normal;
   vec3 image = across(virtual_vertex(second.vertex, far.position, far.normal), 0);
   turn_to(0);
+  seen_first_from = moved(world_from_reflector, near.position);
   image = virtual_vertex(image, near.position, near.normal);
   if (doubt == lost) image = map_centre;  // finite; the triangle is not drawn
   gl_Position = clip_from_world * vec4(moved(world_from_reflector, image), 1.0f);

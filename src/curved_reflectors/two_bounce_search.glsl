@@ -1,6 +1,7 @@
 // Where does a first mirror show a vertex that a second one shows it? (Estalella and others 2005, section 8, "a straightforward
 // extension".) The whole way viewer - first - second - vertex is stationary in both points, each of which is a reflection point
-// between its neighbours. So both are searched for in turn, each from where it was, until they agree. From the host:
+// between its neighbours. So both are searched for in turn, each from where it was, until they agree. A hollow may show the other
+// several times: in layers, as patch_search.glsl has them, of either of the two. From the host:
 //   void turn_to(int mirror)            which of the two, 0 or 1, all other functions of the host speak of
 //   vec3 across(vec3 point, int to)     from the frame of the other mirror
 // Needs patch_search.glsl.
@@ -13,26 +14,31 @@ struct TwoBounces {
   PatchPoint second;  // each in its mirror's frame
 };
 
+// One of the two again, from near where it was.
+GLSL_FUNCTION PatchPoint point_again(ReflectionTask task, vec3 direction, PatchKind kind, int layer) {
+  return patch_point(task, direction, kind.is_convex && layer < 0, layer < 0 ? free_growth : steady_growth);
+}
+
 // The tasks' other ends are found here: `first.vertex` is where to look for the second mirror, `second.viewer` nothing yet.
-GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind first_kind, ReflectionTask second,
-                                            PatchKind second_kind) {
+GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind first_kind, int first_layer, ReflectionTask second,
+                                            PatchKind second_kind, int second_layer) {
   TwoBounces found;
   turn_to(0);
-  found.first = search_patch(first, first_kind, -1);
+  found.first = search_patch(first, first_kind, first_layer);
   turn_to(1);
   second.viewer = across(found.first.point.position, 1);
-  found.second = search_patch(second, second_kind, -1);
+  found.second = search_patch(second, second_kind, second_layer);
   for (int i = 0; i < most_turns; ++i) {
     turn_to(0);
     first.vertex = across(found.second.point.position, 0);
-    found.first = patch_point(first, found.first.point.direction, first_kind.is_convex, free_growth);
+    found.first = point_again(first, found.first.point.direction, first_kind, first_layer);
     turn_to(1);
     second.viewer = across(found.first.point.position, 1);
     SurfacePoint at = surface_at(found.second.point.direction);
     float error = bisector_error(bisector(second.viewer, second.vertex, at), at.normal);
     found.second.point.angle = angle_of_error(error);
     if (error < agreed_error) break;
-    found.second = patch_point(second, found.second.point.direction, second_kind.is_convex, free_growth);
+    found.second = point_again(second, found.second.point.direction, second_kind, second_layer);
   }
   return found;
 }

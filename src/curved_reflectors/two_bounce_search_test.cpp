@@ -98,9 +98,9 @@ double share_found(Pair pair) {
     if (!way) continue;
     ++ways;
     const Pair::PatchKind whole{true, true};
-    const Pair::TwoBounces at =
-        pair.search_two_bounces({way->viewer, pair.second_place, glm::vec3(0.0f)}, whole,
-                                {glm::vec3(0.0f), way->vertex - pair.second_place, glm::vec3(0.0f)}, whole);
+    const Pair::TwoBounces at = pair.search_two_bounces(
+        {way->viewer, pair.second_place, glm::vec3(0.0f)}, whole, -1,
+        {glm::vec3(0.0f), way->vertex - pair.second_place, glm::vec3(0.0f)}, whole, -1);
     const float off = glm::distance(at.first.point.position, way->first) +
                       glm::distance(at.second.point.position + pair.second_place, way->second);
     found +=

@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
 constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
 constexpr float large_radii = 3.0f;      // of a mirror: what is larger is in its surroundings
-constexpr int layer_count = int(layer_start_count) + 1;  // as in patch_search.glsl
 
 std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Object& object) {
   const Result<Reflector> made = cache.reflector(object);
@@ -167,7 +166,7 @@ void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& pa
   view.excluded_object = patch.object;
   view.part = pixels_of(patch, view);
   view.shown_objects = patch.near < 0 ? nullptr : &near_[std::size_t(patch.near)];
-  const int first = patch.patch->shows_once ? -1 : 0, end = patch.patch->shows_once ? 0 : layer_count;
+  const auto [first, end] = layers_of(*patch.patch);
   for (layer_ = first; layer_ < end; ++layer_) {
     renderer.draw_view(view);
     view.clears = false;
@@ -237,9 +236,9 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
 }
 
 void VirtualObjects::bind(const gl::Program& program) {
-  GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit);
+  GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit,
+                     layer_);
   grids_.bind(program);
-  program.set("patch_layer", layer_);
   if (!in_mirrors_) return;
   glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
   program.set("near_share", 1.0f);

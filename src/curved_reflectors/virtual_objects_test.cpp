@@ -82,8 +82,8 @@ TEST_F(VirtualObjectsTest, TheMidpointSearchComesNearerWithEachIteration) {
   EXPECT_LT(draw(scene, eye, target).flip(), 0.5 * one);
 }
 
-/// The inside of a ball, open toward the viewer, and so shallow that it hardly shows itself.
-TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
+/// The inside of a ball, so shallow that it hardly shows itself.
+Mesh shallow_bowl() {
   Mesh bowl = scene::sphere(glm::vec3(0.0f), 1.0f, 64);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < bowl.indices.size(); i += 3)
@@ -91,9 +91,13 @@ TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
       kept.insert(kept.end(), {bowl.indices[i], bowl.indices[i + 2], bowl.indices[i + 1]});
   bowl.indices = kept;
   for (glm::vec3& normal : bowl.normals) normal = -normal;
+  return bowl;
+}
+
+TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   const glm::mat4 tilted =
       glm::rotate(glm::rotate(placed({0, 0.8f, 1.3f}), 0.4f, {0, 0, 1}), 1.2f, {1, 0, 0});
-  EXPECT_LT(draw(among_boxes(bowl, tilted), eye, target).flip(), 0.08);
+  EXPECT_LT(draw(among_boxes(shallow_bowl(), tilted), eye, target).flip(), 0.08);
 }
 
 /// In a dark room under a bright sky: what covers a part of a pixel shows nothing of the sky in the others.
@@ -213,16 +217,38 @@ Image8 different(const Image8& a, const Image8& b) {
   return mask;
 }
 
-TEST_F(VirtualObjectsTest, TwoMirrorsShowWhatTheOtherShows) {
-  scene::Scene scene = two_balls();
-  const glm::vec3 near_eye{-0.2f, -2.0f, 1.1f}, at_first{-0.6f, 0, 0.8f};
-  Compared once = draw(scene, near_eye, at_first);
+/// FLIP where mirrors show mirrors, by one bounce and by two.
+struct Bounces {
+  double once, twice;
+};
+Bounces draw_bounces(scene::Scene scene, glm::vec3 from, glm::vec3 to) {
+  Compared once = draw(scene, from, to);
   scene.reflection.bounces = 2;
-  Compared twice = draw(scene, near_eye, at_first);
-  twice.mirrors = once.mirrors = different(once.traced, twice.traced);  // a mirror in a mirror
+  Compared twice = draw(scene, from, to);
+  twice.mirrors = once.mirrors = different(once.traced, twice.traced);
   once.traced = twice.traced;
-  EXPECT_LT(twice.flip(), 0.25);  // the image is 60 pixels high, and all edges
-  EXPECT_LT(twice.flip(), 0.5 * once.flip());
+  return {once.flip(), twice.flip()};
+}
+
+TEST_F(VirtualObjectsTest, TwoMirrorsShowWhatTheOtherShows) {
+  const Bounces flip = draw_bounces(two_balls(), {-0.2f, -2.0f, 1.1f}, {-0.6f, 0, 0.8f});
+  EXPECT_LT(flip.twice, 0.25);  // the image is 60 pixels high, and all edges
+  EXPECT_LT(flip.twice, 0.5 * flip.once);
+}
+
+/// A bowl that faces a ball: each shows what the other shows, the bowl in layers.
+TEST_F(VirtualObjectsTest, ABowlAndABallShowWhatTheOtherShows) {
+  scene::Scene scene = two_balls();
+  scene.objects.pop_back();
+  const glm::mat4 facing = glm::rotate(placed({0.1f, 0, 0.9f}), -1.5707964f, {0, 1, 0});
+  const int added = scene::add(
+      scene, scene::model_of(shallow_bowl(), render::mirror_box(1.0f)->materials.front()), true, facing);
+  scene.objects[std::size_t(added)].takes_reflection = true;
+  const Bounces ball = draw_bounces(scene, {-0.4f, -2.0f, 1.2f}, {-0.6f, 0, 0.8f});
+  EXPECT_LT(ball.twice, 0.25);
+  EXPECT_LT(ball.twice, 0.5 * ball.once);
+  const Bounces bowl = draw_bounces(scene, {-0.7f, -1.5f, 1.7f}, {0.9f, 0, 0.8f});
+  EXPECT_LT(bowl.twice, 0.6 * bowl.once);  // what it shows of itself counts, which is drawn once alone
 }
 
 TEST_F(VirtualObjectsTest, WhatTouchesCrossesOrSurroundsIsStood) {

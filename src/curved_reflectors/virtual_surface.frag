@@ -7,7 +7,6 @@ in float doubt;
 in float height;
 in vec3 shown_by;
 
-const float strayed_error = 2.5e-3f;  // 0.1 radians between bisector and normal
 const float most_beside_px = 3.0f;
 
 // How far from this pixel the place is that is said to show the point.
@@ -25,7 +24,6 @@ bool is_mirrored_here() {
   bool is_doubtful = doubt != sure;
   if (patch_layer < 0 && !is_doubtful && dot(shown_by, shown_by) >= least_agreement) return true;
   if (is_doubtful && beside_px() > most_beside_px) return false;
-  SurfacePoint at = surface_at(moved(reflector_from_world, seen_from) - map_centre);
-  vec3 viewer = moved(reflector_from_world, viewer_position.xyz), vertex = moved(reflector_from_world, position);
-  return bisector_error(bisector(viewer, vertex, at), at.normal) < strayed_error;
+  return is_mirrored(moved(reflector_from_world, viewer_position.xyz), moved(reflector_from_world, seen_from),
+                     moved(reflector_from_world, position));
 }
