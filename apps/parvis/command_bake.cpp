@@ -18,23 +18,25 @@ struct Arguments : SceneArguments {
   std::filesystem::path plan;
 };
 
-/// Curved mirrors that show what is near them as virtual objects.
-Status bake_curved_mirrors(const scene::Scene& scene) {
-  const Result<std::size_t> reflectors = curved_reflectors::bake_reflectors(scene);
-  if (!reflectors) return reflectors.errors();
-  fmt::print("{} reflectors: {}\n", *reflectors, curved_reflectors::ReflectorCache(scene).folder().string());
+/// Curved mirrors that show what is near them as virtual objects, and solid glass. Adds them to `all`.
+Status bake_reflectors(const scene::Scene& scene, curved_reflectors::BakedReflectors& all) {
+  const Result<curved_reflectors::BakedReflectors> baked = curved_reflectors::bake_reflectors(scene);
+  if (!baked) return baked.errors();
+  if (!baked->files.empty()) fmt::print("{} reflectors: {}\n", baked->files.size(), baked->folder.string());
+  all.folder = baked->folder;
+  all.files.insert(baked->files.begin(), baked->files.end());
   return Done{};
 }
 
 /// Bakes one state of the scene, which `arguments` name.
-Result<environment_maps::MapCache> bake_state(const Arguments& arguments) {
+Result<environment_maps::MapCache> bake_state(const Arguments& arguments,
+                                              curved_reflectors::BakedReflectors& reflectors) {
   const Result<stage::Play> play = arguments.open_play();
   if (!play) return play.errors();
   const scene::Scene& scene = play->scene;
-  const bool has_virtual_objects_alone = scene.reflection.method == scene::ReflectionMethod::virtual_objects;
-  if (has_virtual_objects_alone || scene.reflection.virtual_within_m > 0.0f)
-    if (Status status = bake_curved_mirrors(scene); !status) return status.errors();
-  if (has_virtual_objects_alone) return environment_maps::MapCache(scene);
+  if (Status status = bake_reflectors(scene, reflectors); !status) return status.errors();
+  if (scene.reflection.method == scene::ReflectionMethod::virtual_objects)
+    return environment_maps::MapCache(scene);
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
   const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
@@ -63,24 +65,26 @@ Status bake(const Arguments& arguments) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   std::vector<environment_maps::MapCache> baked;
+  curved_reflectors::BakedReflectors reflectors;
   for (const std::string& scenario :
        arguments.scenarios.empty() ? std::vector<std::string>{"base"} : arguments.scenarios) {
     Arguments state = arguments;
     state.scenarios = {scenario};
-    Result<environment_maps::MapCache> cache = bake_state(state);
+    Result<environment_maps::MapCache> cache = bake_state(state, reflectors);
     if (!cache) return cache.errors();
     baked.push_back(*std::move(cache));
   }
   environment_maps::forget_other_states(baked);
+  curved_reflectors::forget_other_reflectors(reflectors);
   return Done{};
 }
 
 }  // namespace
 
 void add_bake(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "bake",
-      "Draws reference maps, and measures curved mirrors, beforehand and keeps them beside the scene");
+  CLI::App* command = app.add_subcommand("bake",
+                                         "Draws reference maps, and measures curved mirrors and solid glass, "
+                                         "beforehand and keeps them beside the scene");
   const auto arguments = std::make_shared<Arguments>();
   arguments->add_scene(*command);
   arguments->add_state(*command);

@@ -71,7 +71,7 @@ class SearchAhead {
  public:
   static Result<SearchAhead> create(const scene::Scene& scene, const render::Renderer& renderer) {
     const scene::Object& mirror = scene.objects[balls];
-    const Result<Reflector> reflector = ReflectorCache(scene).reflector(mirror);
+    const Result<Reflector> reflector = ReflectorCache(scene).reflector(mirror_source(scene, mirror));
     if (!reflector) return reflector.errors();
     Result<GridSearch> search = GridSearch::create(scene, renderer.gpu(), {{"ALL_PLAIN", ""}});
     if (!search) return search.errors();

@@ -30,7 +30,7 @@ Result<ReflectedPoints> ReflectedPoints::make(const scene::Scene& scene) {
   const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
     if (!object.takes_reflection || made.mirrors_.contains(object.model.get())) continue;
-    Result<Reflector> reflector = cache.reflector(object);
+    Result<Reflector> reflector = cache.reflector(mirror_source(scene, object));
     if (!reflector) return reflector.errors();
     Mirror& mirror = made.mirrors_[object.model.get()];
     mirror.reflector = *std::move(reflector);

@@ -12,105 +12,96 @@ namespace fs = std::filesystem;
 
 constexpr int version = 4;  // of how reflectors are made: raise it when old ones no longer serve
 constexpr std::string_view extension = ".reflector";
-constexpr int texels_a_face_texel =
-    4;  // a map's side, for the resolution that scripts give for a cube map's face
 constexpr std::size_t most_patches = 200;
 
-std::string name_of(const scene::Object& object) {
-  if (!object.name.empty()) return object.name;
-  return object.model->name.empty() ? "reflector" : object.model->name;
-}
-
-/// All that a reflector depends on.
-std::uint64_t reflector_key(const Mesh& mesh, const std::string& name, int side) {
+std::uint64_t key_of(const ReflectorSource& source) {
   ContentHash hash;
   hash.add(version);
-  hash.add(mesh.positions);
-  hash.add(mesh.normals);
-  hash.add(mesh.indices);
-  hash.add_text(name);
-  hash.add(side);
+  hash.add(source.mesh.positions);
+  hash.add(source.mesh.normals);
+  hash.add(source.mesh.indices);
+  hash.add_text(source.name);
+  hash.add(source.side);
   hash.add(most_patches);
   return hash.value();
 }
 
+/// Makes and keeps it, unless it is kept. `without` tells what comes of one that cannot be made.
+Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::string_view without) {
+  if (cache.has(source)) return Done{};
+  const Result<Reflector> made = cache.reflector(source);
+  if (made) return cache.keep(source, *made);
+  fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), without);
+  return Done{};
+}
+
 }  // namespace
 
-Mesh mesh_of(const scene::Model& model, bool (*wanted)(const scene::Material&)) {
-  Mesh mesh;
-  const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  for (const scene::Part& part : model.parts)
-    if (wanted(model.materials[std::size_t(part.material)]))
-      append(mesh, part.mesh, pose[std::size_t(part.node)]);
-  return mesh;
-}
-
-Mesh mirror_mesh(const scene::Model& model) {
-  return mesh_of(model, [](const scene::Material& material) { return material.is_mirror_like; });
-}
-
-ReflectorCache::ReflectorCache(const scene::Scene& scene)
-    : side_(texels_a_face_texel * scene.reflection.resolution) {
+ReflectorCache::ReflectorCache(const scene::Scene& scene) {
   if (!scene.file.empty()) folder_ = fs::path(scene.file).replace_extension(".baked") / "reflectors";
 }
 
-fs::path ReflectorCache::file(const scene::Object& object) const {
+fs::path ReflectorCache::file(const ReflectorSource& source) const {
   if (folder_.empty()) return {};
-  const std::uint64_t key = reflector_key(mirror_mesh(*object.model), name_of(object), side_);
-  return folder_ / fmt::format("{:016x}{}", key, extension);
+  return folder_ / fmt::format("{:016x}{}", key_of(source), extension);
 }
 
-Result<Reflector> ReflectorCache::reflector(const scene::Object& object) const {
+Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const {
   std::error_code code;
-  const fs::path kept = file(object);
+  const fs::path kept = file(source);
   if (!kept.empty() && fs::exists(kept, code)) {
     Result<Reflector> read = read_reflector_file(kept);
     if (read) return read;
     fmt::print(stderr, "warning: {}; the reflector is made anew\n", read.errors().front().message);
   }
-  return make_reflector(mirror_mesh(*object.model), name_of(object), side_, most_patches);
+  return make_reflector(source.mesh, source.name, source.side, most_patches);
 }
 
-bool ReflectorCache::has(const scene::Object& object) const {
-  return bool(read_reflector_file(file(object)));
+bool ReflectorCache::has(const ReflectorSource& source) const {
+  return bool(read_reflector_file(file(source)));
 }
 
-Status ReflectorCache::keep(const scene::Object& object, const Reflector& reflector) const {
+Status ReflectorCache::keep(const ReflectorSource& source, const Reflector& reflector) const {
   std::error_code code;
   fs::create_directories(folder_, code);
-  return write_reflector_file(file(object), reflector);
+  return write_reflector_file(file(source), reflector);
 }
 
-Result<std::size_t> bake_reflectors(const scene::Scene& scene) {
+Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {
   const ReflectorCache cache(scene);
-  std::vector<const scene::Object*> reflectors;
+  std::vector<const scene::Object*> objects;
   std::unordered_set<const scene::Model*> known;
+  const bool wants_mirrors = scene.reflection.has_virtual_objects();
   for (const scene::Object& object : scene.objects)
-    if (object.takes_reflection && known.insert(object.model.get()).second) reflectors.push_back(&object);
-  std::unordered_set<std::string> files;
-  Progress progress("baking reflectors", reflectors.size());
-  for (const scene::Object* object : reflectors) {
-    const fs::path file = cache.file(*object);
-    if (!cache.has(*object)) {
-      const Result<Reflector> made = cache.reflector(*object);
-      if (!made) {
-        fmt::print(stderr, "warning: {}; it mirrors the sky alone\n", to_string(made.errors().front()));
-      } else if (Status status = cache.keep(*object, *made); !status) {
-        return status.errors();
-      }
+    if (object.takes_reflection && (wants_mirrors || has_glass(*object.model)) &&
+        known.insert(object.model.get()).second)
+      objects.push_back(&object);
+  BakedReflectors baked{cache.folder(), {}};
+  Progress progress("baking reflectors", objects.size());
+  for (const scene::Object* object : objects) {
+    if (wants_mirrors) {
+      const ReflectorSource mirror = mirror_source(scene, *object);
+      if (Status status = bake(cache, mirror, "it mirrors the sky alone"); !status) return status.errors();
+      baked.files.insert(cache.file(mirror));
     }
-    files.insert(file.filename().string());
+    if (has_glass(*object->model)) {
+      const ReflectorSource glass = glass_source(*object);
+      if (Status status = bake(cache, glass, "as solid glass it shows the sky straight through"); !status)
+        return status.errors();
+      baked.files.insert(cache.file(glass));
+    }
     progress.advance();
   }
+  return baked;
+}
+
+void forget_other_reflectors(const BakedReflectors& kept) {
   std::error_code code;
   std::vector<fs::path> others;
-  if (!reflectors.empty())
-    for (const fs::directory_entry& entry :
-         fs::directory_iterator(cache.file(*reflectors.front()).parent_path(), code))
-      if (entry.path().extension() == extension && !files.contains(entry.path().filename().string()))
-        others.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(kept.folder, code))
+    if (entry.path().extension() == extension && !kept.files.contains(entry.path()))
+      others.push_back(entry.path());
   for (const fs::path& other : others) fs::remove(other, code);
-  return reflectors.size();
 }
 
 }  // namespace parvis::curved_reflectors

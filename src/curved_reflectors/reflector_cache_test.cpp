@@ -36,20 +36,31 @@ void expect_equal(const Reflector& a, const Reflector& b) {
   }
 }
 
-/// A script's place with a ring and a ball as mirrors.
+/// A script's place with a ring and a ball as mirrors, the third object a ball of glass with a foot of
+/// chrome.
 class ReflectorCacheTest : public testing::Test {
  protected:
   ReflectorCacheTest() {
     scene_.file = folder_.path() / "room.xp";
     scene_.reflection.resolution = 4;
-    scene::Material chrome;
-    chrome.is_mirror_like = true;
-    for (const Mesh& mesh : {scene::torus(1.0f, 0.4f, 12), scene::sphere(glm::vec3(0.0f), 1.0f, 12)}) {
-      const int object = scene::add(scene_, scene::model_of(mesh, chrome), true);
+    scene_.reflection.method = scene::ReflectionMethod::virtual_objects;
+    scene::Material chrome, glass;
+    chrome.is_mirror_like = glass.is_mirror_like = true;
+    glass.ior = 1.5f;
+    const auto add = [&](const std::shared_ptr<scene::Model>& model) {
+      const int object = scene::add(scene_, model, true);
       scene_.objects[std::size_t(object)].takes_reflection = true;
-    }
+    };
+    for (const Mesh& mesh : {scene::torus(1.0f, 0.4f, 12), scene::sphere(glm::vec3(0.0f), 1.0f, 12)})
+      add(scene::model_of(mesh, chrome));
+    const std::shared_ptr<scene::Model> footed = scene::model_of(scene::sphere({0, 0, 2}, 1.0f, 12), glass);
+    footed->parts.push_back({.object = "foot", .mesh = scene::box({-1, -1, 0}, {1, 1, 1}), .material = 1});
+    footed->materials.push_back(chrome);
+    add(footed);
   }
-  fs::path file(std::size_t object) const { return ReflectorCache(scene_).file(scene_.objects[object]); }
+  ReflectorSource mirror(std::size_t object) const { return mirror_source(scene_, scene_.objects[object]); }
+  ReflectorSource glass() const { return glass_source(scene_.objects[2]); }
+  fs::path file(const ReflectorSource& source) const { return ReflectorCache(scene_).file(source); }
 
   TestFolder folder_;
   scene::Scene scene_;
@@ -82,34 +93,47 @@ TEST(ReflectorFile, CutShortForeignOrOfAnotherVersionItIsRefusedWithTheReason) {
 
 TEST_F(ReflectorCacheTest, WhatIsBakedIsReadAndBakingGoesOnWhereItWasInterrupted) {
   ASSERT_TRUE(bake_reflectors(scene_));
-  ASSERT_TRUE(fs::exists(file(0)));
-  ASSERT_TRUE(fs::exists(file(1)));
-  const Result<Reflector> kept = ReflectorCache(scene_).reflector(scene_.objects[0]);
-  ASSERT_TRUE(kept);
   scene::Scene in_memory = scene_;
   in_memory.file.clear();
-  EXPECT_TRUE(ReflectorCache(in_memory).file(scene_.objects[0]).empty());
-  expect_equal(*kept, *ReflectorCache(in_memory).reflector(scene_.objects[0]));
+  EXPECT_TRUE(ReflectorCache(in_memory).file(mirror(0)).empty());
+  for (const ReflectorSource& source : {mirror(0), mirror(1), mirror(2), glass()}) {
+    ASSERT_TRUE(fs::exists(file(source)));
+    const Result<Reflector> kept = ReflectorCache(scene_).reflector(source);
+    ASSERT_TRUE(kept);
+    expect_equal(*kept, *ReflectorCache(in_memory).reflector(source));
+  }
 
-  const fs::file_time_type before = fs::last_write_time(file(0));
-  fs::remove(file(1));
+  const fs::file_time_type before = fs::last_write_time(file(mirror(0)));
+  fs::remove(file(mirror(1)));
   ASSERT_TRUE(bake_reflectors(scene_));
-  EXPECT_TRUE(fs::exists(file(1)));
-  EXPECT_EQ(fs::last_write_time(file(0)), before) << "what is kept stays";
+  EXPECT_TRUE(fs::exists(file(mirror(1))));
+  EXPECT_EQ(fs::last_write_time(file(mirror(0))), before) << "what is kept stays";
+}
+
+TEST_F(ReflectorCacheTest, OfMethodsWithoutVirtualObjectsGlassAloneIsBaked) {
+  scene_.reflection.method = scene::ReflectionMethod::rerendered_cube_map;
+  const Result<BakedReflectors> baked = bake_reflectors(scene_);
+  ASSERT_TRUE(baked);
+  EXPECT_EQ(baked->files, std::set{file(glass())});
+  EXPECT_TRUE(fs::exists(file(glass())));
 }
 
 TEST_F(ReflectorCacheTest, DamagedFilesAreMadeAnewAndOldOnesForgotten) {
   ASSERT_TRUE(bake_reflectors(scene_));
-  const fs::path old_file = file(0);
+  const fs::path old_file = file(mirror(0));
   const std::string whole = *read_file(old_file);
   ASSERT_TRUE(write_file(old_file, whole.substr(0, whole.size() / 2)));
-  EXPECT_TRUE(ReflectorCache(scene_).reflector(scene_.objects[0])) << "a warning, and the reflector";
+  EXPECT_TRUE(ReflectorCache(scene_).reflector(mirror(0))) << "a warning, and the reflector";
   ASSERT_TRUE(bake_reflectors(scene_));
   EXPECT_EQ(*read_file(old_file), whole);
   scene_.reflection.resolution = 8;
-  ASSERT_TRUE(bake_reflectors(scene_));
+  const Result<BakedReflectors> baked = bake_reflectors(scene_);
+  ASSERT_TRUE(baked);
+  EXPECT_TRUE(fs::exists(old_file)) << "of another state, perhaps";
+  forget_other_reflectors(*baked);
   EXPECT_FALSE(fs::exists(old_file));
-  EXPECT_TRUE(fs::exists(file(0)));
+  EXPECT_TRUE(fs::exists(file(mirror(0))));
+  EXPECT_TRUE(fs::exists(file(glass())));
 }
 
 }  // namespace

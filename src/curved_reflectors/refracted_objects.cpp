@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "curved_reflectors/reflector_cache.h"
 #include "render/bindings.h"
 #include "render/cube_map.h"
 #include "render/frustum.h"
@@ -13,26 +12,15 @@ namespace {
 
 constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
 constexpr float ways_apart =
-    0.45f;                     // radians: how far a body may stand beside each traced ray and still be shown
-constexpr int map_side = 512;  // texels: smooth bodies to a hundredth of a degree
+    0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
-
-bool refracts(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
 
 /// Of the first material of glass.
 const scene::Material& glass_material(const scene::Model& model) {
-  return *std::ranges::find_if(model.materials, refracts);
+  return *std::ranges::find_if(model.materials, is_glass);
 }
-
-bool has_glass(const scene::Model& model) { return std::ranges::any_of(model.materials, refracts); }
 
 }  // namespace
-
-bool has_glass(const scene::Scene& scene) {
-  return std::ranges::any_of(scene.objects, [](const scene::Object& object) {
-    return object.takes_reflection && has_glass(*object.model);
-  });
-}
 
 Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
     const scene::Scene& scene, const render::Renderer& renderer,
@@ -64,29 +52,31 @@ RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePro
       picture_(std::move(picture)),
       settings_(scene.reflection),
       reflections_(std::move(reflections)) {
+  const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
     const scene::Model* model = object.model.get();
     model_of_object_.push_back(model);
     if (object.takes_reflection && has_glass(*model) && !glass_.contains(model))
-      glass_[model] = glass_of(object);
+      glass_[model] = glass_of(cache, object);
   }
 }
 
-std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const scene::Object& object) {
+std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const ReflectorCache& cache,
+                                                                    const scene::Object& object) {
   const auto refuse = [&](const std::string& why) {
     fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n", why);
     return nullptr;
   };
-  const scene::Model& model = *object.model;
-  const std::string name = object.name.empty() ? model.name : object.name;
-  const Result<Reflector> made = make_reflector(mesh_of(model, refracts), name, map_side);
+  const ReflectorSource source = glass_source(object);
+  const std::string& name = source.name;
+  const Result<Reflector> made = cache.reflector(source);
   if (!made) return refuse(to_string(made.errors().front()));
   if (made->mesh.open_edges > 0)
     return refuse(fmt::format("{}: {} edges of its glass have not two triangles; close its holes", name,
                               made->mesh.open_edges));
   if (made->patches.size() != 1 || !made->maps.front().is_convex || !made->maps.front().is_whole_body())
     return refuse(fmt::format("{}: its glass is not one convex body", name));
-  const scene::Material& glass = glass_material(model);
+  const scene::Material& glass = glass_material(*object.model);
   return std::make_unique<Glass>(
       Glass{GpuReflector(*made), made->maps.front(), glass.ior, glass.absorption_per_m});
 }

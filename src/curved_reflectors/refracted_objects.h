@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "curved_reflectors/reflector_cache.h"
 #include "curved_reflectors/refraction_search.h"
 #include "curved_reflectors/shown_patch.h"
 #include "curved_reflectors/virtual_picture.h"
@@ -57,7 +58,7 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
                    gl::Program glass_light, VirtualPicture picture,
                    std::unique_ptr<render::Reflections> reflections);
-  static std::unique_ptr<Glass> glass_of(const scene::Object& object);
+  static std::unique_ptr<Glass> glass_of(const ReflectorCache& cache, const scene::Object& object);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void find_glass(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
@@ -75,9 +76,6 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   std::size_t current_ = 0;           ///< of them, while its mirrored view is drawn
   int foci_ = 0;                      ///< that the light of its layer has passed
 };
-
-/// Is there glass in a scene that shows more than the sky?
-bool has_glass(const scene::Scene& scene);
 
 /// See RefractedObjects::create; scene and renderer outlive it.
 Result<std::unique_ptr<render::Reflections>> make_refracted_objects(

@@ -1,5 +1,7 @@
 #include "curved_reflectors/refracted_objects.h"
 
+#include "base/files.h"
+#include "base/test_folder.h"
 #include "curved_reflectors/test_boxes.h"
 #include "curved_reflectors/virtual_objects.h"
 #include "gl/test_context.h"
@@ -59,6 +61,24 @@ TEST_F(RefractedObjectsTest, TintedGlassAbsorbs) {
       draw(among_boxes(scene::sphere(glm::vec3(0.0f), 0.8f, 48), green, placed({0, 0, 0.9f})), eye, target)
           .flip(),
       0.08);
+}
+
+TEST_F(RefractedObjectsTest, WhatIsBakedIsLookedUp) {
+  const TestFolder folder;
+  scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 24), glass(), placed({0, 0, 1.1f}));
+  scene.file = folder.path() / "ball.xp";
+  scene.reflection.method = scene::ReflectionMethod::rerendered_cube_map;
+  const Result<BakedReflectors> baked = bake_reflectors(scene);
+  ASSERT_TRUE(baked);
+  ASSERT_EQ(baked->files.size(), 1u);
+  const auto complaints = [&] {
+    testing::internal::CaptureStderr();
+    draw(scene, eye, target);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(complaints(), "");
+  ASSERT_TRUE(write_file(*baked->files.begin(), "no reflector"));
+  EXPECT_NE(complaints().find("is made anew"), std::string::npos);
 }
 
 TEST_F(RefractedObjectsTest, TwoBodiesEachShowTheirOwn) {

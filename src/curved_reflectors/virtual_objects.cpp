@@ -14,8 +14,9 @@ constexpr std::size_t most_shown = 255;  // numbers of the stencil
 constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
 constexpr float large_radii = 3.0f;      // of a mirror: what is larger is in its surroundings
 
-std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Object& object) {
-  const Result<Reflector> made = cache.reflector(object);
+std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Scene& scene,
+                                           const scene::Object& object) {
+  const Result<Reflector> made = cache.reflector(mirror_source(scene, object));
   if (!made) {
     fmt::print(stderr, "warning: {}; it mirrors the sky alone\n", to_string(made.errors().front()));
     return nullptr;
@@ -29,7 +30,7 @@ ReflectorsByModel reflectors_of(const scene::Scene& scene) {
   ReflectorsByModel reflectors;
   for (const scene::Object& object : scene.objects)
     if (object.takes_reflection && !reflectors.contains(object.model.get()))
-      reflectors[object.model.get()] = reflector_of(cache, object);
+      reflectors[object.model.get()] = reflector_of(cache, scene, object);
   return reflectors;
 }
 

@@ -114,6 +114,11 @@ struct Reflection {
   int iterations = 9;  ///< of the midpoint search
   int bounces = 1;     ///< of the ray tracer and virtual objects: 2, mirrors show what mirrors show
 
+  /// All, or what stands near?
+  bool has_virtual_objects() const {
+    return method == ReflectionMethod::virtual_objects || virtual_within_m > 0.0f;
+  }
+
   bool operator==(const Reflection&) const = default;
 };
 

@@ -85,9 +85,8 @@ Result<std::unique_ptr<render::Reflections>> make_method_below(const scene::Scen
 Result<std::unique_ptr<render::Reflections>> make_method(const scene::Scene& scene,
                                                          render::Renderer& renderer) {
   Result<std::unique_ptr<render::Reflections>> method = make_method_below(scene, renderer);
-  const scene::Reflection& reflection = scene.reflection;
-  if (!method || reflection.virtual_within_m <= 0.0f ||
-      reflection.method == scene::ReflectionMethod::virtual_objects)
+  if (!method || !scene.reflection.has_virtual_objects() ||
+      scene.reflection.method == scene::ReflectionMethod::virtual_objects)
     return method;
   return curved_reflectors::make_virtual_objects(scene, renderer, *std::move(method));
 }
