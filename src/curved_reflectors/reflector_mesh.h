@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/mesh.h"
+#include "base/joined_triangles.h"
 
 namespace parvis::curved_reflectors {
 
@@ -25,7 +25,6 @@ struct ReflectorMesh {
   std::array<glm::vec3, 3> corners(std::size_t triangle) const;
   std::array<glm::vec3, 3> normals(std::size_t triangle) const;
 };
-inline constexpr std::uint32_t no_triangle = ~0u;
 
 /// Zero normals are missing ones: they become smooth. What encloses a space is turned outward; what is open
 /// to the side that its normals are on, or most of its triangles. Errors name the mesh: broken arrays, no

@@ -1,0 +1,34 @@
+// A mesh's triangles joined where they touch: what hangs together, and where it is open.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/mesh.h"
+
+namespace parvis {
+
+inline constexpr std::uint32_t no_triangle = ~0u;
+
+struct JoinedTriangles {
+  std::vector<std::uint32_t> places;  ///< of each vertex a number, the same for vertices at one place
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< those with an area
+  std::vector<std::uint32_t> numbers;                   ///< of each of them, in the mesh
+  /// Across each triangle's three edges: the other triangle, or `no_triangle` at a rim and where more than
+  /// two meet.
+  std::vector<std::array<std::uint32_t, 3>> neighbours;
+  std::size_t open_edges = 0;  ///< rims, and edges of more than two triangles
+};
+
+/// Of a mesh that `check` allows. Vertices nearer than a millionth of its size are at one place.
+JoinedTriangles joined_triangles(const Mesh& mesh);
+
+/// Triangles that hang together over their edges.
+struct MeshPiece {
+  std::vector<std::uint32_t> triangles;  ///< of JoinedTriangles
+  bool is_closed = true;                 ///< across every edge lies another
+};
+std::vector<MeshPiece> pieces(const JoinedTriangles& joined);
+
+}  // namespace parvis

@@ -1,0 +1,65 @@
+#include "base/joined_triangles.h"
+
+#include <gtest/gtest.h>
+
+namespace parvis {
+namespace {
+
+/// Four triangles about a corner, none of whose vertices is shared.
+Mesh tetrahedron(glm::vec3 at) {
+  const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(0, 0, 1);
+  Mesh mesh;
+  for (const glm::vec3 corner : {a, c, b, a, b, d, b, c, d, c, a, d}) mesh.positions.push_back(at + corner);
+  mesh.normals.resize(12);
+  mesh.uvs.resize(12);
+  for (std::uint32_t i = 0; i < 12; ++i) mesh.indices.push_back(i);
+  return mesh;
+}
+
+TEST(JoinedTriangles, TouchWhereTheirCornersAreAtOnePlace) {
+  const JoinedTriangles joined = joined_triangles(tetrahedron({5, 0, 0}));
+  EXPECT_EQ(joined.triangles.size(), 4u);
+  EXPECT_EQ(joined.open_edges, 0u);
+  for (const auto& neighbours : joined.neighbours)
+    for (const std::uint32_t other : neighbours) EXPECT_NE(other, no_triangle);
+}
+
+/// Wherever the mesh lies.
+TEST(JoinedTriangles, TouchWhereCornersAreOneButForRounding) {
+  for (int step = 0; step < 100; ++step) {
+    Mesh mesh = tetrahedron(glm::vec3(0.0123f * float(step), 0.3f, 0.7f));
+    for (std::size_t i = 0; i < 3; ++i) mesh.positions[i] += 5e-7f;
+    EXPECT_EQ(joined_triangles(mesh).open_edges, 0u) << step;
+  }
+}
+
+TEST(JoinedTriangles, PiecesAreClosedOrOpenEachForItself) {
+  Mesh mesh = tetrahedron({0, 0, 0});
+  append(mesh, tetrahedron({3, 0, 0}));
+  mesh.indices.resize(mesh.indices.size() - 3);  // the second is open
+  append(mesh, tetrahedron({1, 0, 0}));          // touches the first in a corner alone
+  const std::vector<MeshPiece> found = pieces(joined_triangles(mesh));
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_TRUE(found[0].is_closed);
+  EXPECT_FALSE(found[1].is_closed);
+  EXPECT_TRUE(found[2].is_closed);
+  EXPECT_EQ(found[1].triangles.size(), 3u);
+}
+
+TEST(JoinedTriangles, WhatHasNoAreaIsLeftOutAndThreeAtAnEdgeAreOpen) {
+  Mesh mesh = tetrahedron({0, 0, 0});
+  for (const std::uint32_t corner : {0u, 0u, 1u}) mesh.indices.push_back(corner);
+  EXPECT_EQ(joined_triangles(mesh).numbers.back(), 3u);
+  EXPECT_EQ(joined_triangles(mesh).open_edges, 0u);
+  mesh.positions.emplace_back(2, 2, 2);
+  mesh.normals.emplace_back(0);
+  mesh.uvs.emplace_back(0);
+  for (const std::uint32_t corner : {0u, 1u, 12u}) mesh.indices.push_back(corner);
+  EXPECT_EQ(joined_triangles(mesh).open_edges, 3u) << "the fin's two rims, and where it stands on the body";
+  EXPECT_TRUE(joined_triangles(Mesh()).triangles.empty());
+  for (glm::vec3& position : mesh.positions) position = glm::vec3(1.0f);
+  EXPECT_TRUE(joined_triangles(mesh).triangles.empty());
+}
+
+}  // namespace
+}  // namespace parvis
