@@ -5,6 +5,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "scene/glass_pieces.h"
+
 namespace parvis::curved_reflectors {
 namespace {
 
@@ -101,19 +103,23 @@ std::vector<ReflectorBall> reflector_balls(const scene::Scene& scene) {
   std::vector<ReflectorBall> balls;
   for (const scene::Object& object : scene.objects) {
     if (!object.takes_reflection || !object.is_visible) continue;
-    const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
-    Bounds bounds;
-    bool is_glass = false;
-    for (const scene::Part& part : object.model->parts) {
-      const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      if (!material.is_mirror_like) continue;
-      is_glass |= material.refracts();
-      bounds.add(transformed(object.world_from_model * pose[std::size_t(part.node)], part.mesh.bounds()));
-    }
-    // Half the greatest side: a box's corners are beyond what it encloses.
-    const glm::vec3 size = bounds.size();
-    if (!bounds.empty())
-      balls.push_back({bounds.centre(), 0.5f * std::max({size.x, size.y, size.z}), is_glass});
+    const scene::Model& model = *object.model;
+    const auto add = [&](const Bounds& bounds, bool is_glass) {
+      // Half the greatest side: a box's corners are beyond what it encloses.
+      const glm::vec3 size = bounds.size();
+      if (!bounds.empty())
+        balls.push_back({bounds.centre(), 0.5f * std::max({size.x, size.y, size.z}), is_glass});
+    };
+    const std::vector<glm::mat4> pose = scene::rest_pose(model);
+    Bounds mirrors;
+    for (const scene::Part& part : model.parts)
+      if (const scene::Material& material = model.materials[std::size_t(part.material)];
+          material.is_mirror_like && !material.refracts())
+        mirrors.add(transformed(object.world_from_model * pose[std::size_t(part.node)], part.mesh.bounds()));
+    add(mirrors, false);
+    for (const scene::GlassPiece& body : scene::glass_pieces(model))
+      if (model.materials[std::size_t(body.material)].is_mirror_like)
+        add(transformed(object.world_from_model, body.mesh.bounds()), true);
   }
   return balls;
 }

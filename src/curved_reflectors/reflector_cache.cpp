@@ -84,11 +84,11 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {
       if (Status status = bake(cache, mirror, "it mirrors the sky alone"); !status) return status.errors();
       baked.files.insert(cache.file(mirror));
     }
-    if (has_glass(*object->model)) {
-      const ReflectorSource glass = glass_source(*object);
-      if (Status status = bake(cache, glass, "as solid glass it shows the sky straight through"); !status)
+    for (const GlassSource& glass : glass_sources(*object)) {
+      if (Status status = bake(cache, glass.outside, "as solid glass it shows the sky straight through");
+          !status)
         return status.errors();
-      baked.files.insert(cache.file(glass));
+      baked.files.insert(cache.file(glass.outside));
     }
     progress.advance();
   }

@@ -59,7 +59,7 @@ class ReflectorCacheTest : public testing::Test {
     add(footed);
   }
   ReflectorSource mirror(std::size_t object) const { return mirror_source(scene_, scene_.objects[object]); }
-  ReflectorSource glass() const { return glass_source(scene_.objects[2]); }
+  ReflectorSource glass() const { return glass_sources(scene_.objects[2]).at(0).outside; }
   fs::path file(const ReflectorSource& source) const { return ReflectorCache(scene_).file(source); }
 
   TestFolder folder_;

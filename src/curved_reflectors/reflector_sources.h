@@ -1,4 +1,4 @@
-// What of a scene's objects reflectors are made of: the parts of a model that mirror, and those of solid
+// What of a scene's objects reflectors are made of: the parts of a model that mirror, and its bodies of
 // glass.
 #pragma once
 
@@ -17,11 +17,16 @@ struct ReflectorSource {
 /// The mirror-like parts of an object; maps as wide as the scene's options ask for.
 ReflectorSource mirror_source(const scene::Scene& scene, const scene::Object& object);
 
-/// Is it solid glass that shows more than the sky?
-bool is_glass(const scene::Material& material);
+/// A body of solid glass, one of those that an object has.
+struct GlassSource {
+  ReflectorSource outside;
+  const scene::Material* material;
+  std::vector<std::size_t> parts;  ///< of the model, those that have any of it
+};
+/// Has it solid glass that shows more than the sky?
 bool has_glass(const scene::Model& model);
 bool has_glass(const scene::Scene& scene);
-/// The parts of an object that are.
-ReflectorSource glass_source(const scene::Object& object);
+/// Of all bodies of glass of an object; of several, the smaller have smaller maps.
+std::vector<GlassSource> glass_sources(const scene::Object& object);
 
 }  // namespace parvis::curved_reflectors

@@ -15,11 +15,6 @@ constexpr float ways_apart =
     0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
 constexpr std::size_t most_shown = 255;  // numbers of the stencil
 
-/// Of the first material of glass.
-const scene::Material& glass_material(const scene::Model& model) {
-  return *std::ranges::find_if(model.materials, is_glass);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
@@ -56,53 +51,63 @@ RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePro
   for (const scene::Object& object : scene.objects) {
     const scene::Model* model = object.model.get();
     model_of_object_.push_back(model);
-    if (object.takes_reflection && has_glass(*model) && !glass_.contains(model))
-      glass_[model] = glass_of(cache, object);
+    if (!object.takes_reflection || !has_glass(*model)) continue;
+    const auto [bodies, is_new] = glass_.try_emplace(model);
+    if (!is_new) continue;
+    for (const GlassSource& source : glass_sources(object))
+      if (std::optional<Glass> glass = glass_of(cache, source)) bodies->second.push_back(*std::move(glass));
   }
 }
 
-std::unique_ptr<RefractedObjects::Glass> RefractedObjects::glass_of(const ReflectorCache& cache,
-                                                                    const scene::Object& object) {
+std::optional<RefractedObjects::Glass> RefractedObjects::glass_of(const ReflectorCache& cache,
+                                                                  const GlassSource& source) {
   const auto refuse = [&](const std::string& why) {
     fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n", why);
-    return nullptr;
+    return std::nullopt;
   };
-  const ReflectorSource source = glass_source(object);
-  const std::string& name = source.name;
-  const Result<Reflector> made = cache.reflector(source);
+  const std::string& name = source.outside.name;
+  const Result<Reflector> made = cache.reflector(source.outside);
   if (!made) return refuse(to_string(made.errors().front()));
   if (made->mesh.open_edges > 0)
     return refuse(fmt::format("{}: {} edges of its glass have not two triangles; close its holes", name,
                               made->mesh.open_edges));
   if (made->patches.size() != 1 || !made->maps.front().is_convex || !made->maps.front().is_whole_body())
     return refuse(fmt::format("{}: its glass is not one convex body", name));
-  const scene::Material& glass = glass_material(*object.model);
-  return std::make_unique<Glass>(
-      Glass{GpuReflector(*made), made->maps.front(), glass.ior, glass.absorption_per_m});
+  return Glass{GpuReflector(*made), made->maps.front(), source.material->ior,
+               source.material->absorption_per_m, source.parts};
 }
 
 void RefractedObjects::find_glass(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
+  through_.clear();
+  near_.begin_frame();
+  for (const render::Reflector& reflector : reflectors)
+    if (const auto bodies = glass_.find(model_of_object_[std::size_t(reflector.object)]);
+        bodies != glass_.end())
+      find_bodies(renderer, reflector.object, bodies->second);
+}
+
+/// Those of an object that the main view may see.
+void RefractedObjects::find_bodies(const render::Renderer& renderer, int object,
+                                   const std::vector<Glass>& bodies) {
+  const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(object);
+  if (!is_scaled_evenly(world_from_reflector)) return;
   const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
-  for (const render::Reflector& reflector : reflectors) {
-    const auto found = glass_.find(model_of_object_[std::size_t(reflector.object)]);
-    if (found == glass_.end() || !found->second || shown_.size() == most_shown) continue;
-    const Glass& glass = *found->second;
-    const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
-    if (!is_scaled_evenly(world_from_reflector)) continue;
-    const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
+  const int near = shows_all ? -1 : near_.find(renderer, object, settings_.virtual_within_m);
+  const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
+  const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
+  for (const Glass& glass : bodies) {
+    const GpuReflector::Patch& patch = glass.gpu.patches().front();
+    if (shown_.size() == most_shown || !frustum.may_see(patch.bounds.box)) continue;
     const auto [nearest, normal] = glass.map.surface(viewer - glass.map.window.centre);
     if (glm::dot(viewer - nearest, normal) <= 0.0f) continue;  // within the glass nothing of it is drawn
-    const GpuReflector::Patch& patch = glass.gpu.patches().front();
-    shown_.push_back({reflector.object, -1, &glass.gpu, &patch, world_from_reflector, viewer});
-    if (through_.size() < shown_.size()) through_.emplace_back();
+    shown_.push_back({object, near, &glass.gpu, &patch, world_from_reflector, viewer});
     const auto surface = [&](glm::vec3 direction) { return glass.map.surface(direction); };
     const GlassBody body{surface, patch.window.centre, patch.window.reach, glass.ior};
-    ViewThrough& through = through_[shown_.size() - 1];
+    ViewThrough& through = through_.emplace_back();
     through.glass = &glass;
-    through.shows_objects =
-        shows_all || render::find_near(renderer, reflector.object, settings_.virtual_within_m, through.near);
+    through.shows_objects = shows_all || near >= 0;
     if (through.shows_objects) through.rays = refraction_rays(body, viewer);
   }
 }
@@ -112,9 +117,12 @@ void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, r
   if (!through_[i].shows_objects) return draw_light(view, i, Share::all_light);
   draw_light(view, i, Share::behind_glass);
   current_ = i;
-  view.excluded_object = shown_[i].object;
+  own_items_.clear();
+  for (const std::size_t part : through_[i].glass->parts)
+    own_items_.push_back(renderer.gpu().first_item(shown_[i].object) + std::uint32_t(part));
+  view.left_out_items = own_items_;
   view.part = pixels_of(shown_[i], view);
-  view.shown_objects = through_[i].near.empty() ? nullptr : &through_[i].near;
+  view.shown_objects = near_.list(shown_[i].near);
   for (foci_ = 0; foci_ < layers; ++foci_) {
     renderer.draw_view(view);
     view.clears = false;

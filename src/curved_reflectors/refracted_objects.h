@@ -7,9 +7,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "curved_reflectors/near_objects.h"
 #include "curved_reflectors/reflector_cache.h"
 #include "curved_reflectors/refraction_search.h"
 #include "curved_reflectors/shown_patch.h"
@@ -45,36 +47,39 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
     ReflectorMap map;
     float ior;
     glm::vec3 absorption_per_m;
+    std::vector<std::size_t> parts;  ///< of its model
   };
   /// What a frame knows of one beside its patch.
   struct ViewThrough {
     const Glass* glass = nullptr;
     bool shows_objects = false;                        ///< before the light of its surroundings
     std::array<glm::mat4, refraction_ray_count> rays;  ///< if it shows objects
-    std::vector<std::uint8_t> near;                    ///< of all objects, which; empty: all
   };
   enum class Share { behind_glass, let_through, from_inside, all_light };  ///< as in glass_light.frag
 
   RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
                    gl::Program glass_light, VirtualPicture picture,
                    std::unique_ptr<render::Reflections> reflections);
-  static std::unique_ptr<Glass> glass_of(const ReflectorCache& cache, const scene::Object& object);
+  static std::optional<Glass> glass_of(const ReflectorCache& cache, const GlassSource& source);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
   void find_glass(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
+  void find_bodies(const render::Renderer& renderer, int object, const std::vector<Glass>& bodies);
   void draw_through(render::Renderer& renderer, std::size_t i, render::View view);
   void draw_light(const render::View& view, std::size_t i, Share share) const;
 
-  std::unordered_map<const scene::Model*, std::unique_ptr<Glass>> glass_;  ///< null: none to be followed
+  std::unordered_map<const scene::Model*, std::vector<Glass>> glass_;
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, glass_light_;
   VirtualPicture picture_;
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> reflections_;
   std::vector<ShownPatch> shown_;     ///< in the order of their numbers in the stencil
-  std::vector<ViewThrough> through_;  ///< of each of them, and room for more
-  std::size_t current_ = 0;           ///< of them, while its mirrored view is drawn
-  int foci_ = 0;                      ///< that the light of its layer has passed
+  std::vector<ViewThrough> through_;  ///< of each of them
+  NearObjects near_;
+  std::vector<std::uint32_t> own_items_;  ///< of the body whose mirrored view is drawn
+  std::size_t current_ = 0;               ///< of them, while its mirrored view is drawn
+  int foci_ = 0;                          ///< that the light of its layer has passed
 };
 
 /// See RefractedObjects::create; scene and renderer outlive it.

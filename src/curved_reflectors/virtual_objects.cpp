@@ -132,18 +132,10 @@ void VirtualObjects::find_all_patches(const render::Renderer& renderer) {
   }
 }
 
-/// Of a reflector: a further entry of `near_`, or below 0 where nothing stands near.
-int VirtualObjects::find_near(const render::Renderer& renderer, const render::Reflector& reflector) {
-  if (near_.size() == near_count_) near_.emplace_back();
-  const bool has_near =
-      render::find_near(renderer, reflector.object, settings_.virtual_within_m, near_[near_count_]);
-  return has_near ? int(near_count_++) : -1;
-}
-
 void VirtualObjects::find_patches(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
-  near_count_ = 0;
+  near_.begin_frame();
   const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
   for (const render::Reflector& reflector : reflectors) {
     const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);
@@ -151,7 +143,7 @@ void VirtualObjects::find_patches(const render::Renderer& renderer,
     if (!gpu || !is_scaled_evenly(world_from_reflector)) continue;
     const bool is_small = settings_.uses_level_of_detail && reflector.size_px < least_size_px;
     if (!shows_all && is_small) continue;
-    const int near = shows_all ? -1 : find_near(renderer, reflector);
+    const int near = shows_all ? -1 : near_.find(renderer, reflector.object, settings_.virtual_within_m);
     if (!shows_all && near < 0) continue;
     const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
     const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
@@ -166,7 +158,7 @@ void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& pa
   current_ = &patch;
   view.excluded_object = patch.object;
   view.part = pixels_of(patch, view);
-  view.shown_objects = patch.near < 0 ? nullptr : &near_[std::size_t(patch.near)];
+  view.shown_objects = near_.list(patch.near);
   const auto [first, end] = layers_of(*patch.patch);
   for (layer_ = first; layer_ < end; ++layer_) {
     renderer.draw_view(view);

@@ -10,6 +10,7 @@
 
 #include "curved_reflectors/grid_search.h"
 #include "curved_reflectors/mirrors_in_mirrors.h"
+#include "curved_reflectors/near_objects.h"
 #include "curved_reflectors/virtual_picture.h"
 #include "render/reflections.h"
 
@@ -55,7 +56,6 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   void find_all_patches(const render::Renderer& renderer);
   void draw_surroundings(render::Renderer& renderer, const scene::Scene& scene,
                          const std::vector<render::Reflector>& reflectors);
-  int find_near(const render::Renderer& renderer, const render::Reflector& reflector);
   void draw_own_reflections(const render::View& view);
   void draw_patch(render::Renderer& renderer, const ShownPatch& patch, render::View view);
 
@@ -67,10 +67,9 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;
-  std::vector<ShownPatch> shown_;                 ///< in the order of their numbers in the stencil
-  std::vector<ShownPatch> all_;                   ///< whether the main view shows them or not
-  std::vector<std::vector<std::uint8_t>> near_;   ///< objects that stand near: as many as a frame ever needed
-  std::size_t near_count_ = 0;                    ///< of this frame
+  std::vector<ShownPatch> shown_;  ///< in the order of their numbers in the stencil
+  std::vector<ShownPatch> all_;    ///< whether the main view shows them or not
+  NearObjects near_;
   std::vector<std::vector<std::uint8_t>> large_;  ///< by reflector: objects that its surroundings show
   std::vector<render::Reflector> with_large_;
   const ShownPatch* current_ = nullptr;  ///< while its mirrored view is drawn

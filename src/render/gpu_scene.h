@@ -95,6 +95,8 @@ class GpuScene {
   }
   const std::vector<GpuMaterial>& materials() const { return materials_; }
   const std::vector<Item>& items() const { return items_; }
+  /// An item for each part of the object's model follows, in their order.
+  std::uint32_t first_item(int object) const { return first_item_[std::size_t(object)]; }
   /// Of all parts of an object, in the world.
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
   const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }

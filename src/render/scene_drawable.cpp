@@ -217,7 +217,8 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
     const Item& item = items[i];
     const bool is_left_out =  // of a mirror that is seen in itself, what does not mirror is shown
         item.object == view.excluded_object && (view.kind != ViewKind::mirrored || item.is_mirror);
-    if (is_left_out || !shows(view.subjects, gpu_, item.object)) continue;
+    if (is_left_out || std::ranges::count(view.left_out_items, std::uint32_t(i)) > 0) continue;
+    if (!shows(view.subjects, gpu_, item.object)) continue;
     if (!gpu_.is_visible(item.object) || !view.shows(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
     if (!may_see(view, frustum, item.bounds)) continue;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "base/camera.h"
@@ -42,6 +43,8 @@ struct View {
       0};  ///< x, y, width, height in pixels, from the lower left: all that is drawn; none: everything
   const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< a flag for each object; null: all
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
+  std::span<const std::uint32_t>
+      left_out_items;       ///< of GpuScene: parts of objects that do not see themselves
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
   bool clears = true;                           ///< depth; else it draws over what is there

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "scene/name_pattern.h"
+#include "scene/part_division.h"
 
 namespace parvis::scene {
 namespace {
@@ -41,35 +43,6 @@ Material changed(Material material, const MaterialChange& change, const std::str
   override_with(material.absorption_per_m, change.absorption_per_m);
   override_with(material.is_mirror_like, change.is_mirror_like);
   return material;
-}
-
-/// The triangles of `mesh` for which `takes[i]` is `taken`, with only the vertices they need.
-Mesh extracted(const Mesh& mesh, const std::vector<bool>& takes, bool taken) {
-  constexpr std::uint32_t unused = ~std::uint32_t{0};
-  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
-  Mesh result;
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    if (takes[i / 3] != taken) continue;
-    const std::uint32_t old = mesh.indices[i];
-    if (new_index[old] == unused) {
-      new_index[old] = std::uint32_t(result.positions.size());
-      result.positions.push_back(mesh.positions[old]);
-      result.normals.push_back(mesh.normals[old]);
-      result.uvs.push_back(mesh.uvs[old]);
-    }
-    result.indices.push_back(new_index[old]);
-  }
-  return result;
-}
-
-/// Of a mesh that bends all vertices stay: its deformation counts them.
-Mesh side_of(const Part& part, const std::vector<bool>& takes, bool taken) {
-  if (!part.deformation) return extracted(part.mesh, takes, taken);
-  Mesh side = part.mesh;
-  side.indices.clear();
-  for (std::size_t i = 0; i < part.mesh.indices.size(); ++i)
-    if (takes[i / 3] == taken) side.indices.push_back(part.mesh.indices[i]);
-  return side;
 }
 
 std::vector<bool> triangles_in(std::span<const MaterialMask> masks, const Model& model, const Part& part) {
@@ -204,11 +177,10 @@ std::size_t change_material(Model& model, std::span<const std::size_t> parts,
     if (!sides_of.count(old)) sides_of[old] = add_sides(model, old, masks, change, name);
     const Sides sides = sides_of[old];
     if (count < is_taken.size()) {
-      Part rest = model.parts[index];
-      rest.mesh = side_of(rest, is_taken, false);
-      rest.material = sides.outside;
-      model.parts[index].mesh = side_of(model.parts[index], is_taken, true);
-      model.parts.push_back(std::move(rest));
+      Part inside = split_off(model.parts[index], is_taken);
+      Part outside = std::exchange(model.parts[index], std::move(inside));
+      outside.material = sides.outside;
+      model.parts.push_back(std::move(outside));
     }
     model.parts[index].material = sides.inside;
   }

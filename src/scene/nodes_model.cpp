@@ -1,6 +1,7 @@
 // model: a model file, placed.
 #include <algorithm>
 
+#include "scene/glass_pieces.h"
 #include "scene/model_node.h"
 #include "scene/model_source.h"
 #include "scene/node_registry.h"
@@ -136,6 +137,11 @@ glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& bu
   return glm::vec3(0.0f);
 }
 
+std::shared_ptr<const Model> with_glass_divided(Model model) {
+  divide_glass(model);
+  return std::make_shared<const Model>(std::move(model));
+}
+
 std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder) {
   const std::filesystem::path file = node.file("file");
   ModelReading reading;
@@ -156,7 +162,7 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
                             "{} corners and road points lie beyond \"{}\" or in its holes; they stand at its "
                             "lowest height",
                             places_beyond, node.text("ground")));
-    if (model) return std::make_shared<const Model>(std::move(*model));
+    if (model) return with_glass_divided(std::move(*model));
     builder.fail(model.errors(), node.where_of("file"));
     return nullptr;
   });
@@ -223,7 +229,7 @@ std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
   return builder.shared_model(key, [&] {
     Model model = *as_read;
     for (const Node& child : node.children) builder.change(model, child);
-    return std::make_shared<const Model>(std::move(model));
+    return with_glass_divided(std::move(model));
   });
 }
 

@@ -1,0 +1,148 @@
+#include "scene/glass_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "base/joined_triangles.h"
+#include "scene/part_division.h"
+
+namespace parvis::scene {
+namespace {
+
+bool is_same_glass(const Material& a, const Material& b) {
+  return a.ior == b.ior && a.absorption_per_m == b.absorption_per_m && a.is_mirror_like == b.is_mirror_like;
+}
+
+/// All of a model's glass of one kind, and where its triangles come from.
+struct Glass {
+  int material;
+  Mesh mesh;
+  std::vector<std::pair<std::size_t, std::uint32_t>> origins;  ///< part and triangle
+};
+
+std::vector<Glass> glass_by_kind(const Model& model) {
+  std::vector<Glass> kinds;
+  const std::vector<glm::mat4> pose = rest_pose(model);
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    const Material& material = model.materials[std::size_t(part.material)];
+    if (!material.refracts()) continue;
+    auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Glass& glass) {
+      return is_same_glass(model.materials[std::size_t(glass.material)], material);
+    });
+    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Glass{part.material, {}, {}});
+    append(kind->mesh, part.mesh, pose[std::size_t(part.node)]);
+    for (std::uint32_t t = 0; t < part.mesh.triangle_count(); ++t) kind->origins.emplace_back(p, t);
+  }
+  return kinds;
+}
+
+GlassPiece piece_of(const Glass& glass, const JoinedTriangles& joined, const MeshPiece& piece) {
+  GlassPiece made;
+  made.material = glass.material, made.is_closed = piece.is_closed;
+  std::map<std::uint32_t, std::uint32_t> known;
+  for (const std::uint32_t t : piece.triangles) {
+    const auto [part, triangle] = glass.origins[joined.numbers[t]];
+    made.triangles[part].push_back(triangle);
+    for (const std::uint32_t vertex : joined.triangles[t]) {
+      const auto [entry, is_new] = known.try_emplace(vertex, std::uint32_t(made.mesh.positions.size()));
+      made.mesh.indices.push_back(entry->second);
+      if (!is_new) continue;
+      made.mesh.positions.push_back(glass.mesh.positions[vertex]);
+      made.mesh.normals.push_back(glass.mesh.normals[vertex]);
+      made.mesh.uvs.push_back(glass.mesh.uvs[vertex]);
+    }
+  }
+  return made;
+}
+
+bool contains(const Bounds& outer, const Bounds& inner) {
+  return glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
+         glm::all(glm::lessThanEqual(inner.max, outer.max));
+}
+
+/// By the solid angles under which a point sees the triangles of a closed mesh (van Oosterom and Strackee
+/// 1983): they add up to the whole sphere, or to nothing.
+bool encloses(const Mesh& mesh, glm::vec3 point) {
+  double half_angle = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    glm::dvec3 to[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      to[k] = glm::normalize(glm::dvec3(mesh.positions[mesh.indices[i + k]]) - glm::dvec3(point));
+    half_angle += std::atan2(glm::dot(to[0], glm::cross(to[1], to[2])),
+                             1.0 + glm::dot(to[0], to[1]) + glm::dot(to[1], to[2]) + glm::dot(to[2], to[0]));
+  }
+  constexpr double pi = 3.14159265358979;
+  return std::abs(half_angle) > pi;
+}
+
+/// Puts the surfaces of hollows to the bodies that they are in.
+void join_hollows(std::vector<GlassPiece>& found) {
+  std::vector<Bounds> bounds;
+  for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
+  const auto surrounding = [&](std::size_t inner) {
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
+          encloses(found[i].mesh, found[inner].mesh.positions.front()))
+        return i;
+    return inner;
+  };
+  std::vector<std::size_t> outer;
+  for (std::size_t i = 0; i < found.size(); ++i) outer.push_back(found[i].is_closed ? surrounding(i) : i);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::size_t outermost = i;
+    while (outer[outermost] != outermost) outermost = outer[outermost];
+    if (outermost == i) continue;
+    append(found[outermost].mesh, found[i].mesh);
+    for (const auto& [part, triangles] : found[i].triangles)
+      for (const std::uint32_t triangle : triangles) found[outermost].triangles[part].push_back(triangle);
+    found[i].mesh = {};
+  }
+  std::erase_if(found, [](const GlassPiece& piece) { return piece.mesh.indices.empty(); });
+}
+
+}  // namespace
+
+std::vector<GlassPiece> glass_pieces(const Model& model) {
+  std::vector<GlassPiece> found;
+  for (const Glass& glass : glass_by_kind(model)) {
+    const JoinedTriangles joined = joined_triangles(glass.mesh);
+    for (const MeshPiece& piece : pieces(joined)) found.push_back(piece_of(glass, joined, piece));
+  }
+  join_hollows(found);
+  return found;
+}
+
+void divide_glass(Model& model) {
+  constexpr std::size_t none = ~std::size_t{0};
+  std::map<std::size_t, std::vector<std::size_t>> owners_of_part;  // of each triangle, its piece
+  const std::vector<GlassPiece> found = glass_pieces(model);
+  for (std::size_t f = 0; f < found.size(); ++f)
+    for (const auto& [part, triangles] : found[f].triangles) {
+      std::vector<std::size_t>& owners = owners_of_part[part];
+      owners.resize(model.parts[part].mesh.triangle_count(), none);
+      for (const std::uint32_t triangle : triangles) owners[triangle] = f;
+    }
+  for (const auto& [index, owners] : owners_of_part) {
+    std::set<std::size_t> of_part(owners.begin(), owners.end());
+    of_part.erase(none);  // what has no area is shown nowhere
+    if (of_part.size() < 2) continue;
+    Part whole = std::exchange(model.parts[index], Part());
+    std::vector<std::size_t> left = owners;
+    for (const std::size_t owner : of_part) {
+      std::vector<bool> takes;
+      for (const std::size_t other : left) takes.push_back(other == owner);
+      Part own = split_off(whole, takes);
+      std::erase(left, owner);
+      if (owner == *of_part.begin()) {
+        model.parts[index] = std::move(own);
+      } else {
+        model.parts.push_back(std::move(own));
+      }
+    }
+  }
+}
+
+}  // namespace parvis::scene
