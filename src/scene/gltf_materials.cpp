@@ -117,6 +117,7 @@ class MaterialReader {
       m.ior = usual_ior;
     }
     m.alpha_mode = Alpha::opaque, m.is_double_sided = false;
+    m.thickness_m = gltf_number(volume, "thicknessFactor", m.thickness_m);
     const glm::vec3 left = gltf_vector<3>(volume, "attenuationColor", glm::vec3(1.0f));
     const float distance_m = gltf_number(volume, "attenuationDistance", 0.0f);  // absent: infinitely far
     if (distance_m > 0.0f)

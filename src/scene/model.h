@@ -55,6 +55,7 @@ struct Material {
   /// enters, bent; it has no colour of its own then.
   float ior = 1.0f;
   glm::vec3 absorption_per_m{0.0f};  ///< of that body
+  float thickness_m = 0.005f;        ///< of that glass where its surface bounds no body: a pane's
   float relief_m = 0.0f;  ///< depth below the surface where the normal texture's alpha is 0; 0: it is flat
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;

@@ -56,7 +56,8 @@ NodeSchema material_schema() {
             .minimum = 0},
            {.name = "ior",
             .type = AttributeType::number,
-            .help = "index of refraction: makes it a closed body of solid glass (1.33 water, 1.5 glass, 2.42 "
+            .help = "index of refraction: makes it a closed body of solid glass, where it is open a pane "
+                    "(1.33 water, 1.5 glass, 2.42 "
                     "diamond)",
             .minimum = 1,
             .maximum = 4},

@@ -1,7 +1,7 @@
 // model: a model file, placed.
 #include <algorithm>
 
-#include "scene/glass_pieces.h"
+#include "scene/glass_pane.h"
 #include "scene/model_node.h"
 #include "scene/model_source.h"
 #include "scene/node_registry.h"
@@ -137,11 +137,6 @@ glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& bu
   return glm::vec3(0.0f);
 }
 
-std::shared_ptr<const Model> with_glass_divided(Model model) {
-  divide_glass(model);
-  return std::make_shared<const Model>(std::move(model));
-}
-
 std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder) {
   const std::filesystem::path file = node.file("file");
   ModelReading reading;
@@ -162,7 +157,7 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
                             "{} corners and road points lie beyond \"{}\" or in its holes; they stand at its "
                             "lowest height",
                             places_beyond, node.text("ground")));
-    if (model) return with_glass_divided(std::move(*model));
+    if (model) return std::make_shared<const Model>(std::move(*model));
     builder.fail(model.errors(), node.where_of("file"));
     return nullptr;
   });
@@ -223,13 +218,20 @@ void build_model(const Node& node, SceneBuilder& builder) {
 
 std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
   std::shared_ptr<const Model> as_read = read_model_file(node, builder);
-  if (!as_read || node.children.empty()) return as_read;
-  std::string key = reading_key(node);
+  const auto refracts = [](const Material& material) { return material.refracts(); };
+  if (!as_read || (node.children.empty() && std::ranges::none_of(as_read->materials, refracts)))
+    return as_read;
+  std::string key = reading_key(node) + "#changed";
   for (const Node& child : node.children) key += signature(child);
   return builder.shared_model(key, [&] {
     Model model = *as_read;
     for (const Node& child : node.children) builder.change(model, child);
-    return with_glass_divided(std::move(model));
+    if (const std::set<std::string> panes = settle_glass(model); !panes.empty())
+      builder.warn(error_at(node.where_of("file"),
+                            "the solid glass of {} is open, and bounds no body that light could be followed "
+                            "through: it is drawn as panes. Close its holes, or give it no thickness",
+                            fmt::join(panes, ", ")));
+    return std::make_shared<const Model>(std::move(model));
   });
 }
 

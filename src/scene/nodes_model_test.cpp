@@ -131,6 +131,25 @@ TEST_F(ModelNodes, MaterialsGoToTheirTarget) {
   EXPECT_FLOAT_EQ(material_of(model, "pane").base_colour.x, 1.0f);
 }
 
+/// As windows of cars are, in files that give them a thickness.
+TEST_F(ModelNodes, OpenSolidGlassIsAPane) {
+  const auto expect_pane = [&](const char* script) {
+    const auto loaded = load(script);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    const Material& pane = material_of(*loaded->scene.objects.at(0).model, "pane");
+    EXPECT_FALSE(pane.refracts());
+    EXPECT_EQ(pane.alpha_mode, Alpha::blend);
+    EXPECT_TRUE(holds(to_string(loaded->warnings), "scene.xp:1:")) << to_string(loaded->warnings);
+    EXPECT_TRUE(holds(to_string(loaded->warnings), "solid glass of pane is open"));
+  };
+  expect_pane("model(file=two.glb) { material(target=\"pane\", preset=\"solid_glass\") }");
+  Model squares = two_squares();
+  squares.materials.push_back({.name = "glass", .ior = 1.5f});
+  squares.parts[1].material = 1;
+  ASSERT_TRUE(write_gltf(folder_.path() / "window.glb", squares));
+  expect_pane("model(file=window.glb)");
+}
+
 TEST_F(ModelNodes, BadTargetsMasksAndFilesAreTold) {
   EXPECT_TRUE(
       holds(errors_of("model(file=two.glb) {\n material(target=\"bdy\") }"),
