@@ -13,7 +13,28 @@ namespace {
 constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
 constexpr float ways_apart =
     0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
-constexpr std::size_t most_shown = 255;  // numbers of the stencil
+constexpr int pane_number = 255;         // of the stencil
+constexpr std::size_t most_shown = 254;  // other numbers
+
+/// A reflector's mesh as one patch, for drawing alone.
+Reflector surface_of(const Reflector& reflector) {
+  Reflector surface{reflector.mesh, {ReflectorPatch{}}, {ReflectorMap{}}, {}};
+  for (std::uint32_t t = 0; t < reflector.mesh.neighbours.size(); ++t)
+    surface.patches.front().triangles.push_back(t);
+  surface.maps.front().texels = ImageF(1, 1, 4);
+  return surface;
+}
+
+/// Of what a closed surface encloses, if it were a sheet as large as half the surface.
+float thickness_of(const ReflectorMesh& mesh) {
+  double volume = 0.0, area = 0.0;
+  for (std::size_t t = 0; t < mesh.neighbours.size(); ++t) {
+    const auto [a, b, c] = mesh.corners(t);
+    volume += glm::dot(glm::dvec3(a), glm::cross(glm::dvec3(b), glm::dvec3(c))) / 6.0;
+    area += 0.5 * glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
+  }
+  return float(2.0 * std::abs(volume) / area);
+}
 
 }  // namespace
 
@@ -61,26 +82,36 @@ RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePro
 
 std::optional<RefractedObjects::Glass> RefractedObjects::glass_of(const ReflectorCache& cache,
                                                                   const GlassSource& source) {
-  const auto refuse = [&](const std::string& why) {
-    fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n", why);
-    return std::nullopt;
-  };
   const std::string& name = source.outside.name;
   const Result<Reflector> made = cache.reflector(source.outside);
-  if (!made) return refuse(to_string(made.errors().front()));
-  if (made->mesh.open_edges > 0)
-    return refuse(fmt::format("{}: {} edges of its glass have not two triangles; close its holes", name,
-                              made->mesh.open_edges));
-  if (made->patches.size() != 1 || !made->maps.front().is_convex || !made->maps.front().is_whole_body())
-    return refuse(fmt::format("{}: its glass is not one convex body", name));
-  return Glass{GpuReflector(*made), made->maps.front(), source.material->ior,
-               source.material->absorption_per_m, source.parts};
+  if (!made) {
+    fmt::print(stderr, "warning: {}; as solid glass it shows the sky straight through\n",
+               to_string(made.errors().front()));
+    return std::nullopt;
+  }
+  const bool is_open = made->mesh.open_edges > 0;
+  const float thickness = is_open ? source.material->thickness_m : thickness_of(made->mesh);
+  const auto glass = [&](const Reflector& surface, std::optional<ReflectorMap> map) {
+    return Glass{GpuReflector(surface), std::move(map),
+                 source.material->ior,  source.material->absorption_per_m,
+                 source.parts,          thickness};
+  };
+  const ReflectorMap& map = made->maps.front();
+  if (!is_open && made->patches.size() == 1 && map.is_convex && map.is_whole_body()) return glass(*made, map);
+  const std::string why = is_open
+                              ? fmt::format("{} edges of its glass have not two triangles; close its holes",
+                                            made->mesh.open_edges)
+                              : "its glass is not one convex body";
+  fmt::print(stderr, "warning: {}: {}; it shows what is behind it straight through, as a pane\n", name, why);
+  return glass(surface_of(*made), std::nullopt);
 }
 
 void RefractedObjects::find_glass(const render::Renderer& renderer,
                                   const std::vector<render::Reflector>& reflectors) {
   shown_.clear();
   through_.clear();
+  panes_.clear();
+  glass_of_panes_.clear();
   near_.begin_frame();
   for (const render::Reflector& reflector : reflectors)
     if (const auto bodies = glass_.find(model_of_object_[std::size_t(reflector.object)]);
@@ -92,18 +123,23 @@ void RefractedObjects::find_glass(const render::Renderer& renderer,
 void RefractedObjects::find_bodies(const render::Renderer& renderer, int object,
                                    const std::vector<Glass>& bodies) {
   const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(object);
-  if (!is_scaled_evenly(world_from_reflector)) return;
+  const bool is_even = is_scaled_evenly(world_from_reflector);
   const bool shows_all = settings_.method == scene::ReflectionMethod::virtual_objects;
   const int near = shows_all ? -1 : near_.find(renderer, object, settings_.virtual_within_m);
   const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
   const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
   for (const Glass& glass : bodies) {
     const GpuReflector::Patch& patch = glass.gpu.patches().front();
-    if (shown_.size() == most_shown || !frustum.may_see(patch.bounds.box)) continue;
-    const auto [nearest, normal] = glass.map.surface(viewer - glass.map.window.centre);
+    if (!frustum.may_see(patch.bounds.box)) continue;
+    if (!glass.map || !is_even || shown_.size() == most_shown) {
+      panes_.push_back({object, -1, &glass.gpu, &patch, world_from_reflector, viewer});
+      glass_of_panes_.push_back(&glass);
+      continue;
+    }
+    const auto [nearest, normal] = glass.map->surface(viewer - glass.map->window.centre);
     if (glm::dot(viewer - nearest, normal) <= 0.0f) continue;  // within the glass nothing of it is drawn
     shown_.push_back({object, near, &glass.gpu, &patch, world_from_reflector, viewer});
-    const auto surface = [&](glm::vec3 direction) { return glass.map.surface(direction); };
+    const auto surface = [&](glm::vec3 direction) { return glass.map->surface(direction); };
     const GlassBody body{surface, patch.window.centre, patch.window.reach, glass.ior};
     ViewThrough& through = through_.emplace_back();
     through.glass = &glass;
@@ -135,6 +171,41 @@ void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, r
   glDisable(GL_BLEND);
 }
 
+/// The pixels of all bodies that light is not followed through: the scene as it is without glass, less what
+/// those of them absorb that nothing hides.
+void RefractedObjects::draw_panes(render::Renderer& renderer, render::View view) {
+  glStencilFunc(GL_EQUAL, pane_number, 0xff);
+  view.kind = render::ViewKind::cube_face;  // in it mirrors show the sky
+  view.virtual_vertices = nullptr;
+  view.shows_glass = false;
+  glm::ivec2 low(view.width, view.height), high(0);
+  for (const ShownPatch& pane : panes_) {
+    const glm::ivec4 part = pixels_of(pane, view);
+    low = glm::min(low, glm::ivec2(part)),
+    high = glm::max(high, glm::ivec2(part) + glm::ivec2(part.z, part.w));
+  }
+  view.part = {low, high - low};
+  renderer.draw_view(view);
+  glDepthRange(1.0, 0.0);  // as the renderer has left it
+  glDepthFunc(GL_GEQUAL);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_ZERO, GL_CONSTANT_COLOR, GL_ZERO, GL_ONE);
+  patch_pixels_.use();
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const Glass& glass = *glass_of_panes_[i];
+    const float thickness_m = glass.thickness * glm::length(panes_[i].world_from_reflector[0]);
+    const glm::vec3 left = glm::exp(-thickness_m * glass.absorption_per_m);
+    glBlendColor(left.x, left.y, left.z, 1.0f);
+    patch_pixels_.set("clip_from_reflector", view.clip_from_world * panes_[i].world_from_reflector);
+    panes_[i].reflector->draw(*panes_[i].patch);
+  }
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDepthRange(0.0, 1.0);
+}
+
 void RefractedObjects::draw_light(const render::View& view, std::size_t i, Share share) const {
   const ShownPatch& shown = shown_[i];
   const Glass& glass = *through_[i].glass;
@@ -164,6 +235,8 @@ void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scen
   const render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels_, view, shown_);
+  mark_patches(patch_pixels_, view, panes_, pane_number);
+  if (!panes_.empty()) draw_panes(renderer, view);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
     draw_through(renderer, i, view);
@@ -207,7 +280,7 @@ gl::Defines RefractedObjects::defines() const {
 
 void RefractedObjects::bind(const gl::Program& program, int object) {
   glBindTextureUnit(render::glass_picture_unit, picture_.texture());
-  program.set("glass_share", is_shown(shown_, object) ? 1.0f : 0.0f);
+  program.set("glass_share", is_shown(shown_, object) || is_shown(panes_, object) ? 1.0f : 0.0f);
   reflections_->bind(program, object);
 }
 

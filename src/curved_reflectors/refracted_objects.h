@@ -2,7 +2,7 @@
 // view, that their pixels look up. Behind the glass lies the cube map of its surroundings, if the method has
 // one, else the sky; before it, where virtual objects are wanted (reflection(method="virtual_objects") or
 // virtual_within), the scene drawn once more with every vertex where the glass shows it
-// (refraction_search.glsl).
+// (refraction_search.glsl). What light cannot be followed through is a pane: the scene straight through it.
 #pragma once
 
 #include <array>
@@ -23,8 +23,7 @@ namespace parvis::curved_reflectors {
 class RefractedObjects final : public render::Reflections, public render::VirtualVertices {
  public:
   /// Makes the maps of all bodies of glass; tells on standard error which are none that light can be followed
-  /// through (open, not convex): they show the sky straight through. `reflections` is what all surfaces
-  /// mirror by.
+  /// through (open, not convex): they are drawn as panes. `reflections` is what all surfaces mirror by.
   static Result<std::unique_ptr<RefractedObjects>> create(const scene::Scene& scene,
                                                           const render::Renderer& renderer,
                                                           std::unique_ptr<render::Reflections> reflections);
@@ -41,13 +40,13 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   bool may_show(const Bounds& bounds) const override;
 
  private:
-  /// A body that light can be followed through.
   struct Glass {
-    GpuReflector gpu;
-    ReflectorMap map;
+    GpuReflector gpu;                 ///< all of its surface as one patch
+    std::optional<ReflectorMap> map;  ///< none: light can not be followed through it
     float ior;
     glm::vec3 absorption_per_m;
     std::vector<std::size_t> parts;  ///< of its model
+    float thickness = 0.0f;          ///< in its model's unit, as a pane
   };
   /// What a frame knows of one beside its patch.
   struct ViewThrough {
@@ -66,6 +65,7 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   void find_glass(const render::Renderer& renderer, const std::vector<render::Reflector>& reflectors);
   void find_bodies(const render::Renderer& renderer, int object, const std::vector<Glass>& bodies);
   void draw_through(render::Renderer& renderer, std::size_t i, render::View view);
+  void draw_panes(render::Renderer& renderer, render::View view);
   void draw_light(const render::View& view, std::size_t i, Share share) const;
 
   std::unordered_map<const scene::Model*, std::vector<Glass>> glass_;
@@ -76,6 +76,8 @@ class RefractedObjects final : public render::Reflections, public render::Virtua
   std::unique_ptr<render::Reflections> reflections_;
   std::vector<ShownPatch> shown_;     ///< in the order of their numbers in the stencil
   std::vector<ViewThrough> through_;  ///< of each of them
+  std::vector<ShownPatch> panes_;     ///< bodies that light is not followed through
+  std::vector<const Glass*> glass_of_panes_;
   NearObjects near_;
   std::vector<std::uint32_t> own_items_;  ///< of the body whose mirrored view is drawn
   std::size_t current_ = 0;               ///< of them, while its mirrored view is drawn

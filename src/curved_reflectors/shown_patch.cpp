@@ -52,11 +52,11 @@ void begin_marks(const render::View& view) {
 void end_marks() { glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP); }
 
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
-                  std::span<const ShownPatch> patches) {
+                  std::span<const ShownPatch> patches, std::optional<int> number) {
   begin_marks(view);
   patch_pixels.use();
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    glStencilFunc(GL_ALWAYS, GLint(i) + 1, 0xff);
+    glStencilFunc(GL_ALWAYS, number.value_or(int(i) + 1), 0xff);
     patch_pixels.set("clip_from_reflector", view.clip_from_world * patches[i].world_from_reflector);
     patches[i].reflector->draw(*patches[i].patch);
   }

@@ -1,6 +1,7 @@
 // A patch of a reflector where it stands in a frame.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "curved_reflectors/gpu_reflector.h"
@@ -39,9 +40,10 @@ glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
 void begin_marks(const render::View& view);
 void end_marks();
 
-/// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1.
-/// `patch_pixels`: patch_pixels.vert and .frag. The view's stencil test is on.
+/// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1; or all of
+/// them get `number`. What was marked before stays where it is nearer. `patch_pixels`: patch_pixels.vert and
+/// .frag. The view's stencil test is on.
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
-                  std::span<const ShownPatch> patches);
+                  std::span<const ShownPatch> patches, std::optional<int> number = {});
 
 }  // namespace parvis::curved_reflectors

@@ -206,6 +206,11 @@ void SceneDrawable::sort(ViewList& list) {
                     [](const ViewList::Entry& entry) { return std::pair(entry.key, entry.item); });
 }
 
+bool SceneDrawable::refracts(const Item& item) const {
+  const PartRange& part = gpu_.parts()[std::size_t(item.part)];
+  return (gpu_.materials()[std::size_t(part.material)].features & surface_is_glass) != 0;
+}
+
 void SceneDrawable::gather(const View& view, ViewList& list) {
   const Frustum frustum(view.clip_of_part() * view.clip_from_world);
   const ScreenScale scale(view);
@@ -218,6 +223,7 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
     const bool is_left_out =  // of a mirror that is seen in itself, what does not mirror is shown
         item.object == view.excluded_object && (view.kind != ViewKind::mirrored || item.is_mirror);
     if (is_left_out || std::ranges::count(view.left_out_items, std::uint32_t(i)) > 0) continue;
+    if (!view.shows_glass && refracts(item)) continue;
     if (!shows(view.subjects, gpu_, item.object)) continue;
     if (!gpu_.is_visible(item.object) || !view.shows(item.object)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;

@@ -104,6 +104,7 @@ class SceneDrawable final : public Drawable {
   void find_occluders(const scene::Scene& scene);
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
+  bool refracts(const Item& item) const;
   int level_of(const Item& item, const ScreenScale& scale) const;
   std::uint64_t sort_key(const Item& item, int level, const View& view) const;
   void keep_moving_shapes(const scene::Scene& scene);

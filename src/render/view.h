@@ -45,6 +45,7 @@ struct View {
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   std::span<const std::uint32_t>
       left_out_items;       ///< of GpuScene: parts of objects that do not see themselves
+  bool shows_glass = true;  ///< what refracts
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
   bool clears = true;                           ///< depth; else it draws over what is there
