@@ -57,6 +57,7 @@ std::vector<GlassSource> glass_sources(const scene::Object& object) {
     const scene::Material& material = model.materials[std::size_t(body.material)];
     if (!is_glass(material)) continue;
     std::vector<std::size_t> parts;
+    parts.reserve(body.triangles.size());
     for (const auto& [part, triangles] : body.triangles) parts.push_back(part);
     const float size = body.mesh.bounds().radius();
     squares += size * size;

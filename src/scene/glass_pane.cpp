@@ -8,10 +8,10 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float least_alpha = 0.25f;  // as the preset clear_glass has it: so much is seen of what it mirrors
-constexpr float own_light = 0.02f;    // as there: dust
+constexpr float least_alpha = 0.25f;  // as the preset clear_glass has it
+constexpr float mirrored = 0.08f;     // of the light, seen straight on: by both faces
 constexpr float tint_light =
-    0.5f;  // of the light that a tint keeps, how much a blended pane sends out in its stead
+    0.5f;  // of the light that a tint keeps, how much more of that colour is mirrored
 
 /// By the numbers of the materials of glass.
 using Panes = std::map<int, int>;
@@ -29,10 +29,11 @@ Material pane_of(const Material& glass) {
       glm::clamp(glass.base_colour * glm::exp(-glass.thickness_m * glass.absorption_per_m), 0.0f, 1.0f);
   Material pane = glass;
   pane.ior = 1.0f, pane.absorption_per_m = glm::vec3(0.0f);
-  pane.base_colour = own_light + tint_light * (clear - std::min({clear.x, clear.y, clear.z}));
-  pane.base_colour_texture = no_index;
-  pane.metallic = 0.0f;
   pane.alpha = std::max(1.0f - luminance(clear), least_alpha);
+  // What blends mirrors by as much less. As a metal it mirrors as much more.
+  pane.metallic = 1.0f;
+  pane.base_colour = mirrored / pane.alpha + tint_light * (clear - std::min({clear.x, clear.y, clear.z}));
+  pane.base_colour_texture = pane.surface_texture = no_index;
   pane.alpha_mode = Alpha::blend;
   pane.is_double_sided = true;
   return pane;

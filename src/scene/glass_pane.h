@@ -9,7 +9,7 @@
 namespace parvis::scene {
 
 /// A pane of that glass: blended, tinted by as much as its colour and its thickness keep of the light, seen
-/// from both sides. It mirrors as its surface does.
+/// from both sides. It mirrors as much as both faces of a sheet, seen straight on.
 Material pane_of(const Material& glass);
 
 /// Makes a model's solid glass such that light can be followed through it: each body is parts of its own

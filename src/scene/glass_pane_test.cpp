@@ -29,6 +29,7 @@ TEST(GlassPane, LetsThroughWhatItsThicknessLeavesAndNoMoreThanClearGlass) {
     EXPECT_FALSE(pane.refracts());
     EXPECT_TRUE(pane.is_mirror_like && pane.is_double_sided);
     EXPECT_EQ(pane.alpha_mode, Alpha::blend);
+    EXPECT_NEAR(pane.alpha * pane.base_colour.x, 0.08f, 1e-3f) << "what both faces of a sheet mirror";
   }
 }
 
