@@ -88,7 +88,7 @@ void join(JoinedTriangles& joined) {
 JoinedTriangles joined_triangles(const Mesh& mesh) {
   const float size = glm::length(mesh.bounds().size());
   JoinedTriangles joined;
-  if (!(size > 0.0f) || mesh.positions.empty()) {
+  if (!(size > 0.0f) || !std::isfinite(size)) {  // nothing has an area, or it is beyond all numbers
     joined.places.assign(mesh.positions.size(), 0);
     return joined;
   }

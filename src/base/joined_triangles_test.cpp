@@ -57,8 +57,11 @@ TEST(JoinedTriangles, WhatHasNoAreaIsLeftOutAndThreeAtAnEdgeAreOpen) {
   for (const std::uint32_t corner : {0u, 1u, 12u}) mesh.indices.push_back(corner);
   EXPECT_EQ(joined_triangles(mesh).open_edges, 3u) << "the fin's two rims, and where it stands on the body";
   EXPECT_TRUE(joined_triangles(Mesh()).triangles.empty());
-  for (glm::vec3& position : mesh.positions) position = glm::vec3(1.0f);
-  EXPECT_TRUE(joined_triangles(mesh).triangles.empty());
+  for (const float huge : {0.0f, 1e30f, 1e38f}) {
+    Mesh other = mesh;
+    for (glm::vec3& position : other.positions) position = huge * position + 1.0f;
+    EXPECT_TRUE(joined_triangles(other).triangles.empty()) << huge;
+  }
 }
 
 }  // namespace
