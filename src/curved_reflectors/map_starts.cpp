@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "curved_reflectors/reflection_search.h"
 #include "curved_reflectors/reflector_map.h"
@@ -17,28 +18,32 @@ constexpr float middle_share = 0.3f;               // of a band's breadth, in wh
 constexpr int bend_probes = 16, least_probes = 4;  // about a start
 constexpr float bend_reach = 0.6f;                 // of the way to the next start
 
-/// Directions to the triangles of a patch; of a rim, to those along its middle: beside its edges normals
-/// point away from most that it shows.
-std::vector<glm::vec3> start_directions(const ReflectorMesh& mesh, const ReflectorPatch& patch,
-                                        const MapWindow& window) {
-  std::vector<glm::vec3> all, in_middle;
+/// Directions to triangles of a patch, where the map says what the surface is; of a rim, to those along its
+/// middle: beside its edges normals point away from most that it shows.
+std::vector<glm::vec3> start_directions(const ReflectorMap& map, const ReflectorMesh& mesh,
+                                        const ReflectorPatch& patch) {
+  const MapWindow& window = map.window;
+  std::vector<glm::vec3> all, on_surface, in_middle;
   for (const std::uint32_t t : patch.triangles) {
     const auto [a, b, c] = mesh.corners(t);
-    all.push_back(glm::normalize(a + b + c - 3.0f * patch.centre));
-    const float off_axis = std::acos(glm::clamp(glm::dot(all.back(), window.axes[2]), -1.0f, 1.0f));
+    const glm::vec3 direction = glm::normalize(a + b + c - 3.0f * patch.centre);
+    all.push_back(direction);
+    if (map.surface_kind(direction) != kind_surface) continue;
+    on_surface.push_back(direction);
+    const float off_axis = std::acos(glm::clamp(glm::dot(direction, window.axes[2]), -1.0f, 1.0f));
     const float off_middle = off_axis - window.band.y - 0.5f * window.band.z;
-    if (std::abs(off_middle) < 0.5f * middle_share * window.band.z) in_middle.push_back(all.back());
+    if (std::abs(off_middle) < 0.5f * middle_share * window.band.z) in_middle.push_back(direction);
   }
-  return in_middle.empty() ? all : in_middle;
+  return !in_middle.empty() ? in_middle : !on_surface.empty() ? on_surface : all;
 }
 
 /// Directions to triangles of the patch, the first near its middle, each of the others as far as can be from
 /// those before.
-std::array<glm::vec3, start_count> spread_directions(const ReflectorMesh& mesh, const ReflectorPatch& patch,
-                                                     const MapWindow& window) {
-  const glm::vec3 middle = window.axes[2];
-  const std::vector<glm::vec3> directions = start_directions(mesh, patch, window);
-  std::array<glm::vec3, start_count> starts;
+std::vector<glm::vec3> spread_directions(const ReflectorMap& map, const ReflectorMesh& mesh,
+                                         const ReflectorPatch& patch) {
+  const glm::vec3 middle = map.window.axes[2];
+  const std::vector<glm::vec3> directions = start_directions(map, mesh, patch);
+  std::vector<glm::vec3> starts(start_count);
   starts[0] = *std::max_element(directions.begin(), directions.end(), [&](glm::vec3 a, glm::vec3 b) {
     return glm::dot(a, middle) < glm::dot(b, middle);
   });
@@ -49,6 +54,24 @@ std::array<glm::vec3, start_count> spread_directions(const ReflectorMesh& mesh, 
     starts[i] = directions[std::size_t(std::min_element(nearest.begin(), nearest.end()) - nearest.begin())];
   }
   return starts;
+}
+
+/// The same in another order: beside each of the first 16 as many of the others, the nearest pairs first.
+std::vector<glm::vec3> side_by_side(const std::vector<glm::vec3>& directions) {
+  std::vector<std::tuple<float, std::size_t, std::size_t>> pairs;
+  for (std::size_t first = 0; first < layer_start_count; ++first)
+    for (std::size_t other = layer_start_count; other < start_count; ++other)
+      pairs.emplace_back(-glm::dot(directions[first], directions[other]), first, other);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<glm::vec3> ordered = directions;
+  std::vector<char> is_taken(start_count);
+  std::array<std::size_t, layer_start_count> beside{};
+  for (const auto& [apart, first, other] : pairs) {
+    if (is_taken[other] || beside[first] == starts_beside) continue;
+    is_taken[other] = true;
+    ordered[layer_start_count + starts_beside * first + beside[first]++] = directions[other];
+  }
+  return ordered;
 }
 
 /// How a surface bends about a start, as far as `reach`: the symmetric matrix (uu, uv, vv) by which, over
@@ -76,10 +99,9 @@ glm::vec3 bend_about(const ReflectorMap& map, const Search::TangentPlane& plane,
   return {glm::inverse(sums) * turned};
 }
 
-std::array<MapStart, start_count> starts_at(const ReflectorMap& map,
-                                            const std::array<glm::vec3, start_count>& directions) {
+std::vector<MapStart> starts_at(const ReflectorMap& map, const std::vector<glm::vec3>& directions) {
   Search search{map};
-  std::array<MapStart, start_count> starts;
+  std::vector<MapStart> starts(start_count);
   for (std::size_t i = 0; i < start_count; ++i)
     std::tie(starts[i].position, starts[i].normal) = map.surface(directions[i]);
   for (MapStart& start : starts) {
@@ -97,9 +119,17 @@ std::array<MapStart, start_count> starts_at(const ReflectorMap& map,
 
 }  // namespace
 
-std::array<MapStart, start_count> spread_starts(const ReflectorMap& map, const ReflectorMesh& mesh,
-                                                const ReflectorPatch& patch) {
-  return starts_at(map, spread_directions(mesh, patch, map.window));
+void MapStarts::set(std::size_t i, const MapStart& start) {
+  std::size_t number = 0;
+  for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
+    for (int axis = 0; axis < 3; ++axis) numbers_[number++][i] = value[axis];
+}
+
+MapStarts spread_starts(const ReflectorMap& map, const ReflectorMesh& mesh, const ReflectorPatch& patch) {
+  const std::vector<MapStart> starts = starts_at(map, side_by_side(spread_directions(map, mesh, patch)));
+  MapStarts by_number;
+  for (std::size_t i = 0; i < start_count; ++i) by_number.set(i, starts[i]);
+  return by_number;
 }
 
 }  // namespace parvis::curved_reflectors

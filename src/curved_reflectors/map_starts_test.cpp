@@ -8,7 +8,8 @@ namespace {
 
 TEST(MapStarts, KnowHowTheSurfaceBends) {
   const Reflector ball = reflector(ellipsoid_mesh(glm::vec3(2.0f)));
-  for (const MapStart& start : ball.maps[0].starts) {
+  for (std::size_t i = 0; i < start_count; ++i) {
+    const MapStart start = ball.maps[0].starts[i];
     EXPECT_NEAR(glm::length(start.position), 2.0f, 0.005f);
     EXPECT_NEAR(glm::dot(start.normal, start.u), 0.0f, 1e-4f);
     // 1 / radius all round; the mesh's interpolated normals turn by a few hundredths more here, less there.
@@ -21,7 +22,7 @@ struct Counting {
   const ReflectorMap& map;
   MapWindow window = map.window;
   bool is_convex = map.is_convex, shows_once = map.shows_once;
-  const std::array<MapStart, start_count>& starts = map.starts;
+  const MapStarts& starts = map.starts;
   mutable int lookups = 0;
 
   bool is_whole_body() const { return map.is_whole_body(); }

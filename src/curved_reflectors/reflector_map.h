@@ -23,8 +23,8 @@ struct ReflectorMap {
   MapWindow window = all_directions;
   bool is_convex = true;
   bool shows_once = true;  ///< as its patch; else a vertex is searched for layer by layer (patch_search.glsl)
-  std::array<MapStart, start_count> starts{};  ///< spread over the patch, the first near its middle
-  ImageF texels;                               ///< square, 4 channels: as reflector_map.glsl has them
+  MapStarts starts;
+  ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
 
   /// Does the centre see surface all around?
   bool is_whole_body() const { return window.extent == 1.0f; }
