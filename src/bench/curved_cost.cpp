@@ -3,9 +3,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/reflection_cost.h"
-#include "curved_reflectors/grid_search.h"
 #include "curved_reflectors/reflector_cache.h"
 #include "curved_reflectors/shown_patch.h"
+#include "curved_reflectors/vertex_search.h"
 #include "curved_reflectors/virtual_objects.h"
 #include "gl/context.h"
 #include "render/bindings.h"
@@ -73,7 +73,7 @@ class SearchAhead {
     const scene::Object& mirror = scene.objects[balls];
     const Result<Reflector> reflector = ReflectorCache(scene).reflector(mirror_source(scene, mirror));
     if (!reflector) return reflector.errors();
-    Result<GridSearch> search = GridSearch::create(scene, renderer.gpu(), {{"ALL_PLAIN", ""}});
+    Result<VertexSearch> search = VertexSearch::create(scene, renderer.gpu(), {{"ALL_PLAIN", ""}});
     if (!search) return search.errors();
     return SearchAhead(renderer, mirror.world_from_model, *reflector, *std::move(search));
   }
@@ -90,7 +90,7 @@ class SearchAhead {
 
  private:
   SearchAhead(const render::Renderer& renderer, const glm::mat4& world_from_mirror,
-              const Reflector& reflector, GridSearch search)
+              const Reflector& reflector, VertexSearch search)
       : renderer_(renderer),
         world_from_mirror_(world_from_mirror),
         reflector_(reflector),
@@ -99,7 +99,7 @@ class SearchAhead {
   const render::Renderer& renderer_;
   glm::mat4 world_from_mirror_;
   GpuReflector reflector_;
-  GridSearch search_;
+  VertexSearch search_;
 };
 
 /// A share of the vertices that is searched for, by grids; 1: each vertex.

@@ -1,24 +1,29 @@
 #include "curved_reflectors/gpu_reflector.h"
 
+#include <algorithm>
+
 namespace parvis::curved_reflectors {
 namespace {
+
+constexpr std::size_t starts_in_row = 8;  // as in virtual_point.glsl
 
 /// A map's texels, and below them in rows its starts, four texels each: position, normal, axis, bend.
 gl::Texture upload(const ReflectorMap& map) {
   const ImageF& texels = map.texels;
   std::vector<glm::vec4> starts;
-  for (const MapStart& start : map.starts)
+  for (std::size_t i = 0; i < start_count; ++i) {
+    const MapStart start = map.starts[i];
     for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
       starts.emplace_back(value, 0.0f);
-  const std::size_t width(texels.width), rows = (starts.size() + width - 1) / width;
-  starts.resize(rows * width);
-  gl::Texture texture = gl::texture_2d(GL_RGBA32F, texels.width, texels.height + int(rows));
+  }
+  constexpr int width = 4 * starts_in_row, rows = start_count / starts_in_row;
+  static_assert(start_count % starts_in_row == 0);
+  gl::Texture texture = gl::texture_2d(GL_RGBA32F, std::max(texels.width, width), texels.height + rows);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureSubImage2D(texture.name(), 0, 0, 0, texels.width, texels.height, GL_RGBA, GL_FLOAT,
                       texels.pixels.data());
-  glTextureSubImage2D(texture.name(), 0, 0, texels.height, texels.width, int(rows), GL_RGBA, GL_FLOAT,
-                      starts.data());
+  glTextureSubImage2D(texture.name(), 0, 0, texels.height, width, rows, GL_RGBA, GL_FLOAT, starts.data());
   return texture;
 }
 
@@ -41,8 +46,9 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
                 GLsizei(indices.size()),
                 0};
     for (std::size_t k = 0; k < layer_start_count; ++k) {
-      patch.start_positions[k] = map.starts[k].position, patch.start_normals[k] = map.starts[k].normal;
-      patch.start_axes[k] = map.starts[k].u, patch.start_bends[k] = map.starts[k].bend;
+      const MapStart start = map.starts[k];
+      patch.start_positions[k] = start.position, patch.start_normals[k] = start.normal;
+      patch.start_axes[k] = start.u, patch.start_bends[k] = start.bend;
     }
     for (const std::uint32_t t : reflector.patches[i].triangles)
       indices.insert(indices.end(), &reflector.mesh.mesh.indices[3 * t],

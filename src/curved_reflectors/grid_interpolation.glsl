@@ -1,6 +1,6 @@
 // Virtual vertices out of the eight corners of their cell (Estalella and others 2005, section 5), trilinear.
 // Needs virtual_point.glsl and grid_table.glsl.
-uniform highp sampler2DArray grid_results;  // of grid_search.frag
+uniform highp sampler2DArray grid_results;  // of vertex_search.frag
 
 // Of a corner, or of a vertex that is one, as it was searched for.
 VirtualPoint searched_point(int corner, int first_row) {

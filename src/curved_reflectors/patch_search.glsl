@@ -8,7 +8,8 @@
 // Needs newton_search.glsl and map_window.glsl.
 
 const int search_start_count = 16;
-const int all_start_count = 64;
+const int starts_beside = 8;       // each of those
+const int all_start_count = 144;
 const int layer_count = search_start_count + 1;
 const int most_attempts = 16;
 const int newton_steps = 20;
@@ -45,8 +46,8 @@ GLSL_FUNCTION float way_from_start(ReflectionTask task, SearchStart start, bool 
   vec2 turned = vec2(lean.x * bend.z - lean.y * bend.y, lean.y * bend.x - lean.x * bend.y);
   float determinant = bend.x * bend.z - bend.y * bend.y;
   float to_go = dot(turned, turned) / max(determinant * determinant, 1e-20f);
-  if (is_convex && (determinant <= 0.0f || bend.x <= 0.0f)) to_go *= 4.0f;
-  if (height <= 0.0f || dot(lean, lean) > 3.0f * height * height) to_go *= 1e3f;  // seen_error
+  to_go *= is_convex && min(determinant, bend.x) <= 0.0f ? 4.0f : 1.0f;
+  to_go *= dot(lean, lean) > 3.0f * height * abs(height) ? 1e3f : 1.0f;  // seen_error
   return max(to_go / dot(from_centre, from_centre), 1e-12f);
 }
 
@@ -69,12 +70,17 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     return search_from(task, start_along(task, task.vertex - task.centre), bounds).found;
   }
 #endif
-  float to_go[64];  // all_start_count; below 0 where there was a first turn
-  int next = 0, known = search_start_count;
+  float to_go[144];  // all_start_count; below 0 where there was a first turn
+  int next = 0;
   float least = no_turn;
-  to_go[0] = no_turn;
+  for (int i = 0; i < search_start_count; ++i) to_go[i] = way_from_start(task, search_start(i), kind.is_convex);
   for (int i = 0; i < search_start_count; ++i) {
-    to_go[i] = way_from_start(task, search_start(i), kind.is_convex);
+    next = to_go[i] < least ? i : next;
+    least = min(to_go[i], least);
+  }
+  int first = search_start_count + starts_beside * next, last = first + starts_beside;
+  for (int i = first; i < last; ++i) to_go[i] = way_from_start(task, further_start(i), kind.is_convex);
+  for (int i = first; i < last; ++i) {
     next = to_go[i] < least ? i : next;
     least = min(to_go[i], least);
   }
@@ -92,10 +98,12 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
                                               found_error, !is_last));
     is_done = is_found(end.found);
     if (is_done || end.found.point.angle < best.found.point.angle) best = end;
-    for (; known < all_start_count && !is_done; ++known)
-      to_go[known] = way_from_start(task, further_start(known), kind.is_convex);
+    float turn = to_go[next];
+    int unknown = k == 0 && !is_done ? search_start_count : all_start_count;
+    for (int i = unknown; i < all_start_count; ++i) to_go[i] = way_from_start(task, further_start(i), kind.is_convex);
+    to_go[next] = turn;
     least = no_turn;
-    for (int i = 0; i < known && !is_done; ++i) {
+    for (int i = 0; i < all_start_count && !is_done; ++i) {
       float rank = to_go[i] < 0.0f ? -second_turn * to_go[i] : to_go[i];
       next = rank < least ? i : next;
       least = min(rank, least);

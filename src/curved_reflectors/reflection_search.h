@@ -41,7 +41,7 @@ struct ReflectionSearch {
     }
   }
   SearchStart search_start(int i) {
-    const auto& [position, normal, u, bend] = reflector.starts[std::size_t(i)];
+    const auto [position, normal, u, bend] = reflector.starts[std::size_t(i)];
     return {{{position, normal, kind_surface}, u, cross(normal, u)}, bend};
   }
   SearchStart further_start(int i) { return search_start(i); }

@@ -5,7 +5,7 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-constexpr SealedKind kind{"PARVISR1", "reflector"};
+constexpr SealedKind kind{"PARVISR2", "reflector"};
 
 // What is written and what is read, in one order: `Archive` does the one or the other.
 
@@ -64,7 +64,7 @@ void pass_map(Archive& archive, Map& map) {
   archive.value(map.window);
   archive.value(map.is_convex);
   archive.value(map.shows_once);
-  for (auto& start : map.starts) archive.value(start);
+  archive.value(map.starts);
   archive.value(map.texels.width);
   archive.value(map.texels.height);
   archive.value(map.texels.channels);

@@ -1,18 +1,16 @@
 // Reflector maps: one for each patch of a reflector.
 #pragma once
 
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/image.h"
+#include "curved_reflectors/map_starts.h"
 #include "curved_reflectors/map_window.h"
 #include "curved_reflectors/reflector_patches.h"
 
 namespace parvis::curved_reflectors {
-
-inline constexpr std::size_t layer_start_count = 16, start_count = 64;  ///< as in patch_search.glsl
 
 /// What a map holds along a direction.
 struct MapPoint {
@@ -20,20 +18,13 @@ struct MapPoint {
   float kind;  ///< the surface, a crease, or what closes it; see reflector_map.glsl
 };
 
-/// Where searches may begin: a place, and how the surface bends about it, in the tangent plane of `normal`
-/// and `u` (patch_search.glsl).
-struct MapStart {
-  glm::vec3 position, normal, u, bend;
-  bool operator==(const MapStart&) const = default;
-};
-
 /// Position and normal of a patch by direction from its centre; see reflector_map.glsl.
 struct ReflectorMap {
   MapWindow window = all_directions;
   bool is_convex = true;
   bool shows_once = true;  ///< as its patch; else a vertex is searched for layer by layer (patch_search.glsl)
-  std::array<MapStart, start_count> starts{};  ///< spread over the patch, the first near its middle
-  ImageF texels;                               ///< square, 4 channels: as reflector_map.glsl has them
+  MapStarts starts;
+  ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
 
   /// Does the centre see surface all around?
   bool is_whole_body() const { return window.extent == 1.0f; }

@@ -12,6 +12,7 @@
 #include "curved_reflectors/exact_reflection.h"
 #include "curved_reflectors/reflection_search.h"
 #include "curved_reflectors/surface_rays.h"
+#include "curved_reflectors/test_reflectors.h"
 #include "scene/model_source.h"
 #include "scene/test_scene.h"
 
@@ -20,14 +21,7 @@ namespace {
 
 using Search = ReflectionSearch<ReflectorMap>;
 
-constexpr int side = 128;
 constexpr double degree = 0.017453292519943295;
-
-Mesh ellipsoid_mesh(glm::vec3 radii, int rings = 96) {
-  Mesh mesh;
-  append(mesh, scene::sphere(glm::vec3(0.0f), 1.0f, rings), glm::scale(glm::mat4(1.0f), radii));
-  return mesh;
-}
 
 /// The ball without what lies below `height`.
 Mesh open_ball(float height, int rings = 64) {
@@ -49,21 +43,8 @@ Mesh turned_inside_out(Mesh mesh) {
   return mesh;
 }
 
-glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
-}
-
 ReflectorMesh ordered(const Mesh& mesh) {
   Result<ReflectorMesh> made = reflector_mesh(mesh, "kettle");
-  EXPECT_TRUE(made) << to_string(made.errors());
-  return *std::move(made);
-}
-
-Reflector reflector(const Mesh& mesh) {
-  Result<Reflector> made = make_reflector(mesh, "kettle", side);
   EXPECT_TRUE(made) << to_string(made.errors());
   return *std::move(made);
 }
@@ -192,48 +173,6 @@ TEST(ReflectorMap, AnOpenOneIsClosedForTheSearchAndReflectsNothingThere) {
   const auto below =
       search.search_patch({{0.5f, 0, -4}, {3, 0, -3}, map.window.centre}, search.patch_kind(), -1);
   EXPECT_FALSE(search.is_found(below)) << "the point would lie on the part that is not there";
-}
-
-TEST(ReflectorMap, ItsStartsKnowHowTheSurfaceBends) {
-  const Reflector ball = reflector(ellipsoid_mesh(glm::vec3(2.0f)));
-  for (const MapStart& start : ball.maps[0].starts) {
-    EXPECT_NEAR(glm::length(start.position), 2.0f, 0.005f);
-    EXPECT_NEAR(glm::dot(start.normal, start.u), 0.0f, 1e-4f);
-    // 1 / radius all round; the mesh's interpolated normals turn by a few hundredths more here, less there.
-    EXPECT_LT(glm::distance(start.bend, glm::vec3(0.5f, 0.0f, 0.5f)), 0.02f);
-  }
-}
-
-/// A map that counts how often it is looked into.
-struct Counting {
-  const ReflectorMap& map;
-  MapWindow window = map.window;
-  bool is_convex = map.is_convex, shows_once = map.shows_once;
-  const std::array<MapStart, start_count>& starts = map.starts;
-  mutable int lookups = 0;
-
-  bool is_whole_body() const { return map.is_whole_body(); }
-  MapPoint sample(glm::vec3 direction) const {
-    ++lookups;
-    return map.sample(direction);
-  }
-};
-
-TEST(ReflectorMap, SearchesBeginNextToTheirPoint) {
-  const Reflector ellipsoid = reflector(ellipsoid_mesh({1, 0.6f, 0.8f}));
-  const Counting counting{ellipsoid.maps[0]};
-  ReflectionSearch<Counting> search{counting};
-  Random random(7);
-  constexpr int tasks = 1000;
-  int found = 0;
-  for (int i = 0; i < tasks; ++i) {  // hidden vertices, too
-    const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * chance_direction(random),
-                    vertex = random.uniform(1.2f, 4.0f) * chance_direction(random);
-    const auto point = search.search_patch({viewer, vertex, counting.window.centre}, search.patch_kind(), -1);
-    found += search.is_found(point) ? 1 : 0;
-  }
-  EXPECT_GT(found, 998);
-  EXPECT_LT(counting.lookups, 5 * tasks) << "8 before searches had places to choose from";
 }
 
 /// Vertices that the body does reflect, from chance places of its surface; what is found is judged on the

@@ -39,8 +39,9 @@ struct Pair {
     return {position, normal, kind_surface};
   }
   SearchStart search_start(int i) {
-    const auto count = float(all_start_count);
-    const float turn = 2.4f * float(i), z = -1.0f + (2.0f * float((7 * i) % all_start_count) + 1.0f) / count;
+    const bool is_first = i < search_start_count;  // those, and all further ones, are spread all around
+    const int count = is_first ? search_start_count : all_start_count - search_start_count;
+    const float turn = 2.4f * float(i), z = -1.0f + (2.0f * float((7 * i) % count) + 1.0f) / float(count);
     const TangentPlane plane = tangent_plane(
         surface_at({std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z}),
         vec3(0.0f));

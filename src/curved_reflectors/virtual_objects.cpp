@@ -78,10 +78,10 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   std::unique_ptr<MirrorsInMirrors> in_mirrors;
   ReflectorsByModel reflectors = reflectors_of(scene);
   gl::Defines defines = search_defines(reflectors, scene.reflection);
-  Result<GridSearch> grids = GridSearch::create(scene, renderer.gpu(), defines);
-  if (!grids) return grids.errors();
+  Result<VertexSearch> vertex_search = VertexSearch::create(scene, renderer.gpu(), defines);
+  if (!vertex_search) return vertex_search.errors();
   defines.emplace_back("IS_MIRRORED", "");
-  if (grids->has_any()) defines.emplace_back("HAS_VIRTUAL_GRIDS", "");
+  if (vertex_search->has_any()) defines.emplace_back("HAS_VERTEX_SEARCH", "");
   if (scene.reflection.method == scene::ReflectionMethod::virtual_objects && scene.reflection.bounces > 1) {
     Result<std::unique_ptr<MirrorsInMirrors>> made =
         MirrorsInMirrors::create(renderer, map_defines(reflectors));
@@ -97,13 +97,13 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   if (!picture) return picture.errors();
   return std::unique_ptr<VirtualObjects>(
       new VirtualObjects(scene, std::move(reflectors), *std::move(programs), *std::move(patch_pixels),
-                         *std::move(own_reflection), *std::move(picture), *std::move(grids),
+                         *std::move(own_reflection), *std::move(picture), *std::move(vertex_search),
                          std::move(in_mirrors), std::move(surroundings)));
 }
 
 VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors,
                                render::SurfacePrograms programs, gl::Program patch_pixels,
-                               gl::Program own_reflection, VirtualPicture picture, GridSearch grids,
+                               gl::Program own_reflection, VirtualPicture picture, VertexSearch vertex_search,
                                std::unique_ptr<MirrorsInMirrors> in_mirrors,
                                std::unique_ptr<render::Reflections> surroundings)
     : VirtualVertices(std::move(programs)),
@@ -111,7 +111,7 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel refl
       patch_pixels_(std::move(patch_pixels)),
       own_reflection_(std::move(own_reflection)),
       picture_(std::move(picture)),
-      grids_(std::move(grids)),
+      vertex_search_(std::move(vertex_search)),
       in_mirrors_(std::move(in_mirrors)),
       settings_(scene.reflection),
       surroundings_(std::move(surroundings)) {
@@ -231,7 +231,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
 void VirtualObjects::bind(const gl::Program& program) {
   GpuReflector::bind(program, *current_->patch, current_->world_from_reflector, render::virtual_vertex_unit,
                      layer_);
-  grids_.bind(program);
+  vertex_search_.bind(program);
   if (!in_mirrors_) return;
   glBindTextureUnit(render::near_picture_unit, in_mirrors_->texture());
   program.set("near_share", 1.0f);
@@ -252,11 +252,11 @@ glm::ivec2 VirtualObjects::add(const render::Item& item) {
                              current_->viewer, in_reflector(world_from_reflector, item.bounds.centre()),
                              item.bounds.radius() / glm::length(world_from_reflector[0]),
                              current_->patch->is_convex);
-  return grids_.add(item, 0.7853982f * width_px * width_px);  // of a disc
+  return vertex_search_.add(item, 0.7853982f * width_px * width_px);  // of a disc
 }
 
 void VirtualObjects::prepare() {
-  grids_.search([this](const gl::Program& program) {
+  vertex_search_.search([this](const gl::Program& program) {
     bind(program);
     program.set("viewer_in_reflector", current_->viewer);
   });

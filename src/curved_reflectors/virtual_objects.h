@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "curved_reflectors/grid_search.h"
 #include "curved_reflectors/mirrors_in_mirrors.h"
 #include "curved_reflectors/near_objects.h"
+#include "curved_reflectors/vertex_search.h"
 #include "curved_reflectors/virtual_picture.h"
 #include "render/reflections.h"
 
@@ -45,7 +45,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
  private:
   VirtualObjects(const scene::Scene& scene, ReflectorsByModel reflectors, render::SurfacePrograms programs,
                  gl::Program patch_pixels, gl::Program own_reflection, VirtualPicture picture,
-                 GridSearch grids, std::unique_ptr<MirrorsInMirrors> in_mirrors,
+                 VertexSearch vertex_search, std::unique_ptr<MirrorsInMirrors> in_mirrors,
                  std::unique_ptr<render::Reflections> surroundings);
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<render::Reflector>& reflectors) override;
@@ -63,7 +63,7 @@ class VirtualObjects final : public render::Reflections, public render::VirtualV
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
-  GridSearch grids_;
+  VertexSearch vertex_search_;
   std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
   scene::Reflection settings_;
   std::unique_ptr<render::Reflections> surroundings_;

@@ -9,17 +9,16 @@ SearchStart search_start(int i) {
   return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_bends[16 * mirror + i]);
 }
 
-// Of the rows below the map (gpu_reflector.cpp).
-vec3 start_texel(int i) {
-  int side = int(map_size.y);
-  vec4 texel = reflector_texel(ivec2(i % side, side + i / side));
+// Of the rows below the map, eight starts each (gpu_reflector.cpp).
+vec3 start_texel(int i, int vector) {
+  vec4 texel = reflector_texel(ivec2(4 * (i & 7) + vector, int(map_size.y) + (i >> 3)));
   return texel.xyz;
 }
 
 SearchStart further_start(int i) {
-  vec3 normal = start_texel(4 * i + 1), axis = start_texel(4 * i + 2);
-  SurfacePoint at = SurfacePoint(start_texel(4 * i), normal, kind_surface);
-  return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_texel(4 * i + 3));
+  vec3 normal = start_texel(i, 1), axis = start_texel(i, 2);
+  SurfacePoint at = SurfacePoint(start_texel(i, 0), normal, kind_surface);
+  return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_texel(i, 3));
 }
 
 #include "curved_reflectors/patch_search.glsl"

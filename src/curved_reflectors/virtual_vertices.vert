@@ -4,11 +4,11 @@
 #include "render/surface_vertex.glsl"
 #include "curved_reflectors/virtual_place.glsl"
 
-#ifdef HAS_VIRTUAL_GRIDS
+#ifdef HAS_VERTEX_SEARCH
 #include "curved_reflectors/grid_table.glsl"
 #include "curved_reflectors/grid_interpolation.glsl"
 
-layout(location = 7) in ivec2 virtual_grid;  // of each instance, as GridSearch::add has it; 0: none
+layout(location = 7) in ivec2 virtual_grid;  // of each instance, as VertexSearch::add has it; 0: none
 
 uniform float most_stray_px;  // of what is interpolated, from where a search would put it
 

@@ -55,7 +55,7 @@ TEST_F(ProgramTest, EveryDisplayShaderCompilesInBothDialects) {
                     {"HAS_EMISSION_MAP", ""},  {"HAS_COAT", ""},
                     {"HAS_BACKS", ""},         {"HAS_HOLES", ""},
                     {"IS_LEAF", ""},           {"ANISOTROPY_BY_TAPS", ""},
-                    {"HAS_VIRTUAL_GRIDS", ""}, {"MIDPOINT_ITERATIONS", "9"},
+                    {"HAS_VERTEX_SEARCH", ""}, {"MIDPOINT_ITERATIONS", "9"},
                     {"IS_GLASS", ""},          {"HAS_GLASS_PICTURE", ""},
                     {"HAS_NEAR_PICTURE", ""},  {"HAS_RELIEF", ""},
                     {"ONE_SAMPLE", ""}};

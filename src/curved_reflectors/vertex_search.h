@@ -1,6 +1,6 @@
-// Searches ahead of a mirrored view, and virtual grids (Estalella and others 2005, section 5): for each view
-// one pass searches for the corners of all grids that it needs, and for all vertices of meshes without one, a
-// texel of a picture each, out of which the vertex shader then takes them or interpolates between them.
+// Searches ahead of a mirrored view: one pass searches for all vertices of meshes, and for the corners of the
+// virtual grids that stand in for vertices (Estalella and others 2005, section 5), a texel of a picture each,
+// out of which the vertex shader then takes them or interpolates between them.
 // Nothing is read back; a fragment shader searches, for it needs neither compute shaders nor storage buffers,
 // and runs on all cores of a software renderer.
 #pragma once
@@ -17,12 +17,12 @@
 
 namespace parvis::curved_reflectors {
 
-class GridSearch {
+class VertexSearch {
  public:
   /// Makes grids for all meshes that stay as they are and have enough vertices, after the scene's
   /// reflection(virtual_grid=...). `defines` are those of the search.
-  static Result<GridSearch> create(const scene::Scene& scene, const render::GpuScene& gpu,
-                                   const gl::Defines& defines);
+  static Result<VertexSearch> create(const scene::Scene& scene, const render::GpuScene& gpu,
+                                     const gl::Defines& defines);
 
   /// Is there a mesh whose vertices are not all searched for by themselves? Else shaders need not know.
   bool has_any() const { return has_any_; }
@@ -49,8 +49,8 @@ class GridSearch {
     glm::ivec2 grid;
   };
 
-  GridSearch(gl::Program program, const scene::Reflection& reflection, std::vector<MeshGrids> of_part,
-             std::span<const glm::vec4> table);
+  VertexSearch(gl::Program program, const scene::Reflection& reflection, std::vector<MeshGrids> of_part,
+               std::span<const glm::vec4> table);
   void upload_table(std::span<const glm::vec4> table);
   void make_results(int rows);
 

@@ -1,4 +1,4 @@
-#include "curved_reflectors/grid_search.h"
+#include "curved_reflectors/vertex_search.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ constexpr int table_width = 1024, results_width = 64;  // as in grid_table.glsl
 constexpr int least_result_rows = 256, most_result_rows = 16384;
 constexpr std::size_t most_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
 constexpr float stray_px = 0.3f;                                        // what of interpolation nobody sees
-constexpr int result_layers = 3;                                        // grid_search.frag's
+constexpr int result_layers = 3;                                        // vertex_search.frag's
 
 int rows_of(std::size_t corners) { return int((corners + results_width - 1) / results_width); }
 
@@ -75,10 +75,10 @@ std::vector<const Mesh*> meshes_of_parts(const scene::Scene& scene, const render
 
 }  // namespace
 
-Result<GridSearch> GridSearch::create(const scene::Scene& scene, const render::GpuScene& gpu,
-                                      const gl::Defines& defines) {
-  Result<gl::Program> program = gl::Program::create("curved_reflectors/grid_search.vert",
-                                                    "curved_reflectors/grid_search.frag", defines);
+Result<VertexSearch> VertexSearch::create(const scene::Scene& scene, const render::GpuScene& gpu,
+                                          const gl::Defines& defines) {
+  Result<gl::Program> program = gl::Program::create("curved_reflectors/vertex_search.vert",
+                                                    "curved_reflectors/vertex_search.frag", defines);
   if (!program) return program.errors();
   const scene::Reflection& reflection = scene.reflection;
   const std::vector<float> shares = shares_up_to(reflection.virtual_grid, reflection.uses_level_of_detail);
@@ -103,11 +103,11 @@ Result<GridSearch> GridSearch::create(const scene::Scene& scene, const render::G
       of_part[p].in_table.push_back(append(grid, table));
     }
   }
-  return GridSearch(*std::move(program), reflection, std::move(of_part), table);
+  return VertexSearch(*std::move(program), reflection, std::move(of_part), table);
 }
 
-GridSearch::GridSearch(gl::Program program, const scene::Reflection& reflection,
-                       std::vector<MeshGrids> of_part, std::span<const glm::vec4> table)
+VertexSearch::VertexSearch(gl::Program program, const scene::Reflection& reflection,
+                           std::vector<MeshGrids> of_part, std::span<const glm::vec4> table)
     : program_(std::move(program)),
       follows_area_(reflection.uses_level_of_detail),
       is_asked_for_(reflection.virtual_grid < 1.0f),
@@ -129,7 +129,7 @@ GridSearch::GridSearch(gl::Program program, const scene::Reflection& reflection,
   glVertexArrayBindingDivisor(array, 0, 1);
 }
 
-void GridSearch::upload_table(std::span<const glm::vec4> table) {
+void VertexSearch::upload_table(std::span<const glm::vec4> table) {
   const int whole_rows = int(table.size()) / table_width, rest = int(table.size()) % table_width;
   table_ = gl::texture_2d(GL_RGBA32F, table_width, whole_rows + 1);
   glTextureParameteri(table_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -141,7 +141,7 @@ void GridSearch::upload_table(std::span<const glm::vec4> table) {
                         table.data() + std::ptrdiff_t(whole_rows) * table_width);
 }
 
-void GridSearch::make_results(int rows) {
+void VertexSearch::make_results(int rows) {
   rows_ = rows;
   program_.set("results_size", glm::vec2(results_width, rows_));
   results_ = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
@@ -157,7 +157,7 @@ void GridSearch::make_results(int rows) {
   glNamedFramebufferDrawBuffers(target_.name(), result_layers, attachments);
 }
 
-glm::ivec2 GridSearch::add(const render::Item& item, float area_px) {
+glm::ivec2 VertexSearch::add(const render::Item& item, float area_px) {
   const MeshGrids& grids = of_part_[std::size_t(item.part)];
   auto level = follows_area_ ? grid_level(grids.corner_counts, grids.vertex_count, area_px) : std::nullopt;
   if (!level && is_asked_for_ && !grids.corner_counts.empty()) level = 0;
@@ -170,7 +170,7 @@ glm::ivec2 GridSearch::add(const render::Item& item, float area_px) {
   return {level ? in_table : -1 - grids.first_vertex, instances_.back().grid.y};
 }
 
-void GridSearch::search(const std::function<void(const gl::Program&)>& bind_patch) {
+void VertexSearch::search(const std::function<void(const gl::Program&)>& bind_patch) {
   if (instances_.empty()) return;
   if (rows_taken_ > rows_) make_results(std::min(2 * rows_taken_, most_result_rows));
   const GLintptr first = instance_store_.append(std::span<const Instance>(instances_), 16);
@@ -187,7 +187,7 @@ void GridSearch::search(const std::function<void(const gl::Program&)>& bind_patc
   rows_taken_ = 0;
 }
 
-void GridSearch::bind(const gl::Program& program) const {
+void VertexSearch::bind(const gl::Program& program) const {
   glBindTextureUnit(render::grid_table_unit, table_.name());
   glBindTextureUnit(render::grid_results_unit, results_.name());
   program.set("grid_table", int(render::grid_table_unit));

@@ -1,5 +1,5 @@
-// Where a patch shows the corners of virtual grids (Estalella and others 2005, section 5): a texel each. In the reflector's
-// frame; w of the image tells how doubtful the corner is.
+// Where a patch shows vertices, and corners of virtual grids (Estalella and others 2005, section 5): a texel each. In the reflector's
+// frame; w of the image tells how doubtful the point is.
 #include "curved_reflectors/virtual_point.glsl"
 #include "curved_reflectors/grid_table.glsl"
 
