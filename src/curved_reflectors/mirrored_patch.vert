@@ -7,6 +7,9 @@ uniform mat4 clip_from_world;
 uniform mat4 world_from_second;
 uniform vec3 viewer_in_world;
 
+out vec3 at_second;  // in the world
+
 void main() {
-  gl_Position = clip_from_world * vec4(virtual_place(viewer_in_world, moved(world_from_second, reflector_position)), 1.0f);
+  at_second = moved(world_from_second, reflector_position);
+  gl_Position = clip_from_world * vec4(virtual_place(viewer_in_world, at_second), 1.0f);
 }

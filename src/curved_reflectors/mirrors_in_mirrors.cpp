@@ -7,7 +7,8 @@
 namespace parvis::curved_reflectors {
 namespace {
 
-// Radians, radius over distance: a mirror that is worth showing, and a hollow, which is drawn in many layers.
+// Radians, radius over distance: a mirror that is worth showing, and one of which, or in which, many layers
+// are drawn.
 constexpr float least_angle = 0.05f, least_hollow_angle = 0.15f;
 constexpr GLuint first_bits = 0x0f, second_bits = 0xf0;
 
@@ -49,9 +50,9 @@ void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const Sho
     const Bounds bounds = bounds_in_world(patch);
     const float distance = std::max(glm::distance(bounds.centre(), before.centre()) - before.radius(), 1e-3f);
     const float angle = bounds.radius() / distance;
-    const bool is_plain = patch.patch->shows_once;
-    if (patch.object != first.object && angle > (is_plain ? least_angle : least_hollow_angle) &&
-        (is_plain || first.patch->shows_once))
+    const bool is_hollow = !patch.patch->shows_once, in_hollow = !first.patch->shows_once;
+    if (patch.object != first.object && !(is_hollow && in_hollow) &&
+        angle > (is_hollow || in_hollow ? least_hollow_angle : least_angle))
       candidates_.emplace_back(angle, &patch);
   }
   std::ranges::sort(candidates_, [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -45,7 +45,8 @@ TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
   EXPECT_NE(message.find("render/surface_body.glsl:"), std::string::npos) << message;
 }
 
-/// Multisampled textures are of OpenGL ES 3.10: there, the samples are brought together by a blit.
+/// Multisampled textures are of OpenGL ES 3.10. Before that a blit would bring the samples together: over
+/// pictures of virtual objects cleared to alpha 0, with surroundings on outlines.
 bool is_for_the_desktop_alone(std::string_view path) {
   return path == "render/resolve.frag" || path == "curved_reflectors/virtual_picture.frag";
 }
