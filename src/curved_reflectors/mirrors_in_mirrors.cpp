@@ -9,7 +9,7 @@ namespace {
 
 // Radians, radius over distance: a mirror that is worth showing, and one of which, or in which, many layers
 // are drawn.
-constexpr float least_angle = 0.05f, least_hollow_angle = 0.15f;
+constexpr float least_angle = 0.05f, least_hollow_angle = 0.3f;
 constexpr GLuint first_bits = 0x0f, second_bits = 0xf0;
 
 Bounds bounds_in_world(const ShownPatch& patch) {
