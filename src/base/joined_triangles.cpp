@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace parvis {
 namespace {
 
-constexpr float same_place = 1e-6f;  // of the mesh's size: vertices nearer than this are one
+constexpr double same_place = 1e-6;  // of the mesh's size: vertices nearer than this are one
+/// Of the greatest coordinate: so are those nearer than a few of the steps that numbers have there.
+constexpr double few_steps = 4.0 * std::numeric_limits<float>::epsilon();
 constexpr double tolerances_a_cell = 8.0;
 constexpr double least_area = 1e-12;  // of the size squared
 
@@ -16,10 +19,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// Vertices by where they are: cells of several tolerances, so that few places lie beside a border.
 class Places {
  public:
-  explicit Places(float tolerance) : tolerance_(double(tolerance)) {}
+  Places(const Bounds& bounds, double tolerance) : corner_(bounds.min), tolerance_(tolerance) {}
 
   /// The number of the place that a point is at; a new one, if it is near none.
-  std::uint32_t at(glm::dvec3 point) {
+  std::uint32_t at(glm::vec3 position) {
+    const glm::dvec3 point = glm::dvec3(position) - corner_;  // so that cells have small numbers
     const glm::dvec3 low = point - tolerance_, high = point + tolerance_;
     const Cell first = cell_of(low), last = cell_of(high);
     for (long x = first[0]; x <= last[0]; ++x)
@@ -41,10 +45,32 @@ class Places {
     return {along(point.x), along(point.y), along(point.z)};
   }
 
+  glm::dvec3 corner_;
   double tolerance_;
   std::vector<glm::dvec3> points_;
   std::map<Cell, std::vector<std::uint32_t>> cells_;
 };
+
+/// 0 if nothing has an extent, or it is beyond all numbers: then nothing has an area.
+double tolerance_of(const Bounds& bounds) {
+  const float size = glm::length(bounds.size());
+  if (!(size > 0.0f) || !std::isfinite(size)) return 0.0;
+  const glm::vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  return std::max(same_place * double(size), few_steps * double(std::max({far.x, far.y, far.z})));
+}
+
+/// Of each vertex.
+std::vector<std::uint32_t> places_of(const Mesh& mesh, const Bounds& bounds, double tolerance) {
+  std::vector<std::uint32_t> all;
+  all.reserve(mesh.positions.size());
+  Places places(bounds, tolerance);
+  for (const glm::vec3& position : mesh.positions) all.push_back(places.at(position));
+  return all;
+}
+
+bool has_three_places(const Triangle& t, const std::vector<std::uint32_t>& places) {
+  return places[t[0]] != places[t[1]] && places[t[1]] != places[t[2]] && places[t[2]] != places[t[0]];
+}
 
 double area_of(const Mesh& mesh, const Triangle& t) {
   const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
@@ -55,9 +81,7 @@ void take_triangles_with_area(const Mesh& mesh, double size, JoinedTriangles& jo
   const std::vector<std::uint32_t>& places = joined.places;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const Triangle t{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-    const bool has_three_places =
-        places[t[0]] != places[t[1]] && places[t[1]] != places[t[2]] && places[t[2]] != places[t[0]];
-    if (!has_three_places || area_of(mesh, t) <= least_area * size * size) continue;
+    if (!has_three_places(t, places) || area_of(mesh, t) <= least_area * size * size) continue;
     joined.triangles.push_back(t);
     joined.numbers.push_back(std::uint32_t(i / 3));
   }
@@ -86,16 +110,15 @@ void join(JoinedTriangles& joined) {
 }  // namespace
 
 JoinedTriangles joined_triangles(const Mesh& mesh) {
-  const float size = glm::length(mesh.bounds().size());
+  const Bounds bounds = mesh.bounds();
+  const double tolerance = tolerance_of(bounds);
   JoinedTriangles joined;
-  if (!(size > 0.0f) || !std::isfinite(size)) {  // nothing has an area, or it is beyond all numbers
+  if (tolerance == 0.0) {
     joined.places.assign(mesh.positions.size(), 0);
     return joined;
   }
-  Places places(same_place * size);
-  joined.places.reserve(mesh.positions.size());
-  for (const glm::vec3& position : mesh.positions) joined.places.push_back(places.at(position));
-  take_triangles_with_area(mesh, double(size), joined);
+  joined.places = places_of(mesh, bounds, tolerance);
+  take_triangles_with_area(mesh, double(glm::length(bounds.size())), joined);
   join(joined);
   return joined;
 }

@@ -21,7 +21,8 @@ struct JoinedTriangles {
   std::size_t open_edges = 0;  ///< rims, and edges of more than two triangles
 };
 
-/// Of a mesh that `check` allows. Vertices nearer than a millionth of its size are at one place.
+/// Of a mesh that `check` allows. Vertices nearer than a millionth of its size, or than rounding takes them
+/// apart so far from the origin, are at one place.
 JoinedTriangles joined_triangles(const Mesh& mesh);
 
 /// Triangles that hang together over their edges.

@@ -33,6 +33,22 @@ TEST(JoinedTriangles, TouchWhereCornersAreOneButForRounding) {
   }
 }
 
+/// As far out as numbers have steps of a millionth of its size, and where cells counted from the origin would
+/// have no numbers.
+TEST(JoinedTriangles, TouchFarFromTheOrigin) {
+  for (const float far : {3.0f, 3e5f, 3e15f}) {
+    const float size = 0.005f * far;
+    Mesh mesh = tetrahedron({0, 0, 0});
+    for (glm::vec3& position : mesh.positions) position = far + size * position;
+    for (std::size_t i = 0; i < 3; ++i) mesh.positions[i] = glm::vec3(1.0f + 1.2e-7f) * mesh.positions[i];
+    EXPECT_EQ(joined_triangles(mesh).open_edges, 0u) << far;
+    EXPECT_EQ(joined_triangles(mesh).triangles.size(), 4u) << far;
+  }
+  Mesh flat = tetrahedron({0, 0, 0});
+  for (glm::vec3& position : flat.positions) position.x = 1e18f;
+  EXPECT_TRUE(joined_triangles(flat).triangles.empty()) << "less than rounding is no extent";
+}
+
 TEST(JoinedTriangles, PiecesAreClosedOrOpenEachForItself) {
   Mesh mesh = tetrahedron({0, 0, 0});
   append(mesh, tetrahedron({3, 0, 0}));
