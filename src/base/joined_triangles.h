@@ -32,4 +32,15 @@ struct MeshPiece {
 };
 std::vector<MeshPiece> pieces(const JoinedTriangles& joined);
 
+/// Triangles that hang together over their edges, also over those where more than two meet and over slivers
+/// without area.
+struct MeshShell {
+  std::vector<std::uint32_t> triangles;  ///< of the mesh, all but those without three different places
+  /// An even number of triangles meets at every edge, copies counted once, and there is a space between them.
+  bool is_closed = true;
+  double volume = 0.0;  ///< of that space, where the triangles all run the same way round
+};
+/// Of a mesh that `check` allows: what of it bounds bodies.
+std::vector<MeshShell> shells(const Mesh& mesh);
+
 }  // namespace parvis

@@ -39,14 +39,15 @@ std::vector<Glass> glass_by_kind(const Model& model) {
   return kinds;
 }
 
-GlassPiece piece_of(const Glass& glass, const JoinedTriangles& joined, const MeshPiece& piece) {
+GlassPiece piece_of(const Glass& glass, const MeshShell& shell) {
   GlassPiece made;
-  made.material = glass.material, made.is_closed = piece.is_closed;
+  made.material = glass.material, made.is_closed = shell.is_closed, made.volume = shell.volume;
   std::map<std::uint32_t, std::uint32_t> known;
-  for (const std::uint32_t t : piece.triangles) {
-    const auto [part, triangle] = glass.origins[joined.numbers[t]];
+  for (const std::uint32_t t : shell.triangles) {
+    const auto [part, triangle] = glass.origins[t];
     made.triangles[part].push_back(triangle);
-    for (const std::uint32_t vertex : joined.triangles[t]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = glass.mesh.indices[3 * t + k];
       const auto [entry, is_new] = known.try_emplace(vertex, std::uint32_t(made.mesh.positions.size()));
       made.mesh.indices.push_back(entry->second);
       if (!is_new) continue;
@@ -107,10 +108,8 @@ void join_hollows(std::vector<GlassPiece>& found) {
 
 std::vector<GlassPiece> glass_pieces(const Model& model) {
   std::vector<GlassPiece> found;
-  for (const Glass& glass : glass_by_kind(model)) {
-    const JoinedTriangles joined = joined_triangles(glass.mesh);
-    for (const MeshPiece& piece : pieces(joined)) found.push_back(piece_of(glass, joined, piece));
-  }
+  for (const Glass& glass : glass_by_kind(model))
+    for (const MeshShell& shell : shells(glass.mesh)) found.push_back(piece_of(glass, shell));
   join_hollows(found);
   return found;
 }

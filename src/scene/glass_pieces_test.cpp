@@ -60,6 +60,14 @@ TEST(GlassPieces, HollowsBelongToWhatTheyAreIn) {
   EXPECT_GT(found[0].mesh.triangle_count(), 1.5 * double(found[1].mesh.triangle_count()));
 }
 
+TEST(GlassPieces, AreClosedThoughBlocksStandFaceToFace) {
+  Mesh mesh = box({0, 0, 0}, {1, 1, 1});
+  append(mesh, box({0, 0, 1}, {1, 1, 2}));
+  const std::vector<GlassPiece> found = glass_pieces(*model_of(mesh, glass()));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].is_closed);
+}
+
 TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   Mesh mesh = sphere({-2, 0, 0}, 0.5f, 8);
   append(mesh, sphere({2, 0, 0}, 0.5f, 8));
