@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -79,26 +80,33 @@ bool encloses(const Mesh& mesh, glm::vec3 point) {
   return std::abs(half_angle) > pi;
 }
 
-/// Puts the surfaces of hollows to the bodies that they are in.
+/// Puts the surfaces of hollows to the bodies of the same glass that they are in.
 void join_hollows(std::vector<GlassPiece>& found) {
   std::vector<Bounds> bounds;
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
-  const auto surrounding = [&](std::size_t inner) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
-          encloses(found[i].mesh, found[inner].mesh.positions.front()))
-        return i;
-    return inner;
+  const auto surrounds = [&](std::size_t i, std::size_t inner) {
+    return found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
+           encloses(found[i].mesh, found[inner].mesh.positions.front());
   };
-  std::vector<std::size_t> outer;
-  for (std::size_t i = 0; i < found.size(); ++i) outer.push_back(found[i].is_closed ? surrounding(i) : i);
+  std::vector<std::size_t> outermost(found.size());
+  std::vector<int> depth(found.size());
+  for (std::size_t inner = 0; inner < found.size(); ++inner) {
+    outermost[inner] = inner;
+    for (std::size_t i = 0; found[inner].is_closed && i < found.size(); ++i) {
+      if (!surrounds(i, inner)) continue;
+      ++depth[inner];
+      if (contains(bounds[i], bounds[outermost[inner]])) outermost[inner] = i;
+    }
+  }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    std::size_t outermost = i;
-    while (outer[outermost] != outermost) outermost = outer[outermost];
-    if (outermost == i) continue;
-    append(found[outermost].mesh, found[i].mesh);
+    if (outermost[i] == i) continue;
+    std::size_t outer = outermost[i];
+    while (outermost[outer] != outer) outer = outermost[outer];
+    GlassPiece& body = found[outer];
+    body.volume += depth[i] % 2 == 1 ? -found[i].volume : found[i].volume;
+    append(body.mesh, found[i].mesh);
     for (const auto& [part, triangles] : found[i].triangles)
-      for (const std::uint32_t triangle : triangles) found[outermost].triangles[part].push_back(triangle);
+      for (const std::uint32_t triangle : triangles) body.triangles[part].push_back(triangle);
     found[i].mesh = {};
   }
   std::erase_if(found, [](const GlassPiece& piece) { return piece.mesh.indices.empty(); });
@@ -108,9 +116,12 @@ void join_hollows(std::vector<GlassPiece>& found) {
 
 std::vector<GlassPiece> glass_pieces(const Model& model) {
   std::vector<GlassPiece> found;
-  for (const Glass& glass : glass_by_kind(model))
-    for (const MeshShell& shell : shells(glass.mesh)) found.push_back(piece_of(glass, shell));
-  join_hollows(found);
+  for (const Glass& glass : glass_by_kind(model)) {
+    std::vector<GlassPiece> of_kind;
+    for (const MeshShell& shell : shells(glass.mesh)) of_kind.push_back(piece_of(glass, shell));
+    join_hollows(of_kind);
+    std::ranges::move(of_kind, std::back_inserter(found));
+  }
   return found;
 }
 

@@ -60,6 +60,32 @@ TEST(GlassPieces, HollowsBelongToWhatTheyAreIn) {
   EXPECT_GT(found[0].mesh.triangle_count(), 1.5 * double(found[1].mesh.triangle_count()));
 }
 
+TEST(GlassPieces, OfAnotherGlassAreNoHollows) {
+  Model model = *model_of(sphere({0, 0, 0}, 1.0f, 8), glass());
+  model.parts.push_back({.object = "core", .mesh = sphere({0, 0, 0}, 0.3f, 8), .material = 1});
+  model.materials.push_back(glass());
+  ASSERT_EQ(glass_pieces(model).size(), 1u);
+  model.materials[1].absorption_per_m = {9, 1, 9};
+  const std::vector<GlassPiece> found = glass_pieces(model);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].material, 0);
+  EXPECT_EQ(found[1].material, 1);
+  EXPECT_LT(found[1].mesh.bounds().max.x, 0.4f);
+}
+
+/// Whichever way round the hollow's triangles run.
+TEST(GlassPieces, HaveTheirGlassAsVolumeWithoutHollows) {
+  const auto cube = [](float half) { return box(glm::vec3(-half), glm::vec3(half)); };
+  Mesh mesh = cube(0.5f), hollow = cube(1.0f);
+  for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
+    std::swap(hollow.indices[i], hollow.indices[i + 1]);
+  append(mesh, hollow);
+  append(mesh, cube(2.0f));
+  const std::vector<GlassPiece> found = glass_pieces(*model_of(mesh, glass()));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].volume, 64.0 - 8.0 + 1.0, 1e-4) << "a body in the hollow of a body";
+}
+
 TEST(GlassPieces, AreClosedThoughBlocksStandFaceToFace) {
   Mesh mesh = box({0, 0, 0}, {1, 1, 1});
   append(mesh, box({0, 0, 1}, {1, 1, 2}));
