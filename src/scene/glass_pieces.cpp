@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include "base/joined_triangles.h"
@@ -126,32 +125,15 @@ std::vector<GlassPiece> glass_pieces(const Model& model) {
 }
 
 void divide_glass(Model& model) {
-  constexpr std::size_t none = ~std::size_t{0};
-  std::map<std::size_t, std::vector<std::size_t>> owners_of_part;  // of each triangle, its piece
-  const std::vector<GlassPiece> found = glass_pieces(model);
-  for (std::size_t f = 0; f < found.size(); ++f)
-    for (const auto& [part, triangles] : found[f].triangles) {
-      std::vector<std::size_t>& owners = owners_of_part[part];
-      owners.resize(model.parts[part].mesh.triangle_count(), none);
-      for (const std::uint32_t triangle : triangles) owners[triangle] = f;
-    }
-  for (const auto& [index, owners] : owners_of_part) {
-    std::set<std::size_t> of_part(owners.begin(), owners.end());
-    of_part.erase(none);  // what has no area is shown nowhere
-    if (of_part.size() < 2) continue;
-    Part whole = std::exchange(model.parts[index], Part());
-    std::vector<std::size_t> left = owners;
-    for (const std::size_t owner : of_part) {
-      std::vector<bool> takes;
-      for (const std::size_t other : left) takes.push_back(other == owner);
-      Part own = split_off(whole, takes);
-      std::erase(left, owner);
-      if (owner == *of_part.begin()) {
-        model.parts[index] = std::move(own);
-      } else {
-        model.parts.push_back(std::move(own));
-      }
-    }
+  std::map<std::size_t, std::vector<std::vector<std::uint32_t>>> lists_of_part;  // a list for each piece
+  for (GlassPiece& piece : glass_pieces(model))
+    for (auto& [part, triangles] : piece.triangles) lists_of_part[part].push_back(std::move(triangles));
+  for (const auto& [index, lists] : lists_of_part) {
+    if (lists.size() < 2) continue;  // what has no three corners is shown nowhere
+    std::vector<Part> parts = divided(model.parts[index], lists);
+    model.parts[index] = std::move(parts.front());
+    model.parts.insert(model.parts.end(), std::make_move_iterator(parts.begin() + 1),
+                       std::make_move_iterator(parts.end()));
   }
 }
 

@@ -114,5 +114,21 @@ TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   EXPECT_EQ(model.parts.size(), 3u) << "what is divided stays as it is";
 }
 
+/// In a time that grows as their number does: a chandelier's.
+TEST(GlassPieces, ThousandsOfAPartAreEachTheirOwn) {
+  constexpr int drops = 3000;
+  Mesh mesh;
+  for (int i = 0; i < drops; ++i)
+    append(mesh, box(glm::vec3(i % 50, i / 50, 0), glm::vec3(i % 50, i / 50, 0) + 0.5f));
+  Model model = *model_of(mesh, glass());
+  divide_glass(model);
+  ASSERT_EQ(model.parts.size(), std::size_t(drops));
+  for (const Part& part : model.parts) {
+    EXPECT_EQ(part.mesh.triangle_count(), 12u);
+    EXPECT_EQ(part.mesh.positions.size(), 24u);
+    EXPECT_LT(part.mesh.bounds().size().x, 0.6f);
+  }
+}
+
 }  // namespace
 }  // namespace parvis::scene
