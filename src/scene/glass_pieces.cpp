@@ -82,6 +82,7 @@ bool encloses(const Mesh& mesh, glm::vec3 point) {
 /// Puts the surfaces of hollows to the bodies of the same glass that they are in.
 void join_hollows(std::vector<GlassPiece>& found) {
   std::vector<Bounds> bounds;
+  bounds.reserve(found.size());
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
   const auto surrounds = [&](std::size_t i, std::size_t inner) {
     return found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
