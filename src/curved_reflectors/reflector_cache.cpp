@@ -27,11 +27,17 @@ std::uint64_t key_of(const ReflectorSource& source) {
 }
 
 /// Makes and keeps it, unless it is kept. `without` tells what comes of one that cannot be made.
-Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::string_view without) {
-  if (cache.has(source)) return Done{};
-  const Result<Reflector> made = cache.reflector(source);
-  if (made) return cache.keep(source, *made);
-  fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), without);
+Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::string_view without,
+            BakedReflectors& baked) {
+  if (!cache.has(source)) {
+    const Result<Reflector> made = cache.reflector(source);
+    if (!made) {
+      fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), without);
+      return Done{};
+    }
+    if (Status status = cache.keep(source, *made); !status) return status;
+  }
+  baked.files.insert(cache.file(source));
   return Done{};
 }
 
@@ -81,14 +87,14 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {
   for (const scene::Object* object : objects) {
     if (wants_mirrors) {
       const ReflectorSource mirror = mirror_source(scene, *object);
-      if (Status status = bake(cache, mirror, "it mirrors the sky alone"); !status) return status.errors();
-      baked.files.insert(cache.file(mirror));
+      if (Status status = bake(cache, mirror, "it mirrors the sky alone", baked); !status)
+        return status.errors();
     }
     for (const GlassSource& glass : glass_sources(*object)) {
-      if (Status status = bake(cache, glass.outside, "as solid glass it shows the sky straight through");
+      if (Status status =
+              bake(cache, glass.outside, "as solid glass it shows the sky straight through", baked);
           !status)
         return status.errors();
-      baked.files.insert(cache.file(glass.outside));
     }
     progress.advance();
   }

@@ -118,6 +118,17 @@ TEST_F(ReflectorCacheTest, OfMethodsWithoutVirtualObjectsGlassAloneIsBaked) {
   EXPECT_TRUE(fs::exists(file(glass())));
 }
 
+TEST_F(ReflectorCacheTest, WhatCannotBeMadeIsNotAmongWhatIsBaked) {
+  scene_.objects.resize(1);
+  auto flat = std::make_shared<scene::Model>(*scene_.objects[0].model);
+  for (glm::vec3& position : flat->parts[0].mesh.positions) position = glm::vec3(position.x, 0.0f, 0.0f);
+  scene_.objects.push_back(scene_.objects[0]);
+  scene_.objects.back().model = flat;
+  const Result<BakedReflectors> baked = bake_reflectors(scene_);
+  ASSERT_TRUE(baked);
+  EXPECT_EQ(baked->files, std::set{file(mirror(0))});
+}
+
 TEST_F(ReflectorCacheTest, DamagedFilesAreMadeAnewAndOldOnesForgotten) {
   ASSERT_TRUE(bake_reflectors(scene_));
   const fs::path old_file = file(mirror(0));

@@ -20,6 +20,18 @@ std::string name_of(const scene::Object& object) {
 
 bool is_glass(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
 
+/// Of a sheet with as much glass as a body has, as large as half its surface: hollow bodies' walls.
+float thickness_of(const scene::GlassPiece& body) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < body.mesh.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) {
+      return glm::dvec3(body.mesh.positions[body.mesh.indices[i + k]]);
+    };
+    area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+  }
+  return float(2.0 * body.volume / area);
+}
+
 /// As many texels in all as one body would have, and the least for each.
 int side_of(float size, float all_sizes) {
   return std::max(least_glass_side, int(std::lround(float(glass_side) * size / all_sizes)));
@@ -61,7 +73,12 @@ std::vector<GlassSource> glass_sources(const scene::Object& object) {
     for (const auto& [part, triangles] : body.triangles) parts.push_back(part);
     const float size = body.mesh.bounds().radius();
     squares += size * size;
-    sources.push_back({{name_of(object), std::move(body.mesh), glass_side}, &material, std::move(parts)});
+    const float thickness = body.is_closed ? thickness_of(body) : material.thickness_m;
+    sources.push_back({{name_of(object), std::move(body.mesh), glass_side},
+                       &material,
+                       std::move(parts),
+                       body.is_closed,
+                       thickness});
   }
   if (sources.size() < 2) return sources;
   for (std::size_t i = 0; i < sources.size(); ++i) {

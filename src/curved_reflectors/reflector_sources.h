@@ -22,6 +22,8 @@ struct GlassSource {
   ReflectorSource outside;
   const scene::Material* material;
   std::vector<std::size_t> parts;  ///< of the model, those that have any of it
+  bool is_closed;
+  float thickness;  ///< as a pane, in the model's unit
 };
 /// Has it solid glass that shows more than the sky?
 bool has_glass(const scene::Model& model);

@@ -25,17 +25,6 @@ Reflector surface_of(const Reflector& reflector) {
   return surface;
 }
 
-/// Of what a closed surface encloses, if it were a sheet as large as half the surface.
-float thickness_of(const ReflectorMesh& mesh) {
-  double volume = 0.0, area = 0.0;
-  for (std::size_t t = 0; t < mesh.neighbours.size(); ++t) {
-    const auto [a, b, c] = mesh.corners(t);
-    volume += glm::dot(glm::dvec3(a), glm::cross(glm::dvec3(b), glm::dvec3(c))) / 6.0;
-    area += 0.5 * glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
-  }
-  return float(2.0 * std::abs(volume) / area);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<RefractedObjects>> RefractedObjects::create(
@@ -89,19 +78,16 @@ std::optional<RefractedObjects::Glass> RefractedObjects::glass_of(const Reflecto
                to_string(made.errors().front()));
     return std::nullopt;
   }
-  const bool is_open = made->mesh.open_edges > 0;
-  const float thickness = is_open ? source.material->thickness_m : thickness_of(made->mesh);
   const auto glass = [&](const Reflector& surface, std::optional<ReflectorMap> map) {
     return Glass{GpuReflector(surface), std::move(map),
                  source.material->ior,  source.material->absorption_per_m,
-                 source.parts,          thickness};
+                 source.parts,          source.thickness};
   };
   const ReflectorMap& map = made->maps.front();
-  if (!is_open && made->patches.size() == 1 && map.is_convex && map.is_whole_body()) return glass(*made, map);
-  const std::string why = is_open
-                              ? fmt::format("{} edges of its glass have not two triangles; close its holes",
-                                            made->mesh.open_edges)
-                              : "its glass is not one convex body";
+  if (source.is_closed && made->patches.size() == 1 && map.is_convex && map.is_whole_body())
+    return glass(*made, map);
+  const std::string_view why =
+      source.is_closed ? "its glass is not one convex body" : "its glass is open; close its holes";
   fmt::print(stderr, "warning: {}: {}; it shows what is behind it straight through, as a pane\n", name, why);
   return glass(surface_of(*made), std::nullopt);
 }

@@ -146,6 +146,23 @@ TEST_F(RefractedObjectsTest, PanesAbsorb) {
   EXPECT_LT(2.0 * tinted.flip(), reference::compare(clear.ours, tinted.traced, tinted.mirrors)->flip);
 }
 
+/// On its way through a hollow body light passes two walls, hence as much is left as of two panes.
+TEST_F(RefractedObjectsTest, HollowBodiesAbsorbAsTheirWallsDo) {
+  Mesh hollow = scene::sphere(glm::vec3(0.0f), 0.9f, 32);
+  append(hollow, scene::sphere(glm::vec3(0.0f), 0.88f, 32));
+  scene::Material clear = glass(1.001f), green = clear;
+  green.absorption_per_m = {20.0f, 2.0f, 15.0f};
+  const auto middle = [&](const scene::Material& material) {
+    const Image8 picture = draw(among_boxes(hollow, material, placed({0, 0, 1})), eye, target).ours;
+    const std::uint8_t* pixel = picture.at(width / 2, height / 2);
+    return glm::vec3(pixel[0], pixel[1], pixel[2]);
+  };
+  const glm::vec3 without = middle(clear), with = middle(green);
+  EXPECT_GT(with.x, 0.4f * without.x);
+  EXPECT_LT(with.x, 0.9f * without.x);
+  EXPECT_GT(with.y, 0.9f * without.y);
+}
+
 TEST_F(RefractedObjectsTest, AViewerWithinAndThingsThatTouchAreStood) {
   scene::Scene scene =
       among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 24), glass(), placed({0, 0, 0.4f}));  // in the floor

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iterator>
 #include <utility>
 
 #include "base/joined_triangles.h"
@@ -39,14 +39,15 @@ std::vector<Glass> glass_by_kind(const Model& model) {
   return kinds;
 }
 
-GlassPiece piece_of(const Glass& glass, const JoinedTriangles& joined, const MeshPiece& piece) {
+GlassPiece piece_of(const Glass& glass, const MeshShell& shell) {
   GlassPiece made;
-  made.material = glass.material, made.is_closed = piece.is_closed;
+  made.material = glass.material, made.is_closed = shell.is_closed, made.volume = shell.volume;
   std::map<std::uint32_t, std::uint32_t> known;
-  for (const std::uint32_t t : piece.triangles) {
-    const auto [part, triangle] = glass.origins[joined.numbers[t]];
+  for (const std::uint32_t t : shell.triangles) {
+    const auto [part, triangle] = glass.origins[t];
     made.triangles[part].push_back(triangle);
-    for (const std::uint32_t vertex : joined.triangles[t]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = glass.mesh.indices[3 * t + k];
       const auto [entry, is_new] = known.try_emplace(vertex, std::uint32_t(made.mesh.positions.size()));
       made.mesh.indices.push_back(entry->second);
       if (!is_new) continue;
@@ -78,26 +79,34 @@ bool encloses(const Mesh& mesh, glm::vec3 point) {
   return std::abs(half_angle) > pi;
 }
 
-/// Puts the surfaces of hollows to the bodies that they are in.
+/// Puts the surfaces of hollows to the bodies of the same glass that they are in.
 void join_hollows(std::vector<GlassPiece>& found) {
   std::vector<Bounds> bounds;
+  bounds.reserve(found.size());
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
-  const auto surrounding = [&](std::size_t inner) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
-          encloses(found[i].mesh, found[inner].mesh.positions.front()))
-        return i;
-    return inner;
+  const auto surrounds = [&](std::size_t i, std::size_t inner) {
+    return found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
+           encloses(found[i].mesh, found[inner].mesh.positions.front());
   };
-  std::vector<std::size_t> outer;
-  for (std::size_t i = 0; i < found.size(); ++i) outer.push_back(found[i].is_closed ? surrounding(i) : i);
+  std::vector<std::size_t> outermost(found.size());
+  std::vector<int> depth(found.size());
+  for (std::size_t inner = 0; inner < found.size(); ++inner) {
+    outermost[inner] = inner;
+    for (std::size_t i = 0; found[inner].is_closed && i < found.size(); ++i) {
+      if (!surrounds(i, inner)) continue;
+      ++depth[inner];
+      if (contains(bounds[i], bounds[outermost[inner]])) outermost[inner] = i;
+    }
+  }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    std::size_t outermost = i;
-    while (outer[outermost] != outermost) outermost = outer[outermost];
-    if (outermost == i) continue;
-    append(found[outermost].mesh, found[i].mesh);
+    if (outermost[i] == i) continue;
+    std::size_t outer = outermost[i];
+    while (outermost[outer] != outer) outer = outermost[outer];
+    GlassPiece& body = found[outer];
+    body.volume += depth[i] % 2 == 1 ? -found[i].volume : found[i].volume;
+    append(body.mesh, found[i].mesh);
     for (const auto& [part, triangles] : found[i].triangles)
-      for (const std::uint32_t triangle : triangles) found[outermost].triangles[part].push_back(triangle);
+      for (const std::uint32_t triangle : triangles) body.triangles[part].push_back(triangle);
     found[i].mesh = {};
   }
   std::erase_if(found, [](const GlassPiece& piece) { return piece.mesh.indices.empty(); });
@@ -108,40 +117,24 @@ void join_hollows(std::vector<GlassPiece>& found) {
 std::vector<GlassPiece> glass_pieces(const Model& model) {
   std::vector<GlassPiece> found;
   for (const Glass& glass : glass_by_kind(model)) {
-    const JoinedTriangles joined = joined_triangles(glass.mesh);
-    for (const MeshPiece& piece : pieces(joined)) found.push_back(piece_of(glass, joined, piece));
+    std::vector<GlassPiece> of_kind;
+    for (const MeshShell& shell : shells(glass.mesh)) of_kind.push_back(piece_of(glass, shell));
+    join_hollows(of_kind);
+    std::ranges::move(of_kind, std::back_inserter(found));
   }
-  join_hollows(found);
   return found;
 }
 
 void divide_glass(Model& model) {
-  constexpr std::size_t none = ~std::size_t{0};
-  std::map<std::size_t, std::vector<std::size_t>> owners_of_part;  // of each triangle, its piece
-  const std::vector<GlassPiece> found = glass_pieces(model);
-  for (std::size_t f = 0; f < found.size(); ++f)
-    for (const auto& [part, triangles] : found[f].triangles) {
-      std::vector<std::size_t>& owners = owners_of_part[part];
-      owners.resize(model.parts[part].mesh.triangle_count(), none);
-      for (const std::uint32_t triangle : triangles) owners[triangle] = f;
-    }
-  for (const auto& [index, owners] : owners_of_part) {
-    std::set<std::size_t> of_part(owners.begin(), owners.end());
-    of_part.erase(none);  // what has no area is shown nowhere
-    if (of_part.size() < 2) continue;
-    Part whole = std::exchange(model.parts[index], Part());
-    std::vector<std::size_t> left = owners;
-    for (const std::size_t owner : of_part) {
-      std::vector<bool> takes;
-      for (const std::size_t other : left) takes.push_back(other == owner);
-      Part own = split_off(whole, takes);
-      std::erase(left, owner);
-      if (owner == *of_part.begin()) {
-        model.parts[index] = std::move(own);
-      } else {
-        model.parts.push_back(std::move(own));
-      }
-    }
+  std::map<std::size_t, std::vector<std::vector<std::uint32_t>>> lists_of_part;  // a list for each piece
+  for (GlassPiece& piece : glass_pieces(model))
+    for (auto& [part, triangles] : piece.triangles) lists_of_part[part].push_back(std::move(triangles));
+  for (const auto& [index, lists] : lists_of_part) {
+    if (lists.size() < 2) continue;  // what has no three corners is shown nowhere
+    std::vector<Part> parts = divided(model.parts[index], lists);
+    model.parts[index] = std::move(parts.front());
+    model.parts.insert(model.parts.end(), std::make_move_iterator(parts.begin() + 1),
+                       std::make_move_iterator(parts.end()));
   }
 }
 

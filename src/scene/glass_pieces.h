@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <string>
+#include <vector>
 
 #include "scene/model.h"
 
@@ -14,10 +14,11 @@ struct GlassPiece {
   Mesh mesh;  ///< in the model's frame, at rest
   int material = 0;
   bool is_closed = true;
+  double volume = 0.0;  ///< of its glass, without the hollows, if it is closed; in the model's frame
   std::map<std::size_t, std::vector<std::uint32_t>> triangles;  ///< of each part that has any
 };
 
-/// None where no material refracts. What has no area is left out.
+/// None where no material refracts. What has no three corners is left out.
 std::vector<GlassPiece> glass_pieces(const Model& model);
 
 /// Makes the triangles of each of them parts of their own: what leaves a body out shows the others.

@@ -60,6 +60,40 @@ TEST(GlassPieces, HollowsBelongToWhatTheyAreIn) {
   EXPECT_GT(found[0].mesh.triangle_count(), 1.5 * double(found[1].mesh.triangle_count()));
 }
 
+TEST(GlassPieces, OfAnotherGlassAreNoHollows) {
+  Model model = *model_of(sphere({0, 0, 0}, 1.0f, 8), glass());
+  model.parts.push_back({.object = "core", .mesh = sphere({0, 0, 0}, 0.3f, 8), .material = 1});
+  model.materials.push_back(glass());
+  ASSERT_EQ(glass_pieces(model).size(), 1u);
+  model.materials[1].absorption_per_m = {9, 1, 9};
+  const std::vector<GlassPiece> found = glass_pieces(model);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].material, 0);
+  EXPECT_EQ(found[1].material, 1);
+  EXPECT_LT(found[1].mesh.bounds().max.x, 0.4f);
+}
+
+/// Whichever way round the hollow's triangles run.
+TEST(GlassPieces, HaveTheirGlassAsVolumeWithoutHollows) {
+  const auto cube = [](float half) { return box(glm::vec3(-half), glm::vec3(half)); };
+  Mesh mesh = cube(0.5f), hollow = cube(1.0f);
+  for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
+    std::swap(hollow.indices[i], hollow.indices[i + 1]);
+  append(mesh, hollow);
+  append(mesh, cube(2.0f));
+  const std::vector<GlassPiece> found = glass_pieces(*model_of(mesh, glass()));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].volume, 64.0 - 8.0 + 1.0, 1e-4) << "a body in the hollow of a body";
+}
+
+TEST(GlassPieces, AreClosedThoughBlocksStandFaceToFace) {
+  Mesh mesh = box({0, 0, 0}, {1, 1, 1});
+  append(mesh, box({0, 0, 1}, {1, 1, 2}));
+  const std::vector<GlassPiece> found = glass_pieces(*model_of(mesh, glass()));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].is_closed);
+}
+
 TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   Mesh mesh = sphere({-2, 0, 0}, 0.5f, 8);
   append(mesh, sphere({2, 0, 0}, 0.5f, 8));
@@ -78,6 +112,22 @@ TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   for (const GlassPiece& piece : glass_pieces(model)) EXPECT_EQ(piece.triangles.size(), 1u);
   divide_glass(model);
   EXPECT_EQ(model.parts.size(), 3u) << "what is divided stays as it is";
+}
+
+/// In a time that grows as their number does: a chandelier's.
+TEST(GlassPieces, ThousandsOfAPartAreEachTheirOwn) {
+  constexpr int drops = 3000;
+  Mesh mesh;
+  for (int i = 0; i < drops; ++i)
+    append(mesh, box(glm::vec3(i % 50, i / 50, 0), glm::vec3(i % 50, i / 50, 0) + 0.5f));
+  Model model = *model_of(mesh, glass());
+  divide_glass(model);
+  ASSERT_EQ(model.parts.size(), std::size_t(drops));
+  for (const Part& part : model.parts) {
+    EXPECT_EQ(part.mesh.triangle_count(), 12u);
+    EXPECT_EQ(part.mesh.positions.size(), 24u);
+    EXPECT_LT(part.mesh.bounds().size().x, 0.6f);
+  }
 }
 
 }  // namespace

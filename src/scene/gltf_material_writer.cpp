@@ -42,9 +42,12 @@ std::string file_name(const fs::path& file, const std::string& name) {
   return plain_name(file.stem().string()) + "_" + name;
 }
 
-/// Solid glass. Its thickness is a hint for viewers that do not follow rays: here the mesh tells.
-Json volume_json(glm::vec3 absorption_per_m) {
-  Json volume{{"thicknessFactor", 0.1f}};
+/// Solid glass. Its thickness is what panes of it have, and a hint for viewers that do not follow rays
+/// through bodies; without any, readers would take it for a surface alone.
+Json volume_json(const Material& glass) {
+  constexpr float usual_thickness_m = 0.1f;
+  const glm::vec3 absorption_per_m = glass.absorption_per_m;
+  Json volume{{"thicknessFactor", glass.thickness_m > 0.0f ? glass.thickness_m : usual_thickness_m}};
   const float most = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
   if (most > 0.0f) {
     volume["attenuationDistance"] = 1.0f / most;
@@ -139,7 +142,7 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
       use(extension);
     json["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1.0f}};
     json["extensions"]["KHR_materials_ior"] = {{"ior", material.ior}};
-    json["extensions"]["KHR_materials_volume"] = volume_json(material.absorption_per_m);
+    json["extensions"]["KHR_materials_volume"] = volume_json(material);
   }
   if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
   if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";

@@ -36,6 +36,7 @@ Model small_model() {
   glass.name = "glass";
   glass.ior = 1.75f;
   glass.absorption_per_m = {0.5f, 0.0f, 20.0f};
+  glass.thickness_m = 0.02f;
   model.materials = {paint, leaf, glass};
   model.nodes.push_back({"wheel_left", 0, {1, 2, 3}, glm::angleAxis(0.5f, glm::vec3(0, 0, 1)), glm::vec3(2)});
   Mesh triangle;
@@ -89,6 +90,7 @@ TEST(Gltf, WhatIsWrittenReadsTheSame) {
   EXPECT_EQ(leaf.relief_m, 0.25f);
   EXPECT_TRUE(leaf.is_double_sided);
   EXPECT_EQ(again.materials[2].ior, 1.75f);
+  EXPECT_EQ(again.materials[2].thickness_m, 0.02f);
   EXPECT_LT(glm::distance(again.materials[2].absorption_per_m, model.materials[2].absorption_per_m), 1e-4f);
   EXPECT_FALSE(paint.refracts());
   EXPECT_EQ(again.textures[0].image.pixels, model.textures[0].image.pixels);

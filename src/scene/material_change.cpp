@@ -39,6 +39,8 @@ Material changed(Material material, const MaterialChange& change, const std::str
     material.alpha_mode = Alpha::opaque;  // what one sees through it is worked out, not blended
     material.is_double_sided = false;
     material.is_mirror_like = true;
+    if (!change.colour && material.refracts())  // glass has none of its own; where it is open, panes would
+      material.base_colour = glm::vec3(1.0f);
   }
   override_with(material.absorption_per_m, change.absorption_per_m);
   override_with(material.is_mirror_like, change.is_mirror_like);

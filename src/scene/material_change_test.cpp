@@ -148,6 +148,7 @@ TEST(NamePattern, HostilePatternsEnd) {
 TEST(MaterialChange, SolidGlassIsMadeAndTakenAway) {
   Model model = palette_model();
   model.materials[0].alpha_mode = Alpha::blend;
+  model.materials[0].base_colour = glm::vec3(0.02f);
   change(model, {}, {.ior = 1.4f, .absorption_per_m = glm::vec3(2.0f)});
   const Material& glass = model.materials[std::size_t(model.parts[0].material)];
   EXPECT_TRUE(glass.refracts());
@@ -155,6 +156,10 @@ TEST(MaterialChange, SolidGlassIsMadeAndTakenAway) {
   EXPECT_EQ(glass.absorption_per_m, glm::vec3(2.0f));
   EXPECT_EQ(glass.alpha_mode, Alpha::opaque);
   EXPECT_TRUE(glass.is_mirror_like);
+  EXPECT_EQ(glass.base_colour, glm::vec3(1.0f)) << "where it is open, it is no darker a pane for what it was";
+  Model green = palette_model();
+  change(green, {}, {.colour = glm::vec3(0, 1, 0), .ior = 1.4f});
+  EXPECT_EQ(green.materials[std::size_t(green.parts[0].material)].base_colour, glm::vec3(0, 1, 0));
   for (const MaterialPreset& preset : material_presets()) {
     Model other = model;
     change(other, {}, preset.change);
