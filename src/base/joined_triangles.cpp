@@ -85,7 +85,6 @@ void take_triangles_with_area(const Mesh& mesh, double size, JoinedTriangles& jo
     const Triangle t{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
     if (!has_three_places(t, places) || area_of(mesh, t) <= least_area * size * size) continue;
     joined.triangles.push_back(t);
-    joined.numbers.push_back(std::uint32_t(i / 3));
   }
 }
 

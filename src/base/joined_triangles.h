@@ -14,7 +14,6 @@ inline constexpr std::uint32_t no_triangle = ~0u;
 struct JoinedTriangles {
   std::vector<std::uint32_t> places;  ///< of each vertex a number, the same for vertices at one place
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< those with an area
-  std::vector<std::uint32_t> numbers;                   ///< of each of them, in the mesh
   /// Across each triangle's three edges: the other triangle, or `no_triangle` at a rim and where more than
   /// two meet.
   std::vector<std::array<std::uint32_t, 3>> neighbours;
