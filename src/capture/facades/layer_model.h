@@ -1,0 +1,55 @@
+// The coarse model that layers are made of: named objects, their planar faces ("polygons" in the thesis) and
+// triangles.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "base/mesh.h"
+#include "base/result.h"
+
+namespace parvis::facades {
+
+/// A named mesh of the model's file, in world coordinates.
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+struct LayerTriangle {
+  std::array<glm::dvec3, 3> corners;  ///< in world
+  std::uint32_t object = 0;           ///< into LayerModel::objects
+  std::uint32_t face = 0;             ///< of the model: coplanar triangles of an object that share edges
+  std::uint32_t source = 0;           ///< the triangle before any cut; pieces of one triangle share it
+};
+
+struct LayerObject {
+  std::string name;
+  /// Bounds a body, with triangles counter-clockwise seen from outside: its back faces are never seen. Other
+  /// objects are seen from both sides.
+  bool is_closed = false;
+};
+
+struct LayerModel {
+  std::vector<LayerObject> objects;
+  std::vector<LayerTriangle> triangles;
+  std::uint32_t face_count = 0;
+  std::uint32_t source_count = 0;  ///< triangles before any cut
+
+  double size() const;  ///< length of the diagonal of the bounds
+};
+
+/// What the model is, and what was left out of it.
+struct LayerModelResult {
+  LayerModel model;
+  Errors warnings;  ///< an entry for each object with triangles that are degenerate or lie twice in the model
+};
+
+/// Joins `meshes` into a model. Degenerate triangles and exact duplicates (the same three positions, in this
+/// or another object) are left out and reported. Fails where no triangle remains, or where an index or a
+/// position is invalid.
+Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes);
+
+}  // namespace parvis::facades
