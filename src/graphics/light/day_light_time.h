@@ -1,0 +1,62 @@
+// Time and place as a planner writes them - a day of a year, the clock of a time zone, latitude and longitude
+// - and what the sun does then: where it stands, when it rises and sets.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "graphics/light/solar_position.h"
+
+namespace parvis::light {
+
+/// Years in which `delta_t_s` is more than an extrapolation.
+inline constexpr int min_year = 1961, max_year = 2150;
+
+/// An instant at a place. `check` says whether it is one; the other functions expect that.
+struct PlaceAndTime {
+  double latitude_deg = 43.70, longitude_deg = 7.27;  ///< north and east positive; Nice
+  double time_zone_h = 1.0;                           ///< clock minus universal time
+  int year = 2026;
+  int day_of_year = 172;        ///< 1 to 365, or 366 in a leap year
+  double time_of_day_h = 12.0;  ///< of the clock; 14.25 is a quarter past two
+
+  bool operator==(const PlaceAndTime&) const = default;
+};
+
+bool is_leap_year(int year);
+int days_in_year(int year);
+/// The day of the year of a date; months and days count from 1.
+int day_of_year(int year, int month, int day);
+/// Every value that is out of range, what it may be, and what is probably meant.
+Status check(const PlaceAndTime& when);
+
+double julian_day(const PlaceAndTime& when);
+SolarPosition sun_of(const PlaceAndTime& when);
+
+/// Elevation of the sun's centre, without refraction, when its upper edge appears at a level horizon.
+inline constexpr double sunrise_elevation_deg = -0.8333;
+inline constexpr double civil_twilight_elevation_deg = -6.0;
+
+/// When the sun passes an elevation on a day, by the clock; hours may be below 0 or above 24 where the clock
+/// is far from the sun. The day is that of the sun's highest position between 0 and 24 o'clock.
+struct DaylightHours {
+  std::optional<double> rise_h, set_h;  ///< absent where it does not pass
+  double noon_h = 12.0;                 ///< when it stands highest
+  double noon_elevation_deg = 0.0;      ///< geometric
+
+  bool is_polar_night(double elevation_deg = sunrise_elevation_deg) const {
+    return !rise_h && !set_h && noon_elevation_deg < elevation_deg;
+  }
+  bool is_polar_day(double elevation_deg = sunrise_elevation_deg) const {
+    return !rise_h && !set_h && noon_elevation_deg >= elevation_deg;
+  }
+};
+
+/// To within a second.
+DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg = sunrise_elevation_deg);
+
+/// The sun's way over a day: a position every `step_h` hours while any part of the disc is above the horizon.
+std::vector<SolarPosition> sun_path(PlaceAndTime day, double step_h);
+
+}  // namespace parvis::light
