@@ -1,11 +1,11 @@
 // parvis bake: what takes long and stays the same is made once and kept beside the scene.
 #include "base/image_io.h"
 #include "commands.h"
-#include "curved_reflectors/reflector_cache.h"
-#include "environment_maps/map_cache.h"
-#include "environment_maps/placement.h"
-#include "environment_maps/placement_plan.h"
-#include "environment_maps/scene_maps.h"
+#include "reflections/curved_reflectors/reflector_cache.h"
+#include "reflections/environment_maps/map_cache.h"
+#include "reflections/environment_maps/placement.h"
+#include "reflections/environment_maps/placement_plan.h"
+#include "reflections/environment_maps/scene_maps.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -31,7 +31,7 @@ Status bake_reflectors(const scene::Scene& scene, curved_reflectors::BakedReflec
 /// Bakes one state of the scene, which `arguments` name.
 Result<environment_maps::MapCache> bake_state(const Arguments& arguments,
                                               curved_reflectors::BakedReflectors& reflectors) {
-  const Result<stage::Play> play = arguments.open_play();
+  const Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   const scene::Scene& scene = play->scene;
   if (Status status = bake_reflectors(scene, reflectors); !status) return status.errors();

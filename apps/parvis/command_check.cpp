@@ -23,7 +23,7 @@ void print_states(const scene::LiveScene& live) {
 }
 
 Status check(const Arguments& arguments) {
-  const scene::NodeRegistry& registry = stage::node_registry();
+  const scene::NodeRegistry& registry = house::node_registry();
   if (arguments.wants_reference) {
     fmt::print("{}", scene::scene_reference(registry));
     return Done{};

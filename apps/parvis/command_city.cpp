@@ -1,7 +1,7 @@
 // parvis city: procedural places.
-#include "city/kitchen.h"
-#include "city/paper_city.h"
 #include "commands.h"
+#include "places/paper_city/kitchen.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis {
 namespace {

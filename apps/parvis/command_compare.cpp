@@ -1,7 +1,7 @@
 // parvis compare: how different two pictures are.
 #include "base/image_io.h"
 #include "commands.h"
-#include "reference/metrics.h"
+#include "graphics/reference/metrics.h"
 
 namespace parvis {
 namespace {

@@ -33,7 +33,7 @@ Status write_scene(const Arguments& arguments) {
   if (arguments.output.extension() != ".glb")
     return error("{}: a scene is written as .glb", arguments.output.string());
   if (Status status = arguments.expect_one_scenario(); !status) return status;
-  const Result<stage::Play> play = arguments.open_play();
+  const Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   const Result<std::vector<const scene::Object*>> objects = chosen_objects(arguments, play->scene);
   if (!objects) return objects.errors();

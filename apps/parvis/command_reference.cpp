@@ -4,9 +4,9 @@
 
 #include "base/image_io.h"
 #include "commands.h"
+#include "graphics/shading/tone_curve.h"
+#include "house/photographs.h"
 #include "scene_arguments.h"
-#include "shading/tone_curve.h"
-#include "stage/photographs.h"
 
 namespace parvis {
 namespace {
@@ -21,7 +21,7 @@ struct Arguments : SceneArguments {
   bool is_path_traced = false, all_cameras = false;
   std::vector<float> circle;  // target x y z, radius, eye above it, count
   float circle_fov_deg = 50.0f;
-  stage::PhotographJob job;
+  house::PhotographJob job;
 
   void add_photograph(CLI::App& command);
 };
@@ -35,7 +35,7 @@ Status trace(const Arguments& arguments) {
   if (arguments.cameras.size() > 1) return error("several cameras are for --path-traced only");
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
+  Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   const Result<Camera> camera = (*stage)->camera(arguments.cameras.empty() ? "" : arguments.cameras.front());
   if (!camera) return camera.errors();
@@ -57,7 +57,7 @@ Status trace(const Arguments& arguments) {
 }
 
 /// The cameras that the user named, or all, or a circle; else the scene's first.
-Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& arguments, const stage::Play& play,
+Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& arguments, const house::Play& play,
                                                        float aspect) {
   std::vector<std::string> names = arguments.cameras;
   if (arguments.all_cameras)
@@ -65,7 +65,7 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& argument
   std::vector<scene::NamedCamera> cameras;
   if (!arguments.circle.empty()) {
     const std::vector<float>& c = arguments.circle;
-    cameras = stage::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], std::clamp(int(c[5]), 1, 1000),
+    cameras = house::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], std::clamp(int(c[5]), 1, 1000),
                                        vertical_fov(glm::radians(arguments.circle_fov_deg), aspect));
   } else if (names.empty()) {
     names.emplace_back();
@@ -79,10 +79,10 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& argument
 }
 
 Status photograph(const Arguments& arguments) {
-  stage::PhotographJob job = arguments.job;
+  house::PhotographJob job = arguments.job;
   if (Status status = arguments.read_size(job.width, job.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
-  const Result<stage::Play> play = arguments.open_play();
+  const Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   Result<std::vector<scene::NamedCamera>> cameras =
       chosen_cameras(arguments, *play, float(job.width) / float(job.height));
@@ -92,7 +92,7 @@ Status photograph(const Arguments& arguments) {
   job.options.samples_a_pixel = arguments.samples.value_or(photograph_samples);
   job.options.is_interrupted = &is_interrupted;
   std::signal(SIGINT, [](int) { is_interrupted = true; });
-  return stage::take_photographs(play->scene, job);
+  return house::take_photographs(play->scene, job);
 }
 
 void Arguments::add_photograph(CLI::App& command) {

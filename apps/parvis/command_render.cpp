@@ -7,9 +7,9 @@
 #include "base/progress.h"
 #include "base/reduction.h"
 #include "commands.h"
-#include "render/picture_reader.h"
+#include "graphics/render/picture_reader.h"
+#include "house/film.h"
 #include "scene_arguments.h"
-#include "stage/film.h"
 
 namespace parvis {
 namespace {
@@ -23,7 +23,7 @@ struct Arguments : SceneArguments {
   int supersample = 1;
 };
 
-Status draw(stage::Stage& stage, const Arguments& arguments, int width, int height) {
+Status draw(house::Stage& stage, const Arguments& arguments, int width, int height) {
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
   const int n = arguments.supersample;
@@ -31,10 +31,10 @@ Status draw(stage::Stage& stage, const Arguments& arguments, int width, int heig
   return Done{};
 }
 
-Status render_film(stage::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
+Status render_film(house::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
                    int width, int height) {
   std::signal(SIGINT, [](int) { is_interrupted = true; });  // half a film is taken away, not left
-  Result<stage::Film> film = stage::Film::open(output, width, height, arguments.frames_per_second);
+  Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
   render::PictureReader reader;
@@ -61,7 +61,7 @@ std::filesystem::path named_after(const std::filesystem::path& output, std::stri
 }
 
 /// A picture, or a film: of --seconds, or as long as the tour.
-Status render_one(stage::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
+Status render_one(house::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
                   int height) {
   if (!arguments.tour.empty()) {
     const Result<double> length_s = stage.play().actions.start_tour(arguments.tour);
@@ -78,7 +78,7 @@ Status render_scene(const Arguments& arguments) {
   if (Status status = arguments.read_size(width, height); !status) return status;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
+  Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   if (arguments.scenarios.size() < 2) return render_one(**stage, arguments, arguments.output, width, height);
   for (const std::string& scenario : arguments.scenarios) {

@@ -19,7 +19,7 @@ Status view(Arguments& arguments) {
   window.pictures.name = window.title;
   if (window.pictures.folder.empty())
     window.pictures.folder = (arguments.scene.parent_path() / ".").lexically_normal();
-  Result<stage::Play> play = arguments.open_play();
+  Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   if (!arguments.tour.empty())
     if (const Result<double> length = play->actions.start_tour(arguments.tour); !length)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis {
 
@@ -56,8 +56,8 @@ struct SceneArguments {
   }
 
   /// The scene with its traffic, at the time given.
-  Result<stage::Play> open_play() const {
-    Result<stage::Play> play = stage::open_play(scene, data);
+  Result<house::Play> open_play() const {
+    Result<house::Play> play = house::open_play(scene, data);
     if (!play) return play.errors();
     if (!method.empty()) {
       const auto& names = scene::reflection_method_names;
@@ -99,10 +99,10 @@ struct SceneArguments {
   }
 
   /// The same on its stage; needs a current context.
-  Result<std::unique_ptr<stage::Stage>> open_stage() const {
-    Result<stage::Play> play = open_play();
+  Result<std::unique_ptr<house::Stage>> open_stage() const {
+    Result<house::Play> play = open_play();
     if (!play) return play.errors();
-    return stage::Stage::create(*std::move(play));
+    return house::Stage::create(*std::move(play));
   }
 };
 

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "bench/judged_method.h"
-#include "reference/metrics.h"
-#include "shading/tone_curve.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {
@@ -14,7 +14,7 @@ constexpr int baseline_faces_px = 512;
 
 }  // namespace
 
-Status measure_beside_rerendered(stage::Stage& stage, std::span<const char* const> cameras, int width,
+Status measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, int width,
                                  int height, const std::string& key, Report& report) {
   scene::Reflection baseline = stage.scene().reflection;
   baseline.method = scene::ReflectionMethod::rerendered_cube_map;

@@ -5,14 +5,14 @@
 #include <span>
 
 #include "bench/report.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
 /// Adds the figure `key`: FLIP to the ray tracer's pictures inside what mirrors or refracts, by the stage's
 /// method over that by cube maps of 512 pixels a face with centres of their own, summed over views from
 /// `cameras`.
-Status measure_beside_rerendered(stage::Stage& stage, std::span<const char* const> cameras, int width,
+Status measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, int width,
                                  int height, const std::string& key, Report& report);
 
 }  // namespace parvis::bench

@@ -7,12 +7,12 @@
 #include "base/colour.h"
 #include "bench/changed_pixels.h"
 #include "bench/judged_method.h"
-#include "city/car.h"
-#include "city/walker.h"
-#include "gl/context.h"
-#include "reference/metrics.h"
+#include "graphics/gl/context.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
+#include "places/paper_city/car.h"
+#include "places/paper_city/walker.h"
 #include "scene/test_scene.h"
-#include "shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {
@@ -82,9 +82,9 @@ Status measure_bonnet(bool is_quick, Report& report) {
   const int w = is_quick ? quick_width : width, h = is_quick ? quick_height : height;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<stage::Stage>> made = stage::Stage::create(stage::make_play(street()));
+  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(street()));
   if (!made) return made.errors();
-  stage::Stage& stage = **made;
+  house::Stage& stage = **made;
   scene::Reflection near = stage.scene().reflection;
   near.virtual_within_m = virtual_within_m;
   std::vector<JudgedMethod> methods;

@@ -3,13 +3,13 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/reflection_cost.h"
-#include "curved_reflectors/reflector_cache.h"
-#include "curved_reflectors/shown_patch.h"
-#include "curved_reflectors/vertex_search.h"
-#include "curved_reflectors/virtual_objects.h"
-#include "gl/context.h"
-#include "render/bindings.h"
-#include "render/test_room.h"
+#include "graphics/gl/context.h"
+#include "graphics/render/bindings.h"
+#include "graphics/render/test_room.h"
+#include "reflections/curved_reflectors/reflector_cache.h"
+#include "reflections/curved_reflectors/shown_patch.h"
+#include "reflections/curved_reflectors/vertex_search.h"
+#include "reflections/curved_reflectors/virtual_objects.h"
 
 namespace parvis::bench {
 namespace {

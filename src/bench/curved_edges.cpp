@@ -3,10 +3,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/random.h"
-#include "curved_reflectors/exact_reflection.h"
-#include "curved_reflectors/long_edges.h"
-#include "curved_reflectors/reflection_search.h"
-#include "curved_reflectors/reflector_map.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/long_edges.h"
+#include "reflections/curved_reflectors/reflection_search.h"
+#include "reflections/curved_reflectors/reflector_map.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {

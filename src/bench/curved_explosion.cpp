@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/random.h"
-#include "curved_reflectors/ellipsoid.h"
-#include "curved_reflectors/exact_reflection.h"
-#include "curved_reflectors/reflection_search.h"
-#include "curved_reflectors/reflector_map.h"
+#include "reflections/curved_reflectors/ellipsoid.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/reflection_search.h"
+#include "reflections/curved_reflectors/reflector_map.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {

@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, scene::Reflection>> ways_to_reflect(const sce
   return ways;
 }
 
-Status measure_view(stage::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
+Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
                     Report& report) {
   const Result<Camera> camera = stage.camera(name);
   if (!camera) return camera.errors();
@@ -57,7 +57,7 @@ Status measure_view(stage::Stage& stage, const std::vector<JudgedMethod>& method
 
 }  // namespace
 
-Status measure_frames(stage::Stage& stage, Report& report) {
+Status measure_frames(house::Stage& stage, Report& report) {
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] : ways_to_reflect(stage.scene().reflection)) {
     Result<JudgedMethod> method = judged_method(stage, name, reflection);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "bench/report.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
 /// Of the kitchen's stage. Told in rows: the paper's were those of its machine.
-Status measure_frames(stage::Stage& stage, Report& report);
+Status measure_frames(house::Stage& stage, Report& report);
 
 }  // namespace parvis::bench

@@ -5,16 +5,16 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/parallel.h"
-#include "city/mirror_bodies.h"
-#include "curved_reflectors/ellipsoid.h"
-#include "curved_reflectors/exact_reflection.h"
-#include "curved_reflectors/reflection_search.h"
-#include "curved_reflectors/virtual_grid.h"
-#include "reference/metrics.h"
-#include "reference/tracer.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/shading/sky.h"
+#include "graphics/shading/tone_curve.h"
+#include "places/paper_city/mirror_bodies.h"
+#include "reflections/curved_reflectors/ellipsoid.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/reflection_search.h"
+#include "reflections/curved_reflectors/virtual_grid.h"
 #include "scene/test_scene.h"
-#include "shading/sky.h"
-#include "shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {

@@ -7,9 +7,9 @@
 #include "bench/curved_frames.h"
 #include "bench/reflected_points.h"
 #include "bench/scratch_folder.h"
-#include "city/kitchen.h"
-#include "curved_reflectors/reflector_cache.h"
-#include "gl/context.h"
+#include "graphics/gl/context.h"
+#include "places/paper_city/kitchen.h"
+#include "reflections/curved_reflectors/reflector_cache.h"
 
 namespace parvis::bench {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::size_t quick_cameras = 1;  // hollows are drawn in many layers, e
 constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
 constexpr std::size_t points = 4000, quick_points = 400;  // a camera
 
-Status measure_points(const stage::Stage& stage, bool is_quick, Report& report) {
+Status measure_points(const house::Stage& stage, bool is_quick, Report& report) {
   const Result<ReflectedPoints> reflected = ReflectedPoints::make(stage.scene());
   if (!reflected) return reflected.errors();
   std::vector<double> all;
@@ -42,21 +42,21 @@ Status measure_points(const stage::Stage& stage, bool is_quick, Report& report) 
 
 }  // namespace
 
-Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& folder,
+Result<std::unique_ptr<house::Stage>> open_kitchen(const std::filesystem::path& folder,
                                                    const std::string& script) {
   if (Status status = city::write_kitchen(folder, 1); !status) return status.errors();
-  Result<stage::Play> play = stage::open_play(folder / script, {});
+  Result<house::Play> play = house::open_play(folder / script, {});
   if (!play) return play.errors();
   // Once for all: the points, the stage and the method that is judged each need them.
   if (const auto baked = curved_reflectors::bake_reflectors(play->scene); !baked) return baked.errors();
-  return stage::Stage::create(*std::move(play));
+  return house::Stage::create(*std::move(play));
 }
 
 Status measure_kitchen(bool is_quick, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   const ScratchFolder folder;
-  Result<std::unique_ptr<stage::Stage>> stage = open_kitchen(folder.path, "kitchen.xp");
+  Result<std::unique_ptr<house::Stage>> stage = open_kitchen(folder.path, "kitchen.xp");
   if (!stage) return stage.errors();
   if (Status status = measure_points(**stage, is_quick, report); !status) return status;
   if (Status status = measure_beside_rerendered(

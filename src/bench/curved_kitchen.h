@@ -3,14 +3,14 @@
 #pragma once
 
 #include "bench/report.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
 Status measure_kitchen(bool is_quick, Report& report);
 
 /// Writes the kitchen into a folder and opens one of its scripts. Needs a current context.
-Result<std::unique_ptr<stage::Stage>> open_kitchen(const std::filesystem::path& folder,
+Result<std::unique_ptr<house::Stage>> open_kitchen(const std::filesystem::path& folder,
                                                    const std::string& script);
 
 }  // namespace parvis::bench

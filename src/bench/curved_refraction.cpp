@@ -5,7 +5,7 @@
 #include "bench/beside_rerendered.h"
 #include "bench/curved_kitchen.h"
 #include "bench/scratch_folder.h"
-#include "gl/context.h"
+#include "graphics/gl/context.h"
 
 namespace parvis::bench {
 namespace {
@@ -20,7 +20,7 @@ Status measure_refraction(bool is_quick, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   const ScratchFolder folder;
-  Result<std::unique_ptr<stage::Stage>> stage = open_kitchen(folder.path, "glass.xp");
+  Result<std::unique_ptr<house::Stage>> stage = open_kitchen(folder.path, "glass.xp");
   if (!stage) return stage.errors();
   return measure_beside_rerendered(**stage,
                                    std::span(cameras).first(is_quick ? quick_cameras : cameras.size()),

@@ -5,10 +5,10 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "curved_reflectors/exact_reflection.h"
-#include "curved_reflectors/reflection_search.h"
-#include "curved_reflectors/reflector_map.h"
-#include "curved_reflectors/surface_rays.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/reflection_search.h"
+#include "reflections/curved_reflectors/reflector_map.h"
+#include "reflections/curved_reflectors/surface_rays.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {

@@ -7,8 +7,8 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "bench/judged_body.h"
-#include "curved_reflectors/ellipsoid.h"
-#include "curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/ellipsoid.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
 #include "scene/model_source.h"
 #include "scene/test_scene.h"
 

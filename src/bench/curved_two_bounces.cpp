@@ -5,12 +5,12 @@
 
 #include "bench/changed_pixels.h"
 #include "bench/judged_method.h"
-#include "city/mirror_bodies.h"
-#include "city/walker.h"
-#include "gl/context.h"
-#include "reference/metrics.h"
+#include "graphics/gl/context.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
+#include "places/paper_city/mirror_bodies.h"
+#include "places/paper_city/walker.h"
 #include "scene/test_scene.h"
-#include "shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {
@@ -68,7 +68,7 @@ constexpr std::array places{Place{{-0.2f, -2.2f, 1.2f}, {-0.6f, 0.0f, 0.8f}},
                             Place{{-2.6f, 0.9f, 1.3f}, {0.3f, 0.4f, 0.8f}}};
 
 /// What the ray tracer makes of a view, with as many bounces.
-reference::TracedPicture truth_of(stage::Stage& stage, const Camera& camera, int w, int h, int bounces) {
+reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, int w, int h, int bounces) {
   stage.play().scene.reflection.bounces = bounces;
   return stage.trace(camera, w, h, samples_a_pixel);
 }
@@ -79,9 +79,9 @@ Status measure_two_bounces(bool is_quick, Report& report) {
   const int w = is_quick ? quick_width : width, h = is_quick ? quick_height : height;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<stage::Stage>> made = stage::Stage::create(stage::make_play(mirrors_among_boxes()));
+  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(mirrors_among_boxes()));
   if (!made) return made.errors();
-  stage::Stage& stage = **made;
+  house::Stage& stage = **made;
   const scene::Reflection twice = stage.scene().reflection;
   scene::Reflection once = twice, baseline = twice;
   once.bounces = 1;

@@ -4,7 +4,7 @@
 #include "bench/reading_bench.h"
 #include "bench/safety_bench.h"
 #include "bench/scenario_bench.h"
-#include "gl/context.h"
+#include "graphics/gl/context.h"
 
 namespace parvis::bench {
 

@@ -9,10 +9,10 @@
 #include "bench/mirror_check.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
-#include "city/paper_city.h"
-#include "render/culling_check.h"
+#include "graphics/render/culling_check.h"
+#include "house/stage.h"
+#include "places/paper_city/paper_city.h"
 #include "scene/city_json.h"
-#include "stage/stage.h"
 
 namespace parvis::bench {
 namespace {
@@ -25,7 +25,7 @@ using scene::ReflectionMethod;
 constexpr scene::Reflection mem{ReflectionMethod::multiple_environment_maps, 128, false};
 
 /// Times whole frames of each method in alternating order.
-Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
+Status time_methods(house::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
                     std::vector<Median>& medians) {
   std::vector<JudgedMethod> methods;
   for (const auto& [key, reflection] :
@@ -58,7 +58,7 @@ Status time_methods(stage::Stage& stage, const Camera& camera, int cars, int rep
 }
 
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
-void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
+void measure_occlusion(house::Stage& stage, std::size_t views, Report& report) {
   render::CullingCheck all;
   for (const Camera& camera : street_views(stage.scene(), views, 1.6f, 0.0f, width, height)) {
     stage.renderer().begin_frame(stage.scene(), camera);
@@ -72,7 +72,7 @@ void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
                           all.hidden, views));
 }
 
-void measure_reference(stage::Stage& stage, Report& report) {
+void measure_reference(house::Stage& stage, Report& report) {
   const Camera camera = street_views(stage.scene(), 1, 1.6f, 0.0f, width, height).front();
   const reference::TracedPicture traced = stage.trace(camera, 480, 270, 16);
   report.add("reference_mrays_s", 1e-6 * double(traced.rays) / traced.seconds);
@@ -102,7 +102,7 @@ Result<Report> frame_bench(bool is_quick) {
   const double generated_ms = milliseconds([&] { written = city::write_paper_city(folder.path, 1); });
   if (!written) return written.errors();
   const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper.xp", stage::node_registry());
+      scene::load_scene(folder.path / "paper.xp", house::node_registry());
   if (!loaded) return loaded.errors();
   report.add("triangles", double(loaded->scene.static_triangle_count()));
   report.add("city_generate_ms", generated_ms);
@@ -110,7 +110,7 @@ Result<Report> frame_bench(bool is_quick) {
   if (Status kept = keep_maps(loaded->scene, mem); !kept) return kept.errors();
   const int repeats = is_quick ? 7 : 21;
   for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
-    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(loaded->scene, cars));
+    Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(loaded->scene, cars));
     if (!stage) return stage.errors();
     const Result<Camera> camera = view_of_cars(**stage, least, most, width, height, report);
     if (!camera) return camera.errors();

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "bench/report.h"
-#include "curved_reflectors/exact_reflection.h"
+#include "reflections/curved_reflectors/exact_reflection.h"
 
 namespace parvis::bench {
 namespace {

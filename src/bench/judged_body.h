@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "curved_reflectors/reflection_search.h"
-#include "curved_reflectors/reflector_map.h"
-#include "curved_reflectors/surface_rays.h"
+#include "reflections/curved_reflectors/reflection_search.h"
+#include "reflections/curved_reflectors/reflector_map.h"
+#include "reflections/curved_reflectors/surface_rays.h"
 
 namespace parvis::bench {
 

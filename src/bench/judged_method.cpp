@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "environment_maps/scene_maps.h"
+#include "reflections/environment_maps/scene_maps.h"
 
 namespace parvis::bench {
 namespace {
@@ -14,7 +14,7 @@ Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
   return part;
 }
 
-void make_maps(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+void make_maps(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
                render::Subjects subjects) {
   render::Renderer& renderer = stage.renderer();
   renderer.begin_frame(stage.scene(), camera);
@@ -34,36 +34,36 @@ Status keep_maps(scene::Scene scene, const scene::Reflection& reflection) {
   return maps ? Status(Done{}) : Status(maps.errors());
 }
 
-Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
+Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
                                    const scene::Reflection& reflection) {
   scene::Scene scene = stage.scene();  // models are shared
   scene.reflection = reflection;
-  Result<std::unique_ptr<render::Reflections>> made = stage::make_reflections(scene, stage.renderer());
+  Result<std::unique_ptr<render::Reflections>> made = house::make_reflections(scene, stage.renderer());
   if (!made) return made.errors();
   return JudgedMethod{std::move(name), *std::move(made),
                       reflection.method == scene::ReflectionMethod::time_sliced_cube_map};
 }
 
-Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
+Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
   if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
   make_maps(stage, method, camera, width, height, render::Subjects::all);
   return Done{};
 }
 
-Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects) {
   if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
   draw_again(stage, method, camera, width, height, subjects);
   return Done{};
 }
 
-void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
                 render::Subjects subjects) {
   make_maps(stage, method, camera, width, height, subjects);
   stage.renderer().draw_main_view();
 }
 
-Result<Image8> picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+Result<Image8> picture_of(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
                           int height, const reference::PixelWindow& window) {
   if (Status status = draw(stage, method, camera, width, height); !status) return status.errors();
   return cut_out(stage.renderer().read_picture(stage.scene().exposure), window);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
@@ -18,22 +18,22 @@ struct JudgedMethod {
 Status keep_maps(scene::Scene scene, const scene::Reflection& reflection);
 
 /// Makes a method for a stage's scene; it lives no longer than the stage.
-Result<JudgedMethod> judged_method(stage::Stage& stage, std::string name,
+Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
                                    const scene::Reflection& reflection);
 
 /// Draws a frame of the stage by a method: all of it, or cars alone.
-Status draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects = render::Subjects::all);
 
 /// A frame by the method that was drawn by last: what is timed.
-void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
+void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
                 render::Subjects subjects = render::Subjects::all);
 
 /// Lets a method make what it makes for a frame, of which no picture is wanted.
-Status pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height);
+Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height);
 
 /// A part of a frame by a method, tone-mapped.
-Result<Image8> picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+Result<Image8> picture_of(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
                           int height, const reference::PixelWindow& window);
 
 }  // namespace parvis::bench

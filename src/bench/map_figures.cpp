@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/random.h"
-#include "environment_maps/placement.h"
-#include "environment_maps/reference_maps.h"
-#include "environment_maps/scene_maps.h"
+#include "reflections/environment_maps/placement.h"
+#include "reflections/environment_maps/reference_maps.h"
+#include "reflections/environment_maps/scene_maps.h"
 
 namespace parvis::bench {
 namespace {

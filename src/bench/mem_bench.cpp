@@ -13,8 +13,8 @@
 #include "bench/reflection_cost.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
-#include "city/paper_city.h"
-#include "gl/context.h"
+#include "graphics/gl/context.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
 namespace {
@@ -35,7 +35,7 @@ scene::Reflection usual(ReflectionMethod method, bool uses_level_of_detail = fal
 }
 
 /// Makes methods for a stage.
-Result<std::vector<JudgedMethod>> make(stage::Stage& stage,
+Result<std::vector<JudgedMethod>> make(house::Stage& stage,
                                        const std::vector<std::pair<const char*, scene::Reflection>>& wanted) {
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] : wanted) {
@@ -59,7 +59,7 @@ std::vector<ViewFlips> those_at(const std::vector<ViewFlips>& views, bool is_at_
   return some;
 }
 
-Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
+Status measure_quality(house::Stage& stage, bool is_quick, Report& report) {
   const Result<std::vector<JudgedMethod>> methods =
       make(stage, {{"mem", shipped()},
                    {"none", usual(ReflectionMethod::none)},
@@ -95,7 +95,7 @@ Status measure_quality(stage::Stage& stage, bool is_quick, Report& report) {
 
 /// Faces of cube maps that could be drawn in the time that the shipped method takes in near views; one at
 /// least.
-Result<int> faces_for_the_same_time(stage::Stage& stage, int repeats, Report& report) {
+Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
   constexpr int views = 3;
   const Result<std::vector<JudgedMethod>> methods =
       make(stage, {{"none", usual(ReflectionMethod::none)},
@@ -120,7 +120,7 @@ Result<int> faces_for_the_same_time(stage::Stage& stage, int repeats, Report& re
   return faces;
 }
 
-Status measure_motion(stage::Stage& stage, bool is_quick, Report& report) {
+Status measure_motion(house::Stage& stage, bool is_quick, Report& report) {
   scene::Reflection sliced = usual(ReflectionMethod::time_sliced_cube_map);
   const Result<int> faces = faces_for_the_same_time(stage, is_quick ? 3 : 20, report);
   if (!faces) return faces.errors();
@@ -145,7 +145,7 @@ Status measure_motion(stage::Stage& stage, bool is_quick, Report& report) {
 
 /// Times methods beside one without reflections, and tells what each costs.
 Result<std::vector<ReflectionCost>> told_costs(
-    stage::Stage& stage, const Camera& camera, int repeats, Frames frames,
+    house::Stage& stage, const Camera& camera, int repeats, Frames frames,
     const std::vector<std::pair<const char*, scene::Reflection>>& wanted, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, wanted);
   if (!methods) return methods.errors();
@@ -164,7 +164,7 @@ Result<std::vector<ReflectionCost>> told_costs(
 
 Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   constexpr int cars_seen = 30;
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(play_with(city, 120));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(city, 120));
   if (!stage) return stage.errors();
   const Result<Camera> camera = view_of_cars(**stage, cars_seen, cars_seen, width, height, report);
   if (!camera) return camera.errors();
@@ -202,9 +202,9 @@ Result<Report> mem_bench(bool is_quick) {
   report.note("machine: " + gl::driver_name());
   const ScratchFolder folder;
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
-  const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", stage::node_registry());
+  const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", house::node_registry());
   if (!city) return city.errors();
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(stage::make_play(city->scene));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(city->scene));
   if (!stage) return stage.errors();
   const int repeats = is_quick ? 7 : 30;
   const std::function<Status()> parts[]{

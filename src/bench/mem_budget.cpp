@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/judged_method.h"
-#include "render/picture_scale.h"
+#include "graphics/render/picture_scale.h"
 
 namespace parvis::bench {
 namespace {
@@ -22,7 +22,7 @@ struct FrameTime {
 };
 
 /// Draws the frame of now behind a car.
-Result<FrameTime> timed_frame(stage::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
+Result<FrameTime> timed_frame(house::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
   const Result<Camera> camera = stage.camera("follow");
   if (!camera) return camera.errors();
   render::Renderer& renderer = stage.renderer();
@@ -55,13 +55,13 @@ double p95(std::vector<double> samples) {
   return samples[std::size_t(quantile * double(samples.size() - 1))];
 }
 
-Result<JudgedMethod> with_budget(stage::Stage& stage, scene::Reflection reflection, float budget_ms) {
+Result<JudgedMethod> with_budget(house::Stage& stage, scene::Reflection reflection, float budget_ms) {
   reflection.budget_ms = budget_ms;
   return judged_method(stage, "budget", reflection);
 }
 
 /// What whole frames take with the fewest pixels and the cheapest reflections, and with all and the best.
-Result<std::pair<double, double>> range_of_frames(stage::Stage& stage, const scene::Reflection& reflection,
+Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const scene::Reflection& reflection,
                                                   glm::ivec2 size) {
   const Result<JudgedMethod> cheapest = with_budget(stage, reflection, least_budget_ms),
                              best = with_budget(stage, reflection, 0.0f);
@@ -85,7 +85,7 @@ Result<std::pair<double, double>> range_of_frames(stage::Stage& stage, const sce
 }
 
 /// By how many percent of their median frames differ that show the same, but for one in twenty.
-Result<double> own_spread_percent(stage::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
+Result<double> own_spread_percent(house::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
   std::vector<double> whole_ms;
   for (int frame = 0; frame < same_frames; ++frame) {
     const Result<FrameTime> time = timed_frame(stage, method, size);
@@ -99,7 +99,7 @@ Result<double> own_spread_percent(stage::Stage& stage, const JudgedMethod& metho
 
 }  // namespace
 
-Status measure_budget(stage::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
+Status measure_budget(house::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
                       int height, Report& report) {
   const glm::ivec2 size(width, height);
   const Result<std::pair<double, double>> range = range_of_frames(stage, reflection, size);

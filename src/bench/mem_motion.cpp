@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "bench/near_views.h"
-#include "reference/metrics.h"
-#include "shading/tone_curve.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {
@@ -46,7 +46,7 @@ struct Drive {
 };
 
 /// Nothing: the car waited, or something came between it and the eye.
-Result<std::optional<Drive>> drive_with(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
+Result<std::optional<Drive>> drive_with(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                         const NearView& view, int width, int height) {
   const Companion companion(stage.scene(), view);
   const glm::vec3 start(companion.car()[3]);
@@ -120,7 +120,7 @@ Status judge(const Drive& drive, MotionErrors& sums) {
 
 }  // namespace
 
-Result<MotionErrors> errors_in_motion(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
+Result<MotionErrors> errors_in_motion(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                       int drives, int width, int height) {
   MotionErrors errors;
   errors.flip.resize(methods.size());

@@ -19,7 +19,7 @@ struct MotionErrors {
 
 /// Judges methods inside the reflective pixels of near cars after a second of driving, at thirty frames a
 /// second and width x height.
-Result<MotionErrors> errors_in_motion(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
+Result<MotionErrors> errors_in_motion(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                       int drives, int width, int height);
 
 }  // namespace parvis::bench

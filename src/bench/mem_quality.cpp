@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bench/near_views.h"
-#include "reference/metrics.h"
-#include "shading/tone_curve.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
 
 namespace parvis::bench {
 namespace {
@@ -22,7 +22,7 @@ bool is_at_crossing(const scene::Scene& scene, glm::vec3 at) {
 
 }  // namespace
 
-Result<std::vector<ViewFlips>> flips_of_methods(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
+Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                                 std::size_t views, int width, int height) {
   NearViews near_views(stage, width, height);
   std::vector<ViewFlips> flips;

@@ -15,7 +15,7 @@ struct ViewFlips {
 };
 
 /// Judges methods over the first `views` near views of the stage's traffic, at width x height.
-Result<std::vector<ViewFlips>> flips_of_methods(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
+Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                                 std::size_t views, int width, int height);
 
 }  // namespace parvis::bench

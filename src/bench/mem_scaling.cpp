@@ -5,9 +5,9 @@
 
 #include "bench/near_views.h"
 #include "bench/reflection_cost.h"
-#include "city/mirror_bodies.h"
-#include "environment_maps/map_cache.h"
-#include "environment_maps/scene_maps.h"
+#include "places/paper_city/mirror_bodies.h"
+#include "reflections/environment_maps/map_cache.h"
+#include "reflections/environment_maps/scene_maps.h"
 
 namespace parvis::bench {
 namespace {
@@ -55,13 +55,13 @@ void add_balls(scene::Scene& scene, const Camera& camera, int count) {
 
 /// A stage with the methods that a cost takes: without reflections, and with them.
 struct Timed {
-  std::unique_ptr<stage::Stage> stage;
+  std::unique_ptr<house::Stage> stage;
   std::vector<JudgedMethod> methods;
   std::vector<double> ms;
 };
 
 Result<Timed> timed(const scene::Scene& scene, const scene::Reflection& reflection) {
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(stage::make_play(scene));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(scene));
   if (!stage) return stage.errors();
   Timed timed{*std::move(stage), {}, {}};
   scene::Reflection none;
@@ -86,7 +86,7 @@ Status time_in_turn(Timed& a, Timed& b, const Camera& camera, int repeats) {
   return Done{};
 }
 
-double reflective_pixels(stage::Stage& stage, const Camera& camera) {
+double reflective_pixels(house::Stage& stage, const Camera& camera) {
   const reference::TracedPicture traced = stage.trace(camera, width, height, 1);
   return double(std::ranges::count_if(traced.mirror_mask.pixels, [](int share) { return share > 0; }));
 }
@@ -153,7 +153,7 @@ Status measure_body_count(const scene::Scene& city, const scene::Reflection& ref
 
 Status measure_city_size(const scene::Scene& city, const scene::Reflection& reflection, int repeats,
                          Report& report) {
-  scene::Scene small = without_traffic(stage::make_play(city).scene);  // cars stand where it begins
+  scene::Scene small = without_traffic(house::make_play(city).scene);  // cars stand where it begins
   small.reflection = reflection;
   const maps::MapCache kept(small);
   const std::optional<maps::MapFile> first = kept.read(0);

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "probes/reflections.h"
-#include "reference/metrics.h"
-#include "reference/tracer.h"
-#include "shading/tone_curve.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/shading/tone_curve.h"
+#include "reflections/probes/reflections.h"
 
 namespace parvis::bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "graphics/gl/context.h"
 
 namespace parvis::bench {
 namespace {

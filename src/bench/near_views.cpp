@@ -47,7 +47,7 @@ std::optional<reference::PixelWindow> window_of(const render::ObjectPicture& ske
 
 }  // namespace
 
-std::optional<reference::PixelWindow> window_of_car(stage::Stage& stage, const Camera& camera, int object,
+std::optional<reference::PixelWindow> window_of_car(house::Stage& stage, const Camera& camera, int object,
                                                     int width, int height) {
   const render::ObjectPicture sketch = stage.renderer().pick(camera, sketch_width, sketch_height, true);
   return window_of(sketch, stage.scene(), object, width, height);

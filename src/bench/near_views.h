@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/random.h"
-#include "reference/tracer.h"
-#include "stage/stage.h"
+#include "graphics/reference/tracer.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
@@ -19,19 +19,19 @@ struct NearView {
 
 /// The pixels that show a car in the frame of now, and a margin; nothing: it is small, cut off, or others
 /// cover much of the picture.
-std::optional<reference::PixelWindow> window_of_car(stage::Stage& stage, const Camera& camera, int object,
+std::optional<reference::PixelWindow> window_of_car(house::Stage& stage, const Camera& camera, int object,
                                                     int width, int height);
 
 /// Views of cars that nothing hides, at different times and from all sides: the same for the same scene.
 class NearViews {
  public:
-  NearViews(stage::Stage& stage, int width, int height) : stage_(stage), width_(width), height_(height) {}
+  NearViews(house::Stage& stage, int width, int height) : stage_(stage), width_(width), height_(height) {}
 
   /// Lets traffic drive on to the next one. An error where it shows no near car for long.
   Result<NearView> next();
 
  private:
-  stage::Stage& stage_;
+  house::Stage& stage_;
   int width_, height_;
   Random random_{23};
 };

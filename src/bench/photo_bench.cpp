@@ -1,9 +1,9 @@
 #include "bench/photo_bench.h"
 
 #include "bench/scratch_folder.h"
-#include "city/paper_city.h"
-#include "reference/photograph.h"
-#include "stage/stage.h"
+#include "graphics/reference/photograph.h"
+#include "house/stage.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
 namespace {
@@ -16,7 +16,7 @@ constexpr const char* camera_name = "crossing";
 Status measure_photographs(bool is_quick, Report& report) {
   const ScratchFolder folder;
   if (Status status = city::write_paper_city(folder.path, 1); !status) return status;
-  Result<stage::Play> play = stage::open_play(folder.path / "paper.xp", {});
+  Result<house::Play> play = house::open_play(folder.path / "paper.xp", {});
   if (!play) return play.errors();
   play->advance(8.0);  // so that cars have reached the crossing
   const Result<Camera> camera = play->camera(camera_name);

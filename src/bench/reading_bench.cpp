@@ -3,8 +3,8 @@
 #include "base/files.h"
 #include "base/test_data.h"
 #include "bench/scratch_folder.h"
+#include "house/stage.h"
 #include "scene/city_json.h"
-#include "stage/stage.h"
 
 namespace parvis::bench {
 namespace {
@@ -35,7 +35,7 @@ Status measure_scripts(int repeats, Report& report) {
   std::vector<double> mb_s;
   for (int i = 0; i < repeats; ++i) {
     Status checked = Done{};
-    const double ms = milliseconds([&] { checked = scene::check_scene(file, stage::node_registry()); });
+    const double ms = milliseconds([&] { checked = scene::check_scene(file, house::node_registry()); });
     if (!checked) return checked;
     mb_s.push_back(1e-3 * double(text.size()) / ms);
   }
@@ -81,7 +81,7 @@ Status measure_delft(int repeats, Report& report) {
   for (int i = 0; i < repeats; ++i) {
     Status loaded = Done{};
     samples.push_back(milliseconds([&] {
-      if (const auto scene = scene::load_scene(script, stage::node_registry(), {&*data, 1}); !scene)
+      if (const auto scene = scene::load_scene(script, house::node_registry(), {&*data, 1}); !scene)
         loaded = scene.errors();
     }));
     if (!loaded) return loaded;

@@ -4,8 +4,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/judged_body.h"
-#include "curved_reflectors/reflector_cache.h"
-#include "reference/camera_ray.h"
+#include "graphics/reference/camera_ray.h"
+#include "reflections/curved_reflectors/reflector_cache.h"
 
 namespace parvis::bench {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "curved_reflectors/reflector_map.h"
-#include "curved_reflectors/surface_rays.h"
-#include "reference/ray_scene.h"
+#include "graphics/reference/ray_scene.h"
+#include "reflections/curved_reflectors/reflector_map.h"
+#include "reflections/curved_reflectors/surface_rays.h"
 #include "scene/scene.h"
 
 namespace parvis::bench {

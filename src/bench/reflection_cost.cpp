@@ -15,7 +15,7 @@ double finished_ms(const std::function<void()>& work) {
   });
 }
 
-Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
+Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
                                                      Frames frames) {

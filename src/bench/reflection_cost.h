@@ -7,7 +7,7 @@
 
 #include "bench/judged_method.h"
 #include "bench/report.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
@@ -25,7 +25,7 @@ enum class Frames : bool { left_out, whole };
 
 /// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn, after a
 /// turn that is not timed; the first must be the method without reflections, whose cost is nothing.
-Result<std::vector<ReflectionCost>> reflection_costs(stage::Stage& stage,
+Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
                                                      Frames frames);

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "bench/scratch_folder.h"
-#include "city/paper_city.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "base/files.h"
 #include "bench/scratch_folder.h"
-#include "city/paper_city.h"
-#include "stage/stage.h"
+#include "house/stage.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
 namespace {
@@ -35,12 +35,12 @@ Status measure_scenarios(bool is_quick, Report& report) {
   const ScratchFolder folder;
   if (Status status = city::write_paper_city(folder.path, 1); !status) return status;
   if (Status status = write_file(folder.path / "project.xp", project); !status) return status;
-  Result<stage::Play> play = stage::open_play(folder.path / "project.xp", {});
+  Result<house::Play> play = house::open_play(folder.path / "project.xp", {});
   if (!play) return play.errors();
   play->advance(8.0);
-  Result<std::unique_ptr<stage::Stage>> made = stage::Stage::create(*std::move(play));
+  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(*std::move(play));
   if (!made) return made.errors();
-  stage::Stage& stage = **made;
+  house::Stage& stage = **made;
   const Result<Camera> camera = stage.camera("street");
   if (!camera) return camera.errors();
   const auto frame_ms = [&] {

@@ -3,9 +3,9 @@
 
 #include "base/files.h"
 #include "bench/scratch_folder.h"
-#include "city/paper_city.h"
-#include "gl/context.h"
-#include "stage/stage.h"
+#include "graphics/gl/context.h"
+#include "house/stage.h"
+#include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
 namespace {
@@ -35,10 +35,10 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
   ASSERT_TRUE(write_file(folder.path / "project.xp", project));
   const Result<gl::Context> context = gl::Context::create_headless();
   ASSERT_TRUE(context) << to_string(context.errors());
-  Result<stage::Play> play = stage::open_play(folder.path / "project.xp", {});
+  Result<house::Play> play = house::open_play(folder.path / "project.xp", {});
   ASSERT_TRUE(play) << to_string(play.errors());
   play->advance(2.0);
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(*std::move(play));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   const Result<Camera> camera = (*stage)->camera("street");
   ASSERT_TRUE(camera) << to_string(camera.errors());

@@ -1,7 +1,7 @@
 #include "bench/street_views.h"
 
 #include "base/random.h"
-#include "render/frustum.h"
+#include "graphics/render/frustum.h"
 
 namespace parvis::bench {
 namespace {
@@ -43,13 +43,13 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
   return cameras;
 }
 
-stage::Play play_with(const scene::Scene& scene, int vehicles) {
+house::Play play_with(const scene::Scene& scene, int vehicles) {
   scene::Scene copy = scene;  // models are shared
   copy.traffic.vehicles = vehicles;
-  return stage::make_play(std::move(copy));
+  return house::make_play(std::move(copy));
 }
 
-int reflectors_seen(stage::Stage& stage, const Camera& camera, int width, int height) {
+int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height) {
   stage.renderer().begin_frame(stage.scene(), camera);
   stage.renderer().prepare_main_view(camera, width, height);
   std::vector<render::Reflector> reflectors;
@@ -57,7 +57,7 @@ int reflectors_seen(stage::Stage& stage, const Camera& camera, int width, int he
   return int(reflectors.size());
 }
 
-Result<Camera> view_of_cars(stage::Stage& stage, int least, int most, int width, int height, Report& report) {
+Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width, int height, Report& report) {
   const float aspect = float(width) / float(height);
   constexpr int longest_search_s = 120;
   for (int second = 0; second < longest_search_s; ++second) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/report.h"
-#include "stage/stage.h"
+#include "house/stage.h"
 
 namespace parvis::bench {
 
@@ -14,11 +14,11 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
                                  float pitch_rad, int width, int height);
 
 /// The scene with so many vehicles.
-stage::Play play_with(const scene::Scene& scene, int vehicles);
+house::Play play_with(const scene::Scene& scene, int vehicles);
 
-int reflectors_seen(stage::Stage& stage, const Camera& camera, int width, int height);
+int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height);
 
 /// Lets traffic drive until some view, from a balcony or a roof, sees between `least` and `most` cars.
-Result<Camera> view_of_cars(stage::Stage& stage, int least, int most, int width, int height, Report& report);
+Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width, int height, Report& report);
 
 }  // namespace parvis::bench

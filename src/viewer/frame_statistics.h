@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "gl/pass_times.h"
+#include "graphics/gl/pass_times.h"
 
 namespace parvis::viewer {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "action/action_nodes.h"
+#include "scene/action/action_nodes.h"
 
 namespace parvis::viewer {
 namespace {

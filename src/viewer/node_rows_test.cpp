@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "action/actions.h"
 #include "base/test_folder.h"
+#include "house/stage.h"
+#include "scene/action/actions.h"
 #include "scene/gltf_writer.h"
 #include "scene/test_scene.h"
-#include "stage/stage.h"
 
 namespace parvis::viewer {
 namespace {
@@ -27,9 +27,9 @@ class NodeRowsTest : public testing::Test {
   NodeRowsTest() {
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb",
                                   *scene::model_of(scene::box(glm::vec3(0.0f), glm::vec3(1.0f)), {})));
-    Result<stage::Play> play = stage::open_play(folder_.write("scene.xp", script), {});
+    Result<house::Play> play = house::open_play(folder_.write("scene.xp", script), {});
     EXPECT_TRUE(play) << to_string(play.errors());
-    if (play) play_ = std::make_unique<stage::Play>(*std::move(play));
+    if (play) play_ = std::make_unique<house::Play>(*std::move(play));
   }
 
   scene::LiveScene& live() { return play_->actions.live(); }
@@ -51,7 +51,7 @@ class NodeRowsTest : public testing::Test {
   }
 
   TestFolder folder_;
-  std::unique_ptr<stage::Play> play_;
+  std::unique_ptr<house::Play> play_;
 };
 
 TEST_F(NodeRowsTest, ShowWhatIsOpen) {
@@ -131,7 +131,7 @@ TEST_F(NodeRowsTest, EditsAreMessagesThatTheNodeTakes) {
 
 /// The panel can edit whatever is live in any node type there is.
 TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
-  for (const scene::NodeType& type : stage::node_registry().types())
+  for (const scene::NodeType& type : house::node_registry().types())
     for (const scene::AttributeSchema& schema : type.schema.attributes) {
       EXPECT_FALSE(drag_style(schema).format.empty());
       if (!schema.is_live) continue;

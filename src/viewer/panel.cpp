@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "gl/context.h"
+#include "graphics/gl/context.h"
 #include "viewer/keys.h"
 
 namespace parvis::viewer {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render/golden.h"
+#include "graphics/render/golden.h"
 #include "viewer/test_square.h"
 
 namespace parvis::viewer {

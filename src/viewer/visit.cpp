@@ -23,7 +23,7 @@ glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
           glm::degrees(std::asin(std::clamp(unit.z, -1.0f, 1.0f)))};
 }
 
-Visit::Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures)
+Visit::Visit(house::Stage& stage, const Camera& start, PicturePlace pictures)
     : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {}
 
 void Visit::step(const Controls& controls, float passed_s) {

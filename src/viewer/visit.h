@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/stage.h"
+#include "house/stage.h"
 #include "viewer/navigation.h"
 
 namespace parvis::viewer {
@@ -27,7 +27,7 @@ struct PicturePlace {
 class Visit {
  public:
   /// The stage outlives the visit.
-  Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures);
+  Visit(house::Stage& stage, const Camera& start, PicturePlace pictures);
 
   /// Lets `passed_s` pass, for the scene and the visitor's motion at most a tenth of a second: after a halt,
   /// life goes on where it stopped.
@@ -75,7 +75,7 @@ class Visit {
   /// Those that are to be read now, the oldest first.
   const std::vector<Notice>& notices() const { return notices_; }
 
-  stage::Stage& stage() { return stage_; }
+  house::Stage& stage() { return stage_; }
   const scene::Scene& scene() const { return stage_.scene(); }
   action::Actions& actions() { return stage_.play().actions; }
 
@@ -84,7 +84,7 @@ class Visit {
   void report(const Status& status, const std::string& done);
   void add_notice(Notice notice);
 
-  stage::Stage& stage_;
+  house::Stage& stage_;
   Navigation navigation_;
   PicturePlace pictures_;
   int followed_ = -1;

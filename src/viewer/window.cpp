@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "base/image_io.h"
-#include "render/picture_target.h"
+#include "graphics/render/picture_target.h"
 #include "viewer/input.h"
 #include "viewer/keys.h"
 #include "viewer/panel.h"
@@ -83,7 +83,7 @@ void print_keys() {
 /// The loop over frames.
 class Frames {
  public:
-  Frames(GLFWwindow* window, stage::Stage& stage, const Camera& start, const WindowOptions& options)
+  Frames(GLFWwindow* window, house::Stage& stage, const Camera& start, const WindowOptions& options)
       : window_(window),
         options_(options),
         scale_(scale_of(window)),
@@ -128,7 +128,7 @@ class Frames {
     imgui_.begin_frame();
     panel_.draw(visit_, statistics_);
 
-    stage::Stage& stage = visit_.stage();
+    house::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_a_point);
     stage.draw(visit_.camera(), std::max(width_ - covered, 1), height_);
     stage.display(0);
@@ -152,10 +152,10 @@ class Frames {
 
 }  // namespace
 
-Status show(stage::Play play, const WindowOptions& options) {
+Status show(house::Play play, const WindowOptions& options) {
   Glfw glfw;
   if (Status status = open_window(glfw, options); !status) return status;
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(std::move(play));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(std::move(play));
   if (!stage) return stage.errors();
   const Result<Camera> start = (*stage)->camera(options.camera);
   if (!start) return start.errors();

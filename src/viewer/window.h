@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "stage/stage.h"
+#include "house/stage.h"
 #include "viewer/visit.h"
 
 namespace parvis::viewer {
@@ -20,6 +20,6 @@ struct WindowOptions {
 
 /// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is
 /// no display or no OpenGL 4.5.
-Status show(stage::Play play, const WindowOptions& options);
+Status show(house::Play play, const WindowOptions& options);
 
 }  // namespace parvis::viewer

@@ -1,0 +1,168 @@
+#include "graphics/gl/program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "graphics/gl/shader_files.h"
+
+namespace parvis::gl {
+namespace {
+
+const char* embedded_text(const std::string& path) {
+  for (const ShaderFile* file = embedded_shaders; file->path; ++file)
+    if (path == file->path) return file->text;
+  return nullptr;
+}
+
+/// Texts put together: each file once, with #line directives that carry the file's place in `files`.
+struct Assembly {
+  std::vector<std::string>& files;
+  std::set<std::string> seen{};
+  std::string text{};
+
+  Status add(const std::string& path) {
+    if (!seen.insert(path).second) return Done{};
+    const char* body = embedded_text(path);
+    if (!body) return error("{}: no such shader file is embedded", path);
+    const std::size_t number = files.size();
+    files.push_back(path);
+    text += fmt::format("#line 1 {}\n", number);
+
+    std::istringstream lines(body);
+    static const std::regex include(R"re(^\s*#\s*include\s+"([^"]+)")re");
+    int line_number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++line_number;
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) {
+        text += line + "\n";
+        continue;
+      }
+      if (Status status = add(match[1]); !status) {
+        Errors errors = status.errors();
+        if (errors.front().where.file.empty()) errors.front().where = {path, line_number, 0};
+        return errors;
+      }
+      text += fmt::format("#line {} {}\n", line_number + 1, number);
+    }
+    return Done{};
+  }
+};
+
+/// Replaces the "0:12" or "0(12)" of drivers' messages by "file:12".
+std::string with_file_names(const std::string& log, const std::vector<std::string>& files) {
+  static const std::regex place(R"(\b(\d+)[:(](\d+)\)?)");
+  std::string result;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, place) && match[1].length() < 4 &&
+        std::size_t(std::stoi(match[1])) < files.size())
+      line = fmt::format("{}{}:{}{}", match.prefix().str(), files[std::size_t(std::stoi(match[1]))],
+                         match[2].str(), match.suffix().str());
+    result += line + "\n";
+  }
+  return result;
+}
+
+template <class GetLength, class GetLog>
+std::string info_log(GLuint name, GetLength get_length, GetLog get_log) {
+  GLint length = 0;
+  get_length(name, GL_INFO_LOG_LENGTH, &length);
+  std::string log(std::size_t(std::max(length, 1)), '\0');
+  get_log(name, length, nullptr, log.data());
+  return log.c_str();
+}
+
+}  // namespace
+
+Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
+                                std::vector<std::string>& files) {
+  Assembly assembly{files};
+  if (dialect == Dialect::es_300)
+    assembly.text =
+        "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+        "precision highp sampler2DArray;\nprecision highp sampler3D;\nprecision highp samplerCube;\n"
+        "precision highp sampler2DShadow;\nprecision highp sampler2DArrayShadow;\n";
+  else
+    assembly.text = "#version 450 core\n";
+  for (const auto& [name, value] : defines) assembly.text += fmt::format("#define {} {}\n", name, value);
+  if (Status status = assembly.add("graphics/shading/glsl.glsl"); !status) return status.errors();
+  if (Status status = assembly.add(path); !status) return status.errors();
+  return std::move(assembly.text);
+}
+
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines,
+                              Dialect dialect) {
+  std::vector<std::string> files;
+  const Result<std::string> text = shader_text(path, defines, dialect, files);
+  if (!text) return text.errors();
+  const GLuint shader = glCreateShader(stage);
+  const char* source = text->c_str();
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  GLint compiled = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return shader;
+  const std::string log = info_log(shader, glGetShaderiv, glGetShaderInfoLog);
+  glDeleteShader(shader);
+  return error("the shader {} does not compile:\n{}", path, with_file_names(log, files));
+}
+
+Result<Program> Program::create(const std::string& vertex_path, const std::string& fragment_path,
+                                const Defines& defines) {
+  const Result<GLuint> vertex = compile_shader(GL_VERTEX_SHADER, vertex_path, defines, Dialect::desktop_450);
+  if (!vertex) return vertex.errors();
+  const Result<GLuint> fragment =
+      compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450);
+  if (!fragment) {
+    glDeleteShader(*vertex);
+    return fragment.errors();
+  }
+  Program program(glCreateProgram());
+  for (const GLuint shader : {*vertex, *fragment}) {
+    glAttachShader(program.name_, shader);
+    glDeleteShader(shader);  // lives as long as the program
+  }
+  glLinkProgram(program.name_);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program.name_, GL_LINK_STATUS, &linked);
+  if (!linked)
+    return error("{} and {} do not link:\n{}", vertex_path, fragment_path,
+                 info_log(program.name_, glGetProgramiv, glGetProgramInfoLog));
+  return program;
+}
+
+Program::~Program() {
+  if (name_) glDeleteProgram(name_);
+}
+
+void Program::set(const char* uniform, int value) const {
+  glProgramUniform1i(name_, location(uniform), value);
+}
+void Program::set(const char* uniform, float value) const {
+  glProgramUniform1f(name_, location(uniform), value);
+}
+void Program::set(const char* uniform, glm::vec2 value) const {
+  glProgramUniform2fv(name_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, glm::vec3 value) const {
+  glProgramUniform3fv(name_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, glm::vec4 value) const {
+  glProgramUniform4fv(name_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, const glm::mat4& value) const {
+  glProgramUniformMatrix4fv(name_, location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, std::span<const glm::vec3> values) const {
+  glProgramUniform3fv(name_, location(uniform), GLsizei(values.size()), glm::value_ptr(values.front()));
+}
+void Program::set(const char* uniform, std::span<const glm::mat4> values) const {
+  glProgramUniformMatrix4fv(name_, location(uniform), GLsizei(values.size()), GL_FALSE,
+                            glm::value_ptr(values.front()));
+}
+
+}  // namespace parvis::gl

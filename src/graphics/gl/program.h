@@ -1,0 +1,63 @@
+// Shader programs out of the embedded files: #include once each, defines for permutations, and errors that
+// name the real file and line. The same files compile as desktop GLSL and as GLSL ES 3.00.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "graphics/gl/objects.h"
+
+namespace parvis::gl {
+
+enum class Dialect { desktop_450, es_300 };
+
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+/// The text of a shader ready to compile: version, preamble, defines, and `path` with its includes in place.
+/// An include that names no file and a `path` that is none are errors. `files` receives the names that #line
+/// numbers stand for.
+Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
+                                std::vector<std::string>& files);
+
+/// Compiles one stage in the current context; the errors name file and line.
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect);
+
+class Program {
+ public:
+  Program() = default;
+  /// Links a vertex and a fragment shader ("graphics/render/surface.vert").
+  static Result<Program> create(const std::string& vertex_path, const std::string& fragment_path,
+                                const Defines& defines = {});
+  Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Program& operator=(Program&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Program();
+
+  void use() const { glUseProgram(name_); }
+  GLuint name() const { return name_; }
+
+  // Uniforms by name; one that the compiler removed is passed over, as OpenGL does.
+  void set(const char* uniform, int value) const;
+  void set(const char* uniform, float value) const;
+  void set(const char* uniform, glm::vec2 value) const;
+  void set(const char* uniform, glm::vec3 value) const;
+  void set(const char* uniform, glm::vec4 value) const;
+  void set(const char* uniform, const glm::mat4& value) const;
+  void set(const char* uniform, std::span<const glm::vec3> values) const;
+  void set(const char* uniform, std::span<const glm::mat4> values) const;
+
+ private:
+  explicit Program(GLuint name) : name_(name) {}
+  GLint location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
+  GLuint name_ = 0;
+};
+
+}  // namespace parvis::gl

@@ -1,0 +1,46 @@
+#include "graphics/reference/mip_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/mip_levels.h"
+
+namespace parvis::reference {
+
+MipTexture::MipTexture(const scene::Texture& texture, bool is_cutout)
+    : levels_(scene::mip_levels(texture, is_cutout)),
+      value_of_byte_(scene::values_of_bytes(texture.is_srgb).data()),
+      repeats_(texture.repeats) {}
+
+glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
+  const std::uint8_t* p = level.at(x, y);
+  return {value_of_byte_[p[0]], value_of_byte_[p[1]], value_of_byte_[p[2]], float(p[3]) / 255.0f};
+}
+
+glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
+  // Coordinates lie in 0..1, and so x and y above -1.
+  const auto wrapped = [&](int i, int size) {
+    if (i >= 0 && i < size) return i;
+    return (i < 0) == repeats_ ? size - 1 : 0;
+  };
+  const float x = uv.x * float(level.width) - 0.5f, y = uv.y * float(level.height) - 0.5f;
+  const int left = int(x + 1.0f) - 1, top = int(y + 1.0f) - 1;
+  const int x0 = wrapped(left, level.width), x1 = wrapped(left + 1, level.width);
+  const int y0 = wrapped(top, level.height), y1 = wrapped(top + 1, level.height);
+  const float fx = x - float(left), fy = y - float(top);
+  return glm::mix(glm::mix(texel(level, x0, y0), texel(level, x1, y0), fx),
+                  glm::mix(texel(level, x0, y1), texel(level, x1, y1), fx), fy);
+}
+
+glm::vec4 MipTexture::sample(glm::vec2 uv, float texels) const {
+  uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
+  // Where the picture does not repeat, its edge goes on.
+  uv = repeats_ ? uv - glm::vec2(std::floor(uv.x), std::floor(uv.y)) : glm::clamp(uv, 0.0f, 1.0f);
+  const float level = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(levels_.size() - 1));
+  const std::size_t fine = std::size_t(level), coarse = std::min(fine + 1, levels_.size() - 1);
+  const float t = level - float(fine);
+  const glm::vec4 first = bilinear(levels_[fine], uv);
+  return t > 0.0f ? glm::mix(first, bilinear(levels_[coarse], uv), t) : first;
+}
+
+}  // namespace parvis::reference

@@ -1,0 +1,179 @@
+#include "graphics/reference/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/colour.h"
+#include "graphics/shading/glass.h"
+
+namespace parvis::reference {
+namespace {
+
+using glm::vec3;
+
+constexpr float off_surface_m = 1e-3f;      // where rays begin, so that they do not meet where they come from
+constexpr float greatest_survival = 0.95f;  // of a path at each bounce: even in a white room paths end
+constexpr float least_cosine = 1e-3f;
+
+/// Keeps a vector on the side of `normal`, where interpolated or mapped normals would turn it away.
+vec3 kept_above(vec3 vector, vec3 normal) {
+  const float height = glm::dot(vector, normal);
+  return height >= least_cosine ? vector : glm::normalize(vector + (least_cosine - height) * normal);
+}
+
+vec3 clamped(vec3 radiance, float most) {
+  const float light = luminance(radiance);
+  return light > most ? radiance * (most / light) : radiance;
+}
+
+}  // namespace
+
+struct PathTracer::Path {
+  Ray ray;
+  float width_m = 0.0f, spread;
+  SampleSequence& numbers;
+  Passage passage;
+  vec3 throughput{1.0f};
+  float density = 0.0f;  // with which the ray's direction was chosen; 0: it is the camera's, or a mirror's
+  std::uint64_t ray_count = 0;
+  bool meets_scene = false;
+};
+
+PathTracer::PathTracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+                       const PathOptions& options)
+    : rays_(rays),
+      sky_(sky),
+      sun_(scene.sun),
+      sky_sampler_(sky),
+      haze_per_m_(scene.haze_per_m),
+      options_(options) {}
+
+/// Of light found by one strategy, where another finds it with `other_density`.
+float PathTracer::weight(float density, float other_density, bool is_chosen_light) const {
+  if (options_.strategy == LightStrategy::chosen_lights) return is_chosen_light ? 1.0f : 0.0f;
+  if (options_.strategy == LightStrategy::scattered_rays) return is_chosen_light ? 0.0f : 1.0f;
+  const float ratio = other_density / density;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// What a ray brings that meets nothing: sun and sky.
+vec3 PathTracer::surroundings(const Path& path) const {
+  const vec3 direction = path.ray.direction;
+  const bool is_shared = path.density > 0.0f;  // chosen lights find it, too
+  vec3 light(0.0f);
+  if (sky_sampler_.shines()) {
+    const glm::vec2 uv = shading::equirect_uv(direction, sky_.heading);
+    light += shading::sky_picture_at(sky_, uv) *
+             (is_shared ? weight(path.density, sky_sampler_.density(uv), false) : 1.0f);
+  }
+  if (sun_.shines() && sun_.contains(direction))
+    light += sun_.radiance() * (is_shared ? weight(path.density, SunDisc::density(), false) : 1.0f);
+  return light;
+}
+
+/// Light from a direction that was chosen with `density`, if nothing stands in the way.
+vec3 PathTracer::light_from(vec3 direction, vec3 radiance, float density, const ShadingPoint& point,
+                            const Scatter& scatter, Path& path) const {
+  const float side = glm::dot(point.geometric_normal, direction);
+  if (side * glm::dot(point.surface.normal, direction) <= 0.0f) return vec3(0.0f);
+  const vec3 brought =
+      scatter.share(direction) * radiance *
+      (point.relief.light_from(direction) * weight(density, scatter.density(direction), true) / density);
+  if (!(brought.x + brought.y + brought.z > 0.0f)) return vec3(0.0f);
+  ++path.ray_count;
+  const vec3 origin = point.position + std::copysign(off_surface_m, side) * point.geometric_normal;
+  return rays_.is_blocked({origin, direction}, path.passage) ? vec3(0.0f) : brought;
+}
+
+/// Sun and sky at a surface, each by one ray.
+vec3 PathTracer::light_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const {
+  vec3 light(0.0f);
+  const glm::vec2 on_sun = path.numbers.next_2d(), on_sky = path.numbers.next_2d();
+  if (sun_.shines())
+    light += light_from(sun_.direction(on_sun), sun_.radiance(), SunDisc::density(), point, scatter, path);
+  if (sky_sampler_.shines()) {
+    const SkySampler::Choice chosen = sky_sampler_.choose(on_sky);
+    light += light_from(chosen.direction, shading::sky_picture_at(sky_, chosen.uv), chosen.density, point,
+                        scatter, path);
+  }
+  return light;
+}
+
+/// Chooses where the path goes on; false where it ends.
+bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const {
+  const glm::vec2 choices = path.numbers.next_2d();
+  std::optional<Scatter::Way> way = scatter.way(choices.x, path.numbers.next_2d());
+  if (!way) return false;
+  const bool is_mirror = way->density == 0.0f;
+  if (is_mirror) way->direction = kept_above(way->direction, point.geometric_normal);
+  const float side = glm::dot(point.geometric_normal, way->direction);
+  if (side * glm::dot(point.surface.normal, way->direction) <= 0.0f) return false;
+  path.throughput *= way->weight * point.relief.light_from(way->direction);
+  const float survival =
+      std::min(greatest_survival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+  if (!(choices.y < survival)) return false;
+  path.throughput /= survival;
+  path.ray = {point.position + std::copysign(off_surface_m, side) * point.geometric_normal, way->direction};
+  path.density = way->density;
+  path.width_m = width_m;
+  path.spread += way->spread + (is_mirror ? 2.0f * point.curvature_per_m * width_m : 0.0f);
+  path.passage.sees_backs = true;
+  return true;
+}
+
+/// At solid glass the path is reflected or goes through, by chance, as light is shared; false where it ends.
+bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const {
+  const vec3 normal = point.surface.normal, before = path.ray.direction;
+  const vec3 bent = shading::refracted(before, normal, point.is_back ? ior : 1.0f / ior);
+  const vec3 outside = point.is_back ? bent : before;
+  const float reflected =
+      bent == vec3(0.0f) ? 1.0f : shading::inner_reflectance(ior, -glm::dot(outside, normal));
+  const glm::vec2 choices = path.numbers.next_2d();
+  if (!(choices.y < greatest_survival)) return false;
+  path.throughput /= greatest_survival;
+  const bool reflects = choices.x < reflected;
+  const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : bent;
+  path.ray = {point.position + (reflects ? off_surface_m : -off_surface_m) * point.geometric_normal, after};
+  path.density = 0.0f;  // as a mirror's
+  path.width_m = width_m;
+  path.passage.sees_backs = true;
+  return true;
+}
+
+PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequence& numbers,
+                                      std::uint64_t chance_seed) const {
+  Path path{.ray = ray, .spread = spread, .numbers = numbers, .passage = {Random(chance_seed), false}};
+  vec3 first_light(0.0f), later_light(0.0f);  // up to the first surface, with what it scatters; from beyond
+  int bounce = 0;
+  for (;; ++bounce) {
+    vec3& light = bounce == 0 ? first_light : later_light;
+    ++path.ray_count;
+    const std::optional<Hit> hit = rays_.nearest_hit(path.ray, path.passage);
+    if (!hit) {
+      light += path.throughput * surroundings(path);
+      break;
+    }
+    path.meets_scene = true;
+    const vec3 black(0.0f);
+    light += path.throughput * shading::through_haze(black, hit->distance_m, haze_per_m_, sky_.haze_radiance);
+    path.throughput *= std::exp(-haze_per_m_ * hit->distance_m);
+
+    const float width_m = path.width_m + path.spread * hit->distance_m;
+    ShadingPoint point = shading_point(*hit, path.ray.direction, width_m);
+    point.surface.normal = kept_above(point.surface.normal, -path.ray.direction);
+    light += path.throughput * point.surface.emission;
+    if (options_.bounces && bounce >= *options_.bounces) break;
+    if (const scene::Material& glass = *hit->place->material; glass.refracts()) {
+      if (point.is_back) path.throughput *= glm::exp(-hit->distance_m * glass.absorption_per_m);
+      if (!passes_glass(point, glass.ior, width_m, path)) break;
+      continue;
+    }
+    const Scatter scatter(point.surface, -path.ray.direction);
+    if (scatter.spreads()) light += path.throughput * light_at(point, scatter, path);
+    if (!goes_on(point, scatter, width_m, path)) break;
+  }
+  if (options_.clamp) later_light = clamped(later_light, *options_.clamp);
+  return {first_light + later_light, path.meets_scene, path.ray_count};
+}
+
+}  // namespace parvis::reference

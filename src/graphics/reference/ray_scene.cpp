@@ -1,0 +1,189 @@
+#include "graphics/reference/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "scene/mip_levels.h"
+
+namespace parvis::reference {
+namespace {
+
+/// What travels with a query to the filters below.
+struct QueryContext {
+  RTCIntersectContext embree;
+  Passage* passage;  ///< null: the ray sees as the renderer draws
+
+  explicit QueryContext(Passage* p) : passage(p) { rtcInitIntersectContext(&embree); }
+};
+
+RTCRay embree_ray(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.least_m,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0f,
+          ray.most_m,
+          ~0u,
+          0,
+          0};
+}
+
+/// Front and back are told in the mesh's frame, where a mirrored placement does not exchange them.
+bool meets_back(const RTCFilterFunctionNArguments* arguments) {
+  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
+                     RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
+                     RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
+  return glm::dot(ng, direction) > 0.0f;
+}
+
+float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  if (material.base_colour_texture == scene::no_index) return material.alpha;
+  const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
+                                           RTCHitN_u(arguments->hit, arguments->N, 0),
+                                           RTCHitN_v(arguments->hit, arguments->N, 0));
+  return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
+}
+
+bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  if (!passage.sees_backs && !material.is_double_sided && meets_back(arguments)) return false;
+  if (material.alpha_mode == scene::Alpha::opaque) return true;
+  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments) >= 0.5f;
+  return place.part->casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments);
+}
+
+/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass throw no
+/// shadow.
+template <bool is_shadow>
+bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const scene::Material& material = *place.material;
+  const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
+  if (is_shadow && (!place.part->casts_shadow || lets_through)) return false;
+  if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
+  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments) >= 0.5f;
+}
+
+/// Embree calls this for each candidate hit; geometry belongs to a mesh, whose first place stands for its
+/// material.
+template <bool is_shadow>
+void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
+  const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
+  Passage* passage = reinterpret_cast<const QueryContext*>(arguments->context)->passage;
+  const bool stops =
+      passage ? stops_light(place, *passage, arguments) : stops_as_drawn<is_shadow>(place, arguments);
+  if (!stops) arguments->valid[0] = 0;
+}
+
+}  // namespace
+
+glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v) {
+  const Mesh& mesh = *place.mesh;
+  const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(triangle);
+  const glm::vec2 uv =
+      (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
+  return glm::vec2(place.material->texture_from_mesh_uv * glm::vec3(uv, 1.0f));
+}
+
+RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    if (!object.is_visible) continue;
+    const scene::Model& model = *object.model;
+    auto& textures = textures_[&model];
+    if (!textures) {
+      textures = std::make_unique<std::vector<MipTexture>>();
+      const std::vector<char> is_cutout = scene::cutout_textures(model);
+      for (std::size_t t = 0; t < model.textures.size(); ++t)
+        textures->emplace_back(model.textures[t], is_cutout[t] != 0);
+    }
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const scene::Part& part = model.parts[p];
+      place(part, object.mesh(p), object.world_from_model * pose[std::size_t(part.node)], int(o),
+            object.takes_reflection, model.materials[std::size_t(part.material)], *textures);
+    }
+  }
+  rtcCommitScene(top_);
+}
+
+RayScene::~RayScene() {
+  rtcReleaseScene(top_);
+  for (const auto& [mesh, scene] : mesh_scenes_) rtcReleaseScene(scene);
+  rtcReleaseDevice(device_);
+}
+
+void RayScene::place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
+                     bool takes_reflection, const scene::Material& material,
+                     const std::vector<MipTexture>& textures) {
+  const float volume = glm::determinant(glm::mat3(world_from_mesh));
+  if (mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
+  places_.push_back(std::make_unique<PlacedPart>(
+      PlacedPart{&part, &mesh, &material, &textures, world_from_mesh,
+                 glm::transpose(glm::inverse(glm::mat3(world_from_mesh))), object,
+                 takes_reflection && material.is_mirror_like, volume < 0.0f}));
+  triangle_count_ += mesh.triangle_count();
+
+  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, mesh_scene(*places_.back()));
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
+  rtcCommitGeometry(instance);
+  rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
+  rtcReleaseGeometry(instance);
+}
+
+RTCScene RayScene::mesh_scene(const PlacedPart& place) {
+  const auto [entry, is_new] = mesh_scenes_.try_emplace(place.mesh, nullptr);
+  if (!is_new) return entry->second;
+  const Mesh& mesh = *place.mesh;
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(glm::vec3), mesh.positions.size());
+  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(std::uint32_t), mesh.triangle_count());
+  std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
+  rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
+  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
+  rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
+  rtcCommitGeometry(geometry);
+  entry->second = rtcNewScene(device_);
+  rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
+  rtcAttachGeometry(entry->second, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(entry->second);
+  return entry->second;
+}
+
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
+  QueryContext context(passage);
+  RTCRayHit query{};
+  query.ray = embree_ray(ray);
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(top_, &context.embree, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Hit{places_[query.hit.instID[0]].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
+  QueryContext context(passage);
+  RTCRay query = embree_ray(ray);
+  rtcOccluded1(top_, &context.embree, &query);
+  return query.tfar < 0.0f;
+}
+
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const { return nearest_hit(ray, nullptr); }
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const {
+  return nearest_hit(ray, &passage);
+}
+bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
+bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
+
+}  // namespace parvis::reference

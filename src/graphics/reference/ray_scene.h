@@ -1,0 +1,84 @@
+// The scene as rays see it: an Embree hierarchy for each mesh, placed once for each object. Holes of cutout
+// parts and the backs of single-sided ones are passed through, as the renderer draws them.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "base/random.h"
+#include "graphics/reference/mip_texture.h"
+#include "scene/scene.h"
+
+namespace parvis::reference {
+
+struct Ray {
+  glm::vec3 origin, direction;  ///< unit direction
+  float least_m = 1e-4f, most_m = 1e30f;
+};
+
+/// A part of an object in the world.
+struct PlacedPart {
+  const scene::Part* part;
+  const Mesh* mesh;  ///< the part's, or the object's where it bends
+  const scene::Material* material;
+  const std::vector<MipTexture>* textures;  ///< of its model
+  glm::mat4 world_from_mesh;
+  glm::mat3 world_from_normal;
+  int object;
+  bool is_mirror;    ///< takes reflections
+  bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
+};
+
+struct Hit {
+  const PlacedPart* place;
+  std::uint32_t triangle;
+  float u, v;  ///< barycentric weights of the second and third corner
+  float distance_m;
+};
+
+/// How light travels in a photograph, as against the renderer's picture: every part stops it, from both
+/// sides, but for those that blend: they stop it by chance, as often as their alpha says. Contact shadows
+/// that are painted for the renderer (what blends and throws no shadow) are not there.
+struct Passage {
+  Random random;
+  bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
+};
+
+class RayScene {
+ public:
+  /// Takes the scene as it stands now; it must outlive this. What a transform flattens or makes infinite is
+  /// left out.
+  explicit RayScene(const scene::Scene& scene);
+  RayScene(const RayScene&) = delete;
+  ~RayScene();
+
+  std::optional<Hit> nearest_hit(const Ray& ray) const;
+  std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
+  /// Is there anything that throws a shadow along the ray?
+  bool is_blocked(const Ray& ray) const;
+  bool is_blocked(const Ray& ray, Passage& passage) const;
+  std::size_t triangle_count() const { return triangle_count_; }
+
+ private:
+  std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
+  bool is_blocked(const Ray& ray, Passage* passage) const;
+  void place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
+             bool takes_reflection, const scene::Material& material, const std::vector<MipTexture>& textures);
+  RTCScene mesh_scene(const PlacedPart& place);
+
+  RTCDevice device_;
+  RTCScene top_;
+  std::vector<std::unique_ptr<PlacedPart>> places_;
+  std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
+  std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
+  std::size_t triangle_count_ = 0;
+};
+
+/// Texture coordinates of a hit, transformed as the material says.
+glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v);
+
+}  // namespace parvis::reference

@@ -1,0 +1,75 @@
+#include "graphics/reference/scene_key.h"
+
+#include <unordered_map>
+
+#include "base/content_hash.h"
+
+namespace parvis::reference {
+namespace {
+
+void add_material(ContentHash& hash, const scene::Material& m) {
+  for (const glm::vec3 colour : {m.base_colour, m.emission, m.absorption_per_m}) hash.add(colour);
+  for (const float value : {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness,
+                            m.translucency, m.normal_scale, m.relief_m, m.ior})
+    hash.add(value);
+  for (const int texture : {m.base_colour_texture, m.normal_texture, m.surface_texture, m.emission_texture})
+    hash.add(texture);
+  hash.add(m.texture_from_mesh_uv);
+  hash.add(m.alpha_mode);
+  for (const bool choice : {m.is_double_sided, m.is_mirror_like}) hash.add(choice);
+}
+
+std::uint64_t model_key(const scene::Model& model) {
+  ContentHash hash;
+  for (const scene::Texture& texture : model.textures) {
+    hash.add(texture.image.width);
+    hash.add(texture.image.pixels);
+    for (const bool choice : {texture.is_srgb, texture.repeats}) hash.add(choice);
+  }
+  for (const scene::Material& material : model.materials) add_material(hash, material);
+  for (const glm::mat4& pose : scene::rest_pose(model)) hash.add(pose);
+  for (const scene::Part& part : model.parts) {
+    hash.add(part.mesh.positions);
+    hash.add(part.mesh.normals);
+    hash.add(part.mesh.uvs);
+    hash.add(part.mesh.indices);
+    for (const int index : {part.material, part.node, int(part.casts_shadow)}) hash.add(index);
+  }
+  return hash.value();
+}
+
+template <class Counts>
+std::uint64_t key_of(const scene::Scene& scene, Counts&& counts) {
+  ContentHash hash;
+  std::unordered_map<const scene::Model*, std::uint64_t> models;
+  for (const scene::Object& object : scene.objects) {
+    if (!counts(object)) continue;
+    const auto [entry, is_new] = models.try_emplace(object.model.get(), 0);
+    if (is_new) entry->second = model_key(*object.model);
+    hash.add(entry->second);
+    hash.add(object.world_from_model);
+    hash.add(object.pose);
+    for (const Mesh& mesh : object.bent_meshes) {
+      hash.add(mesh.positions);
+      hash.add(mesh.normals);
+    }
+    for (const bool choice : {object.is_visible, object.takes_reflection}) hash.add(choice);
+  }
+  for (const glm::vec3 v : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(v);
+  hash.add(scene.sky.picture.width);
+  hash.add(scene.sky.picture.pixels);
+  for (const float value : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m}) hash.add(value);
+  return hash.value();
+}
+
+}  // namespace
+
+std::uint64_t scene_key(const scene::Scene& scene) {
+  return key_of(scene, [](const scene::Object&) { return true; });
+}
+
+std::uint64_t fixed_scene_key(const scene::Scene& scene) {
+  return key_of(scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; });
+}
+
+}  // namespace parvis::reference

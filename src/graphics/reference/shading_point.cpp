@@ -1,0 +1,148 @@
+#include "graphics/reference/shading_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graphics/shading/glass.h"
+
+namespace parvis::reference {
+namespace {
+
+using glm::vec2, glm::vec3, glm::vec4;
+
+/// The corners of the triangle that was hit, in the world, with transformed texture coordinates.
+struct Corners {
+  vec3 position[3], normal[3];
+  vec2 uv[3];
+};
+
+Corners corners_of(const Hit& hit) {
+  const PlacedPart& place = *hit.place;
+  const Mesh& mesh = *place.mesh;
+  const std::uint32_t* vertex = mesh.indices.data() + 3 * std::size_t(hit.triangle);
+  Corners corners;
+  for (int k = 0; k < 3; ++k) {
+    corners.position[k] = vec3(place.world_from_mesh * vec4(mesh.positions[vertex[k]], 1.0f));
+    corners.normal[k] = place.world_from_normal * mesh.normals[vertex[k]];
+    corners.uv[k] = vec2(place.material->texture_from_mesh_uv * vec3(mesh.uvs[vertex[k]], 1.0f));
+  }
+  return corners;
+}
+
+/// `facet` where vertices have no normal, or cancel each other's.
+vec3 unit_or(vec3 vector, vec3 facet) {
+  const float squared = glm::dot(vector, vector);
+  if (squared > 1e-20f) return vector / std::sqrt(squared);
+  const float area = glm::length(facet);
+  return area > 0.0f ? facet / area : vec3(0.0f, 0.0f, 1.0f);
+}
+
+/// Of the normals along the edges (Akenine-Moeller et al. 2021, Improved Shader and Texture Level of Detail
+/// Using Ray Cones, measure it between pixels).
+float curvature_per_m(const Corners& corners, vec3 facet) {
+  float sum = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const float edge_m = glm::length(corners.position[next] - corners.position[k]);
+    if (edge_m > 0.0f)
+      sum += glm::length(unit_or(corners.normal[next], facet) - unit_or(corners.normal[k], facet)) / edge_m;
+  }
+  return sum / 3.0f;
+}
+
+/// The tangent frame of a triangle's texture gradients.
+vec3 mapped_normal(vec3 normal, const Corners& corners, vec3 sampled, float scale) {
+  const vec3 p1 = corners.position[1] - corners.position[0], p2 = corners.position[2] - corners.position[0];
+  const vec2 t1 = corners.uv[1] - corners.uv[0], t2 = corners.uv[2] - corners.uv[0];
+  const float determinant = t1.x * t2.y - t1.y * t2.x;
+  if (determinant == 0.0f) return normal;
+  const float sign = determinant > 0.0f ? 1.0f : -1.0f;
+  const vec3 along_u = (p1 * t2.y - p2 * t1.y) * sign, along_v = (p2 * t1.x - p1 * t2.x) * sign;
+  vec3 tangent = along_u - normal * glm::dot(normal, along_u);
+  const float size = glm::dot(tangent, tangent);
+  if (size < 1e-20f) return normal;
+  tangent /= std::sqrt(size);
+  vec3 bitangent = glm::cross(normal, tangent);
+  if (glm::dot(bitangent, along_v) > 0.0f) bitangent = -bitangent;
+  const vec3 n = sampled * 2.0f - 1.0f;
+  return glm::normalize((tangent * n.x + bitangent * n.y) * scale + normal * std::max(n.z, 0.01f));
+}
+
+TextureEdges edges_of(const Corners& corners) {
+  return {corners.position[1] - corners.position[0], corners.position[2] - corners.position[0],
+          corners.uv[1] - corners.uv[0], corners.uv[2] - corners.uv[0]};
+}
+
+/// Texture coordinates that pass in a metre of the triangle: the mean of both directions.
+float uv_per_m(const Corners& corners, vec3 facet) {
+  const vec2 t1 = corners.uv[1] - corners.uv[0], t2 = corners.uv[2] - corners.uv[0];
+  return std::sqrt(std::abs(t1.x * t2.y - t1.y * t2.x) / std::max(glm::length(facet), 1e-12f));
+}
+
+}  // namespace
+
+ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
+  const PlacedPart& place = *hit.place;
+  const scene::Material& material = *place.material;
+  const Corners corners = corners_of(hit);
+  const vec3 facet =
+      (place.is_mirrored ? -1.0f : 1.0f) *
+      glm::cross(corners.position[1] - corners.position[0], corners.position[2] - corners.position[0]);
+  const float weights[3]{1.0f - hit.u - hit.v, hit.u, hit.v};
+  vec3 normal(0.0f), position(0.0f);
+  vec2 uv(0.0f);
+  for (int k = 0; k < 3; ++k) {
+    position += weights[k] * corners.position[k];
+    normal += weights[k] * corners.normal[k];
+    uv += weights[k] * corners.uv[k];
+  }
+  normal = unit_or(normal, facet);
+  const bool is_back = glm::dot(facet, direction) > 0.0f;
+  if (is_back) normal = -normal;
+
+  const float width_in_uv = width_m * uv_per_m(corners, facet);
+  const auto mips_of = [&](int texture) -> const MipTexture& {
+    return (*place.textures)[std::size_t(texture)];
+  };
+  const auto texels_of = [&](const MipTexture& mips) {
+    return width_in_uv * std::sqrt(mips.size().x * mips.size().y);
+  };
+  ShadingPoint point;
+  if (material.relief_m > 0.0f && material.normal_texture != scene::no_index) {
+    const MipTexture& mips = mips_of(material.normal_texture);
+    point.relief =
+        Relief(mips, texels_of(mips), material.relief_m, width_m, edges_of(corners), normal, direction, uv);
+    uv = point.relief.uv();
+  }
+  const auto sampled = [&](int texture, vec4 plain) {
+    if (texture == scene::no_index) return plain;
+    const MipTexture& mips = mips_of(texture);
+    return mips.sample(uv, texels_of(mips));
+  };
+  const vec4 white(1.0f);
+  const vec4 base = sampled(material.base_colour_texture, white);
+  const vec4 detail = sampled(material.surface_texture, white);
+  const vec4 bump = sampled(material.normal_texture, vec4(0.5f, 0.5f, 1.0f, 1.0f));
+
+  point.position = position;
+  point.geometric_normal = normal;
+  point.curvature_per_m = place.is_mirror || material.refracts() ? curvature_per_m(corners, facet) : 0.0f;
+  point.is_back = is_back;
+  point.alpha = base.w * material.alpha;
+  shading::Surface& s = point.surface;
+  s.normal = material.normal_texture == scene::no_index
+                 ? normal
+                 : mapped_normal(normal, corners, vec3(bump), material.normal_scale);
+  s.base_colour = vec3(base) * material.base_colour;
+  s.metallic = material.metallic * detail.z;
+  s.roughness = material.roughness * detail.y;
+  s.clear_coat = material.clear_coat;
+  s.clear_coat_roughness = material.clear_coat_roughness;
+  s.translucency = material.translucency;
+  s.occlusion = detail.x;
+  s.emission = material.emission * vec3(sampled(material.emission_texture, white));
+  if (material.refracts()) s = shading::glass_surface(s, material.ior);
+  return point;
+}
+
+}  // namespace parvis::reference

@@ -1,0 +1,45 @@
+// The sun as a disc of its true angular size.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "graphics/reference/frame.h"
+#include "scene/scene.h"
+
+namespace parvis::reference {
+
+class SunDisc {
+ public:
+  explicit SunDisc(const scene::Sun& sun)
+      : frame_(glm::normalize(sun.direction_to_sun)),
+        radiance_(sun.irradiance / (3.14159265f * sine_ * sine_)),
+        shines_(sun.irradiance != glm::vec3(0.0f)) {}
+
+  bool shines() const { return shines_; }
+  /// Even over the disc, so that a plane which faces it has the scene's irradiance.
+  glm::vec3 radiance() const { return radiance_; }
+  glm::vec3 to_middle() const { return frame_.normal; }
+
+  bool contains(glm::vec3 direction) const {
+    const glm::vec3 chord = direction - frame_.normal;
+    return glm::dot(chord, chord) < 2.0f * depth_;
+  }
+  /// A direction to the disc from two uniform numbers; each has `density()`.
+  glm::vec3 direction(glm::vec2 uniform) const {
+    const float w = uniform.x * depth_, radius = std::sqrt(w * (2.0f - w)), turn = 6.2831853f * uniform.y;
+    return frame_.in_world({radius * std::cos(turn), radius * std::sin(turn), 1.0f - w});
+  }
+  /// Per steradian.
+  static float density() { return 1.0f / (6.2831853f * depth_); }
+
+ private:
+  static constexpr float sine_ = 0.00465f;               // half of 0.533 degrees
+  static constexpr float depth_ = 0.5f * sine_ * sine_;  // 1 - cosine, to seven digits
+
+  Frame frame_;
+  glm::vec3 radiance_;
+  bool shines_;
+};
+
+}  // namespace parvis::reference

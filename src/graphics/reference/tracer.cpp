@@ -1,0 +1,261 @@
+#include "graphics/reference/tracer.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/random.h"
+#include "graphics/reference/camera_ray.h"
+#include "graphics/reference/glass_walk.h"
+#include "graphics/reference/shading_point.h"
+#include "graphics/shading/lighting.h"
+#include "graphics/shading/tone_curve.h"
+
+namespace parvis::reference {
+namespace {
+
+using glm::vec3, glm::vec4;
+using shading::Surface;
+
+constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
+constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
+constexpr int most_blended_layers = 8;
+
+/// Keeps a reflected ray above the surface, where interpolated normals would send it below.
+vec3 kept_above(vec3 direction, vec3 normal) {
+  const float height = glm::dot(direction, normal);
+  return height > 1e-3f ? direction : glm::normalize(direction + (1e-3f - height) * normal);
+}
+
+/// Points of the unit square for the lobe rays of one pixel, each far from those before it: the R2 sequence
+/// (Roberts 2018), begun elsewhere in each pixel and at each bounce. Its noise is a fraction of that of
+/// chance.
+struct LobePoints {
+  std::array<glm::vec2, 2> last;  ///< by bounce; none goes on from the second
+
+  glm::vec2 next(int bounce) {
+    glm::vec2& point = last[std::size_t(bounce)];
+    return point = glm::fract(point + glm::vec2(0.75487767f, 0.56984029f));
+  }
+};
+
+/// A half vector of the GGX distribution about `normal`, by a point of the unit square.
+vec3 ggx_half_vector(vec3 normal, float roughness, glm::vec2 point) {
+  const float alpha = roughness * roughness, u = point.x, phi = 6.2831853f * point.y;
+  const float cosine = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
+  const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+  const vec3 t =
+      glm::normalize(glm::cross(std::abs(normal.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), normal));
+  return sine * std::cos(phi) * t + sine * std::sin(phi) * glm::cross(normal, t) + cosine * normal;
+}
+
+/// Where a ray goes on behind a hit.
+float past(float distance_m) { return distance_m * (1.0f + 1e-5f) + 1e-4f; }
+
+/// Follows the rays of one pixel.
+class Tracer {
+ public:
+  Tracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+         const TraceOptions& options)
+      : rays_(rays),
+        sky_(sky),
+        drawn_light_(options.drawn_light),
+        mirror_bounces_(scene.reflection.bounces),
+        mirrors_see_themselves_(options.mirrors_see_themselves) {
+    light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
+    light_.sun_irradiance = scene.sun.irradiance;
+    for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
+    light_.haze_radiance = sky.haze_radiance;
+    light_.haze_per_m = scene.haze_per_m;
+  }
+
+  /// Light that comes along a cone; `hidden_object` (or -1) is passed through.
+  vec3 radiance(Cone cone, int bounce, int hidden_object, LobePoints& lobe_points, std::uint64_t& ray_count,
+                bool* is_mirror) const {
+    vec3 sum(0.0f);
+    float left = 1.0f;  // what blended layers in front let through
+    for (int layer = 0; layer < most_blended_layers; ++layer) {
+      ++ray_count;
+      const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
+      if (!hit) return sum + left * sky_radiance(sky_, cone.ray.direction, 0.0f);
+      const Cone seen = widened(cone, hit->distance_m);
+      const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
+      const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
+      const float alpha = blends && layer + 1 < most_blended_layers ? point.alpha : 1.0f;
+      if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
+      const vec3 shaded = shade(point, *hit, seen, bounce, lobe_points, ray_count);
+      sum += left * alpha *
+             shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
+      left *= 1.0f - alpha;
+      if (left < 1e-3f) break;
+      cone.ray.least_m = past(hit->distance_m);
+    }
+    return sum;
+  }
+
+ private:
+  std::optional<Hit> nearest_hit_but(Ray ray, int hidden_object) const {
+    std::optional<Hit> hit = rays_.nearest_hit(ray);
+    while (hit && hit->place->object == hidden_object) {
+      ray.least_m = past(hit->distance_m);
+      hit = rays_.nearest_hit(ray);
+    }
+    return hit;
+  }
+
+  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce, LobePoints& lobe_points,
+             std::uint64_t& ray_count) const {
+    Surface s = point.surface;
+    const vec3 to_viewer = -cone.ray.direction;
+    const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
+    const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
+    const vec4 sky_cell = sky_cell_at(point, hit.place->object);
+    const auto sky_reflection = [&](float roughness) {
+      return shading::sky_share_of_direction(sky_cell, mirrored) *
+             sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
+    };
+    const auto traced = [&](vec3 direction) {
+      const vec3 away = kept_above(direction, point.geometric_normal);
+      // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
+      const float spread = cone.spread + 2.0f * point.curvature_per_m * cone.width_m;
+      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, cone.width_m, spread};
+      const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
+      return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
+    };
+
+    vec3 base_reflection(0.0f), coat_reflection(0.0f);
+    if (!traces) {
+      base_reflection = sky_reflection(s.roughness);
+      if (s.clear_coat > 0.0f) coat_reflection = sky_reflection(s.clear_coat_roughness);
+    } else {
+      const bool needs_sharp = s.clear_coat > 0.0f || s.roughness <= sharp_roughness;
+      const vec3 sharp = needs_sharp ? traced(mirrored) : vec3(0.0f);
+      coat_reflection = sharp;
+      base_reflection = sharp;
+      if (s.roughness > sharp_roughness) {
+        base_reflection = vec3(0.0f);
+        for (int i = 0; i < lobe_samples; ++i)
+          base_reflection += traced(glm::reflect(
+              cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
+        base_reflection /= float(lobe_samples);
+      }
+    }
+    if (hit.place->material->refracts()) {
+      const vec3 ahead = cone.ray.direction;
+      const vec3 through =
+          traces ? light_through(point, hit, cone, bounce, lobe_points, ray_count)
+                 : shading::sky_share_of_direction(sky_cell, ahead) * sky_radiance(sky_, ahead, 0.0f);
+      s.emission +=
+          (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
+          through;
+    }
+    return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count),
+                        shading::sky_share_of_normal(sky_cell, s.normal), base_reflection, coat_reflection);
+  }
+
+  /// What enters the eye through solid glass at a point of its surface.
+  vec3 light_through(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
+                     LobePoints& lobe_points, std::uint64_t& ray_count) const {
+    vec3 sum(0.0f);
+    const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
+    for (const GlassExit& exit : glass_exits(rays_, hit, point, cone)) {
+      ++ray_count;
+      sum += exit.share * radiance(exit.cone, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
+    }
+    return sum;
+  }
+
+  /// What the place sees of the sky.
+  vec4 sky_cell_at(const ShadingPoint& point, int object) const {
+    if (!drawn_light_) return {0.5f, 0.5f, 0.5f, 1.0f};  // open
+    const shading::SkyVisibility& visibility = *drawn_light_->sky_visibility;
+    const vec4 cell = visibility.at(
+        shading::sky_visibility_coordinates(visibility.grid, point.position, point.geometric_normal));
+    return shading::shaded_cell(cell,
+                                shading::sky_share_beside_bodies(*drawn_light_->body_shade, point.position,
+                                                                 point.geometric_normal, object));
+  }
+
+  float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
+    const float let_in = point.relief.light_from(light_.to_sun);
+    if (drawn_light_)
+      return let_in * shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal,
+                                              light_.to_sun);
+    ++ray_count;
+    return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : let_in;
+  }
+
+  const RayScene& rays_;
+  const shading::SkyLight& sky_;
+  const shading::DrawnLight* drawn_light_;
+  int mirror_bounces_;
+  bool mirrors_see_themselves_;
+  shading::SceneLight light_;
+};
+
+}  // namespace
+
+ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height) {
+  ObjectPicture objects(width, height, 1);
+  parallel_for(std::size_t(height), [&](std::size_t row) {
+    for (int x = 0; x < width; ++x) {
+      const auto hit =
+          rays.nearest_hit(camera_ray(camera, width, height, {float(x) + 0.5f, float(row) + 0.5f}));
+      *objects.at(x, int(row)) = hit ? std::uint32_t(hit->place->object) + 1 : 0;
+    }
+  });
+  return objects;
+}
+
+TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+                            const Camera& camera, int width, int height, const TraceOptions& options) {
+  const Tracer tracer(rays, scene, sky, options);
+  const int side = int(std::ceil(std::sqrt(float(options.samples_a_pixel)))), samples = side * side;
+  const float spread =  // of a sample's share of the pixel
+      2.0f * std::tan(0.5f * camera.vertical_fov) / float(height) / float(side);
+
+  const PixelWindow window = options.window.width > 0 ? options.window : PixelWindow{0, 0, width, height};
+
+  TracedPicture picture;
+  picture.radiance = ImageF(window.width, window.height, 3);
+  picture.mirror_mask = Image8(window.width, window.height, 1);
+  std::atomic<std::uint64_t> all_rays = 0;
+  const auto start = std::chrono::steady_clock::now();
+  Progress progress(options.progress, std::size_t(window.height));
+  parallel_for(std::size_t(window.height), [&](std::size_t row) {
+    std::uint64_t ray_count = 0;
+    for (int column = 0; column < window.width; ++column) {
+      const int x = window.x + column, y = window.y + int(row);
+      Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
+      LobePoints lobe_points{
+          {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
+      vec3 sum(0.0f);
+      float weights = 0.0f;
+      int mirrors = 0;
+      for (int i = 0; i < samples; ++i) {
+        const int column_in_pixel = i % side, row_in_pixel = i / side;
+        const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
+        const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
+        const Ray ray = camera_ray(camera, width, height, {px, py});
+        bool is_mirror = false;
+        const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, lobe_points, ray_count, &is_mirror);
+        const float weight = shading::sample_weight(scene.exposure * sample);
+        sum += weight * sample;
+        weights += weight;
+        mirrors += is_mirror;
+      }
+      for (int c = 0; c < 3; ++c) picture.radiance.at(column, int(row))[c] = sum[c] / weights;
+      *picture.mirror_mask.at(column, int(row)) = std::uint8_t(255 * mirrors / samples);
+    }
+    all_rays += ray_count;
+    progress.advance();
+  });
+  picture.rays = all_rays;
+  picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return picture;
+}
+
+}  // namespace parvis::reference

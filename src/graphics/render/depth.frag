@@ -1,0 +1,3 @@
+#include "graphics/render/cutout.glsl"
+
+void main() { discard_holes(); }

@@ -1,0 +1,19 @@
+#include "graphics/render/frame.glsl"
+
+layout(location = 0) in vec3 mesh_position;
+layout(location = 2) in vec2 mesh_uv;
+layout(location = 3) in vec4 world_from_mesh_row0;
+layout(location = 4) in vec4 world_from_mesh_row1;
+layout(location = 5) in vec4 world_from_mesh_row2;
+layout(location = 6) in uint object;
+
+out vec2 uv;
+flat out uint object_of_fragment;
+
+void main() {
+  vec4 p = vec4(mesh_position, 1.0f);
+  vec3 world = vec3(dot(world_from_mesh_row0, p), dot(world_from_mesh_row1, p), dot(world_from_mesh_row2, p));
+  uv = mesh_uv;
+  object_of_fragment = object;
+  gl_Position = clip_from_world * vec4(world, 1.0f);
+}

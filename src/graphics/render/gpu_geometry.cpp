@@ -1,0 +1,51 @@
+#include "graphics/render/gpu_geometry.h"
+
+#include <cassert>
+
+namespace parvis::render {
+
+MeshRange GpuGeometry::add_bending(const Mesh& mesh) {
+  const MeshRange range{std::uint32_t(indices_.size()), std::uint32_t(mesh.indices.size()),
+                        std::int32_t(vertices_.size())};
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    vertices_.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
+  indices_.insert(indices_.end(), mesh.indices.begin(), mesh.indices.end());
+  return range;
+}
+
+MeshRange GpuGeometry::add(const Mesh& mesh) {
+  assert(vertices_.size() == rigid_vertices_);
+  const MeshRange range = add_bending(mesh);
+  rigid_vertices_ = vertices_.size();
+  return range;
+}
+
+MeshRange GpuGeometry::add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices) {
+  const MeshRange range{std::uint32_t(indices_.size()), std::uint32_t(indices.size()), mesh.base_vertex};
+  indices_.insert(indices_.end(), indices.begin(), indices.end());
+  return range;
+}
+
+void GpuGeometry::upload() {
+  vertex_buffer_ = gl::immutable_buffer(std::span<const Vertex>(vertices_), GL_DYNAMIC_STORAGE_BIT);
+  index_buffer_ = gl::immutable_buffer(std::span<const std::uint32_t>(indices_));
+  vertices_.erase(vertices_.begin(), vertices_.begin() + std::ptrdiff_t(rigid_vertices_));
+  vertices_.shrink_to_fit();
+  indices_ = {};
+}
+
+void GpuGeometry::bend(const MeshRange& range, const Mesh& mesh) {
+  Vertex* vertex = vertices_.data() + (std::size_t(range.base_vertex) - rigid_vertices_);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++vertex) {
+    vertex->position = mesh.positions[i];
+    vertex->normal = mesh.normals[i];
+  }
+}
+
+void GpuGeometry::upload_bent() {
+  if (vertices_.empty()) return;
+  glNamedBufferSubData(vertex_buffer_.name(), GLintptr(rigid_vertices_ * sizeof(Vertex)),
+                       GLsizeiptr(vertices_.size() * sizeof(Vertex)), vertices_.data());
+}
+
+}  // namespace parvis::render

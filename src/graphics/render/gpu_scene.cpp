@@ -1,0 +1,313 @@
+#include "graphics/render/gpu_scene.h"
+
+#include <cassert>
+#include <cstring>
+#include <glm/gtc/type_precision.hpp>
+#include <utility>
+
+#include "base/parallel.h"
+#include "graphics/gl/context.h"
+#include "graphics/render/mesh_levels.h"
+#include "scene/mip_levels.h"
+
+namespace parvis::render {
+namespace {
+
+/// The uniform block of render/material.glsl, std140.
+struct MaterialBlock {
+  glm::vec4 base_colour;              // rgb, alpha
+  glm::vec4 emission;                 // rgb, normal scale
+  glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
+  glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
+  glm::vec4 relief_mirrors_ior;  // x: metres; y: 1 if it takes the scene's reflection method; z: index of
+                                 // refraction
+};
+
+MaterialBlock block_of(const scene::Material& material) {
+  const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
+  return {glm::vec4(material.base_colour, material.alpha),
+          glm::vec4(material.emission, material.normal_scale),
+          {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
+          {glm::vec4(rows[0], material.translucency),
+           glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)},
+          {material.relief_m, material.is_mirror_like ? 1.0f : 0.0f, material.ior, 0.0f}};
+}
+
+Pass pass_of(scene::Alpha alpha) {
+  switch (alpha) {
+    case scene::Alpha::opaque:
+      return Pass::opaque;
+    case scene::Alpha::cutout:
+      return Pass::cutout;
+    case scene::Alpha::blend:
+      return Pass::blend;
+  }
+  return Pass::opaque;
+}
+
+gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& levels) {
+  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, source.image.width,
+                                       source.image.height, int(levels.size()));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height,
+                        GL_RGBA, GL_UNSIGNED_BYTE, levels[level].pixels.data());
+  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, has_fast_anisotropy() ? 16.0f : 1.0f);
+  const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wrap);
+  return texture;
+}
+
+std::uint16_t features_of(const scene::Material& material) {
+  std::uint16_t features = 0;
+  if (material.refracts()) features |= surface_is_glass;
+  if (material.normal_texture != scene::no_index) {
+    features |= surface_has_normal_map;
+    if (material.relief_m > 0.0f) features |= surface_has_relief;
+  }
+  if (material.surface_texture != scene::no_index) features |= surface_has_surface_map;
+  if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
+  if (material.clear_coat > 0.0f) features |= surface_has_coat;
+  if (material.is_double_sided) features |= surface_has_backs;
+  if (material.alpha_mode == scene::Alpha::cutout) {
+    features |= surface_has_holes;
+    if (material.translucency > 0.0f) features |= surface_is_leaf;
+  }
+  return features;
+}
+
+}  // namespace
+
+bool has_fast_anisotropy() {
+  static const bool is_fast = !gl::is_software();
+  return is_fast;
+}
+
+GpuScene::GpuScene(const scene::Scene& scene) {
+  white_ = plain_texture({255, 255, 255, 255});
+  flat_normal_ = plain_texture({128, 128, 255, 255});
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &block_stride_);
+  block_stride_ = (GLint(sizeof(MaterialBlock)) + block_stride_ - 1) / block_stride_ * block_stride_;
+
+  add_models(scene);
+  add_levels(scene);
+  add_bent_parts(scene);
+  geometry_.upload();
+  material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
+  material_bytes_ = {};
+  make_items(scene);
+}
+
+GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
+  textures_.push_back(gl::texture_2d(GL_RGBA8, 1, 1));
+  glTextureSubImage2D(textures_.back().name(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &colour);
+  return textures_.back().name();
+}
+
+void GpuScene::add_models(const scene::Scene& scene) {
+  for (const scene::Object& object : scene.objects) {
+    const scene::Model& model = *object.model;
+    const auto [first, is_new] = first_part_of_model_.try_emplace(&model, int(parts_.size()));
+    first_part_.push_back(first->second);
+    if (!is_new) continue;
+    const int first_material = int(materials_.size());
+    upload_model_materials(model);
+    for (const scene::Part& part : model.parts) {
+      const bool lets_through = model.materials[std::size_t(part.material)].refracts();
+      parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
+                        part.mesh.bounds(), part.casts_shadow && !lets_through, 0, 0});
+    }
+  }
+}
+
+/// Of what moves, and of what stands in many places: only they are far away as a whole.
+void GpuScene::add_levels(const scene::Scene& scene) {
+  std::unordered_map<const scene::Model*, int> uses;
+  for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;
+  std::vector<std::pair<const Mesh*, PartRange*>> wanted;
+  for (const auto& [model, first_part] : first_part_of_model_)
+    for (std::size_t p = 0; p < model->parts.size(); ++p) {
+      const scene::Part& part = model->parts[p];
+      const bool is_opaque = model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque;
+      if (uses[model] > 1 && is_opaque && !part.deformation)
+        wanted.emplace_back(&part.mesh, &parts_[std::size_t(first_part) + p]);
+    }
+  std::vector<std::vector<MeshLevel>> levels(wanted.size());
+  parallel_for(wanted.size(), [&](std::size_t i) { levels[i] = coarser_levels(*wanted[i].first); });
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    PartRange& part = *wanted[i].second;
+    part.first_level = int(levels_.size());
+    part.level_count = int(levels[i].size());
+    for (const MeshLevel& level : levels[i])
+      levels_.push_back({geometry_.add_triangles(part, level.indices), level.error_m});
+  }
+}
+
+/// An object that bends has parts of its own: those of its model, with other vertices where a mesh bends.
+void GpuScene::add_bent_parts(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    if (object.bent_meshes.empty()) continue;
+    const std::size_t first = std::size_t(std::exchange(first_part_[o], int(parts_.size())));
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
+      parts_.push_back(PartRange(parts_[first + p]));
+      if (!object.model->parts[p].deformation) continue;
+      static_cast<MeshRange&>(parts_.back()) = geometry_.add_bending(object.mesh(p));
+      parts_.back().level_count = 0;
+    }
+  }
+}
+
+void GpuScene::bend(const scene::Object& object, std::size_t o) {
+  for (std::size_t p = 0; p < object.bent_meshes.size(); ++p) {
+    if (!object.model->parts[p].deformation) continue;
+    PartRange& part = parts_[std::size_t(first_part_[o]) + p];
+    part.bounds = object.mesh(p).bounds();
+    geometry_.bend(part, object.mesh(p));
+  }
+}
+
+void GpuScene::upload_model_materials(const scene::Model& model) {
+  const std::size_t first_texture = textures_.size();
+  const std::vector<char> is_cutout = scene::cutout_textures(model);
+  std::vector<std::vector<Image8>> levels(model.textures.size());
+  parallel_for(levels.size(),
+               [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], is_cutout[i] != 0); });
+  for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
+  const auto texture_or = [&](int index, GLuint plain) {
+    return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
+  };
+  for (const scene::Material& material : model.materials) {
+    materials_.push_back({texture_or(material.base_colour_texture, white_),
+                          texture_or(material.normal_texture, flat_normal_),
+                          texture_or(material.surface_texture, white_),
+                          texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
+                          material.is_double_sided, material.is_mirror_like, features_of(material)});
+    const MaterialBlock block = block_of(material);
+    const std::size_t offset = material_bytes_.size();
+    material_bytes_.resize(offset + std::size_t(block_stride_));
+    std::memcpy(material_bytes_.data() + offset, &block, sizeof(block));
+  }
+}
+
+void GpuScene::make_items(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    first_item_.push_back(std::uint32_t(items_.size()));
+    is_moving_.push_back(object.is_dynamic);
+    is_visible_.push_back(object.is_visible);
+    rest_poses_.push_back(scene::rest_pose(*object.model));
+    const int first = first_part_[o];
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
+      const int part = first + int(p);
+      const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
+      items_.push_back(
+          {{{}, std::uint32_t(o)}, {}, part, int(o), object.takes_reflection && material.is_mirror_like});
+    }
+  }
+  first_item_.push_back(std::uint32_t(items_.size()));
+  object_bounds_.resize(scene.objects.size());
+  world_from_model_.resize(scene.objects.size());
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    bend(scene.objects[o], o);
+    place(scene, o);
+  }
+  find_body_shapes(scene);
+}
+
+void GpuScene::place(const scene::Scene& scene, std::size_t o) {
+  const scene::Object& object = scene.objects[o];
+  const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
+  Bounds bounds;
+  for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
+    Item& item = items_[i];
+    const PartRange& part = parts_[std::size_t(item.part)];
+    const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+    const glm::mat4 rows = glm::transpose(world_from_mesh);
+    for (int r = 0; r < 3; ++r) item.record.rows[r] = rows[r];
+    item.bounds = transformed(world_from_mesh, part.bounds);
+    bounds.add(item.bounds);
+  }
+  object_bounds_[o] = bounds;
+  world_from_model_[o] = object.world_from_model;
+}
+
+/// What light passes (leaves, glass) hides no sky.
+bool GpuScene::hides_sky(const PartRange& part) const {
+  return part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque;
+}
+
+void GpuScene::find_body_shapes(const scene::Scene& scene) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Model& model = *scene.objects[o].model;
+    if (!is_moving_[o] || body_shapes_.contains(&model)) continue;
+    std::vector<shading::BodyMesh> meshes;
+    for (std::size_t p = 0; p < model.parts.size(); ++p)
+      if (hides_sky(parts_[std::size_t(first_part_[o]) + p]))
+        meshes.push_back({&model.parts[p].mesh, rest_poses_[o][std::size_t(model.parts[p].node)]});
+    body_shapes_[&model] = shading::body_shape(meshes);
+  }
+}
+
+void GpuScene::add_body(const scene::Object& object, std::size_t o) {
+  const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
+  Bounds in_model;
+  for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
+    const PartRange& part = parts_[std::size_t(items_[i].part)];
+    if (hides_sky(part)) in_model.add(transformed(pose[std::size_t(part.node)], part.bounds));
+  }
+  const shading::BodyShape& shape = body_shapes_.at(object.model.get());
+  if (const auto body = shading::body_of(in_model, shape, object.world_from_model, int(o)))
+    bodies_.push_back(*body);
+}
+
+void GpuScene::update(const scene::Scene& scene) {
+  assert(scene.objects.size() == object_bounds_.size());
+  moving_bounds_.clear();
+  bodies_.clear();
+  fixed_change_ = {};
+  is_newcomer_.assign(scene.objects.size(), 0);
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
+    if (is_moving_[o]) {
+      if (object.is_visible) bend(object, o);
+      place(scene, o);
+      if (!object.is_visible) continue;
+      moving_bounds_.push_back(object_bounds_[o]);
+      add_body(object, o);
+    } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
+      if (was_visible) fixed_change_.gone.push_back(object_bounds_[o]);
+      fixed_change_.has_moved |= world_from_model_[o] != object.world_from_model;
+      place(scene, o);
+      if (object.is_visible) fixed_change_.come.push_back(object_bounds_[o]);
+      is_newcomer_[o] = object.is_visible;
+    }
+  }
+  geometry_.upload_bent();
+}
+
+Bounds GpuScene::fixed_bounds() const {
+  Bounds bounds;
+  for (std::size_t o = 0; o < object_bounds_.size(); ++o)
+    if (!is_moving_[o]) bounds.add(object_bounds_[o]);
+  return bounds;
+}
+
+void GpuScene::bind_material(int index) const {
+  const GpuMaterial& material = materials_[std::size_t(index)];
+  const GLuint textures[]{material.base_colour, material.normal, material.surface, material.emission};
+  glBindTextures(0, 4, textures);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, material_blocks_.name(), GLintptr(index) * block_stride_,
+                    GLsizeiptr(sizeof(MaterialBlock)));
+  cull_faces(!material.is_double_sided);
+}
+
+void GpuScene::cull_faces(bool culls) {
+  if (culls)
+    glEnable(GL_CULL_FACE);
+  else
+    glDisable(GL_CULL_FACE);
+}
+
+}  // namespace parvis::render

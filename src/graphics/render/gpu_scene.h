@@ -1,0 +1,155 @@
+// The scene's models on the GPU: their triangles, a texture for each picture, a block for each material; and
+// its items: every part of every object, with bounds and transform, in flat arrays.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/bounds.h"
+#include "graphics/gl/objects.h"
+#include "graphics/render/gpu_geometry.h"
+#include "graphics/render/view.h"
+#include "graphics/shading/body_shade.h"
+#include "scene/scene.h"
+
+namespace parvis::render {
+
+/// A part's mesh with fewer triangles.
+struct LevelRange : MeshRange {
+  float error_m;  ///< in the node's frame
+};
+
+/// A part of a model, or of one object where it bends.
+struct PartRange : MeshRange {
+  int material;  ///< of the GPU scene
+  int node;
+  Bounds bounds;  ///< in the node's frame
+  bool casts_shadow;
+  int first_level, level_count;  ///< of the scene's `levels`, coarser and coarser
+};
+
+/// What the surface shader must look up for a material.
+enum SurfaceFeature : std::uint16_t {
+  surface_has_normal_map = 1,
+  surface_has_surface_map = 2,
+  surface_has_emission_map = 4,
+  surface_has_coat = 8,
+  surface_has_backs = 16,
+  surface_has_holes = 32,
+  surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
+  surface_has_relief = 128,
+  surface_is_glass = 256  ///< solid: light goes through it, bent
+};
+inline constexpr std::size_t surface_feature_combinations = 512;
+
+/// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
+/// it.
+bool has_fast_anisotropy();
+
+struct GpuMaterial {
+  GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
+  Pass pass;
+  bool is_double_sided, is_mirror_like;
+  std::uint16_t features;  ///< of SurfaceFeature
+};
+
+/// One part of one object. `record` is what the vertex shader reads for it.
+struct Item {
+  struct Record {
+    glm::vec4 rows[3];  ///< of world_from_mesh
+    std::uint32_t object;
+    glm::ivec2 virtual_grid{0};  ///< of mirrored views: as VirtualVertices::add has it
+  };
+  Record record;
+  Bounds bounds;  ///< in the world
+  int part;
+  int object;
+  bool is_mirror;  ///< takes the scene's reflection method
+};
+
+/// Fixed objects that appeared, vanished or were put elsewhere in one update.
+struct FixedChange {
+  std::vector<Bounds> gone;  ///< where one stood
+  std::vector<Bounds> come;  ///< where one stands now
+  bool has_moved = false;    ///< one stood elsewhere before
+
+  bool empty() const { return gone.empty() && come.empty(); }
+};
+
+class GpuScene {
+ public:
+  explicit GpuScene(const scene::Scene& scene);
+
+  /// Takes over where objects are and which are hidden. The scene has as many objects as at first.
+  void update(const scene::Scene& scene);
+  /// Of the last update.
+  const FixedChange& fixed_change() const { return fixed_change_; }
+  /// Did a fixed object come in the last update?
+  bool is_newcomer(int object) const { return is_newcomer_[std::size_t(object)] != 0; }
+
+  const std::vector<PartRange>& parts() const { return parts_; }
+  std::span<const LevelRange> levels_of(const PartRange& part) const {
+    return std::span(levels_).subspan(std::size_t(part.first_level), std::size_t(part.level_count));
+  }
+  const std::vector<GpuMaterial>& materials() const { return materials_; }
+  const std::vector<Item>& items() const { return items_; }
+  /// An item for each part of the object's model follows, in their order.
+  std::uint32_t first_item(int object) const { return first_item_[std::size_t(object)]; }
+  /// Of all parts of an object, in the world.
+  const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
+  const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }
+  /// Of all that does not move, hidden things included.
+  Bounds fixed_bounds() const;
+  /// Of each object that moves and is seen.
+  const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
+  /// What of them hides the sky from others.
+  const std::vector<shading::Body>& bodies() const { return bodies_; }
+  bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
+  bool is_visible(int object) const { return is_visible_[std::size_t(object)] != 0; }
+
+  /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
+  void bind_material(int material) const;
+  static void cull_faces(bool culls);
+  GLuint vertex_buffer() const { return geometry_.vertex_buffer(); }
+  GLuint index_buffer() const { return geometry_.index_buffer(); }
+
+ private:
+  void add_models(const scene::Scene& scene);
+  void add_levels(const scene::Scene& scene);
+  void add_bent_parts(const scene::Scene& scene);
+  void bend(const scene::Object& object, std::size_t o);
+  void upload_model_materials(const scene::Model& model);
+  void make_items(const scene::Scene& scene);
+  void place(const scene::Scene& scene, std::size_t object);
+  void find_body_shapes(const scene::Scene& scene);
+  void add_body(const scene::Object& object, std::size_t o);
+  bool hides_sky(const PartRange& part) const;
+  GLuint plain_texture(glm::u8vec4 colour);
+
+  std::unordered_map<const scene::Model*, int> first_part_of_model_;
+  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it bends
+  GpuGeometry geometry_;
+  std::vector<PartRange> parts_;
+  std::vector<LevelRange> levels_;
+  std::vector<GpuMaterial> materials_;
+  std::vector<gl::Texture> textures_;
+  gl::Buffer material_blocks_;
+  std::vector<std::byte> material_bytes_;
+  GLint block_stride_ = 256;
+  GLuint white_ = 0, flat_normal_ = 0;
+
+  std::vector<Item> items_;
+  std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
+  std::vector<Bounds> object_bounds_;
+  std::vector<std::uint8_t> is_moving_, is_visible_, is_newcomer_;
+  std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
+  std::vector<Bounds> moving_bounds_;
+  std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of what moves
+  std::vector<shading::Body> bodies_;
+  FixedChange fixed_change_;
+  std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model
+};
+
+}  // namespace parvis::render

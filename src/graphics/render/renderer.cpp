@@ -1,0 +1,184 @@
+#include "graphics/render/renderer.h"
+
+namespace parvis::render {
+namespace {
+
+/// The uniform block of render/frame.glsl, std140.
+struct FrameBlock {
+  glm::mat4 clip_from_world;
+  glm::vec4 viewer_position, to_sun, sun_irradiance, haze;
+  glm::vec4 sky_sh[9];
+  glm::mat4 uvz_from_world[2];
+  glm::vec4 shadow_texel, size, visibility_origin, visibility_size;
+};
+
+/// Depth 1 at the near plane and 0 far away: floats then resolve a centimetre at a kilometre, where depth
+/// that grows confuses what lies 0.5 m apart. Needs GL_ZERO_TO_ONE.
+glm::mat4 with_reversed_depth(const glm::mat4& clip_from_world) {
+  glm::mat4 rows = glm::transpose(clip_from_world);
+  rows[2] = 0.5f * (rows[3] - rows[2]);
+  return glm::transpose(rows);
+}
+
+constexpr GLsizeiptr block_alignment = 256;  // no OpenGL asks for more
+
+bool has_colour(const View& view) { return view.kind < ViewKind::shadow; }
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene) {
+  Result<SceneDrawable> drawable = SceneDrawable::create(scene);
+  if (!drawable) return drawable.errors();
+  Result<SkyTextures> sky = SkyTextures::create(scene);
+  if (!sky) return sky.errors();
+  Result<PictureTarget> target = PictureTarget::create();
+  if (!target) return target.errors();
+  return std::unique_ptr<Renderer>(
+      new Renderer(scene, *std::move(drawable), *std::move(sky), *std::move(target)));
+}
+
+Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target)
+    : sky_(std::move(sky)),
+      sun_(scene.sun),
+      haze_per_m_(scene.haze_per_m),
+      scene_(std::move(drawable)),
+      shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()),
+      drawables_{&scene_},
+      frame_blocks_(1 << 18),
+      body_blocks_(1 << 16),
+      target_(std::move(target)) {}
+
+void Renderer::bind_frame(const View& view) {
+  FrameBlock block{};
+  block.clip_from_world =
+      view.kind == ViewKind::shadow ? view.clip_from_world : with_reversed_depth(view.clip_from_world);
+  block.viewer_position = glm::vec4(view.position_in_world, 1.0f);
+  block.to_sun = glm::vec4(glm::normalize(sun_.direction_to_sun), haze_per_m_);
+  block.sun_irradiance = glm::vec4(sun_.irradiance, 0.0f);
+  const shading::SkyLight& sky = sky_.light();
+  block.haze = glm::vec4(sky.haze_radiance, sky.heading);
+  for (std::size_t i = 0; i < 9; ++i) block.sky_sh[i] = glm::vec4(sky.irradiance_sh[i], 0.0f);
+  const shading::ShadowMaps& maps = shadows_.maps();
+  for (int i = 0; i < 2; ++i) block.uvz_from_world[i] = maps.uvz_from_world[i];
+  block.shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
+  block.size = {float(view.width), float(view.height), float(sky.levels.size()), 0.0f};
+  const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
+  block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
+  block.visibility_size = glm::vec4(grid.size_m, 0.0f);
+  const GLintptr offset = frame_blocks_.append(std::span<const FrameBlock>(&block, 1), block_alignment);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 0, frame_blocks_.name(), offset, sizeof(FrameBlock));
+}
+
+void Renderer::begin_view(const View& view) {
+  const bool is_shadow = view.kind == ViewKind::shadow;
+  glBindFramebuffer(GL_FRAMEBUFFER, view.framebuffer);
+  glViewport(0, 0, view.width, view.height);
+  glEnable(GL_DEPTH_TEST);
+  glClipControl(GL_LOWER_LEFT, is_shadow ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE);
+  glDepthFunc(is_shadow ? GL_LEQUAL : GL_GEQUAL);
+  glClearDepth(is_shadow ? 1.0 : 0.0);
+  if (view.has_part()) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(view.part.x, view.part.y, view.part.z, view.part.w);
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glFrontFace(GL_CCW);
+  glCullFace(GL_BACK);
+  bind_frame(view);
+}
+
+void Renderer::draw_prepared(const View& view) {
+  begin_view(view);
+  if (view.kind == ViewKind::picking) {
+    constexpr GLuint nothing[4]{};
+    glClearBufferuiv(GL_COLOR, 0, nothing);
+  }
+  if (view.clears) glClear(GL_DEPTH_BUFFER_BIT);
+  if (has_colour(view)) {
+    sky_.bind();
+    shadows_.bind();
+  }
+  for (Drawable* drawable : drawables_) drawable->draw(view, Pass::opaque);
+  if (has_colour(view)) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  for (Drawable* drawable : drawables_) drawable->draw(view, Pass::cutout);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+
+  if (has_colour(view)) {
+    if (view.kind != ViewKind::mirrored) sky_.draw(view);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                        GL_ONE_MINUS_SRC_ALPHA);  // alpha: coverage
+    glDepthMask(GL_FALSE);
+    for (Drawable* drawable : drawables_) drawable->draw(view, Pass::blend);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // as a window's panels expect it
+}
+
+void Renderer::draw_view(const View& view) {
+  for (Drawable* drawable : drawables_) drawable->prepare(view);
+  draw_prepared(view);
+}
+
+void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade) {
+  scene_.update(scene);
+  if (const FixedChange& change = scene_.gpu().fixed_change(); !change.empty()) {
+    shadows_.renew(change, scene_.gpu().fixed_bounds());
+    sky_.renew_visibility(scene, scene_.gpu());
+    ++fixed_changes_;
+  }
+  const bool has_new_light = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
+  if (sky_.renew_light(scene.sky) || has_new_light) ++fixed_changes_;
+  sun_ = scene.sun;
+  haze_per_m_ = scene.haze_per_m;
+  exposure_ = scene.exposure;
+  body_shade_ = shading::make_body_shade(
+      has_moving_shade ? std::span(scene_.gpu().bodies()) : std::span<const shading::Body>(),
+      camera.position_in_world());
+  const GLintptr bodies =
+      body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
+  glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
+  shadows_.update(camera, scene.sun.direction_to_sun,
+                  has_moving_shade ? std::span(scene_.gpu().moving_bounds()) : std::span<const Bounds>(),
+                  [this](const View& view) { draw_view(view); });
+  glDisable(GL_DEPTH_CLAMP);
+  sky_.bind();  // for methods of reflection that work light out before any view is drawn
+  shadows_.bind();
+}
+
+void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects) {
+  target_.resize(width, height);
+  main_view_ = camera_view(camera, target_.framebuffer(), width, height);
+  main_view_.culls_hidden = true;
+  main_view_.subjects = subjects;
+  for (Drawable* drawable : drawables_) drawable->prepare(main_view_);
+}
+
+void Renderer::draw_main_view() {
+  draw_prepared(main_view_);
+  target_.resolve(exposure_);
+}
+
+ObjectPicture Renderer::pick(const Camera& camera, int width, int height, bool culls_hidden) {
+  gl::Texture objects = gl::texture_2d(GL_R32UI, width, height);
+  gl::Texture depth = gl::texture_2d(GL_DEPTH_COMPONENT32F, width, height);
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, objects.name(), 0);
+  glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  View view = camera_view(camera, framebuffer.name(), width, height);
+  view.kind = ViewKind::picking;
+  view.culls_hidden = culls_hidden;
+  draw_view(view);
+
+  ObjectPicture picture(width, height, 1);
+  glGetTextureImage(objects.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, GLsizei(4 * picture.pixels.size()),
+                    picture.pixels.data());
+  flip_rows(picture);
+  return picture;
+}
+
+}  // namespace parvis::render

@@ -1,0 +1,94 @@
+// Draws the scene: shadows, the main view at four samples a pixel, the sky, tone mapping; and small views for
+// those rooms that ask for them. Everything that draws is a Drawable.
+//
+// A frame: begin_frame (what moved; shadows), prepare_main_view (culling), then a room makes reflections for
+// visible_objects through draw_view, then draw_main_view and display.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "graphics/gl/context.h"
+#include "graphics/render/picture_target.h"
+#include "graphics/render/scene_drawable.h"
+#include "graphics/render/sky_textures.h"
+#include "graphics/render/sun_shadow_maps.h"
+#include "graphics/shading/drawn_light.h"
+
+namespace parvis::render {
+
+/// Which object each pixel shows: its index in the scene and 1; 0 where there is none. Top row first.
+using ObjectPicture = BasicImage<std::uint32_t>;
+
+class Renderer {
+ public:
+  /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene; fails only if a shader
+  /// does.
+  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene);
+  Renderer(const Renderer&) = delete;
+
+  /// A room's own drawables, drawn after the scene's in every view. Not owned.
+  void add(Drawable* drawable) { drawables_.push_back(drawable); }
+  Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
+
+  /// Takes over what moved and the light, and draws the shadow maps for a viewer.
+  void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
+  /// The same for pictures of what stands still: what moves throws no shade.
+  void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
+  /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for. A
+  /// bench may leave out what stands still.
+  void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
+  const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
+  const View& main_view() const { return main_view_; }
+  /// Draws the view that was prepared, four samples a pixel.
+  void draw_main_view();
+  /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
+  void draw_view(const View& view);
+  /// A readback: for tools and tests, not for frames.
+  ObjectPicture pick(const Camera& camera, int width, int height, bool culls_hidden);
+
+  /// Tone-maps the main view into the first `size` pixels of a framebuffer (0: the window's).
+  void display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
+    target_.display(framebuffer, size, exposure);
+  }
+  void start_reading(float exposure, GLsizeiptr bytes) const { target_.start_reading(exposure, bytes); }
+  Image8 read_picture(float exposure) const { return target_.read_picture(exposure); }
+  ImageF read_radiance() const { return target_.read_radiance(); }
+
+  int width() const { return target_.width(); }
+  int height() const { return target_.height(); }
+  float exposure() const { return exposure_; }
+  const DrawStatistics& statistics() const { return scene_.main_statistics(); }
+  const GpuScene& gpu() const { return scene_.gpu(); }
+  /// How often fixed things have appeared, vanished or moved, or the sky has changed: what is kept of their
+  /// pictures is then out of date.
+  int fixed_changes() const { return fixed_changes_; }
+
+  // The light that the ray tracer needs to agree with the picture.
+  const shading::SkyLight& sky() const { return sky_.light(); }
+  /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
+  /// begins.
+  shading::DrawnLight drawn_light() const { return {shadows_.read_back(), &sky_.visibility(), &body_shade_}; }
+
+ private:
+  Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target);
+  void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
+  void begin_view(const View& view);
+  void draw_prepared(const View& view);
+  void bind_frame(const View& view);
+
+  SkyTextures sky_;
+  scene::Sun sun_;
+  float haze_per_m_ = 0.0f;
+  float exposure_ = 1.0f;
+  int fixed_changes_ = 0;
+  SceneDrawable scene_;
+  SunShadowMaps shadows_;
+  std::vector<Drawable*> drawables_;
+  shading::BodyShade body_shade_;
+  StreamBuffer frame_blocks_, body_blocks_;
+  PictureTarget target_;
+  View main_view_;
+};
+
+}  // namespace parvis::render

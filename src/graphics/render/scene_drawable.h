@@ -1,0 +1,133 @@
+// Draws the scene's items: culled for each view, gathered by material, many items a call.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "graphics/gl/program.h"
+#include "graphics/render/bindings.h"
+#include "graphics/render/frustum.h"
+#include "graphics/render/gpu_scene.h"
+#include "graphics/render/occlusion.h"
+#include "graphics/render/screen_scale.h"
+#include "graphics/render/stream_buffer.h"
+#include "graphics/render/surface_programs.h"
+#include "graphics/render/view.h"
+#include "graphics/render/virtual_vertices.h"
+
+namespace parvis::render {
+
+/// How mirror-like parts of moving objects see their surroundings. A room above supplies the method.
+class ReflectionSource {
+ public:
+  virtual ~ReflectionSource() = default;
+  /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
+  virtual std::string fragment_shader() const = 0;
+  /// What the shader is compiled with. HAS_NEAR_PICTURE: a picture of what stands near lies over what it
+  /// finds.
+  virtual gl::Defines defines() const { return {}; }
+  /// Does it draw a view of rays? Then their programs are made.
+  virtual bool takes_rays() const { return false; }
+  /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
+  /// `program`.
+  virtual void bind(const gl::Program& program, int object) = 0;
+
+ private:
+  friend class SceneDrawable;
+  struct Programs {
+    SurfacePrograms mirror, rays;
+  };
+  std::optional<Programs> programs_;  ///< linked when it is first set, for the scene of that renderer
+};
+
+/// What one view drew.
+struct DrawStatistics {
+  int items_in_frustum = 0;  ///< of a mirrored view: that the mirror may show
+  int items_hidden = 0;      ///< in the frustum, behind occluders
+  int draws = 0;
+  std::size_t triangles = 0;
+};
+
+class SceneDrawable final : public Drawable {
+ public:
+  static Result<SceneDrawable> create(const scene::Scene& scene);
+
+  void update(const scene::Scene& scene);
+  /// null: all reflect the sky alone. What was set before is set again at once.
+  Status set_reflection(ReflectionSource* source);
+
+  void prepare(const View& view) override;
+  void draw(const View& view, Pass pass) override;
+
+  /// Objects that the main view shows: what reflections are worth making for.
+  const std::vector<int>& visible_objects() const { return visible_objects_; }
+  const DrawStatistics& main_statistics() const { return main_list_.statistics; }
+  const GpuScene& gpu() const { return gpu_; }
+
+ private:
+  struct Command {  // DrawElementsIndirectCommand
+    std::uint32_t count, instances, first_index;
+    std::int32_t base_vertex;
+    std::uint32_t base_instance;
+  };
+  struct Batch {
+    int material;
+    int mirror_object;  ///< -1: none
+    std::uint32_t first_command, command_count;
+  };
+  struct Programs {
+    SurfacePrograms surface;
+    gl::Program depth, solid_depth, picking;
+  };
+
+  /// What one view draws. The main view's list is kept while others are prepared and drawn.
+  struct ViewList {
+    struct Entry {
+      std::uint64_t key;  ///< by which entries are sorted
+      int item;
+      int level;  ///< 0: the mesh itself; then of the scene's levels
+      glm::ivec2 virtual_grid{0};
+    };
+    std::vector<Entry> order;
+    std::vector<Item::Record> records;
+    std::vector<Command> commands;
+    std::array<std::vector<Batch>, pass_count> batches;
+    StreamBuffer record_store{1 << 18}, command_store{1 << 16};
+    GLintptr first_record = 0, first_command = 0;
+    DrawStatistics statistics;
+  };
+
+  SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs);
+  Status link(ReflectionSource& source) const;
+  void find_occluders(const scene::Scene& scene);
+  const gl::Program& program_for(const View& view, const Batch& batch) const;
+  bool is_mirror_in(const View& view, const Item& item) const;
+  bool refracts(const Item& item) const;
+  int level_of(const Item& item, const ScreenScale& scale) const;
+  std::uint64_t sort_key(const Item& item, int level, const View& view) const;
+  void keep_moving_shapes(const scene::Scene& scene);
+  void draw_occluders(const View& view, const Frustum& frustum);
+  static void sort(ViewList& list);
+  void gather(const View& view, ViewList& list);
+  void gather_mirrors(const View& view, ViewList& list) const;
+  void batch(const View& view, ViewList& list) const;
+  void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;
+  void draw_depth(const ViewList& list) const;
+  const ViewList& list_of(const View& view) const {
+    return view.kind == ViewKind::main ? main_list_ : other_list_;
+  }
+
+  GpuScene gpu_;
+  OcclusionCuller occlusion_;
+  std::vector<int> shape_of_part_;  ///< for occlusion; -1: the part hides nothing while it moves
+  std::vector<OcclusionCuller::PlacedShape> placed_shapes_;
+  Programs programs_;
+  ReflectionSource* reflection_ = nullptr;
+  gl::VertexArray vertex_array_;
+  ViewList main_list_, other_list_;
+  std::vector<int> visible_objects_;
+};
+
+}  // namespace parvis::render

@@ -1,0 +1,30 @@
+// How large a view shows what stands somewhere.
+#pragma once
+
+#include <limits>
+
+#include "base/bounds.h"
+#include "graphics/render/view.h"
+
+namespace parvis::render {
+
+class ScreenScale {
+ public:
+  explicit ScreenScale(const View& view)
+      : w_row_(glm::transpose(view.clip_from_world)[3]),
+        w_a_metre_(glm::length(glm::vec3(w_row_))),
+        pixels_at_w_1_(0.5f * float(view.height) *
+                       glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]))) {}
+
+  /// At the nearest place of a sphere about the box; infinity where the eye may be in it.
+  float pixels_a_metre(const Bounds& bounds) const {
+    const float least_w = glm::dot(w_row_, glm::vec4(bounds.centre(), 1.0f)) - w_a_metre_ * bounds.radius();
+    return least_w > 0.0f ? pixels_at_w_1_ / least_w : std::numeric_limits<float>::infinity();
+  }
+
+ private:
+  glm::vec4 w_row_;
+  float w_a_metre_, pixels_at_w_1_;
+};
+
+}  // namespace parvis::render

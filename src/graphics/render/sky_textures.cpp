@@ -1,0 +1,123 @@
+#include "graphics/render/sky_textures.h"
+
+#include "graphics/render/bindings.h"
+#include "graphics/render/fixed_parts.h"
+#include "graphics/render/regions.h"
+
+namespace parvis::render {
+namespace {
+
+/// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
+shading::Heightfield heights_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for_each_fixed_opaque_part(
+      scene, [&](const scene::Object&, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
+      });
+  shading::Heightfield heights(bounds);
+  for_each_fixed_opaque_part(
+      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        if (object.is_visible) heights.add(part.mesh, world_from_mesh);
+      });
+  return heights;
+}
+
+/// What has come is put onto the heights; where something has gone they are made anew. All objects stand
+/// where they stood, seen or hidden.
+void renew_heights(const scene::Scene& scene, const GpuScene& gpu, shading::Heightfield& heights) {
+  const std::vector<Bounds> places_left = united(gpu.fixed_change().gone, 0.0f);
+  for (const Bounds& place : places_left) heights.clear(place);
+  for_each_fixed_opaque_part(
+      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
+        if (!object.is_visible) return;
+        const int index = int(&object - scene.objects.data());
+        if (gpu.is_newcomer(index)) return heights.add(part.mesh, world_from_mesh);
+        for (const Bounds& place : places_left)
+          if (overlap_from_above(place, gpu.object_bounds()[std::size_t(index)]))
+            heights.add(part.mesh, world_from_mesh, &place);
+      });
+}
+
+gl::Texture upload(const shading::SkyLight& sky) {
+  const ImageF& sharpest = sky.levels.front();
+  gl::Texture texture = gl::texture_2d(GL_RGB16F, sharpest.width, sharpest.height, int(sky.levels.size()));
+  for (std::size_t level = 0; level < sky.levels.size(); ++level) {
+    const ImageF& image = sky.levels[level];
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                        image.pixels.data());
+  }
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+  return texture;
+}
+
+gl::Texture upload(const shading::SkyVisibility& visibility) {
+  const glm::ivec3 cells = visibility.cells;
+  gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_3D));
+  glTextureStorage3D(texture.name(), 1, GL_RGBA8, cells.x, cells.y, cells.z);
+  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, cells.x, cells.y, cells.z, GL_RGBA, GL_UNSIGNED_BYTE,
+                      visibility.values.data());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture.name(), axis, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
+Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
+  Result<gl::Program> program =
+      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/sky.frag");
+  if (!program) return program.errors();
+  assign_bindings(*program);
+  return SkyTextures(scene, *std::move(program));
+}
+
+SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
+    : source_(source_of(scene.sky)),
+      light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
+      heights_(heights_of(scene)),
+      visibility_(shading::make_sky_visibility(heights_)),
+      program_(std::move(program)),
+      picture_(upload(light_)),
+      cells_(upload(visibility_)),
+      no_attributes_(gl::VertexArray::create()) {
+  program_.set("screen_depth", 0.0f);  // depth is reversed: the farthest
+}
+
+bool SkyTextures::renew_light(const scene::Sky& sky) {
+  if (source_of(sky) == source_) return false;
+  source_ = source_of(sky);
+  light_ = shading::make_sky_light(sky.picture, sky.intensity, sky.heading);
+  picture_ = upload(light_);
+  return true;
+}
+
+void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gpu) {
+  const FixedChange& change = gpu.fixed_change();
+  if (change.has_moved)
+    heights_ = heights_of(scene);  // its bounds may be others, too
+  else
+    renew_heights(scene, gpu, heights_);
+  std::vector<Bounds> changed = change.gone;
+  changed.insert(changed.end(), change.come.begin(), change.come.end());
+  for (const Bounds& region : united(std::move(changed), shading::sky_visibility_reach_m))
+    shading::renew_sky_visibility(visibility_, heights_, region);
+  cells_ = upload(visibility_);
+}
+
+void SkyTextures::bind() const {
+  glBindTextureUnit(sky_unit, picture_.name());
+  glBindTextureUnit(sky_visibility_unit, cells_.name());
+}
+
+void SkyTextures::draw(const View& view) const {
+  program_.use();
+  program_.set("world_from_clip", glm::inverse(view.clip_from_world));
+  glBindVertexArray(no_attributes_.name());
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+}  // namespace parvis::render

@@ -1,0 +1,52 @@
+// The sky on the GPU: its picture with the blurred levels as mipmaps, how much of it each place sees, and the
+// pass that draws it behind all else.
+#pragma once
+
+#include "graphics/gl/program.h"
+#include "graphics/render/gpu_scene.h"
+#include "graphics/render/view.h"
+#include "graphics/shading/sky.h"
+#include "graphics/shading/sky_visibility.h"
+#include "scene/scene.h"
+
+namespace parvis::render {
+
+class SkyTextures {
+ public:
+  static Result<SkyTextures> create(const scene::Scene& scene);
+
+  /// Takes over another sky: its picture (by the name of its file), strength or heading; false where it is
+  /// the same. Takes as long as when the scene was loaded.
+  bool renew_light(const scene::Sky& sky);
+  /// Takes over fixed things that appeared, vanished or moved in the last update of `gpu`.
+  void renew_visibility(const scene::Scene& scene, const GpuScene& gpu);
+
+  /// Texture units `sky_unit` and `sky_visibility_unit`.
+  void bind() const;
+  /// Fills what the depth buffer says is empty.
+  void draw(const View& view) const;
+
+  const shading::SkyLight& light() const { return light_; }
+  const shading::SkyVisibility& visibility() const { return visibility_; }
+
+ private:
+  SkyTextures(const scene::Scene& scene, gl::Program program);
+
+  /// What the light was made of.
+  struct Source {
+    std::filesystem::path file;
+    float intensity, heading;
+    bool operator==(const Source&) const = default;
+  };
+  static Source source_of(const scene::Sky& sky) { return {sky.file, sky.intensity, sky.heading}; }
+
+  Source source_;
+  shading::SkyLight light_;
+  shading::Heightfield heights_;  ///< of what is fixed and seen
+  shading::SkyVisibility visibility_;
+  gl::Program program_;
+  gl::Texture picture_, cells_;
+  gl::VertexArray no_attributes_;
+};
+
+}  // namespace parvis::render

@@ -1,0 +1,258 @@
+#include "graphics/render/sun_shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graphics/render/bindings.h"
+#include "graphics/render/regions.h"
+
+namespace parvis::render {
+namespace {
+
+constexpr int map_size = 4096;
+constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings throw shadows
+constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
+constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
+constexpr float room_radius_m = 12.0f;      // a place no larger lies in the near map as a whole, and finer
+constexpr float round_room_m = 4.0f;        // and what moves so near to it
+constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
+
+glm::mat3 sun_frame(glm::vec3 to_sun) {
+  const glm::vec3 aside = std::abs(to_sun.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const glm::vec3 right = glm::normalize(glm::cross(aside, to_sun));
+  return glm::transpose(glm::mat3(right, glm::cross(to_sun, right), to_sun));
+}
+
+bool is_room(const Bounds& place) { return place.radius() < room_radius_m; }
+
+float near_half_width(const Bounds& place) {
+  return is_room(place) ? place.radius() + round_room_m : near_half_width_m;
+}
+
+/// Middle of what a viewer sees best, among the heights of the place; of all of a room.
+glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
+  if (is_room(place)) return place.centre();
+  const glm::vec3 forward = camera.forward_in_world();
+  glm::vec3 focus = camera.position_in_world() + near_ahead_m * glm::vec3(forward.x, forward.y, 0.0f);
+  focus.z = std::clamp(focus.z, place.min.z, place.max.z);
+  return focus;
+}
+
+gl::Framebuffer depth_framebuffer() {
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferDrawBuffer(framebuffer.name(), GL_NONE);
+  return framebuffer;
+}
+
+}  // namespace
+
+SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
+    : fixed_(fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed),
+      depth_(gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY))),
+      near_fixed_(gl::texture_2d(GL_DEPTH_COMPONENT32F, map_size, map_size)),
+      near_fixed_framebuffer_(depth_framebuffer()) {
+  glTextureStorage3D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, map_size, map_size, shading::shadow_map_count);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTextureParameteri(depth_.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  for (std::size_t map = 0; map < framebuffers_.size(); ++map) {
+    framebuffers_[map] = depth_framebuffer();
+    glNamedFramebufferTextureLayer(framebuffers_[map].name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0,
+                                   GLint(map));
+  }
+  glNamedFramebufferTexture(near_fixed_framebuffer_.name(), GL_DEPTH_ATTACHMENT, near_fixed_.name(), 0);
+  maps_.texel_uv = 1.0f / float(map_size);
+  turn_to(to_sun);
+}
+
+void SunShadowMaps::turn_to(glm::vec3 to_sun) {
+  to_sun_ = glm::normalize(to_sun);
+  sun_from_world_ = sun_frame(to_sun_);
+  fixed_in_sun_ = transformed(glm::mat4(sun_from_world_), fixed_);
+  far_is_drawn_ = false;
+  near_centre_ = glm::vec3(1e30f);
+}
+
+/// Turns a map's light toward a square about `centre`.
+View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
+  const float texel = 2.0f * half_width_m / float(map_size);
+  glm::vec3 middle = sun_from_world_ * centre;
+  middle.x = std::round(middle.x / texel) * texel;  // whole texels: edges do not crawl when the viewer moves
+  middle.y = std::round(middle.y / texel) * texel;
+  // Casters toward the sun all count, however far: depth spans the whole place.
+  const float top = std::max(fixed_in_sun_.max.z, middle.z + half_width_m) + moving_height_m;
+  const float bottom = std::min(fixed_in_sun_.min.z, middle.z - half_width_m) - 1.0f;
+
+  glm::mat4 clip_from_sun(1.0f);
+  clip_from_sun[0][0] = clip_from_sun[1][1] = 1.0f / half_width_m;
+  clip_from_sun[2][2] = -2.0f / (top - bottom);
+  clip_from_sun[3] = {-middle.x / half_width_m, -middle.y / half_width_m, (top + bottom) / (top - bottom),
+                      1.0f};
+
+  View view;
+  view.kind = ViewKind::shadow;
+  view.clip_from_world = clip_from_sun * glm::mat4(sun_from_world_);
+  view.position_in_world = centre + 1e5f * to_sun_;
+  view.framebuffer = framebuffers_[std::size_t(map)].name();
+  view.width = view.height = map_size;
+  view.subjects = Subjects::fixed;
+
+  const glm::mat4 uvz_from_clip(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1);
+  maps_.uvz_from_world[map] = uvz_from_clip * view.clip_from_world;
+  maps_.texel_m[map] = texel;
+  return view;
+}
+
+void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw) {
+  near_centre_ = position;
+  near_view_ = aim(shading::shadow_near_map, position, near_half_width(fixed_));
+  View fixed_view = near_view_;
+  fixed_view.framebuffer = near_fixed_framebuffer_.name();
+  draw(fixed_view);
+  drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
+}
+
+void SunShadowMaps::draw_far(const std::function<void(const View&)>& draw) {
+  const glm::vec3 size = fixed_in_sun_.size();
+  far_view_ = aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
+  draw(far_view_);
+  far_is_drawn_ = true;
+  postponed_.clear();
+}
+
+void SunShadowMaps::renew(const FixedChange& change, const Bounds& fixed) {
+  Bounds all = fixed_;
+  all.add(fixed);
+  if (all.min != fixed_.min || all.max != fixed_.max) {
+    fixed_ = all;
+    turn_to(to_sun_);
+  }
+  change_ = change;
+}
+
+/// Is no point whose shadow the box may change looked up in the far map? Points are lifted by a texel or two
+/// before lookups, which filter over two more.
+bool SunShadowMaps::near_map_serves(const Bounds& box) const {
+  if (near_centre_.x >= 1e30f) return false;
+  const float margin_m = 8.0f * maps_.texel_m[shading::shadow_far_map];
+  const Bounds uv =
+      transformed(maps_.uvz_from_world[shading::shadow_near_map], {box.min - margin_m, box.max + margin_m});
+  return uv.min.x > 0.0f && uv.min.y > 0.0f && uv.max.x < 1.0f && uv.max.y < 1.0f;
+}
+
+/// Draws anew the squares of a map where the boxes fall, with all of the `subjects` there.
+void SunShadowMaps::redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
+                           const std::function<void(const View&)>& draw) const {
+  std::vector<Bounds> squares;  // in texels, flat
+  for (const Bounds& box : boxes) squares.push_back(texels_of(map, box));
+  view.subjects = subjects;
+  for (const Bounds& texels : united(std::move(squares), 0.0f)) {
+    view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
+    if (view.has_part()) draw(view);
+  }
+}
+
+/// Draws what came over what is there.
+void SunShadowMaps::draw_newcomers(View view, int map, std::span<const Bounds> boxes,
+                                   const std::function<void(const View&)>& draw) const {
+  Bounds texels;
+  for (const Bounds& box : boxes)
+    if (const Bounds square = texels_of(map, box); square.size().x > 0.0f && square.size().y > 0.0f)
+      texels.add(square);
+  if (texels.empty()) return;
+  view.subjects = Subjects::newcomers;
+  view.clears = false;
+  view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
+  draw(view);
+}
+
+void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
+  if (far_is_drawn_) {
+    std::vector<Bounds> gone, come;
+    for (const Bounds& box : change_.gone) (near_map_serves(box) ? postponed_ : gone).push_back(box);
+    for (const Bounds& box : change_.come) (near_map_serves(box) ? postponed_ : come).push_back(box);
+    redraw(far_view_, shading::shadow_far_map, gone, Subjects::staying, draw);
+    draw_newcomers(far_view_, shading::shadow_far_map, come, draw);
+  }
+  if (near_centre_.x < 1e30f) {
+    View fixed_view = near_view_;
+    fixed_view.framebuffer = near_fixed_framebuffer_.name();
+    redraw(fixed_view, shading::shadow_near_map, change_.gone, Subjects::staying, draw);
+    draw_newcomers(fixed_view, shading::shadow_near_map, change_.come, draw);
+    for (const std::vector<Bounds>* boxes : {&change_.gone, &change_.come})
+      for (const Bounds& box : *boxes)
+        if (const Square square = square_of(shading::shadow_near_map, box);
+            square.size.x > 0 && square.size.y > 0)
+          drawn_over_.push_back(square);
+  }
+  change_ = {};
+}
+
+/// The near map is about to serve another region.
+void SunShadowMaps::draw_postponed(const std::function<void(const View&)>& draw) {
+  redraw(far_view_, shading::shadow_far_map, postponed_, Subjects::fixed, draw);
+  postponed_.clear();
+}
+
+void SunShadowMaps::put_back(const Square& square) {
+  glCopyImageSubData(near_fixed_.name(), GL_TEXTURE_2D, 0, square.corner.x, square.corner.y, 0, depth_.name(),
+                     GL_TEXTURE_2D_ARRAY, 0, square.corner.x, square.corner.y, shading::shadow_near_map,
+                     square.size.x, square.size.y, 1);
+}
+
+/// Where a box falls in a map, with a texel of margin.
+SunShadowMaps::Square SunShadowMaps::square_of(int map, const Bounds& box) const {
+  const Bounds uv = transformed(maps_.uvz_from_world[map], box);
+  const auto texel = [](float share) { return int(std::clamp(share, 0.0f, 1.0f) * float(map_size)); };
+  const glm::ivec2 low(texel(uv.min.x) - 1, texel(uv.min.y) - 1);
+  const glm::ivec2 high(texel(uv.max.x) + 2, texel(uv.max.y) + 2);
+  const glm::ivec2 corner = glm::clamp(low, 0, map_size);
+  return {corner, glm::clamp(high, 0, map_size) - corner};
+}
+
+Bounds SunShadowMaps::texels_of(int map, const Bounds& box) const {
+  const Square square = square_of(map, box);
+  return {{square.corner, 0}, {square.corner + square.size, 0}};
+}
+
+void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+                           const std::function<void(const View&)>& draw) {
+  if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
+  if (!change_.empty()) draw_changed(draw);
+  if (!far_is_drawn_) draw_far(draw);
+  const glm::vec3 focus = focus_of(camera, fixed_);
+  if (glm::distance(focus, near_centre_) > near_stay_m) {
+    draw_postponed(draw);
+    draw_near_fixed(focus, draw);
+  }
+
+  for (const Square& square : drawn_over_) put_back(square);
+  drawn_over_.clear();
+  if (moving.empty()) return;
+  for (const Bounds& box : moving)
+    if (const Square square = square_of(shading::shadow_near_map, box);
+        square.size.x > 2 && square.size.y > 2)
+      drawn_over_.push_back(square);
+  View moving_view = near_view_;
+  moving_view.subjects = Subjects::moving;
+  moving_view.clears = false;
+  draw(moving_view);
+}
+
+void SunShadowMaps::bind() const { glBindTextureUnit(shadow_unit, depth_.name()); }
+
+shading::SunShadow SunShadowMaps::read_back() const {
+  shading::SunShadow shadow;
+  shadow.maps = maps_;
+  for (std::size_t map = 0; map < shadow.depth.size(); ++map) {
+    ImageF& depth = shadow.depth[map];
+    depth = ImageF(map_size, map_size, 1);
+    glGetTextureSubImage(depth_.name(), 0, 0, 0, GLint(map), map_size, map_size, 1, GL_DEPTH_COMPONENT,
+                         GL_FLOAT, GLsizei(depth.pixels.size() * sizeof(float)), depth.pixels.data());
+  }
+  return shadow;
+}
+
+}  // namespace parvis::render

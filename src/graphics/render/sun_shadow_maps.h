@@ -1,0 +1,76 @@
+// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once) and what is near the
+// viewer, of which the fixed part is drawn when the viewer has gone some way, and kept: each frame only the
+// squares that moving things have left are put back, and the things drawn where they are now.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/bounds.h"
+#include "base/image.h"
+#include "graphics/gl/objects.h"
+#include "graphics/render/gpu_scene.h"
+#include "graphics/render/view.h"
+#include "graphics/shading/shadow.h"
+
+namespace parvis::render {
+
+class SunShadowMaps {
+ public:
+  /// `fixed` bounds all that does not move, in the world.
+  SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
+
+  /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
+  /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
+  void renew(const FixedChange& change, const Bounds& fixed);
+
+  /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
+  /// `moving` bounds each thing that moves.
+  void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+              const std::function<void(const View&)>& draw);
+
+  /// At `shadow_unit`.
+  void bind() const;
+  const shading::ShadowMaps& maps() const { return maps_; }
+  /// A copy for the ray tracer.
+  shading::SunShadow read_back() const;
+
+ private:
+  struct Square {
+    glm::ivec2 corner, size;
+  };
+  void turn_to(glm::vec3 to_sun);
+  View aim(int map, glm::vec3 centre, float half_width_m);
+  void draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw);
+  void draw_far(const std::function<void(const View&)>& draw);
+  void draw_changed(const std::function<void(const View&)>& draw);
+  void draw_postponed(const std::function<void(const View&)>& draw);
+  void redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
+              const std::function<void(const View&)>& draw) const;
+  void draw_newcomers(View view, int map, std::span<const Bounds> boxes,
+                      const std::function<void(const View&)>& draw) const;
+  bool near_map_serves(const Bounds& box) const;
+  void put_back(const Square& square);
+  Square square_of(int map, const Bounds& box) const;
+  Bounds texels_of(int map, const Bounds& box) const;
+
+  Bounds fixed_;
+  glm::vec3 to_sun_;
+  glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
+  Bounds fixed_in_sun_;
+  gl::Texture depth_;       ///< a layer for each map
+  gl::Texture near_fixed_;  ///< the near map without what moves
+  std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
+  gl::Framebuffer near_fixed_framebuffer_;
+  shading::ShadowMaps maps_{};
+  View near_view_, far_view_;
+  std::vector<Square> drawn_over_;  ///< of the near map, by what moved
+  bool far_is_drawn_ = false;
+  FixedChange change_;             ///< of this frame
+  std::vector<Bounds> postponed_;  ///< changed parts of the far map that nobody looks up: the near one serves
+  glm::vec3 near_centre_{1e30f};
+};
+
+}  // namespace parvis::render

@@ -1,0 +1,6 @@
+#include "graphics/render/surface_vertex.glsl"
+
+void main() {
+  surface_vertex();
+  gl_Position = clip_from_world * vec4(position, 1.0f);
+}

@@ -1,0 +1,54 @@
+#include "graphics/render/surface_programs.h"
+
+#include "graphics/gl/context.h"
+#include "graphics/render/bindings.h"
+
+namespace parvis::render {
+namespace {
+
+gl::Defines defines_of(std::uint16_t features) {
+  gl::Defines defines;
+  if (features & surface_has_normal_map) defines.emplace_back("HAS_NORMAL_MAP", "");
+  if (features & surface_has_relief) defines.emplace_back("HAS_RELIEF", "");
+  if (features & surface_has_surface_map) defines.emplace_back("HAS_SURFACE_MAP", "");
+  if (features & surface_has_emission_map) defines.emplace_back("HAS_EMISSION_MAP", "");
+  if (features & surface_has_coat) defines.emplace_back("HAS_COAT", "");
+  if (features & surface_has_backs) defines.emplace_back("HAS_BACKS", "");
+  if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
+  if (features & surface_is_leaf) defines.emplace_back("IS_LEAF", "");
+  if (features & surface_is_glass) defines.emplace_back("IS_GLASS", "");
+  if (!has_fast_anisotropy()) defines.emplace_back("ANISOTROPY_BY_TAPS", "");
+  return defines;
+}
+
+Status link(gl::Program& program, const std::string& vertex_path, const std::string& fragment_path,
+            const gl::Defines& defines) {
+  if (program.name()) return Done{};
+  Result<gl::Program> linked = gl::Program::create(vertex_path, fragment_path, defines);
+  if (!linked) return linked.errors();
+  program = *std::move(linked);
+  assign_bindings(program);
+  return Done{};
+}
+
+}  // namespace
+
+Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path,
+                                                const std::vector<GpuMaterial>& materials,
+                                                const std::string& vertex_path, const gl::Defines& common) {
+  SurfacePrograms made;
+  for (const GpuMaterial& material : materials) {
+    gl::Defines defines = defines_of(material.features);
+    defines.insert(defines.end(), common.begin(), common.end());
+    if (Status status = link(made.programs_[material.features], vertex_path, fragment_path, defines); !status)
+      return status.errors();
+    if (!(material.features & surface_has_holes)) continue;
+    defines.emplace_back("ONE_SAMPLE", "");
+    if (Status status = link(made.one_sample_[material.features], vertex_path, fragment_path, defines);
+        !status)
+      return status.errors();
+  }
+  return made;
+}
+
+}  // namespace parvis::render

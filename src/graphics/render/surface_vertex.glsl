@@ -1,0 +1,43 @@
+// The vertex of a surface in the world, for any shader that then says where a picture shows it.
+#include "graphics/render/frame.glsl"
+#ifdef IS_LEAF
+#include "graphics/render/body_lookup.glsl"
+#include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/sun_lookup.glsl"
+#endif
+
+layout(location = 0) in vec3 mesh_position;
+layout(location = 1) in vec3 mesh_normal;
+layout(location = 2) in vec2 mesh_uv;
+layout(location = 3) in vec4 world_from_mesh_row0;
+layout(location = 4) in vec4 world_from_mesh_row1;
+layout(location = 5) in vec4 world_from_mesh_row2;
+layout(location = 6) in uint object;
+
+out vec3 position;
+out vec3 vertex_normal;
+out vec2 uv;
+#ifdef IS_LEAF
+// A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
+out float leaf_sun;
+out vec4 leaf_sky_cell;
+#endif
+flat out int object_of_surface;
+
+void surface_vertex() {
+  vec4 p = vec4(mesh_position, 1.0f);
+  position = vec3(dot(world_from_mesh_row0, p), dot(world_from_mesh_row1, p), dot(world_from_mesh_row2, p));
+  // Normals follow the cofactors of the transform, which need no inverse.
+  vec3 c0 = vec3(world_from_mesh_row0.x, world_from_mesh_row1.x, world_from_mesh_row2.x);
+  vec3 c1 = vec3(world_from_mesh_row0.y, world_from_mesh_row1.y, world_from_mesh_row2.y);
+  vec3 c2 = vec3(world_from_mesh_row0.z, world_from_mesh_row1.z, world_from_mesh_row2.z);
+  vertex_normal = mat3(cross(c1, c2), cross(c2, c0), cross(c0, c1)) * mesh_normal;
+  uv = mesh_uv;
+#ifdef IS_LEAF
+  vec3 normal = normalize(vertex_normal);
+  normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
+  leaf_sun = visible_sun(position, normal);
+  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, int(object)));
+#endif
+  object_of_surface = int(object);
+}

@@ -1,0 +1,36 @@
+// Where mirrored views show vertices. A room above supplies it.
+#pragma once
+
+#include <utility>
+
+#include "base/bounds.h"
+#include "graphics/render/surface_programs.h"
+
+namespace parvis::render {
+
+class VirtualVertices {
+ public:
+  virtual ~VirtualVertices() = default;
+  /// Binds what the shaders need for the reflector that is drawn now: texture unit `virtual_vertex_unit`,
+  /// uniforms of `program`.
+  virtual void bind(const gl::Program& program) = 0;
+  /// May that reflector show any of what lies within these bounds? Else it is left out.
+  virtual bool may_show(const Bounds& bounds) const = 0;
+  /// The next view shows an item: what its vertices read as attribute 7, two integers.
+  virtual glm::ivec2 add(const Item& /*item*/) { return {}; }
+  /// All items of the next view have been added, and nothing is drawn yet: here it may draw elsewhere.
+  virtual void prepare() {}
+
+  const gl::Program& program_of(const GpuMaterial& material) const { return programs_.of(material, true); }
+
+ protected:
+  /// Compiled with IS_MIRRORED, for all materials of the scene: a vertex shader that includes
+  /// render/surface_vertex.glsl and sets `seen_from` of render/surface_body.glsl, too, and a fragment shader
+  /// that includes that file and defines `is_mirrored_here`.
+  explicit VirtualVertices(SurfacePrograms programs) : programs_(std::move(programs)) {}
+
+ private:
+  SurfacePrograms programs_;
+};
+
+}  // namespace parvis::render

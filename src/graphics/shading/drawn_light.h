@@ -1,0 +1,16 @@
+// What a renderer knows of the light that it draws a picture in, so that a ray tracer can agree with it.
+#pragma once
+
+#include "graphics/shading/body_shade.h"
+#include "graphics/shading/shadow.h"
+#include "graphics/shading/sky_visibility.h"
+
+namespace parvis::shading {
+
+struct DrawnLight {
+  SunShadow shadow;
+  const SkyVisibility* sky_visibility;  ///< both the renderer's own, as of its last frame
+  const BodyShade* body_shade;
+};
+
+}  // namespace parvis::shading

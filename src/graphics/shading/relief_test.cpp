@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "graphics/shading/glsl.h"
+
+namespace parvis::shading {
+namespace {
+
+/// A groove of depth 1 between x = 0.4 and x = 0.6 of the texture, and on its floor, from 0.5 on, a step to
+/// 0.5.
+struct Groove {
+  bool has_step = false;
+
+  float relief_depth(vec2 uv) const {
+    if (uv.x < 0.4f || uv.x > 0.6f) return 0.0f;
+    return has_step && uv.x > 0.5f ? 0.5f : 1.0f;
+  }
+
+#undef GLSL_FUNCTION
+#define GLSL_FUNCTION
+#include "graphics/shading/relief.glsl"
+};
+
+TEST(Relief, TheSurfaceItselfIsMetAtOnce) {
+  const vec3 hit = Groove().relief_hit(vec2(0.3f, 0.5f), vec2(0.5f, 0.0f));
+  EXPECT_EQ(hit, vec3(0.3f, 0.5f, 0.0f));
+}
+
+TEST(Relief, AFloorIsMetWhereItsDepthSays) {
+  const vec3 hit = Groove().relief_hit(vec2(0.45f, 0.5f), vec2(0.1f, 0.02f));
+  EXPECT_NEAR(hit.x, 0.55f, 1e-5f);
+  EXPECT_NEAR(hit.y, 0.52f, 1e-5f);
+  EXPECT_NEAR(hit.z, 1.0f, 1e-5f);
+}
+
+TEST(Relief, TheSideOfAnOpeningHidesItsFloor) {
+  // Moves by 0.5 in u while it sinks by 1, and so is 0.2 deep at the groove's end, 0.1 away.
+  const vec3 hit = Groove().relief_hit(vec2(0.5f, 0.5f), vec2(0.5f, 0.0f));
+  EXPECT_NEAR(hit.z, 0.2f, 0.02f);
+  EXPECT_NEAR(hit.x, 0.6f, 0.01f);
+}
+
+TEST(Relief, RaysStepDownToADeeperFloor) {
+  Groove groove;
+  groove.has_step = true;
+  const vec3 hit = groove.relief_hit(vec2(0.55f, 0.5f), vec2(-0.12f, 0.0f));
+  EXPECT_NEAR(hit.z, 1.0f, 1e-5f);
+  EXPECT_NEAR(hit.x, 0.43f, 1e-5f);
+}
+
+TEST(Relief, LightComesInWhereTheOpeningLetsIt) {
+  Groove groove;
+  EXPECT_EQ(groove.relief_light(vec3(0.5f, 0.5f, 1.0f), vec2(0.05f, 0.0f)), 1.0f);
+  EXPECT_EQ(groove.relief_light(vec3(0.5f, 0.5f, 1.0f), vec2(0.3f, 0.0f)), 0.0f);
+  EXPECT_EQ(groove.relief_light(vec3(0.3f, 0.5f, 0.0f), vec2(0.3f, 0.0f)), 1.0f);
+}
+
+TEST(Relief, CoordinatesMoveAsTheTexturesEdgesSay) {
+  // A texture of 4 by 2 metres on a wall that faces south; the view sinks at 45 degrees toward the east.
+  Groove::TextureFrame frame{vec3(4, 0, 0), vec3(0, 0, 2), vec2(1, 0), vec2(0, -1)};
+  const vec3 normal(0, -1, 0), direction = normalize(vec3(1, 1, 0));
+  const vec2 moved = Groove().uv_through_relief(frame, normal, direction, 0.2f);
+  EXPECT_NEAR(moved.x, 0.05f, 1e-5f);
+  EXPECT_NEAR(moved.y, 0.0f, 1e-5f);
+  frame.step_2 = frame.step_1;  // no area: no way
+  EXPECT_EQ(Groove().uv_through_relief(frame, normal, direction, 0.2f), vec2(0.0f));
+}
+
+TEST(Relief, FarAwayThereIsNone) {
+  EXPECT_EQ(Groove().relief_share(0.01f, 0.25f), 1.0f);
+  EXPECT_EQ(Groove().relief_share(0.2f, 0.25f), 0.0f);
+}
+
+}  // namespace
+}  // namespace parvis::shading

@@ -1,0 +1,80 @@
+#include "graphics/shading/shadow.h"
+
+#include <gtest/gtest.h>
+
+namespace parvis::shading {
+namespace {
+
+constexpr int texels = 64;
+constexpr vec3 up{0, 0, 1};
+
+/// The sun in the zenith over 64 m x 64 m, a texel a metre: a map that covers [0, 64]^2 and depth 0 at 100 m
+/// of height, 1 at 0. West of x = 32 m stands a roof of 50 m.
+SunShadow roof_in_the_west() {
+  SunShadow shadow;
+  mat4 uvz_from_world(0.0f);
+  uvz_from_world[0][0] = uvz_from_world[1][1] = 1.0f / texels;
+  uvz_from_world[2][2] = -0.01f;
+  uvz_from_world[3] = vec4(0, 0, 1, 1);
+  shadow.maps.uvz_from_world[0] = shadow.maps.uvz_from_world[1] = uvz_from_world;
+  shadow.maps.texel_m = vec2(1.0f);
+  shadow.maps.texel_uv = 1.0f / texels;
+  for (ImageF& depth : shadow.depth) {
+    depth = ImageF(texels, texels, 1, 1.0f);
+    for (int y = 0; y < texels; ++y)
+      for (int x = 0; x < texels / 2; ++x) *depth.at(x, y) = 0.5f;
+  }
+  return shadow;
+}
+
+float sun_at(const SunShadow& shadow, float x, float height_m = 10.0f) {
+  return sun_visibility(shadow, {x, 20.0f, height_m}, up, up);
+}
+
+TEST(Shadow, LiesUnderTheRoofAndNotBesideIt) {
+  const SunShadow shadow = roof_in_the_west();
+  EXPECT_EQ(sun_at(shadow, 20), 0.0f);
+  EXPECT_EQ(sun_at(shadow, 44), 1.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 60), 1.0f) << "above the roof";
+}
+
+/// What faces the sun is looked up six tenths of a texel nearer to it.
+TEST(Shadow, ASurfaceDoesNotShadeItself) {
+  const SunShadow shadow = roof_in_the_west();
+  EXPECT_EQ(sun_at(shadow, 20, 50), 1.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.5f), 1.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.3f), 0.0f);
+}
+
+TEST(Shadow, ItsEdgeIsATentOverThreeTexels) {
+  const SunShadow shadow = roof_in_the_west();
+  EXPECT_EQ(sun_at(shadow, 30.0f), 0.0f);
+  EXPECT_NEAR(sun_at(shadow, 32.0f), 0.5f, 1e-4f);
+  EXPECT_EQ(sun_at(shadow, 34.0f), 1.0f);
+  float before = 0.0f;
+  for (int i = 0; i <= 40; ++i) {
+    const float x = 30.0f + 0.1f * float(i), sun = sun_at(shadow, x);
+    EXPECT_GE(sun, before - 1e-5f) << "at " << x;
+    EXPECT_NEAR(sun + sun_at(shadow, 64.0f - x), 1.0f, 1e-4f) << "at " << x;
+    before = sun;
+  }
+}
+
+TEST(Shadow, OutsideTheMapsTheSunShines) {
+  const SunShadow shadow = roof_in_the_west();
+  for (const float x : {-5.0f, 0.5f, 63.5f, 70.0f}) EXPECT_EQ(sun_at(shadow, x), 1.0f) << "at " << x;
+  EXPECT_EQ(sun_at(shadow, 20, -10), 1.0f) << "below the map";
+}
+
+TEST(Shadow, TheFineMapCountsWhereItReaches) {
+  SunShadow shadow = roof_in_the_west();
+  shadow.depth[shadow_near_map] = ImageF(texels, texels, 1, 1.0f);  // the roof has vanished from it
+  EXPECT_EQ(sun_at(shadow, 20), 1.0f);
+  shadow.maps.uvz_from_world[shadow_near_map][3].x = 2.0f;  // it lies elsewhere
+  EXPECT_EQ(sun_at(shadow, 20), 0.0f);
+}
+
+TEST(Shadow, WithoutMapsTheSunShines) { EXPECT_EQ(sun_visibility({}, vec3(0.0f), up, up), 1.0f); }
+
+}  // namespace
+}  // namespace parvis::shading

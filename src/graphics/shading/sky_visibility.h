@@ -1,0 +1,35 @@
+// The open share of the sky over a fixed place, baked from its heights seen from above: for each cell of air,
+// how high the surroundings stand in each direction of the compass. The C++ face of sky_visibility.glsl.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/bounds.h"
+#include "graphics/shading/glsl.h"
+#include "graphics/shading/heightfield.h"
+
+namespace parvis::shading {
+#include "graphics/shading/sky_visibility.glsl"
+
+/// The grid that `sky_visibility_coordinates` addresses, x fastest, then y, then z.
+struct SkyVisibility {
+  SkyVisibilityGrid grid{glm::vec3(0.0f), glm::vec3(1.0f), 0.0f};
+  glm::ivec3 cells{1};
+  std::vector<std::uint8_t> values{128, 128, 128, 255};  ///< 4 a cell; one open cell: nothing hides the sky
+
+  /// Trilinear, clamped to the edge, as a texture unit gives it.
+  glm::vec4 at(glm::vec3 coordinates) const;
+};
+
+/// Cells of about 4 x 4 x 3 m. An empty place is open.
+SkyVisibility make_sky_visibility(const Heightfield& heights);
+
+/// As far as heights are looked at from a cell.
+inline constexpr float sky_visibility_reach_m = 75.0f;
+
+/// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless
+/// the place's bounds are others now.
+void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed);
+
+}  // namespace parvis::shading

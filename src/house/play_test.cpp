@@ -1,0 +1,91 @@
+// What a play's time does: the same from the same script, at any frame rate. No OpenGL.
+#include <gtest/gtest.h>
+
+#include "base/test_folder.h"
+#include "house/stage.h"
+
+namespace parvis::house {
+namespace {
+
+/// A box 4.4 m long as a car, x forward.
+constexpr const char* box_car =
+    "v -2.2 -0.9 0\nv 2.2 -0.9 0\nv 2.2 0.9 0\nv -2.2 0.9 0\nv -2.2 -0.9 1.4\nv 2.2 -0.9 1.4\nv 2.2 0.9 1.4\n"
+    "v -2.2 0.9 1.4\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
+
+std::string script(int seed) {
+  return fmt::format(
+      "road(path=\"0 0, 200 0\")\nroad(path=\"100 -100, 100 100\")\n"
+      "traffic(vehicles=6, seed={}) {{ model(file=\"car.obj\", up=z, dynamic=1) }}\n"
+      "model(name=\"tram\", file=\"car.obj\", up=z, dynamic=1)\n"
+      "path(of=\"tram\", along=1) {{ key(time_s=0, position=\"-40 9 0\") key(time_s=8, position=\"40 9 0\") "
+      "}}\n"
+      "camera(name=\"still\", position=\"0 -9 2\")\ncamera(name=\"rider\", follows=\"vehicle 1\")\n",
+      seed);
+}
+
+class PlayTest : public testing::Test {
+ protected:
+  void SetUp() override { folder_.write("car.obj", box_car); }
+
+  /// The scene of that seed after `frames` of `frame_s`.
+  Play played(int seed, int frames, double frame_s) {
+    Result<Play> play = open_play(folder_.write("scene.xp", script(seed)), {});
+    EXPECT_TRUE(play) << to_string(play.errors());
+    for (int i = 0; i < frames; ++i) play->advance(frame_s);
+    return *std::move(play);
+  }
+
+  TestFolder folder_;
+};
+
+/// The farthest that an object stands from where it stands in another play.
+float farthest(const Play& a, const Play& b) {
+  float result = 0.0f;
+  EXPECT_EQ(a.scene.objects.size(), b.scene.objects.size());
+  for (std::size_t i = 0; i < a.scene.objects.size(); ++i)
+    result = std::max(result, glm::distance(glm::vec3(a.scene.objects[i].world_from_model[3]),
+                                            glm::vec3(b.scene.objects[i].world_from_model[3])));
+  return result;
+}
+
+TEST_F(PlayTest, IsTheSameWhenItIsPlayedAgain) {
+  const Play first = played(3, 96, 1.0 / 24.0), second = played(3, 96, 1.0 / 24.0);
+  ASSERT_EQ(first.scene.objects.size(), 7u);  // the tram and six vehicles
+  EXPECT_EQ(farthest(first, second), 0.0f);
+  EXPECT_GT(farthest(first, played(3, 95, 1.0 / 24.0)), 0.1f) << "a frame more is another moment";
+  EXPECT_GT(farthest(first, played(4, 96, 1.0 / 24.0)), 1.0f) << "another seed is another traffic";
+}
+
+TEST_F(PlayTest, IsTheSameAtAnyFrameRate) {
+  const Play slow = played(3, 40, 0.1);
+  for (const int frames_a_second : {24, 25, 60, 90}) {
+    const Play other = played(3, 4 * frames_a_second, 1.0 / frames_a_second);
+    // The simulation's steps are the same; a frame shows a place between two of them, in float.
+    EXPECT_LT(farthest(slow, other), 2e-3f) << frames_a_second << " frames a second";
+  }
+}
+
+TEST_F(PlayTest, MovesWhatAPathMoves) {
+  const Play play = played(3, 48, 1.0 / 24.0);
+  EXPECT_NEAR(play.scene.objects[0].world_from_model[3].y, 9.0f, 0.1f);
+  EXPECT_NEAR(play.scene.objects[0].world_from_model[3].x, -20.0f, 0.5f);  // a quarter of its way
+}
+
+TEST_F(PlayTest, CamerasStandOrFollow) {
+  const Play early = played(3, 1, 0.1), late = played(3, 40, 0.1);
+  const auto eye = [](const Play& play, const std::string& name) {
+    const Result<Camera> camera = play.camera(name);
+    EXPECT_TRUE(camera) << to_string(camera.errors());
+    return camera->position_in_world();
+  };
+  EXPECT_EQ(eye(early, "still"), glm::vec3(0, -9, 2));
+  EXPECT_EQ(eye(late, "still"), eye(early, "still"));
+  EXPECT_EQ(eye(late, ""), eye(late, "still")) << "unnamed: the first";
+  EXPECT_GT(glm::distance(eye(early, "rider"), eye(late, "rider")), 1.0f);
+  const Result<Camera> absent = late.camera("roof");
+  ASSERT_FALSE(absent);
+  EXPECT_NE(to_string(absent.errors()).find("rider"), std::string::npos) << "tells which there are";
+}
+
+}  // namespace
+}  // namespace parvis::house

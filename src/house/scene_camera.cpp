@@ -1,0 +1,40 @@
+#include "house/scene_camera.h"
+
+#include <algorithm>
+
+namespace parvis::house {
+namespace {
+
+/// From a little above the south-west, so far that all of the scene is seen.
+Camera view_of_all(const Bounds& bounds) {
+  Camera camera;
+  const float distance_m = std::max(1.3f * bounds.radius(), 2.0f);
+  const glm::vec3 eye = bounds.centre() + distance_m * glm::normalize(glm::vec3(-1.0f, -1.2f, 0.8f));
+  camera.world_from_camera = look_at(eye, bounds.centre());
+  camera.far_m = std::max(camera.far_m, 4.0f * distance_m);
+  return camera;
+}
+
+/// Around all that stands still.
+Bounds fixed_bounds(const scene::Scene& scene) {
+  Bounds sum;
+  for (const scene::Object& object : scene.objects)
+    if (!object.is_dynamic && object.is_visible)
+      sum.add(transformed(object.world_from_model, scene::bounds(*object.model)));
+  return sum;
+}
+
+}  // namespace
+
+Result<Camera> scene_camera(const scene::Scene& scene, const std::string& name) {
+  if (name.empty() && scene.cameras.empty()) return view_of_all(fixed_bounds(scene));
+  const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
+  if (!named) {
+    std::string names;
+    for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
+    return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
+  }
+  return scene.camera_now(*named);
+}
+
+}  // namespace parvis::house

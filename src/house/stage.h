@@ -1,0 +1,105 @@
+// A scene in motion: script, traffic, renderer and reflections put together. What every command that shows
+// something uses.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "graphics/gl/pass_times.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/picture_scale.h"
+#include "graphics/render/reflections.h"
+#include "house/scene_camera.h"
+#include "life/traffic/traffic.h"
+#include "scene/action/actions.h"
+#include "scene/scene_loader.h"
+
+namespace parvis::house {
+
+/// The types of nodes that scripts may use: those of all rooms.
+const scene::NodeRegistry& node_registry();
+
+/// A scene with its traffic and what its script lets happen.
+struct Play {
+  scene::Scene scene;
+  traffic::Traffic traffic;
+  action::Actions actions;
+  bool traffic_is_paused = false;  ///< vehicles stand still; all else goes on
+  double time_s = 0.0;             ///< since the scene began
+
+  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Gives warnings, which it
+  /// tells on standard error, too.
+  Errors advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
+
+  /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
+  /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
+  /// Errors name the cameras that there are.
+  Result<Camera> camera(const std::string& name) const;
+};
+/// Puts a scene's traffic on its roads; tells warnings on standard error.
+Play make_play(scene::Scene scene);
+/// The same of a script.
+Result<Play> open_play(const std::filesystem::path& script,
+                       std::span<const std::filesystem::path> data_folders);
+
+/// The method of reflection that the scene names, handed to the renderer; both outlive it.
+Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
+                                                              render::Renderer& renderer);
+
+/// Draws a play with an OpenGL context that is current.
+class Stage {
+ public:
+  static Result<std::unique_ptr<Stage>> create(Play play);
+  Stage(const Stage&) = delete;
+
+  Play& play() { return play_; }
+  const scene::Scene& scene() const { return play_.scene; }
+  render::Renderer& renderer() { return *renderer_; }
+  const render::Reflections& reflections() const { return *reflections_; }
+  /// Of the passes of a frame: shadows, reflections, picture; those who draw more add theirs.
+  gl::PassTimes& pass_times() { return pass_times_; }
+
+  /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
+  Status choose_scenario(const std::string& name) { return play_.actions.live().choose(play_.scene, name); }
+  /// Changes the method of reflection.
+  Status set_reflection(const scene::Reflection& reflection);
+
+  /// Holds the scene's budget by how long the passes of a frame took: by the levels of reflections, and by
+  /// the size at which the picture is drawn. For windows: pictures that follow a clock cannot be repeated.
+  void follow_clock();
+
+  /// See Play::camera.
+  Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
+
+  /// Draws the frame of now: shadows, reflections, picture. Takes over what scenarios and messages have
+  /// changed.
+  void draw(const Camera& camera, int width, int height);
+  /// Shows what was drawn last in a framebuffer (0: the window's).
+  void display(GLuint framebuffer) const {
+    renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
+  }
+  /// Of the picture that was drawn last, as it is shown.
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// What was drawn last, tone-mapped with the scene's exposure.
+  Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
+  /// The same by the ray tracer, with the renderer's own shadow maps; all of it or a window.
+  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_a_pixel,
+                                 const reference::PixelWindow& window = {});
+
+ private:
+  Stage(Play play, std::unique_ptr<render::Renderer> renderer);
+
+  Play play_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<render::Reflections> reflections_;
+  scene::Reflection shown_reflection_;
+  gl::PassTimes pass_times_;
+  render::PictureScale scale_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace parvis::house

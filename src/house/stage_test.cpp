@@ -1,0 +1,189 @@
+// The renderer against the ray tracer on a street that has something of everything: walls in sun and shade,
+// ground, a fence with holes, a pane that lets through, a lacquered car that reflects and darkens the road
+// below it.
+#include "house/stage.h"
+
+#include <gtest/gtest.h>
+
+#include "graphics/gl/test_context.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
+#include "scene/object_animation.h"
+#include "scene/test_scene.h"
+
+namespace parvis::house {
+namespace {
+
+using scene::add, scene::box, scene::ground, scene::matt, scene::model_of, scene::quad;
+
+class StageTest : public gl::ContextTest {};
+
+scene::Material lacquer() {
+  scene::Material paint = matt({0.4f, 0.05f, 0.04f});
+  paint.roughness = 0.5f;
+  paint.clear_coat = 1.0f;
+  paint.clear_coat_roughness = 0.03f;
+  paint.is_mirror_like = true;
+  return paint;
+}
+
+scene::Material tinted_glass() {
+  scene::Material glass = matt({0.05f, 0.07f, 0.06f});
+  glass.roughness = 0.2f;
+  glass.alpha = 0.5f;
+  glass.alpha_mode = scene::Alpha::blend;
+  glass.is_double_sided = true;
+  return glass;
+}
+
+/// Bars 0.25 m wide, 0.5 m from middle to middle.
+std::shared_ptr<scene::Model> fence() {
+  Image8 bars(64, 4, 4, 255);
+  for (int y = 0; y < bars.height; ++y)
+    for (int x = 0; x < bars.width; ++x) bars.at(x, y)[3] = x % 8 < 4 ? 255 : 0;
+  scene::Material iron = matt(glm::vec3(0.1f));
+  iron.alpha_mode = scene::Alpha::cutout;
+  iron.is_double_sided = true;
+  iron.base_colour_texture = 0;
+  auto model = std::make_shared<scene::Model>(
+      *model_of(quad({-6, 3, 0}, {-2, 3, 0}, {-2, 3, 1.2f}, {-6, 3, 1.2f}), iron));
+  model->textures.push_back({"bars", bars, true, false});
+  return model;
+}
+
+scene::Scene street() {
+  scene::Scene scene;
+  add(scene, model_of(ground(40), matt(glm::vec3(0.25f))));
+  add(scene, model_of(box({-20, 8, 0}, {-3, 16, 9}), matt({0.6f, 0.42f, 0.2f})));
+  add(scene, model_of(box({-1, 8, 0}, {14, 16, 12}), matt({0.5f, 0.48f, 0.44f})));
+  add(scene, fence());
+  add(scene, model_of(quad({3, 4, 0.2f}, {6, 4, 0.2f}, {6, 4, 2.5f}, {3, 4, 2.5f}), tinted_glass()));
+  const int car = add(scene, model_of(box({-2.1f, -0.9f, 0.25f}, {2.1f, 0.9f, 1.4f}), lacquer()), true);
+  scene.objects[std::size_t(car)].takes_reflection = true;
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.6f, -0.4f, 0.7f));
+  scene.haze_per_m = 0.002f;
+  scene.reflection = {scene::ReflectionMethod::rerendered_cube_map, 256, false};
+  return scene;
+}
+
+TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
+  constexpr int width = 480, height = 270;
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(street()));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
+  camera.vertical_fov = glm::radians(50.0f);
+  (*stage)->draw(camera, width, height);
+  const Image8 drawn = (*stage)->picture();
+  const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
+  const Image8 traced = shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure);
+
+  const Result<reference::Difference> everywhere = reference::compare(drawn, traced);
+  ASSERT_TRUE(everywhere) << to_string(everywhere.errors());
+  // Four samples a pixel against sixteen, and reflections of one map: the rest is equal.
+  EXPECT_LT(everywhere->flip, 0.02);
+  EXPECT_GT(everywhere->psnr, 43.0);
+  const Result<reference::Difference> mirrors = reference::compare(drawn, traced, truth.mirror_mask);
+  ASSERT_TRUE(mirrors) << to_string(mirrors.errors());
+  EXPECT_LT(mirrors->flip,
+            0.08);  // the map has one centre: walls at 8 m stand a little aside of where they are
+
+  // Another light is another picture: the check can fail.
+  (*stage)->play().scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.4f, -0.6f, 0.7f));
+  (*stage)->draw(camera, width, height);
+  const Result<reference::Difference> later = reference::compare((*stage)->picture(), traced);
+  ASSERT_TRUE(later) << to_string(later.errors());
+  EXPECT_GT(later->flip, 0.04);
+}
+
+/// Glass over a method with cube maps: light that leaves it is looked up in the map of its surroundings.
+TEST_F(StageTest, AGlassBallShowsItsCubeMapUpsideDown) {
+  constexpr int width = 240, height = 180;
+  scene::Scene scene = street();
+  scene::Material glass;
+  glass.ior = 1.5f;
+  glass.roughness = 0.0f;
+  glass.is_mirror_like = true;
+  const int ball = add(scene, model_of(scene::sphere(glm::vec3(0.0f), 1.0f, 48), glass), true,
+                       glm::translate(glm::mat4(1.0f), {-3.5f, -2.0f, 1.2f}));
+  scene.objects[std::size_t(ball)].takes_reflection = true;
+  Camera camera;
+  camera.world_from_camera = look_at({-4.5f, -6.5f, 1.7f}, {-3.5f, -2.0f, 1.2f});
+  const auto flip_of = [&](scene::ReflectionMethod method) {
+    scene.reflection.method = method;
+    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+    EXPECT_TRUE(stage) << to_string(stage.errors());
+    (*stage)->draw(camera, width, height);
+    const Image8 drawn = (*stage)->picture();
+    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
+    return reference::compare(drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure),
+                              truth.mirror_mask)
+        ->flip;
+  };
+  const double by_map = flip_of(scene::ReflectionMethod::rerendered_cube_map);
+  EXPECT_LT(by_map, 0.15);
+  EXPECT_GT(flip_of(scene::ReflectionMethod::none), 1.5 * by_map);
+}
+
+TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
+  constexpr int width = 160, height = 90, frames = 12;  // times come frames later
+  scene::Scene scene = street();
+  scene.reflection.budget_ms = 0.001f;
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
+  for (int frame = 0; frame < frames; ++frame) (*stage)->draw(camera, width, height);
+  EXPECT_EQ((*stage)->renderer().width(), width);
+  for (int frame = 0; frame < frames; ++frame) {
+    (*stage)->follow_clock();
+    (*stage)->draw(camera, width, height);
+  }
+  EXPECT_LT((*stage)->renderer().width(), width);
+  EXPECT_EQ((*stage)->width(), width);
+}
+
+/// A board that stands on the ground, whose only target lays its upper edge down to the east within a second.
+std::shared_ptr<scene::Model> falling_board() {
+  auto model = model_of(quad({0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {0, 0, 3}), matt({0.7f, 0.2f, 0.1f}));
+  model->materials[0].is_double_sided = true;
+  scene::Part& part = model->parts[0];
+  scene::Deformation falls;
+  falls.positions = part.mesh.positions;
+  falls.normals = part.mesh.normals;
+  falls.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {3, 0, -2.9f}, {3, 0, -2.9f}}, {}});
+  falls.weights = {0.0f};
+  falls.weights_node = 0;
+  part.deformation = std::make_shared<const scene::Deformation>(falls);
+  model->animations.push_back({"fall", {}, {{0, scene::Interpolation::linear, {0, 1}, {{0}, {1}}}}, 1.0f});
+  return model;
+}
+
+TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
+  constexpr int width = 240, height = 160;
+  scene::Scene place;
+  add(place, model_of(ground(40), matt(glm::vec3(0.25f))));
+  scene::play(place.objects[std::size_t(add(place, falling_board()))], {.animation = 0});
+  place.sun.direction_to_sun = glm::normalize(glm::vec3(-0.6f, -0.4f, 0.7f));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(std::move(place)));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({1.5f, -9, 2}, {1.5f, 0, 1.2f});
+  camera.vertical_fov = glm::radians(40.0f);
+  Image8 before;
+  for (const double step_s : {0.0, 0.6}) {
+    ASSERT_TRUE((*stage)->play().advance(step_s).empty());
+    (*stage)->draw(camera, width, height);
+    const Image8 drawn = (*stage)->picture();
+    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
+    const auto difference =
+        reference::compare(drawn, shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure));
+    ASSERT_TRUE(difference) << to_string(difference.errors());
+    EXPECT_LT(difference->flip, 0.02) << "after " << step_s << " s";  // edges alone differ
+    EXPECT_NE(drawn.pixels, before.pixels);
+    before = drawn;
+  }
+}
+
+}  // namespace
+}  // namespace parvis::house

@@ -1,0 +1,59 @@
+// The vehicles of a road graph, moved step by step.
+#pragma once
+
+#include <vector>
+
+#include "life/traffic/car_following.h"
+#include "life/traffic/vehicle.h"
+
+namespace parvis::traffic {
+
+inline constexpr float step_s = 1.0f / 60.0f;
+
+class Simulation {
+ public:
+  Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes, const Area& area);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Puts up to `wanted` vehicles on the streets of the area, at rest, with room between them, and returns
+  /// how many found room.
+  std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
+  /// Lets `step_s` pass. Allocates nothing.
+  void step();
+
+  const std::vector<DrivingLane>& lanes() const { return lanes_; }
+  const std::vector<Vehicle>& vehicles() const { return vehicles_; }
+
+ private:
+  struct Obstacle {
+    float gap_m;
+    float speed;
+  };
+
+  void note_presences();
+  void settle_rights();
+  bool wants_right(std::size_t index) const;
+  void ask_for_right(Vehicle& vehicle, std::size_t index);
+  bool has_room(const Vehicle& vehicle, std::size_t index, int lane) const;
+  Obstacle obstacle_ahead(std::size_t index) const;
+  float wanted_speed(const Vehicle& vehicle) const;
+  bool would_touch(std::size_t index, float distance_m) const;
+  void move(std::size_t index);
+
+  Driver driver_;
+  Area area_;
+  std::vector<VehicleShape> shapes_;
+  std::vector<DrivingLane> lanes_;
+  RightOfWay rights_;
+  Occupancy occupancy_;
+  std::vector<Vehicle> vehicles_;
+  std::vector<float> promised_room_m_;  ///< of each lane, to vehicles that are on their way to it
+  std::vector<std::size_t> asking_;     ///< vehicles that ask for a right in this step
+  std::vector<int> wanted_;             ///< lanes that one vehicle asks for
+  std::vector<Footprint> footprints_;   ///< of the vehicles, as far as they have moved in this step
+  std::vector<std::size_t> from_west_;  ///< vehicles in the order of x, at the step's beginning
+  float longest_reach_m_ = 0.0f;        ///< between the middles of two vehicles that touch
+};
+
+}  // namespace parvis::traffic

@@ -1,0 +1,83 @@
+#include "life/traffic/traffic.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace parvis::traffic {
+
+namespace {
+
+constexpr int warm_up_steps = 12 * 60;  // all start at rest: nobody wants to see that
+
+std::vector<VehicleShape> shapes_of(const scene::TrafficDemand& demand) {
+  std::vector<VehicleShape> shapes;
+  for (const auto& model : demand.models)
+    if (model != nullptr && !scene::bounds(*model).empty()) shapes.push_back(vehicle_shape(model));
+  return shapes;
+}
+
+}  // namespace
+
+Traffic::Traffic(const scene::Scene& scene) {
+  const scene::TrafficDemand& demand = scene.traffic;
+  std::vector<VehicleShape> shapes = shapes_of(demand);
+  const bool has_models = !shapes.empty();
+  simulation_ =
+      std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{demand.centre, demand.radius_m});
+  if (demand.vehicles <= 0) return;
+  if (scene.roads.empty()) {
+    warnings_.push_back("traffic: the scene has no roads, so no vehicle drives; add road(path=...) nodes");
+  } else if (!has_models) {
+    warnings_.push_back("traffic: no vehicle has a model, so none drives; name at least one model");
+  } else {
+    const std::size_t wanted = std::size_t(demand.vehicles);
+    const std::size_t found = simulation_->spread_vehicles(wanted, demand.seed);
+    if (found < wanted)
+      warnings_.push_back(fmt::format(
+          "traffic: room for {} of {} vehicles; more, longer or wider roads that lead on, smaller "
+          "vehicles, or a larger radius give more",
+          found, wanted));
+  }
+  for (int i = 0; i < warm_up_steps; ++i) simulation_->step();
+}
+
+void Traffic::add_vehicles(scene::Scene& scene) {
+  first_object_ = scene.objects.size();
+  for (const Vehicle& vehicle : simulation_->vehicles()) {
+    scene::Object object;
+    object.name = fmt::format("vehicle {}", scene.objects.size() - first_object_ + 1);
+    object.model = vehicle.shape->model;
+    object.pose = vehicle.shape->rest_pose;
+    object.is_dynamic = true;
+    object.takes_reflection = true;
+    scene.objects.push_back(std::move(object));
+  }
+  place(scene);
+}
+
+void Traffic::step(float seconds) {
+  assert(seconds >= 0.0f);
+  due_s_ += double(seconds);
+  // A millionth of a step makes up for what adding frame times loses.
+  for (; due_s_ >= double(step_s) * (1.0 - 1e-6); due_s_ -= double(step_s)) simulation_->step();
+  due_s_ = std::max(due_s_, 0.0);
+}
+
+void Traffic::place(scene::Scene& scene) const {
+  const std::vector<Vehicle>& vehicles = simulation_->vehicles();
+  const std::vector<DrivingLane>& lanes = simulation_->lanes();
+  assert(scene.objects.size() >= first_object_ + vehicles.size());
+  const float missing = 1.0f - std::min(float(due_s_ / double(step_s)), 1.0f);
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    const Vehicle& vehicle = vehicles[i];
+    scene::Object& object = scene.objects[first_object_ + i];
+    const float back_m = missing * vehicle.last_move_m;
+    object.is_visible = scene.traffic.is_visible;
+    object.world_from_model =
+        vehicle.shape->world_from_model(vehicle.rear_axle(back_m, lanes), vehicle.front_axle(back_m, lanes));
+    vehicle.shape->set_pose(vehicle.travelled_m - double(back_m), vehicle.steering(back_m, lanes),
+                            object.pose);
+  }
+}
+
+}  // namespace parvis::traffic

@@ -1,0 +1,42 @@
+// Cars, vans and buses on a scene's road graph: they keep to their lanes and their distance, give way at
+// crossings, slow down for bends. From a seed and at a fixed step, so that the same scene gives the same
+// traffic everywhere.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "life/traffic/simulation.h"
+#include "scene/scene.h"
+
+namespace parvis::traffic {
+
+class Traffic {
+ public:
+  /// Reads the scene's roads and traffic demand. Vehicles start spread over the streets and have driven for a
+  /// while.
+  explicit Traffic(const scene::Scene& scene);
+
+  /// Appends one object a vehicle ("vehicle 1", "vehicle 2", ...) to the scene, where it stands; once.
+  void add_vehicles(scene::Scene& scene);
+  /// Lets `seconds` >= 0 pass: as many whole steps as have come due. Allocates nothing.
+  void step(float seconds);
+  /// Moves the objects that add_vehicles appended, to between the last two steps, as the time that has passed
+  /// asks.
+  void place(scene::Scene& scene) const;
+
+  /// What the demand asked for and did not get: no roads, no models, more vehicles than room.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  std::size_t vehicle_count() const { return simulation_->vehicles().size(); }
+  const Simulation& simulation() const { return *simulation_; }
+
+ private:
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<std::string> warnings_;
+  double due_s_ = 0.0;  ///< time that has passed since the last step
+  std::size_t first_object_ = 0;
+};
+
+}  // namespace parvis::traffic

@@ -1,0 +1,282 @@
+#include "life/traffic/traffic.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "life/traffic/street_ends.h"
+#include "scene/path.h"
+#include "scene/road_builder.h"
+
+namespace parvis::traffic {
+namespace {
+
+void add_box(scene::Model& model, int node, glm::vec3 low, glm::vec3 high) {
+  scene::Part part;
+  part.node = node;
+  part.mesh.positions = {low, {high.x, low.y, low.z}, {low.x, high.y, high.z}, high};
+  part.mesh.indices = {0, 1, 2, 1, 3, 2};
+  model.parts.push_back(std::move(part));
+}
+
+/// A body with four wheels on nodes of their own, x forward.
+std::shared_ptr<const scene::Model> car_model(float length, float width) {
+  auto model = std::make_shared<scene::Model>();
+  add_box(*model, 0, {-0.5f * length, -0.5f * width, 0.0f}, {0.5f * length, 0.5f * width, 1.5f});
+  for (const float x : {-0.3f, 0.3f})
+    for (const float y : {-0.4f, 0.4f}) {
+      scene::ModelNode node;
+      node.name = x > 0.0f ? "Wheel-front" : "wheel_back";
+      node.parent = 0;
+      node.translation = {x * length, y * width, 0.3f};
+      model->nodes.push_back(node);
+      add_box(*model, int(model->nodes.size()) - 1, glm::vec3(-0.3f), glm::vec3(0.3f));
+    }
+  return model;
+}
+
+scene::Road road(std::vector<glm::vec3> path, int lanes = 1) {
+  scene::Road result;
+  result.path = std::move(path);
+  result.lanes_each_way = lanes;
+  return result;
+}
+
+scene::Scene scene_of(const std::vector<scene::Road>& roads, int vehicles) {
+  scene::Scene scene;
+  Result<scene::RoadGraph> graph = scene::build_road_graph(roads);
+  EXPECT_TRUE(graph.ok());
+  scene.roads = std::move(*graph);
+  scene.traffic = {vehicles, 7, {car_model(4.4f, 1.8f), car_model(5.4f, 2.0f)}};
+  return scene;
+}
+
+/// `count` streets each way, `spacing_m` apart; their ends stick out as dead ends.
+std::vector<scene::Road> grid(int count, float spacing_m, int lanes = 1) {
+  std::vector<scene::Road> roads;
+  const float length = spacing_m * float(count + 1);
+  for (int i = 1; i <= count; ++i) {
+    roads.push_back(road({{0, spacing_m * float(i), 0}, {length, spacing_m * float(i), 0}}, lanes));
+    roads.push_back(road({{spacing_m * float(i), 0, 0}, {spacing_m * float(i), length, 0}}, lanes));
+  }
+  return roads;
+}
+
+/// Pairs of vehicles that overlap at this moment.
+int overlaps(const Simulation& simulation) {
+  std::vector<Footprint> footprints;
+  for (const Vehicle& vehicle : simulation.vehicles())
+    footprints.push_back(vehicle.footprint(0.0f, simulation.lanes()));
+  int count = 0;
+  for (std::size_t i = 0; i < footprints.size(); ++i)
+    for (std::size_t j = i + 1; j < footprints.size(); ++j) count += overlap(footprints[i], footprints[j]);
+  return count;
+}
+
+/// Five minutes without a collision, a stranded vehicle, or one that leaves its way.
+void expect_orderly_traffic(const scene::Scene& scene) {
+  Traffic traffic(scene);
+  const Simulation& simulation = traffic.simulation();
+  ASSERT_GT(traffic.vehicle_count(), 0u);
+  std::vector<double> travelled_at_start;
+  for (const Vehicle& v : simulation.vehicles()) travelled_at_start.push_back(v.travelled_m);
+  for (int tenth = 0; tenth < 3000; ++tenth) {
+    traffic.step(0.1f);
+    ASSERT_EQ(overlaps(simulation), 0) << "after " << 0.1f * float(tenth) << " s";
+    for (const Vehicle& v : simulation.vehicles()) {
+      const glm::vec2 middle(v.point_behind(0.5f * v.length_m(), simulation.lanes()));
+      ASSERT_LT(glm::distance(v.footprint(0.0f, simulation.lanes()).centre, middle), 0.9f);
+    }
+  }
+  for (std::size_t i = 0; i < travelled_at_start.size(); ++i)
+    EXPECT_GT(simulation.vehicles()[i].travelled_m - travelled_at_start[i], 150.0) << "vehicle " << i;
+}
+
+TEST(Traffic, ThirtyVehiclesOnAGrid) { expect_orderly_traffic(scene_of(grid(3, 80.0f), 30)); }
+
+TEST(Traffic, ThreeHundredVehiclesOnAGrid) { expect_orderly_traffic(scene_of(grid(6, 100.0f), 300)); }
+
+TEST(Traffic, SeveralLanes) { expect_orderly_traffic(scene_of(grid(3, 120.0f, 2), 60)); }
+
+TEST(Traffic, CrowdedDeadEnds) { expect_orderly_traffic(scene_of({road({{0, 0, 0}, {150, 0, 0}})}, 100)); }
+
+TEST(Traffic, ObliqueCrossingsAndBends) {
+  expect_orderly_traffic(
+      scene_of({road({{-150, -20, 0}, {0, 0, 0}, {150, 60, 0}}), road({{-100, -120, 0}, {40, 120, 0}}),
+                road({{-120, 60, 0}, {-20, 70, 0}, {30, -110, 0}, {140, -60, 0}, {150, 60, 0}})},
+               25));
+}
+
+TEST(Traffic, VehiclesFollowTheGraph) {
+  const scene::Scene scene = scene_of(grid(3, 80.0f), 20);
+  Traffic traffic(scene);
+  std::vector<int> lanes;
+  for (const Vehicle& v : traffic.simulation().vehicles()) lanes.push_back(v.lane());
+  for (int i = 0; i < 60 * 60; ++i) {
+    traffic.step(step_s);
+    for (std::size_t v = 0; v < lanes.size(); ++v) {
+      const int lane = traffic.simulation().vehicles()[v].lane();
+      if (lane == lanes[v]) continue;
+      const std::vector<int>& next = traffic.simulation().lanes()[std::size_t(lanes[v])].next;
+      ASSERT_NE(std::ranges::find(next, lane), next.end());
+      lanes[v] = lane;
+    }
+  }
+}
+
+// Buses swing across the streets beside theirs: whoever waits for a whole street to be free waits long.
+TEST(Traffic, BusesHoldNobodyUp) {
+  std::vector<scene::Road> roads = grid(4, 150.0f);
+  for (scene::Road& road : roads) road.lane_width_m = 3.4f;
+  scene::Scene scene = scene_of(roads, 30);
+  scene.traffic.models.push_back(car_model(12.0f, 2.5f));
+  scene.traffic.centre = {375.0f, 375.0f}, scene.traffic.radius_m = 250.0f;
+  Traffic traffic(scene);
+  ASSERT_EQ(traffic.vehicle_count(), 30u);
+  std::vector<float> standing_s(traffic.vehicle_count(), 0.0f);
+  float longest_s = 0.0f;
+  for (int tenth = 0; tenth < 6000; ++tenth) {
+    traffic.step(0.1f);
+    for (std::size_t i = 0; i < standing_s.size(); ++i) {
+      const bool stands = traffic.simulation().vehicles()[i].speed < 0.1f;
+      standing_s[i] = stands ? standing_s[i] + 0.1f : 0.0f;
+      longest_s = std::max(longest_s, standing_s[i]);
+    }
+  }
+  EXPECT_LT(longest_s, 40.0f);
+}
+
+TEST(Traffic, StreetsAreCutBeforeTheirCrossings) {
+  scene::RoadGraph roads;
+  roads.lanes = {{{{0, 0, 0}, {100, 0, 0}}, {1}},
+                 {{{100, 0, 0}, {110, 10, 0}}, {2}, 3.0f, 10.0f, 0},
+                 {{{110, 10, 0}, {110, 30, 0}}, {}}};
+  const CutStreets cut = cut_streets(roads, 8.0f);
+  ASSERT_EQ(cut.roads.lanes.size(), 5u);
+  EXPECT_EQ(cut.parts, (std::vector{LanePart::first_metres, LanePart::turn, LanePart::street,
+                                    LanePart::street, LanePart::last_metres}));
+  float length_m = 0.0f;
+  int lane = 0;
+  for (const int next : {3, 4, 1}) {
+    length_m += scene::MeasuredPath(cut.roads.lanes[std::size_t(lane)].points).length();
+    EXPECT_EQ(cut.roads.lanes[std::size_t(lane)].next, std::vector{next});
+    lane = next;
+  }
+  EXPECT_NEAR(length_m, 100.0f, 1e-3f);
+}
+
+TEST(Traffic, IsTheSameAtAnyFrameRate) {
+  scene::Scene slow = scene_of(grid(3, 80.0f), 30), fast = slow;
+  Traffic at_ten(slow), at_sixty(fast);
+  at_ten.add_vehicles(slow), at_sixty.add_vehicles(fast);
+  for (int i = 0; i < 200; ++i) at_ten.step(0.1f);
+  for (int i = 0; i < 1200; ++i) at_sixty.step(step_s);
+  at_ten.place(slow), at_sixty.place(fast);
+  for (std::size_t i = 0; i < slow.objects.size(); ++i)
+    EXPECT_LT(glm::distance(slow.objects[i].world_from_model[3], fast.objects[i].world_from_model[3]), 0.01f);
+}
+
+TEST(Traffic, BodiesTurnSmoothly) {
+  scene::Scene scene = scene_of(grid(2, 60.0f), 12);
+  Traffic traffic(scene);
+  traffic.add_vehicles(scene);
+  const std::vector<scene::Object> start = scene.objects;
+  std::vector<scene::Object> before = start;
+  for (int i = 0; i < 60 * 60; ++i) {
+    traffic.step(step_s);
+    traffic.place(scene);
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      const glm::vec3 old_forward(before[v].world_from_model[0]),
+          forward(scene.objects[v].world_from_model[0]);
+      ASSERT_GT(glm::dot(old_forward, forward), std::cos(glm::radians(3.0f)));
+    }
+    before = scene.objects;
+  }
+}
+
+TEST(Traffic, WheelsRollAndSteer) {
+  const VehicleShape shape = vehicle_shape(car_model(4.0f, 1.8f));
+  ASSERT_EQ(shape.wheels.size(), 4u);
+  EXPECT_NEAR(shape.wheelbase_m(), 2.4f, 1e-4f);
+  std::vector<glm::mat4> pose = shape.rest_pose;
+  const double quarter_turn_m = 0.25 * 2.0 * 3.14159265 * 0.3;
+  shape.set_pose(quarter_turn_m, 0.3f, pose);
+  EXPECT_EQ(pose[0], shape.rest_pose[0]);
+  for (const Wheel& wheel : shape.wheels) {
+    const glm::mat4& model_from_wheel = pose[std::size_t(wheel.node)];
+    EXPECT_LT(glm::distance(glm::vec3(model_from_wheel[3]), wheel.centre_in_model), 1e-4f);
+    const glm::vec3 top(model_from_wheel * glm::vec4(0, 0, 1, 0));  // what was up now points ahead
+    EXPECT_NEAR(top.x, wheel.is_front ? std::cos(0.3f) : 1.0f, 1e-4f);
+    EXPECT_NEAR(top.y, wheel.is_front ? std::sin(0.3f) : 0.0f, 1e-4f);
+  }
+}
+
+TEST(Traffic, PitchesWithTheSlope) {
+  scene::Scene scene = scene_of({road({{0, 0, 0}, {200, 0, 20}})}, 4);
+  Traffic traffic(scene);
+  traffic.add_vehicles(scene);
+  for (const scene::Object& object : scene.objects) {
+    const glm::vec3 forward(object.world_from_model[0]);
+    if (std::abs(forward.x) > 0.98f) {
+      EXPECT_NEAR(forward.z / forward.x, 0.1f, 0.01f);
+    }
+    EXPECT_TRUE(object.is_dynamic && object.takes_reflection);
+  }
+}
+
+TEST(Traffic, WithoutRoadsNobodyDrives) {
+  scene::Scene scene = scene_of({}, 10);
+  Traffic traffic(scene);
+  traffic.add_vehicles(scene);
+  traffic.step(1.0f);
+  EXPECT_TRUE(scene.objects.empty());
+  ASSERT_EQ(traffic.warnings().size(), 1u);
+  EXPECT_NE(traffic.warnings()[0].find("no roads"), std::string::npos);
+}
+
+TEST(Traffic, WithoutModelsNobodyDrives) {
+  scene::Scene scene = scene_of(grid(2, 60.0f), 10);
+  scene.traffic.models.clear();
+  const Traffic traffic(scene);
+  EXPECT_EQ(traffic.vehicle_count(), 0u);
+  EXPECT_EQ(traffic.warnings().size(), 1u);
+}
+
+TEST(Traffic, OneWayRoadsThatEndAreNotUsed) {
+  scene::Road lone = road({{0, 0, 0}, {100, 0, 0}});
+  lone.is_one_way = true;
+  const Traffic traffic(scene_of({lone}, 5));
+  EXPECT_EQ(traffic.vehicle_count(), 0u);
+  EXPECT_EQ(traffic.warnings().size(), 1u);
+}
+
+TEST(Traffic, VehiclesKeepToTheirPartOfTheTown) {
+  constexpr float spacing_m = 100.0f, radius_m = 150.0f;
+  const glm::vec2 centre(200.0f, 300.0f);
+  scene::Scene scene = scene_of(grid(8, spacing_m), 25);
+  const auto farthest_m = [&] {
+    Traffic traffic(scene);
+    float farthest = 0.0f;
+    for (int second = 0; second < 300; ++second) {
+      traffic.step(1.0f);
+      for (const Vehicle& v : traffic.simulation().vehicles())
+        farthest = std::max(
+            farthest, glm::distance(glm::vec2(v.front_axle(0.0f, traffic.simulation().lanes())), centre));
+    }
+    EXPECT_EQ(traffic.vehicle_count(), 25u);
+    return farthest;
+  };
+  EXPECT_GT(farthest_m(), 400.0f) << "without an area they go everywhere";
+  scene.traffic.centre = centre, scene.traffic.radius_m = radius_m;
+  EXPECT_LT(farthest_m(), radius_m + 5.0f) << "but for the width of a crossing at its rim";
+}
+
+TEST(Traffic, MoreVehiclesThanRoomAreTurnedAway) {
+  const Traffic traffic(scene_of(grid(2, 60.0f), 10000));
+  EXPECT_LT(traffic.vehicle_count(), 200u);
+  EXPECT_EQ(traffic.warnings().size(), 1u);
+}
+
+}  // namespace
+}  // namespace parvis::traffic

@@ -1,0 +1,17 @@
+// All the houses of the city, to the triangle.
+#pragma once
+
+#include <cstdint>
+
+#include "places/paper_city/city_mesh.h"
+#include "places/paper_city/street_plan.h"
+
+namespace parvis::city {
+
+inline constexpr std::size_t building_triangles = 25600;  // the paper, section 7
+
+/// Adds houses on every plot, then ornaments, those near the centre first, until exactly `building_triangles`
+/// are spent.
+void add_buildings(CityMesh& mesh, const StreetPlan& plan, std::uint64_t seed);
+
+}  // namespace parvis::city

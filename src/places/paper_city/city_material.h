@@ -1,0 +1,41 @@
+// The materials of the generated city: one table of textures and surfaces that all its parts share.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "places/paper_city/facade_texture.h"
+#include "scene/model.h"
+
+namespace parvis::city {
+
+inline constexpr int wall_tints = 2;  ///< paints of each facade style
+
+enum class CityMaterial : std::uint8_t {
+  first_wall = 0,  ///< style * wall_tints + tint
+  ground_floor = facade_style_count * wall_tints,
+  trim,
+  cloth,  ///< the trim sheet seen from both sides: awnings, signs
+  roof_tile,
+  roof_slate,
+  roof_zinc,
+  blank_wall,
+  railing,
+  road_wide,
+  road_narrow,
+  zebra_wide,
+  zebra_narrow,
+  asphalt,
+  paving,
+  lawn,
+  gravel,
+  courtyard,
+  count
+};
+
+CityMaterial wall_material(int style, int tint);
+
+/// Paints all textures, in parallel, and fills `model`'s tables: material i is CityMaterial(i).
+void add_city_materials(scene::Model& model, std::uint64_t seed);
+
+}  // namespace parvis::city

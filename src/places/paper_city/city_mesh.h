@@ -1,0 +1,44 @@
+// Gathers the triangles of the city by block and material, so that what is not seen can be left out in one
+// step.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "places/paper_city/city_material.h"
+#include "scene/model.h"
+
+namespace parvis::city {
+
+/// A corner of a face.
+struct Corner {
+  glm::vec3 position{0.0f};
+  glm::vec2 uv{0.0f};
+};
+
+class CityMesh {
+ public:
+  /// What follows belongs to the part of the city of this name.
+  void begin_group(std::string name) { group_ = std::move(name); }
+
+  /// Counter-clockwise seen from outside; one flat normal.
+  void triangle(CityMaterial material, const Corner& a, const Corner& b, const Corner& c);
+  void quad(CityMaterial material, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
+  /// A quad whose corner `a` has texture coordinates `foot`, and `c` across has `top`.
+  void quad(CityMaterial material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec2 foot,
+            glm::vec2 top);
+
+  std::size_t triangle_count() const { return triangles_; }
+  /// Moves everything into parts of `model`, named "group material", on node 0.
+  void move_into(scene::Model& model);
+
+ private:
+  void face(CityMaterial material, std::initializer_list<Corner> corners);
+
+  std::string group_;
+  std::map<std::pair<std::string, CityMaterial>, Mesh> meshes_;
+  std::size_t triangles_ = 0;
+};
+
+}  // namespace parvis::city

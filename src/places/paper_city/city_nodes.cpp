@@ -1,0 +1,107 @@
+// facades, roofs, ground, greenery: for city models that are bare volumes.
+#include "places/paper_city/city_nodes.h"
+
+#include "places/paper_city/facades.h"
+#include "places/paper_city/ground_cover.h"
+#include "places/paper_city/roofs.h"
+#include "scene/scene_builder.h"
+
+namespace parvis::city {
+namespace {
+
+scene::AttributeSchema target_attribute() {
+  return {
+      .name = "target",
+      .help = "name of objects, nodes or materials of the file; * and ? stand for any text and any character",
+      .fallback = "*"};
+}
+
+std::string example_of(const std::string& node) {
+  return "model(file=\"quarter.city.json\") {\n  " + node + "\n}";
+}
+
+/// Nothing of the file answered to `target`.
+void warn(scene::SceneBuilder& builder, const scene::Node& node, const char* wanted) {
+  builder.warn(error_at(node.where_of("target"), "{}: nothing that matches \"{}\" has {}", node.schema->type,
+                        node.text("target"), wanted));
+}
+
+scene::NodeSchema facades_schema() {
+  return {
+      .type = "facades",
+      .help =
+          "Brick walls with windows for a city model whose buildings are bare volumes. Materials that later "
+          "nodes can change: \"facade\" and \"brick wall\".",
+      .attributes = {target_attribute()},
+      .stands_in = {"model"},
+      .example = example_of("facades(target=\"WallSurface\")")};
+}
+
+void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
+  if (add_facades(model, node.text("target")) == 0) warn(builder, node, "walls");
+}
+
+scene::NodeSchema roofs_schema() {
+  return {.type = "roofs",
+          .help =
+              "Tiles on the sloping roofs of a city model, gravel on the flat ones. Materials that later "
+              "nodes can "
+              "change: \"roof tiles\" and \"flat roof\".",
+          .attributes = {target_attribute()},
+          .stands_in = {"model"},
+          .example = example_of("roofs(target=\"RoofSurface\")")};
+}
+
+void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
+  if (add_roofs(model, node.text("target")) == 0) warn(builder, node, "roofs");
+}
+
+scene::NodeSchema ground_schema() {
+  return {.type = "ground",
+          .help = "What lies on the ground of a city model. The material has the name of the surface.",
+          .attributes = {target_attribute(),
+                         {.name = "surface",
+                          .type = scene::AttributeType::choice,
+                          .help = "what to lay",
+                          .fallback = "paving",
+                          .choices = ground_covers()}},
+          .stands_in = {"model"},
+          .example = example_of("ground(target=\"TINRelief\", surface=\"gravel\")")};
+}
+
+void build_ground(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
+  if (add_ground_cover(model, node.text("target"), node.text("surface")) == 0) warn(builder, node, "ground");
+}
+
+scene::NodeSchema greenery_schema() {
+  return {.type = "greenery",
+          .help =
+              "Lawns and trees in place of green that was measured from the air, which stands in a model as "
+              "ground "
+              "pulled up to the tops of trees.",
+          .attributes = {target_attribute(),
+                         {.name = "seed",
+                          .type = scene::AttributeType::integer,
+                          .help = "of the trees' shapes",
+                          .fallback = "1",
+                          .minimum = 0,
+                          .maximum = 1e9}},
+          .stands_in = {"model"},
+          .example = example_of("greenery(target=\"PlantCover\")")};
+}
+
+void build_greenery(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
+  if (add_greenery(model, node.text("target"), std::uint64_t(node.integer("seed"))) == 0)
+    warn(builder, node, "trees");
+}
+
+}  // namespace
+
+void add_city_nodes(scene::NodeRegistry& registry) {
+  registry.add_change(facades_schema(), build_facades);
+  registry.add_change(roofs_schema(), build_roofs);
+  registry.add_change(ground_schema(), build_ground);
+  registry.add_change(greenery_schema(), build_greenery);
+}
+
+}  // namespace parvis::city

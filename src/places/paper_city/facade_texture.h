@@ -1,0 +1,33 @@
+// The upper floors of houses: a sheet of four bays by three floors in each of eight styles, repeated over a
+// facade.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "places/paper_city/wall_texture.h"
+#include "places/paper_city/window_texture.h"
+
+namespace parvis::city {
+
+struct FacadeStyle {
+  std::string name;
+  Wall wall = Wall::plaster;
+  glm::vec3 wall_colour{0.5f};  ///< linear
+  WindowStyle window;
+  bool has_string_course = true;
+  bool has_quoined_piers = false;  ///< strips of stone between every two bays
+};
+
+inline constexpr int facade_style_count = 8;
+inline constexpr int facade_bays = 4, facade_floors = 3;  // on one sheet
+inline constexpr float facade_bay_m = 3.2f,
+                       facade_floor_m = 3.4f;  // as painted; buildings stretch them a little
+
+/// The styles, made of the palette of a town of the south.
+const std::array<FacadeStyle, facade_style_count>& facade_styles();
+
+SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed);
+
+}  // namespace parvis::city

@@ -1,0 +1,57 @@
+#include "places/paper_city/kitchen.h"
+
+#include "base/files.h"
+#include "base/image_io.h"
+#include "places/paper_city/kitchen_glass.h"
+#include "places/paper_city/kitchen_light.h"
+#include "places/paper_city/kitchen_materials.h"
+#include "places/paper_city/kitchen_mirrors.h"
+#include "places/paper_city/kitchen_room.h"
+#include "places/paper_city/kitchen_script.h"
+#include "places/paper_city/kitchen_things.h"
+#include "places/paper_city/writing_jobs.h"
+#include "scene/gltf_writer.h"
+
+namespace parvis::city {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int light_width_px = 512;
+
+}  // namespace
+
+scene::Model make_kitchen(std::uint64_t seed) {
+  scene::Model model;
+  model.name = "kitchen";
+  add_kitchen_materials(model, seed);
+  add_room(model);
+  add_fruit(model);
+  add_crockery(model);
+  for (const KitchenMirror& mirror : kitchen_mirrors())
+    if (mirror.shade_m > 0.0f) add_shade(model, mirror.foot, mirror.shade_m);
+  return model;
+}
+
+Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
+  std::vector<WritingJob> jobs;
+  jobs.push_back(
+      [=](const fs::path& to) { return scene::write_gltf(to / "kitchen.glb", make_kitchen(seed)); });
+  jobs.push_back(
+      [](const fs::path& to) { return write_image(to / "light.hdr", room_light_picture(light_width_px)); });
+  std::vector<KitchenMirror> mirrors = kitchen_mirrors();
+  jobs.push_back([script = kitchen_script(mirrors)](const fs::path& to) {
+    return write_file(to / "kitchen.xp", script);
+  });
+  std::vector<KitchenMirror> glass = kitchen_glass();
+  jobs.push_back([script = kitchen_glass_script(mirrors, glass)](const fs::path& to) {
+    return write_file(to / "glass.xp", script);
+  });
+  mirrors.insert(mirrors.end(), std::make_move_iterator(glass.begin()), std::make_move_iterator(glass.end()));
+  for (KitchenMirror& mirror : mirrors)
+    jobs.push_back([model = std::move(mirror.model)](const fs::path& to) {
+      return scene::write_gltf(to / (model.name + ".glb"), model);
+    });
+  return write_together(jobs, folder);
+}
+
+}  // namespace parvis::city

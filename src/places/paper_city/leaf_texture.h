@@ -1,0 +1,16 @@
+// Sprays of leaves and bark.
+#pragma once
+
+#include <cstdint>
+
+#include "places/paper_city/surface_canvas.h"
+
+namespace parvis::city {
+
+/// A twig with its leaves, cut out by alpha. The twig grows from the middle of the sheet's foot.
+SurfacePictures leaf_pictures(glm::vec3 colour, std::uint32_t seed);
+
+inline constexpr float bark_sheet_m = 1.0f;
+SurfacePictures bark_pictures(glm::vec3 colour, std::uint32_t seed);
+
+}  // namespace parvis::city

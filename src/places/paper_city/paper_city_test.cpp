@@ -1,0 +1,93 @@
+#include "places/paper_city/paper_city.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "base/files.h"
+#include "places/paper_city/facade_texture.h"
+#include "places/paper_city/paper_script.h"
+#include "places/paper_city/sky_picture.h"
+#include "places/paper_city/street_furniture.h"
+#include "places/paper_city/tree.h"
+#include "scene/scene_loader.h"
+
+namespace parvis::city {
+namespace {
+namespace fs = std::filesystem;
+
+/// An empty folder of this test's own.
+fs::path fresh_folder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("parvis_city_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+TEST(PaperCity, IsASceneOfThePapersFigures) {
+  const fs::path folder = fresh_folder("whole");
+  const Status status = write_paper_city(folder, 1);
+  ASSERT_TRUE(status) << to_string(status.errors());
+  EXPECT_FALSE(fs::exists(folder / ".unfinished"));
+  const auto loaded = scene::load_scene(folder / "paper.xp", scene::core_nodes());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const scene::Scene& scene = loaded->scene;
+  EXPECT_EQ(scene.static_triangle_count(), city_triangles);
+  EXPECT_EQ(scene.objects.size(), 9u);  // the city and eight trees
+  EXPECT_EQ(scene.traffic.vehicles, 30);
+  EXPECT_GE(scene.traffic.models.size(), 4u);
+  EXPECT_FALSE(scene.roads.empty());
+  EXPECT_NE(scene.find_camera("street"), nullptr);
+  EXPECT_NE(scene.find_camera("balcony"), nullptr);
+  EXPECT_NEAR(glm::dot(scene.sun.direction_to_sun, to_sun()), 1.0f, 1e-5f);
+  const std::string validator = PARVIS_SOURCE_DIR "/script/validate_gltf";  // says so where it is skipped
+  EXPECT_EQ(std::system((validator + " '" + folder.string() + "'/*.glb").c_str()), 0);
+  fs::remove_all(folder);
+}
+
+TEST(PaperCity, LeavesNothingBehindWhereItCannotWrite) {
+  const fs::path folder = fresh_folder("blocked");
+  ASSERT_TRUE(write_file(folder / "a_file", "in the way"));
+  const Status status = write_paper_city(folder / "a_file" / "city", 1);
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find("a_file"), std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  fs::remove_all(folder);
+}
+
+TEST(PaperCity, IsTheSameForTheSameSeed) {
+  const auto colour = [](std::uint32_t seed) {
+    return facade_pictures(facade_styles()[0], seed).colour.pixels;
+  };
+  EXPECT_EQ(colour(4), colour(4));
+  EXPECT_NE(colour(4), colour(5));
+  EXPECT_EQ(sky_picture(64, to_sun(), 4).pixels, sky_picture(64, to_sun(), 4).pixels);
+  EXPECT_EQ(make_tree(0, 4).parts[1].mesh.positions, make_tree(0, 4).parts[1].mesh.positions);
+  EXPECT_EQ(paper_script({}, 4), paper_script({}, 4));
+}
+
+TEST(Trees, HaveThePapersCountForAnySeed) {
+  EXPECT_EQ(tree_places().size(), 8u);
+  for (std::uint64_t seed = 0; seed < 3; ++seed)
+    for (int species = 0; species < tree_species; ++species) {
+      const scene::Model tree = make_tree(species, seed);
+      EXPECT_EQ(tree.triangle_count(), tree_triangles);
+      for (const scene::Part& part : tree.parts) EXPECT_TRUE(check(part.mesh, part.object));
+      EXPECT_GT(bounds(tree).max.z, 7.0f);
+      EXPECT_NEAR(bounds(tree).min.z, 0.0f, 0.2f);
+    }
+}
+
+TEST(SkyPicture, IsFiniteBrightAboveAndWithoutSeam) {
+  const ImageF sky = sky_picture(256, to_sun(), 2);
+  ASSERT_EQ(sky.height, 128);
+  for (const float value : sky.pixels) {
+    EXPECT_TRUE(std::isfinite(value));
+    EXPECT_GT(value, 0.0f);
+    EXPECT_LT(value, 20.0f);
+  }
+  for (int y = 0; y < 50; ++y)  // the last and the first column are neighbours
+    EXPECT_NEAR(sky.at(0, y)[2], sky.at(255, y)[2], 0.35f) << "row " << y;
+}
+
+}  // namespace
+}  // namespace parvis::city

@@ -1,0 +1,21 @@
+// The ground floors of houses: one sheet with two strips, shop fronts below and houses' doors and barred
+// windows above.
+#pragma once
+
+#include <cstdint>
+
+#include "places/paper_city/surface_canvas.h"
+
+namespace parvis::city {
+
+inline constexpr float ground_floor_m = 4.5f;  // height of a strip as painted
+inline constexpr float shop_module_m = 5.12f;  // width of a shop, and of a door with its windows
+inline constexpr int shop_modules = 5;         // in a strip
+inline constexpr int shop_strips = 3, house_strip = shop_strips, ground_floor_strips = 4;
+
+/// Texture coordinates v of a strip: (foot, top).
+glm::vec2 ground_floor_strip(int strip);
+
+SurfacePictures ground_floor_pictures(std::uint32_t seed);
+
+}  // namespace parvis::city

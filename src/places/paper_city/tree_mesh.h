@@ -1,0 +1,24 @@
+// The meshes of a tree: tubes round its branches, and sprays of leaves.
+#pragma once
+
+#include <cstddef>
+
+#include "base/mesh.h"
+#include "places/paper_city/tree_skeleton.h"
+
+namespace parvis::city {
+
+inline constexpr int leaf_bearing_order = 2;  ///< branches of this order and later ones carry sprays
+
+/// A tube round a branch with smooth normals; the trunk flares at its foot.
+void add_tube(Mesh& mesh, const Branch& branch, int sides);
+
+struct Sprays {
+  std::size_t count;
+  float size_m;  ///< mean
+};
+
+/// Sprays spread over the thin branches by their length; they face away from the middle of the crown.
+Mesh foliage(const std::vector<Branch>& tree, const Sprays& sprays, glm::vec3 crown_middle, Random& random);
+
+}  // namespace parvis::city

@@ -1,0 +1,36 @@
+// A window as it stands in a wall: reveal, frame, panes with a little of the room behind, sill, surround,
+// shutters, railing. No two are alike: curtains, blinds and shutters come from the random numbers.
+#pragma once
+
+#include <cstdint>
+
+#include "base/random.h"
+#include "places/paper_city/surface_canvas.h"
+
+namespace parvis::city {
+
+enum class Hood : std::uint8_t { none, flat, keystone };
+
+struct WindowStyle {
+  float width_m = 1.1f, height_m = 1.9f;
+  float foot_m = 0.9f;  ///< of the opening, above the floor
+  int panes_across = 2, panes_up = 3;
+  Hood hood = Hood::none;
+  float surround_m = 0.14f;  ///< 0: no surround
+  bool has_shutters = false, has_railing = false;
+  glm::vec3 trim{0.6f}, frame{0.65f}, shutter{0.2f};  ///< linear
+};
+
+Texel matt(glm::vec3 colour, float height_m, float roughness = 0.8f);
+
+/// Glass before a room: dark, smooth, with curtains or a blind in some windows.
+void paint_glass(SurfaceCanvas& canvas, const Rect& rect, Random& random);
+
+/// Panes in a frame, set back by `depth_m`, with the shade of the reveal.
+void paint_casement(SurfaceCanvas& canvas, const Rect& opening, int panes_across, int panes_up,
+                    glm::vec3 frame, float depth_m, Random& random);
+
+/// The window whose bay has its foot's middle at `(x_m, floor_m)`.
+void paint_window(SurfaceCanvas& canvas, const WindowStyle& style, float x_m, float floor_m, Random& random);
+
+}  // namespace parvis::city

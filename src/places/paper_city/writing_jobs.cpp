@@ -1,0 +1,55 @@
+#include "places/paper_city/writing_jobs.h"
+
+#include "base/parallel.h"
+
+namespace parvis::city {
+namespace {
+namespace fs = std::filesystem;
+
+Status run_all(const std::vector<WritingJob>& jobs, const fs::path& folder) {
+  std::vector<Errors> failures(jobs.size());
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    const Status status = jobs[i](folder);
+    if (!status) failures[i] = status.errors();
+  });
+  Errors all;
+  for (const Errors& some : failures) all.insert(all.end(), some.begin(), some.end());
+  if (!all.empty()) return all;
+  return Done{};
+}
+
+Status make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code || !fs::is_directory(folder, code))
+    return error("{}: the folder cannot be made ({}); choose one that can be written", folder.string(),
+                 code.message());
+  return Done{};
+}
+
+/// Moves every file of `from` into `to`, over files of the same name.
+Status move_files(const fs::path& from, const fs::path& to) {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(from, code)) {
+    fs::rename(entry.path(), to / entry.path().filename(), code);
+    if (code)
+      return error("{}: cannot be written ({})", (to / entry.path().filename()).string(), code.message());
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Status write_together(const std::vector<WritingJob>& jobs, const fs::path& folder) {
+  std::error_code code;
+  const bool is_new = !fs::exists(folder, code);
+  const fs::path unfinished = folder / ".unfinished";
+  Status status = make_folder(unfinished);
+  if (status) status = run_all(jobs, unfinished);
+  if (status) status = move_files(unfinished, folder);
+  fs::remove_all(unfinished, code);
+  if (!status && is_new) fs::remove(folder, code);
+  return status;
+}
+
+}  // namespace parvis::city

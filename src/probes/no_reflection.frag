@@ -1,9 +1,0 @@
-// Mirror-like surfaces without reflections: they shine with the mean light of the sky, as in the paper's "no reflection".
-#include "render/sky_lookup.glsl"
-#include "render/surface_body.glsl"
-
-vec3 mirrored_direction;
-
-void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
-
-vec3 reflected_radiance(float roughness, int layer) { return sky_radiance(mirrored_direction, 1.0f); }

@@ -1,9 +1,0 @@
-// Holes of leaves and railings in pictures without colour.
-#include "render/material.glsl"
-
-in vec2 uv;
-
-void discard_holes() {
-  if (material_texture_v.w < 0.5f) return;
-  if (texture(base_colour_texture, texture_coordinates(uv)).a * material_base_colour.a < 0.5f) discard;
-}

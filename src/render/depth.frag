@@ -1,3 +1,0 @@
-#include "render/cutout.glsl"
-
-void main() { discard_holes(); }

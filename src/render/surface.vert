@@ -1,6 +1,0 @@
-#include "render/surface_vertex.glsl"
-
-void main() {
-  surface_vertex();
-  gl_Position = clip_from_world * vec4(position, 1.0f);
-}

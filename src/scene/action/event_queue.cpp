@@ -1,0 +1,51 @@
+#include "scene/action/event_queue.h"
+
+namespace parvis::action {
+namespace {
+
+std::string name_of(const scene::Node& node) {
+  const bool is_named = node.schema->find("name") && node.gives("name");
+  return is_named ? node.text("name") : "%" + node.schema->type;
+}
+
+}  // namespace
+
+void EventQueue::warn(const std::string& kind, Error warning) {
+  if (told_.insert(kind).second) warnings_.push_back(std::move(warning));
+}
+
+void EventQueue::post(long now, long step, Delivery delivery) {
+  const std::string& text = delivery.message.text;
+  if (step > now) delivery.chain = 0;
+  if (delivery.chain > longest_chain) {
+    const Error circle = error_at(delivery.where,
+                                  "the message \"{}\" to \"{}\" causes itself without end: the circle was "
+                                  "cut; give an event in it a delay",
+                                  text, name_of(*delivery.target));
+    return warn(to_string(circle), circle);
+  }
+  if (waiting_.size() >= most_waiting_messages)
+    return warn("loss", error_at(delivery.where, "more than {} messages wait: \"{}\" to \"{}\" was lost",
+                                 most_waiting_messages, text, name_of(*delivery.target)));
+  waiting_.emplace(std::pair(step, posted_++), std::move(delivery));
+}
+
+bool EventQueue::next(long now, Delivery& delivery) {
+  if (now != counted_step_) counted_step_ = now, delivered_ = 0;
+  if (waiting_.empty() || waiting_.begin()->first.first > now) return false;
+  if (delivered_ == most_messages_a_step) {
+    const Delivery& first = waiting_.begin()->second;
+    warn("storm",
+         error_at(
+             first.where,
+             "more than {} messages in one step, from \"{}\" to \"{}\" on: the others come in the next steps",
+             most_messages_a_step, first.message.text, name_of(*first.target)));
+    return false;
+  }
+  ++delivered_;
+  delivery = std::move(waiting_.begin()->second);
+  waiting_.erase(waiting_.begin());
+  return true;
+}
+
+}  // namespace parvis::action

@@ -1,8 +1,0 @@
-// C++ face of octahedral.glsl.
-#pragma once
-
-#include "shading/glsl.h"
-
-namespace parvis::shading {
-#include "shading/octahedral.glsl"
-}  // namespace parvis::shading

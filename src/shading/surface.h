@@ -1,8 +1,0 @@
-// C++ face of surface.glsl.
-#pragma once
-
-#include "shading/glsl.h"
-
-namespace parvis::shading {
-#include "shading/surface.glsl"
-}  // namespace parvis::shading
