@@ -180,7 +180,8 @@ std::optional<glm::dvec3> direction_of(const Lens& lens, glm::dvec2 pixel) {
     if (!found) return std::nullopt;
     flat = *found;
   }
-  if (!std::isfinite(flat.x) || !std::isfinite(flat.y)) return std::nullopt;
+  constexpr double edge_on = 1e8;  // focal lengths: further out nothing is left of the direction's precision
+  if (!(std::abs(flat.x) < edge_on) || !(std::abs(flat.y) < edge_on)) return std::nullopt;
   if (!flattens_by_angle(lens.model)) return glm::normalize(glm::dvec3(flat.x, -flat.y, -1.0));
   const double angle = glm::length(flat);
   if (angle > glm::radians(180.0)) return std::nullopt;
