@@ -13,6 +13,7 @@ find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
+find_package(ZLIB REQUIRED)
 
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
