@@ -1,0 +1,120 @@
+#include "capture/trees/synthetic_capture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/colour.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/random.h"
+#include "reference/camera_ray.h"
+#include "reference/path_tracer.h"
+#include "shading/sky.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr float fov = 0.52f;                             // radians: a lens of about 65 mm
+constexpr float lowest_deg = 2.0f, highest_deg = 26.0f;  // of the cameras, above the tree's middle
+constexpr float golden_share = 0.61803399f;
+constexpr float exposure = 0.9f;  // a leaf in the sun is then about 0.7 in sRGB
+
+/// From where the box fills the picture's height or width, from the highest camera.
+float distance_m(const Bounds& tree) {
+  const glm::vec3 half = 0.5f * tree.size();
+  const float across = std::max(half.x, half.y), above = glm::radians(highest_deg);
+  return std::max(half.z * std::cos(above) + across * std::sin(above), across) / std::tan(0.5f * fov) +
+         0.5f * across;
+}
+
+Camera camera_at(const Bounds& tree, float azimuth, float elevation) {
+  Camera camera;
+  const glm::vec3 out(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+                      std::sin(elevation));
+  camera.world_from_camera = look_at(tree.centre() + distance_m(tree) * out, tree.centre());
+  camera.vertical_fov = fov;
+  return camera;
+}
+
+}  // namespace
+
+scene::Scene capture_scene(const scene::Model& model, const CaptureLight& light) {
+  scene::Scene scene;
+  scene::Object tree;
+  tree.name = "tree", tree.model = std::make_shared<scene::Model>(model);
+  scene.objects.push_back(std::move(tree));
+  const float azimuth = glm::radians(light.sun_azimuth_deg), height = glm::radians(light.sun_height_deg);
+  scene.sun.direction_to_sun = {std::sin(azimuth) * std::cos(height), std::cos(azimuth) * std::cos(height),
+                                std::sin(height)};
+  return scene;
+}
+
+std::vector<Camera> capture_cameras(const Bounds& tree, int count) {
+  std::vector<Camera> cameras;
+  for (int i = 0; i < count; ++i) {
+    const float azimuth = 6.2831853f * float(i) / float(count);
+    const float share = float(i) * golden_share - std::floor(float(i) * golden_share);
+    cameras.push_back(camera_at(tree, azimuth, glm::radians(glm::mix(lowest_deg, highest_deg, share))));
+  }
+  return cameras;
+}
+
+std::vector<Camera> held_out_cameras(const Bounds& tree, int count, std::uint64_t seed) {
+  Random random(seed, 400);
+  std::vector<Camera> cameras;
+  for (int i = 0; i < count; ++i) {
+    const float azimuth = random.uniform(0.0f, 6.2831853f);
+    cameras.push_back(camera_at(tree, azimuth, glm::radians(random.uniform(lowest_deg, highest_deg))));
+  }
+  return cameras;
+}
+
+TreeView photograph_tree(const scene::Scene& scene, const Camera& camera, std::string name, float at_exposure,
+                         const CaptureOptions& options) {
+  const reference::RayScene rays(scene);
+  const shading::SkyLight sky =
+      shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
+  reference::PathOptions paths;
+  paths.bounces = options.bounces;
+  const reference::PathTracer tracer(rays, scene, sky, paths);
+  TreeView view{std::move(name), pinhole_of(camera, options.width, options.height),
+                Image8(options.width, options.height, 4)};
+  const float spread = 2.0f * std::tan(0.5f * camera.vertical_fov) / float(options.height) /
+                       std::sqrt(float(options.samples_per_pixel));
+  parallel_for(std::size_t(options.height), [&](std::size_t row) {
+    for (int x = 0; x < options.width; ++x) {
+      const auto pixel = std::uint32_t(int(row) * options.width + x);
+      glm::vec3 sum(0.0f);
+      int met = 0;
+      for (int i = 0; i < options.samples_per_pixel; ++i) {
+        reference::SampleSequence numbers(options.seed, pixel, std::uint32_t(i));
+        const glm::vec2 place = glm::vec2(float(x), float(row)) + numbers.next_2d();
+        const std::uint64_t chance = (options.seed << 40) ^ (std::uint64_t(pixel) << 16) ^ std::uint64_t(i);
+        const reference::PathTracer::Sample sample = tracer.sample(
+            reference::camera_ray(camera, options.width, options.height, place), spread, numbers, chance);
+        if (sample.meets_scene) sum += sample.radiance, ++met;
+      }
+      const glm::vec3 colour =
+          srgb_from_linear(glm::min(sum * (at_exposure / float(std::max(met, 1))), 1.0f));
+      std::uint8_t* out = view.picture.at(x, int(row));
+      for (int c = 0; c < 3; ++c) out[c] = std::uint8_t(std::lround(255.0f * colour[c]));
+      out[3] = std::uint8_t(std::lround(255.0f * float(met) / float(options.samples_per_pixel)));
+    }
+  });
+  return view;
+}
+
+std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
+                                      const std::string& name, const CaptureOptions& options) {
+  Progress progress("photographing " + name, cameras.size());
+  std::vector<TreeView> views;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    CaptureOptions own = options;
+    own.seed = options.seed + 7919 * i;
+    views.push_back(photograph_tree(scene, cameras[i], fmt::format("{}_{:03}", name, i), exposure, own));
+    progress.advance();
+  }
+  return views;
+}
+
+}  // namespace parvis::trees

@@ -1,0 +1,39 @@
+// Captures with truth: path-traced views of a tree of known shape with exact alpha (reference/path_tracer.h).
+#pragma once
+
+#include "base/result.h"
+#include "capture/trees/tree_view.h"
+#include "scene/scene.h"
+
+namespace parvis::trees {
+
+struct CaptureLight {
+  float sun_azimuth_deg = 150.0f;  ///< clockwise from north (+y)
+  float sun_height_deg = 48.0f;
+};
+
+/// A scene of the model alone, under that sun and a plain sky.
+scene::Scene capture_scene(const scene::Model& model, const CaptureLight& light);
+
+struct CaptureOptions {
+  int width = 800, height = 800;  ///< pixels
+  int samples_per_pixel = 16;
+  int bounces = 1;  ///< surfaces that scatter light on its path; 1: sun and sky directly
+  std::uint64_t seed = 1;
+};
+
+/// Cameras of a ring of `count` round the model, between 2 and 26 degrees above its middle, which see all of
+/// it.
+std::vector<Camera> capture_cameras(const Bounds& tree, int count);
+/// Cameras of the same band at places of their own, random.
+std::vector<Camera> held_out_cameras(const Bounds& tree, int count, std::uint64_t seed);
+
+/// The view of one camera: pure foreground and coverage, both from the same samples. Colour is sRGB at
+/// `exposure`.
+TreeView photograph_tree(const scene::Scene& scene, const Camera& camera, std::string name, float exposure,
+                         const CaptureOptions& options);
+/// All cameras, one after the other; names are NAME_000 ...
+std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
+                                      const std::string& name, const CaptureOptions& options);
+
+}  // namespace parvis::trees
