@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/colour.h"
-#include "city/tree.h"
-#include "city/tree_mesh.h"
-#include "city/tree_skeleton.h"
+#include "places/paper_city/tree.h"
+#include "places/paper_city/tree_mesh.h"
+#include "places/paper_city/tree_skeleton.h"
 
 namespace parvis::trees {
 namespace {

@@ -7,9 +7,9 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
-#include "reference/camera_ray.h"
-#include "reference/path_tracer.h"
-#include "shading/sky.h"
+#include "graphics/reference/camera_ray.h"
+#include "graphics/reference/path_tracer.h"
+#include "graphics/shading/sky.h"
 
 namespace parvis::trees {
 namespace {
