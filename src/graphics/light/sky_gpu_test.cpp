@@ -1,0 +1,29 @@
+// The GPU's sky equals the C++ build of the same files.
+#include <gtest/gtest.h>
+
+#include "graphics/gl/test_context.h"
+#include "graphics/light/sky_gpu_check.h"
+
+namespace parvis::light {
+namespace {
+
+class SkyOnGpu : public gl::ContextTest {};
+
+TEST_F(SkyOnGpu, TheSameNumbersOnBothSides) {
+  for (const double elevation : {-3.0, 8.0, 70.0}) {
+    const Result<SkyGpuCheck> check = check_sky_on_gpu(Air{3.0}, elevation);
+    ASSERT_TRUE(check) << to_string(check.errors());
+    EXPECT_LE(check->max_relative_error, 1e-3) << elevation;
+    EXPECT_EQ(check->bad_samples, 0);
+    EXPECT_GT(check->samples, 50'000);
+  }
+}
+
+TEST_F(SkyOnGpu, AWrongTableIsSeen) {
+  const Result<SkyGpuCheck> check = check_sky_on_gpu(Air{3.0}, 8.0, 1.0f);
+  ASSERT_TRUE(check) << to_string(check.errors());
+  EXPECT_GT(check->max_relative_error, 1e-2);
+}
+
+}  // namespace
+}  // namespace parvis::light
