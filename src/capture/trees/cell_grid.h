@@ -28,15 +28,18 @@ class CellGrid {
   /// `side` is a power of it, at most max_grid_side.
   CellGrid(const Bounds& box, int branching, int side, std::vector<glm::u16vec3> cells);
 
-  const Bounds& box() const { return box_; }
-  int side() const { return side_; }
-  int branching() const { return branching_; }
-  std::size_t size() const { return cells_.size(); }
-  const std::vector<glm::u16vec3>& cells() const { return cells_; }
+  const Bounds& box() const { return box_; }                         ///< in the world, metres
+  int side() const { return side_; }                                 ///< cells along each axis
+  int branching() const { return branching_; }                       ///< 2 or 3
+  std::size_t size() const { return cells_.size(); }                 ///< stored cells
+  const std::vector<glm::u16vec3>& cells() const { return cells_; }  ///< integer coordinates
+  /// Extents of a cell, metres.
   glm::vec3 cell_size_m() const { return box_.size() / float(side_); }
+  /// The cell's middle in the world, metres.
   glm::vec3 centre(std::size_t cell) const {
     return box_.min + (glm::vec3(cells_[cell]) + 0.5f) * cell_size_m();
   }
+  /// The cell's box in the world, metres.
   Bounds bounds(std::size_t cell) const;
   /// Index of the cell at integer coordinates, or no_cell.
   int cell_at(glm::ivec3 place) const;
@@ -77,11 +80,14 @@ struct CellGrid::Steps {
                 inverse[a];
     }
   }
+  /// Distance at which the ray leaves the present cell.
   float leave() const { return std::min(std::min(next.x, next.y), next.z); }
+  /// Goes on to the next cell.
   void advance() {
     const int a = next.x <= next.y ? (next.x <= next.z ? 0 : 2) : (next.y <= next.z ? 1 : 2);
     place[a] += step[a], next[a] += delta[a];
   }
+  /// Is the present cell one of the box?
   bool inside(int count) const {
     return unsigned(place.x) < unsigned(count) && unsigned(place.y) < unsigned(count) &&
            unsigned(place.z) < unsigned(count);

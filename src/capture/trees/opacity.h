@@ -25,6 +25,7 @@ enum class OpacityMethod : std::uint8_t {
   multiplicative,
 };
 
+/// How opacities are estimated.
 struct OpacityOptions {
   OpacityMethod method = OpacityMethod::multiplicative;
   int iterations = 20;
@@ -37,6 +38,7 @@ struct OpacityOptions {
   std::function<void(std::span<float>)> sum_over_processes = {};
 };
 
+/// The result of an estimate.
 struct Opacities {
   std::vector<float> extinction_per_m;  ///< per cell of the grid
   std::vector<double> mean_change;      ///< per iteration: mean |change of t| over the cells (figure 4.8)

@@ -9,11 +9,11 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int size = 72;
+constexpr int size = 40;
 
 /// Held-out error of a method on the ball of sparse cells, its grid found from the views alone.
 struct Judged {
-  std::vector<TreeView> views = TestVolume().ring(16, size), held_out = TestVolume().ring(5, size, 0.17f);
+  std::vector<TreeView> views = TestVolume().ring(12, size), held_out = TestVolume().ring(4, size, 0.17f);
   std::vector<Silhouette> masks = silhouettes(views);
   CellGrid grid = *hull_grid(views, masks, *hull_box(views, masks), {3, 3});
 
@@ -24,8 +24,13 @@ struct Judged {
   }
 };
 
+const Judged& sparse_ball() {
+  static const Judged judged;
+  return judged;
+}
+
 TEST(Opacity, MultiplicativePredictsHeldOutViewsBetterThanTheThesis) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   const double start =
       alpha_rmse(judged.grid, initial_extinction(judged.grid, judged.masks), judged.held_out, 1);
   const double thesis = judged.rmse(OpacityMethod::projection, 4);
@@ -36,12 +41,12 @@ TEST(Opacity, MultiplicativePredictsHeldOutViewsBetterThanTheThesis) {
 }
 
 TEST(Opacity, TheThesisAsPrintedIsWorseThanClamped) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   EXPECT_GT(judged.rmse(OpacityMethod::projection, 4, false), judged.rmse(OpacityMethod::projection, 4));
 }
 
 TEST(Opacity, SirtFitsTheLogarithm) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   EXPECT_LT(judged.rmse(OpacityMethod::sirt, 10), judged.rmse(OpacityMethod::sirt, 1));
 }
 
@@ -59,14 +64,14 @@ TEST(Opacity, OneCellOfKnownExtinctionIsFoundAgain) {
 }
 
 TEST(Opacity, ChangesShrinkFromIterationToIteration) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   const Opacities found = estimate_opacity(judged.grid, judged.views, judged.masks, {});
   ASSERT_EQ(found.mean_change.size(), 20u);
   EXPECT_LT(found.mean_change.back(), 0.25 * found.mean_change.front());
 }
 
 TEST(Opacity, TheCutoffEmptiesCells) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   OpacityOptions options;
   options.cutoff = 0.94f;
   const Opacities cut = estimate_opacity(judged.grid, judged.views, judged.masks, options);
@@ -81,9 +86,9 @@ TEST(Opacity, TheCutoffEmptiesCells) {
 }
 
 TEST(Opacity, SharesOfPhotographsSummedOverProcessesGiveTheSameResult) {
-  const Judged judged;
-  const std::vector<TreeView> first(judged.views.begin(), judged.views.begin() + 8),
-      second(judged.views.begin() + 8, judged.views.end());
+  const Judged& judged = sparse_ball();
+  const std::vector<TreeView> first(judged.views.begin(), judged.views.begin() + 6),
+      second(judged.views.begin() + 6, judged.views.end());
   // Two "processes" in turn: record what one iteration of the other gathers, then add it.
   OpacityOptions options;
   options.iterations = 1, options.picture_factor = 1;
@@ -102,7 +107,7 @@ TEST(Opacity, SharesOfPhotographsSummedOverProcessesGiveTheSameResult) {
 }
 
 TEST(Opacity, TheAutomaticCutoffIsOneOfTheThesiss) {
-  const Judged judged;
+  const Judged& judged = sparse_ball();
   const float cutoff = cutoff_by_held_out_error(judged.grid, judged.views, {});
   EXPECT_GE(cutoff, 0.85f);
   EXPECT_LE(cutoff, 1.0f);

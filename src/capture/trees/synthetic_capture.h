@@ -7,6 +7,7 @@
 
 namespace parvis::trees {
 
+/// The sun of a capture.
 struct CaptureLight {
   float sun_azimuth_deg = 150.0f;  ///< clockwise from north (+y)
   float sun_height_deg = 48.0f;
@@ -15,6 +16,7 @@ struct CaptureLight {
 /// A scene of the model alone, under that sun and a plain sky.
 scene::Scene capture_scene(const scene::Model& model, const CaptureLight& light);
 
+/// How views are traced.
 struct CaptureOptions {
   int width = 800, height = 800;  ///< pixels
   int samples_per_pixel = 16;

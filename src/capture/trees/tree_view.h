@@ -40,7 +40,9 @@ struct Pinhole {
     return glm::normalize(world_from_camera * glm::vec3((pixel.x - principal_point.x) / focal.x,
                                                         (principal_point.y - pixel.y) / focal.y, -1.0f));
   }
+  /// The half line from the camera through a pixel.
   ViewRay ray(glm::vec2 pixel) const { return {position_in_world, direction(pixel)}; }
+  /// The direction of the optical axis in the world.
   glm::vec3 forward() const { return -world_from_camera[2]; }
 };
 
@@ -49,6 +51,7 @@ Pinhole pinhole_of(const Camera& camera, int width, int height);
 /// The same camera with a picture `factor` times smaller each way (sizes are rounded up).
 Pinhole reduced(const Pinhole& camera, int factor);
 
+/// A photograph of the tree with its camera.
 struct TreeView {
   std::string name;  ///< of the photograph, as errors call it
   Pinhole camera;

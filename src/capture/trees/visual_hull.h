@@ -10,6 +10,7 @@ namespace parvis::trees {
 /// The alpha of any rectangle of a view, from a summed-area table (Crow 1984). Pictures up to 16 megapixels.
 class Silhouette {
  public:
+  /// Of a view's alpha.
   explicit Silhouette(const TreeView& view);
 
   /// Could the box show alpha in this view? Beyond the picture's edge there is no tree, unless the matte is
@@ -18,8 +19,9 @@ class Silhouette {
   bool may_show(const Bounds& box) const;
   /// Mean alpha over the rectangle that the box projects to, 0..1; 1 where the view cannot say.
   float mean_alpha(const Bounds& box) const;
+  /// No alpha at all?
   bool is_empty() const { return sums_.back() == 0; }
-  const Pinhole& camera() const { return camera_; }
+  const Pinhole& camera() const { return camera_; }  ///< of the view
 
  private:
   struct Rectangle {
@@ -34,11 +36,13 @@ class Silhouette {
   std::vector<std::uint32_t> sums_;  // (width + 1) x (height + 1)
 };
 
+/// How finely the hull is divided.
 struct GridOptions {
   int branching = 3;  ///< 3: the thesis's 3x3x3; 2: an octree
   int level = 4;      ///< the side is branching^level
 };
 
+/// The silhouette of each view.
 std::vector<Silhouette> silhouettes(std::span<const TreeView> views);
 
 /// The smallest box around the visual hull, to 1 % of its size. Errors: fewer than three views; a view

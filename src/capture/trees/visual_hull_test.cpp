@@ -9,7 +9,7 @@ namespace {
 
 TEST(VisualHull, TheBoxHoldsTheTreeAndLittleMore) {
   const TestVolume ball(27, 1.0f);
-  const std::vector<TreeView> views = ball.ring(16, 96);
+  const std::vector<TreeView> views = ball.ring(12, 64);
   const Result<Bounds> box = hull_box(views, silhouettes(views));
   ASSERT_TRUE(box.ok());
   for (int a = 0; a < 3; ++a) {
@@ -21,7 +21,7 @@ TEST(VisualHull, TheBoxHoldsTheTreeAndLittleMore) {
 
 TEST(VisualHull, NoCellOfTheTreeIsLost) {
   const TestVolume ball(27, 0.1f);
-  const std::vector<TreeView> views = ball.ring(16, 96);
+  const std::vector<TreeView> views = ball.ring(12, 64);
   const std::vector<Silhouette> masks = silhouettes(views);
   for (const auto& [branching, level] : {std::pair{3, 3}, std::pair{2, 5}}) {
     const Result<CellGrid> grid = hull_grid(views, masks, *hull_box(views, masks), {branching, level});
@@ -58,7 +58,7 @@ TEST(VisualHull, RefusesWhatIsNoCapture) {
 
 TEST(VisualHull, NamesTheOneWrongCameraAmongTwenty) {
   const TestVolume ball(27, 0.05f);
-  std::vector<TreeView> views = ball.ring(20, 96);
+  std::vector<TreeView> views = ball.ring(20, 56);
   EXPECT_TRUE(inconsistent_views(views, silhouettes(views)).empty());
   views[7].camera.position_in_world += glm::vec3(0.5f, 0.2f, 0.4f);
   EXPECT_EQ(inconsistent_views(views, silhouettes(views)), std::vector<std::size_t>{7});
