@@ -9,11 +9,11 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int size = 40;
+constexpr int size = 56;
 
 /// Held-out error of a method on the ball of sparse cells, its grid found from the views alone.
 struct Judged {
-  std::vector<TreeView> views = TestVolume().ring(12, size), held_out = TestVolume().ring(4, size, 0.17f);
+  std::vector<TreeView> views = TestVolume().ring(16, size), held_out = TestVolume().ring(4, size, 0.17f);
   std::vector<Silhouette> masks = silhouettes(views);
   CellGrid grid = *hull_grid(views, masks, *hull_box(views, masks), {3, 3});
 
@@ -87,8 +87,8 @@ TEST(Opacity, TheCutoffEmptiesCells) {
 
 TEST(Opacity, SharesOfPhotographsSummedOverProcessesGiveTheSameResult) {
   const Judged& judged = sparse_ball();
-  const std::vector<TreeView> first(judged.views.begin(), judged.views.begin() + 6),
-      second(judged.views.begin() + 6, judged.views.end());
+  const std::vector<TreeView> first(judged.views.begin(), judged.views.begin() + 8),
+      second(judged.views.begin() + 8, judged.views.end());
   // Two "processes" in turn: record what one iteration of the other gathers, then add it.
   OpacityOptions options;
   options.iterations = 1, options.picture_factor = 1;
