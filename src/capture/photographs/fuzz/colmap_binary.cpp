@@ -1,4 +1,5 @@
 // Any bytes as a COLMAP model: a set or errors. Two numbers in front say where the three files begin.
+#include <algorithm>
 #include <cstring>
 
 #include "capture/photographs/colmap_set.h"
