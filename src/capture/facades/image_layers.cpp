@@ -32,6 +32,56 @@ void find_partner(std::vector<Cluster>& clusters, std::size_t i, int min_side) {
   }
 }
 
+/// Merges the pair that saves most until none saves anything.
+void merge_greedily(std::vector<Cluster>& clusters, int min_side) {
+  for (std::size_t i = 0; i < clusters.size(); ++i) find_partner(clusters, i, min_side);
+  while (!clusters.empty()) {
+    const auto best = std::ranges::max_element(clusters, {}, &Cluster::saves);
+    if (best->saves <= 0) break;
+    const std::size_t kept = std::min(std::size_t(best - clusters.begin()), best->partner);
+    const std::size_t gone = std::max(std::size_t(best - clusters.begin()), best->partner);
+    Cluster& into = clusters[kept];
+    into.box = united(into.box, clusters[gone].box);
+    into.members.insert(into.members.end(), clusters[gone].members.begin(), clusters[gone].members.end());
+    const std::size_t last = clusters.size() - 1;
+    if (gone != last) clusters[gone] = std::move(clusters[last]);
+    clusters.pop_back();
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      Cluster& cluster = clusters[i];
+      if (i == kept || (cluster.saves > 0 && (cluster.partner == gone || cluster.partner == kept))) {
+        find_partner(clusters, i, min_side);
+      } else {
+        if (cluster.saves > 0 && cluster.partner == last) cluster.partner = gone;
+        if (const std::int64_t saves = saving(cluster.box, clusters[kept].box, min_side);
+            saves > cluster.saves)
+          cluster.saves = saves, cluster.partner = kept;
+      }
+    }
+  }
+}
+
+/// The search for partners is quadratic: many boxes are merged by halves of the picture first. The last
+/// merging still is over all.
+constexpr std::size_t max_boxes_at_once = 128;
+void merge_halves(std::vector<Cluster>& clusters, int min_side) {
+  if (clusters.size() > max_boxes_at_once) {
+    PixelBox all = clusters.front().box;
+    for (const Cluster& cluster : clusters) all = united(all, cluster.box);
+    const auto middle = clusters.begin() + std::ptrdiff_t(clusters.size() / 2);
+    std::ranges::nth_element(clusters, middle, {}, [&](const Cluster& cluster) {
+      const PixelBox& b = cluster.box;
+      return all.width > all.height ? std::tuple(2 * b.x + b.width, cluster.members)
+                                    : std::tuple(2 * b.y + b.height, cluster.members);
+    });
+    std::vector<Cluster> second(std::make_move_iterator(middle), std::make_move_iterator(clusters.end()));
+    clusters.erase(middle, clusters.end());
+    merge_halves(clusters, min_side);
+    merge_halves(second, min_side);
+    std::ranges::move(second, std::back_inserter(clusters));
+  }
+  merge_greedily(clusters, min_side);
+}
+
 std::string three_digits(std::size_t n) { return fmt::format("{:03}", n); }
 
 /// The object with most items in a layer names it.
@@ -99,30 +149,7 @@ std::int64_t texture_area(const PixelBox& box, int min_side) {
 std::vector<std::vector<std::uint32_t>> merged_boxes(const std::vector<PixelBox>& boxes, int min_side) {
   std::vector<Cluster> clusters;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) clusters.push_back({boxes[i], {i}, 0, 0});
-  for (std::size_t i = 0; i < clusters.size(); ++i) find_partner(clusters, i, min_side);
-  while (!clusters.empty()) {
-    const auto best = std::ranges::max_element(clusters, {}, &Cluster::saves);
-    if (best->saves <= 0) break;
-    const std::size_t kept = std::min(std::size_t(best - clusters.begin()), best->partner);
-    const std::size_t gone = std::max(std::size_t(best - clusters.begin()), best->partner);
-    Cluster& into = clusters[kept];
-    into.box = united(into.box, clusters[gone].box);
-    into.members.insert(into.members.end(), clusters[gone].members.begin(), clusters[gone].members.end());
-    const std::size_t last = clusters.size() - 1;
-    if (gone != last) clusters[gone] = std::move(clusters[last]);
-    clusters.pop_back();
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-      Cluster& cluster = clusters[i];
-      if (i == kept || (cluster.saves > 0 && (cluster.partner == gone || cluster.partner == kept))) {
-        find_partner(clusters, i, min_side);
-      } else {
-        if (cluster.saves > 0 && cluster.partner == last) cluster.partner = gone;
-        if (const std::int64_t saves = saving(cluster.box, clusters[kept].box, min_side);
-            saves > cluster.saves)
-          cluster.saves = saves, cluster.partner = kept;
-      }
-    }
-  }
+  merge_halves(clusters, min_side);
   std::vector<std::vector<std::uint32_t>> groups;
   for (Cluster& cluster : clusters) {
     std::ranges::sort(cluster.members);
