@@ -1,0 +1,244 @@
+#include "graphics/light/sun_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/parallel.h"
+#include "graphics/light/finer_mesh.h"
+#include "scene/gltf_writer.h"
+
+namespace parvis::light {
+namespace {
+
+constexpr std::size_t max_cells = 16'000'000, max_vertices = 12'000'000;
+constexpr float lift_m = 0.02f;        // rays start so far off their surface
+constexpr float ground_rise_m = 2.5f;  // what lies higher above the lowest surface around is built
+constexpr double ground_reach_m = 20.0;
+constexpr int scale_px = 12;
+
+/// Parts that stand still and are seen: what has hours of sun. Leaves cast shadows, but have none.
+template <class Visit>
+void for_each_surface(const scene::Scene& scene, Visit&& visit) {
+  for (const scene::Object& object : scene.objects) {
+    if (object.is_dynamic || !object.is_visible) continue;
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    for (const scene::Part& part : object.model->parts)
+      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
+        visit(part, object.world_from_model * pose[std::size_t(part.node)]);
+  }
+}
+
+Bounds bounds_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for_each_surface(scene, [&](const scene::Part& part, const glm::mat4& world_from_mesh) {
+    bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
+  });
+  return bounds;
+}
+
+/// The first solid surface below a point; leaves are passed through.
+std::optional<glm::vec3> surface_below(const reference::RayScene& rays, glm::vec3 from) {
+  for (int pass = 0; pass < 64; ++pass) {
+    const std::optional<reference::Hit> hit = rays.nearest_hit({from, {0, 0, -1}, 1e-4f, 1e30f});
+    if (!hit) return std::nullopt;
+    from.z -= hit->distance_m + 1e-3f;
+    if (hit->place->material->alpha_mode == scene::Alpha::opaque) return from;
+  }
+  return std::nullopt;
+}
+
+void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
+  parallel_for(
+      study.cells.size(),
+      [&](std::size_t i) {
+        const double column = double(i % std::size_t(study.columns)),
+                     row = double(i / std::size_t(study.columns));
+        const glm::dvec2 at = study.corner + study.cell_m * glm::dvec2(column + 0.5, row + 0.5);
+        const auto surface = surface_below(rays, {float(at.x), float(at.y), top + 1.0f});
+        if (surface) study.cells[i] = {GroundCell::Kind::built, *surface, 0.0f};
+      },
+      256);
+  // The lowest surface around, by a minimum over rows, then over columns.
+  const int reach = std::max(1, int(ground_reach_m / study.cell_m));
+  const auto lowest = [&](const std::vector<float>& heights, int step_x, int step_y) {
+    std::vector<float> result(heights.size());
+    parallel_for(
+        heights.size(),
+        [&](std::size_t i) {
+          const int x = int(i % std::size_t(study.columns)), y = int(i / std::size_t(study.columns));
+          float least = 1e30f;
+          for (int k = -reach; k <= reach; ++k) {
+            const int nx = x + k * step_x, ny = y + k * step_y;
+            if (nx < 0 || ny < 0 || nx >= study.columns || ny >= study.rows) continue;
+            least = std::min(least, heights[std::size_t(ny) * std::size_t(study.columns) + std::size_t(nx)]);
+          }
+          result[i] = least;
+        },
+        256);
+    return result;
+  };
+  std::vector<float> heights;
+  for (const GroundCell& cell : study.cells)
+    heights.push_back(cell.kind == GroundCell::Kind::nothing ? 1e30f : cell.position.z);
+  const std::vector<float> around = lowest(lowest(heights, 1, 0), 0, 1);
+  for (std::size_t i = 0; i < study.cells.size(); ++i)
+    if (study.cells[i].kind != GroundCell::Kind::nothing && heights[i] - around[i] < ground_rise_m)
+      study.cells[i].kind = GroundCell::Kind::ground;
+}
+
+Result<SunStudy> laid_out(const Bounds& bounds, const SunStudyOptions& options) {
+  SunStudy study;
+  study.cell_m = options.cell_m;
+  const glm::dvec4 area =
+      options.area.value_or(glm::dvec4(bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y));
+  study.corner = glm::min(glm::dvec2(area.x, area.y), glm::dvec2(area.z, area.w));
+  const glm::dvec2 size = glm::max(glm::dvec2(area.x, area.y), glm::dvec2(area.z, area.w)) - study.corner;
+  const glm::dvec2 counts = glm::ceil(size / options.cell_m);
+  if (!(counts.x >= 1.0 && counts.y >= 1.0)) return error("the area of the sun study is empty");
+  if (counts.x * counts.y > double(max_cells))
+    return error(
+        "{:.0f} x {:.0f} m in cells of {} m are {:.0f} cells; at most {} are studied: take a larger cell or "
+        "a smaller area",
+        size.x, size.y, options.cell_m, counts.x * counts.y, max_cells);
+  study.columns = int(counts.x), study.rows = int(counts.y);
+  study.cells.resize(std::size_t(study.columns) * std::size_t(study.rows));
+  return study;
+}
+
+/// The surfaces in the area, in triangles no larger than a cell.
+Status gather_surfaces(const scene::Scene& scene, const SunStudyOptions& options, SunStudy& study) {
+  const glm::vec2 low(study.corner),
+      high = low + glm::vec2(study.cell_m * glm::dvec2(study.columns, study.rows));
+  std::size_t refused = 0;
+  for_each_surface(scene, [&](const scene::Part& part, const glm::mat4& world_from_mesh) {
+    const Bounds bounds = transformed(world_from_mesh, part.mesh.bounds());
+    const bool is_inside =
+        bounds.max.x > low.x && bounds.min.x < high.x && bounds.max.y > low.y && bounds.min.y < high.y;
+    if (!is_inside || refused != 0) return;
+    Mesh mesh;
+    append(mesh, part.mesh, world_from_mesh);
+    append_finer(study.surfaces, mesh, float(options.cell_m), low, high);
+    if (study.surfaces.positions.size() > max_vertices) refused = study.surfaces.positions.size();
+  });
+  if (refused != 0)
+    return error(
+        "the surfaces have more than {} vertices in cells of {} m: take a larger cell, a smaller area, or "
+        "the ground alone",
+        max_vertices, options.cell_m);
+  return Done{};
+}
+
+}  // namespace
+
+Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options) {
+  const Bounds bounds = bounds_of(scene);
+  if (bounds.min.x > bounds.max.x)
+    return error("the scene has nothing that stands still: there is no ground to study");
+  Result<SunStudy> made = laid_out(bounds, options);
+  if (!made) return made;
+  SunStudy& study = *made;
+
+  scene::Scene still = scene;  // what moves stands somewhere else in an hour
+  for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
+  const reference::RayScene rays(still);
+  find_ground(rays, bounds.max.z, study);
+  if (options.has_facades)
+    if (Status status = gather_surfaces(scene, options, study); !status) return status.errors();
+
+  std::vector<SunPoint> points;
+  for (const GroundCell& cell : study.cells)
+    points.push_back({cell.position + glm::vec3(0, 0, lift_m), {0, 0, 1}});
+  for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i)
+    points.push_back(
+        {study.surfaces.positions[i] + lift_m * study.surfaces.normals[i], study.surfaces.normals[i]});
+  study.rays_from = points.size();
+  points.push_back({{0.0f, 0.0f, bounds.max.z + 1.0f}, {0, 0, 1}});  // nothing stands higher
+  const std::vector<float> hours = sun_hours(rays, points, options.period);
+  study.max_hours = std::max(double(hours.back()), 1e-3);
+  for (std::size_t i = 0; i < study.cells.size(); ++i) study.cells[i].hours = hours[i];
+  for (std::size_t i = 0; i < study.surfaces.uvs.size(); ++i)
+    study.surfaces.uvs[i] = {0.002f + 0.996f * hours[study.cells.size() + i] / float(study.max_hours), 0.5f};
+  return made;
+}
+
+OpenSpaceRule open_space_rule(const SunStudy& study) {
+  std::size_t open = 0, sunny = 0;
+  for (const GroundCell& cell : study.cells)
+    if (cell.kind == GroundCell::Kind::ground)
+      ++open, sunny += double(cell.hours) >= OpenSpaceRule::min_hours ? 1 : 0;
+  return {open ? double(sunny) / double(open) : 0.0, double(open) * study.cell_m * study.cell_m};
+}
+
+glm::vec3 hours_colour(double share) {
+  // Viridis (Smith and van der Walt 2015) at five places: even to the eye, and readable without colour
+  // vision.
+  constexpr glm::vec3 colours[] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+  const float place = 4.0f * float(std::clamp(share, 0.0, 1.0));
+  const int left = std::min(int(place), 3);
+  return glm::mix(colours[left], colours[left + 1], place - float(left));
+}
+
+namespace {
+
+void paint(Image8& image, int x, int y, glm::vec3 colour) {
+  for (int c = 0; c < 3; ++c) image.at(x, y)[c] = std::uint8_t(std::lround(colour[c]));
+  image.at(x, y)[3] = 255;
+}
+
+Image8 plan_of(const SunStudy& study) {
+  Image8 plan(study.columns, study.rows + scale_px, 4, 255);
+  for (int y = 0; y < study.rows; ++y)
+    for (int x = 0; x < study.columns; ++x) {
+      const GroundCell& cell =
+          study.cells[std::size_t(study.rows - 1 - y) * std::size_t(study.columns) + std::size_t(x)];
+      if (cell.kind == GroundCell::Kind::nothing) continue;
+      const glm::vec3 colour = hours_colour(double(cell.hours) / study.max_hours);
+      paint(plan, x, y, cell.kind == GroundCell::Kind::ground ? colour : 0.35f * colour + glm::vec3(110.0f));
+    }
+  // The scale: every hour a step, from none at the left to the most at the right.
+  for (int y = study.rows + 2; y < plan.height; ++y)
+    for (int x = 0; x < plan.width; ++x) {
+      const double hours = study.max_hours * (x + 0.5) / plan.width;
+      paint(plan, x, y, hours_colour(std::floor(hours) / study.max_hours));
+    }
+  return plan;
+}
+
+Status write_model(const std::filesystem::path& file, const SunStudy& study) {
+  scene::Texture scale{.name = "sun_hours", .image = Image8(256, 4, 4), .is_srgb = true, .repeats = false};
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 256; ++x) paint(scale.image, x, y, hours_colour((x + 0.5) / 256.0));
+  scene::Material material{.name = "sun hours"};
+  material.base_colour = glm::vec3(1.0f), material.base_colour_texture = 0, material.roughness = 1.0f;
+  scene::Model model;
+  model.textures.push_back(std::move(scale));
+  model.materials.push_back(std::move(material));
+  model.nodes.emplace_back();
+  scene::Part part;
+  part.mesh = study.surfaces;
+  part.material = 0, part.node = 0;
+  model.parts.push_back(std::move(part));
+  return scene::write_gltf(file, model);
+}
+
+}  // namespace
+
+Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study) {
+  const auto with = [&](const char* extension) { return std::filesystem::path(prefix.string() + extension); };
+  if (Status status = write_image(with(".png"), plan_of(study)); !status) return status;
+  std::string table = "x_m,y_m,z_m,kind,hours\n";
+  for (const GroundCell& cell : study.cells)
+    if (cell.kind != GroundCell::Kind::nothing)
+      table +=
+          fmt::format("{:.2f},{:.2f},{:.2f},{},{:.3f}\n", cell.position.x, cell.position.y, cell.position.z,
+                      cell.kind == GroundCell::Kind::ground ? "ground" : "built", cell.hours);
+  if (Status status = write_file(with(".csv"), table); !status) return status;
+  if (study.surfaces.indices.empty()) return Done{};
+  return write_model(with(".glb"), study);
+}
+
+}  // namespace parvis::light

@@ -1,0 +1,64 @@
+// A sun study of a scene: hours of direct sun on its ground and its facades, as a plan, a table and a
+// coloured model, and the rule of BRE 209 for open space.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "base/image.h"
+#include "base/mesh.h"
+#include "graphics/light/sun_hours.h"
+#include "scene/scene.h"
+
+namespace parvis::light {
+
+struct SunStudyOptions {
+  SunPeriod period;
+  double cell_m = 2.0;  ///< of the plan, and the longest edge of the coloured model's triangles
+  /// x and y of two corners of what is studied; absent: all that stands still.
+  std::optional<glm::dvec4> area;
+  bool has_facades = true;
+};
+
+/// A cell of the plan.
+struct GroundCell {
+  enum class Kind : unsigned char { nothing, ground, built };
+  Kind kind = Kind::nothing;
+  glm::vec3 position{0.0f};  ///< of the ground, or of the roof of what is built there
+  float hours = 0.0f;
+};
+
+/// BRE 209 (Littlefair 2022, Site layout planning for daylight and sunlight), section 3.3: of an open space
+/// at least half should have two hours of sun on 21 March.
+struct OpenSpaceRule {
+  static constexpr double min_hours = 2.0, min_share = 0.5;
+  double share = 0.0;    ///< of the open ground
+  double area_m2 = 0.0;  ///< of the open ground
+  bool is_kept() const { return share >= min_share; }
+};
+
+struct SunStudy {
+  int columns = 0, rows = 0;
+  glm::dvec2 corner{0.0};                ///< least x and y
+  double cell_m = 0.0, max_hours = 0.0;  ///< what an open plain has
+  std::vector<GroundCell> cells;         ///< row 0 is the southernmost
+  Mesh surfaces;                         ///< uv.x is the hours' share of `max_hours`
+  std::size_t rays_from = 0;             ///< points that rays start from
+};
+
+/// Ground is what is met from above, below leaves and fewer than 2.5 m above the lowest surface within 20 m;
+/// the rest is built. Refused where the area would have more than 16 million cells or 12 million vertices.
+Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options);
+
+/// Of the open ground of a study of 21 March.
+OpenSpaceRule open_space_rule(const SunStudy& study);
+
+/// The colour of a number of hours, as a share of the most: dark blue for none, over green, to yellow.
+glm::vec3 hours_colour(double share);
+
+/// PREFIX.png (the plan, north up, one pixel per cell and a scale of hours below), PREFIX.csv (x, y, z, kind,
+/// hours of each cell) and PREFIX.glb (ground and facades in the same colours).
+Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study);
+
+}  // namespace parvis::light

@@ -1,0 +1,218 @@
+#include "graphics/light/vertex_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "graphics/reference/frame.h"
+#include "graphics/shading/octahedral.h"
+
+namespace parvis::light {
+namespace {
+
+constexpr float lift_m = 1e-3f;
+constexpr std::size_t max_places = 1'000'000;
+/// Fewer rays than these look spotted: interpolated visibility is better.
+constexpr int min_rays = 16, max_rays = 256;
+
+glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
+
+/// In [0, 1), another for each vertex (PCG's output function, O'Neill 2014).
+float scrambled(std::uint32_t value) {
+  value = value * 747796405u + 2891336453u;
+  value = ((value >> ((value >> 28) + 4)) ^ value) * 277803737u;
+  return float((value >> 22 ^ value) >> 8) * 0x1p-24f;
+}
+
+/// Points of the R2 sequence (Roberts 2018), moved for each vertex (Cranley and Patterson 1976).
+glm::vec2 low_discrepancy(int index, glm::vec2 shift) {
+  const glm::dvec2 step(0.7548776662466927, 0.5698402909980532);
+  return glm::vec2(glm::fract(glm::dvec2(shift) + double(index) * step));
+}
+
+/// Even over the unit disc (Shirley and Chiu 1997).
+glm::vec2 on_disc(glm::vec2 u) {
+  const glm::vec2 p = 2.0f * u - 1.0f;
+  if (p.x == 0.0f && p.y == 0.0f) return p;
+  const bool is_wide = std::abs(p.x) > std::abs(p.y);
+  const float radius = is_wide ? p.x : p.y;
+  const float angle = is_wide ? 0.785398163f * p.y / p.x : 1.570796327f - 0.785398163f * p.x / p.y;
+  return radius * glm::vec2(std::cos(angle), std::sin(angle));
+}
+
+/// Everything stops light, from both sides; the random number is for what blends.
+bool is_open(const reference::RayScene& scene, glm::vec3 from, glm::vec3 direction, std::uint64_t ray) {
+  reference::Passage passage{Random(ray)};
+  return !scene.is_blocked({from, direction, 1e-4f, 1e30f}, passage);
+}
+
+glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
+
+}  // namespace
+
+SkyTable::SkyTable(const SkyModel& sky)
+    : to_sun_(sky.to_sun()),
+      sun_irradiance_(displayable(sky.sun_irradiance_xyz())),
+      texels_(std::size_t(side) * side) {
+  parallel_for(
+      texels_.size(),
+      [&](std::size_t i) {
+        const glm::vec2 uv = (glm::vec2(float(int(i) % side), float(int(i) / side)) + 0.5f) / float(side);
+        texels_[i] = displayable(sky.sky_radiance_xyz(shading::octahedral_direction(uv)));
+      },
+      256);
+}
+
+glm::vec3 SkyTable::radiance(glm::vec3 direction) const {
+  const glm::vec2 at = shading::octahedral_uv(direction) * float(side);
+  const int x = std::clamp(int(at.x), 0, side - 1), y = std::clamp(int(at.y), 0, side - 1);
+  return texels_[std::size_t(y * side + x)];
+}
+
+VertexLight::VertexLight(std::vector<LitVertex> vertices) { restart(std::move(vertices)); }
+
+void VertexLight::restart(std::vector<LitVertex> vertices) {
+  vertices_ = std::move(vertices);
+  sky_sums_.assign(vertices_.size(), glm::vec3(0.0f));
+  sun_sums_.assign(vertices_.size(), glm::vec3(0.0f));
+  rays_ = sun_rays_ = 0;
+}
+
+void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays) {
+  const int sun_rays = std::max(1, rays / 4);
+  const reference::Frame sun_frame(sky.to_sun());
+  const bool has_sun = sky.sun_irradiance() != glm::vec3(0.0f);
+  parallel_for(
+      vertices_.size(),
+      [&](std::size_t v) {
+        const LitVertex& vertex = vertices_[v];
+        const reference::Frame frame(vertex.normal);
+        const glm::vec3 from = lifted(vertex);
+        const glm::vec2 shift(scrambled(std::uint32_t(2 * v)), scrambled(std::uint32_t(2 * v + 1)));
+        for (int i = 0; i < rays; ++i) {
+          const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
+          const glm::vec3 direction =
+              frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))});
+          if (is_open(scene, from, direction, v + std::uint64_t(i))) sky_sums_[v] += sky.radiance(direction);
+        }
+        for (int i = 0; has_sun && i < sun_rays; ++i) {
+          const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
+          const glm::vec3 direction = glm::normalize(sun_frame.in_world({p.x, p.y, 1.0f}));
+          const float facing = glm::dot(direction, vertex.normal);
+          if (facing > 0.0f && is_open(scene, from, direction, v + std::uint64_t(i)))
+            sun_sums_[v] += facing * sky.sun_irradiance();
+        }
+      },
+      16);
+  rays_ += rays, sun_rays_ += sun_rays;
+}
+
+std::vector<glm::vec3> VertexLight::irradiance() const {
+  std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
+  if (rays_ == 0) return result;
+  for (std::size_t v = 0; v < result.size(); ++v)
+    result[v] = 3.14159265f / float(rays_) * sky_sums_[v] + sun_sums_[v] / float(sun_rays_);
+  return result;
+}
+
+const std::vector<glm::vec3>& VisibilityPlaces::directions() {
+  static const std::vector<glm::vec3> even = [] {
+    std::vector<glm::vec3> result;
+    for (int i = 0; i < 64; ++i) {
+      const float z = (float(i) + 0.5f) / 64.0f, across = std::sqrt(1.0f - z * z),
+                  turn = 2.39996323f * float(i);
+      result.emplace_back(across * std::cos(turn), across * std::sin(turn), z);
+    }
+    return result;
+  }();
+  return even;
+}
+
+VisibilityPlaces::VisibilityPlaces(const reference::RayScene& scene, const Bounds& region, float spacing_m)
+    : origin_(region.min), spacing_m_(spacing_m) {
+  const auto counts = [&] { return glm::ivec3(glm::ceil(region.size() / spacing_m_)) + 1; };
+  while (glm::dot(glm::dvec3(1.0), glm::log(glm::dvec3(counts()))) > std::log(double(max_places)))
+    spacing_m_ *= 1.26f;
+  counts_ = counts();
+  masks_.resize(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z));
+  parallel_for(
+      masks_.size(),
+      [&](std::size_t i) {
+        const int x = int(i) % counts_.x, y = int(i) / counts_.x % counts_.y,
+                  z = int(i) / counts_.x / counts_.y;
+        const glm::vec3 at = origin_ + spacing_m_ * glm::vec3(x, y, z);
+        for (std::size_t k = 0; k < 64; ++k)
+          if (is_open(scene, at, directions()[k], i + k)) masks_[i] |= std::uint64_t(1) << k;
+      },
+      16);
+}
+
+std::uint64_t VisibilityPlaces::mask(glm::ivec3 place) const {
+  const glm::ivec3 p = glm::clamp(place, glm::ivec3(0), counts_ - 1);
+  return masks_[(std::size_t(p.z) * std::size_t(counts_.y) + std::size_t(p.y)) * std::size_t(counts_.x) +
+                std::size_t(p.x)];
+}
+
+void VisibilityPlaces::interpolate(glm::vec3 point, float (&shares)[64]) const {
+  const glm::vec3 at = (point - origin_) / spacing_m_, low = glm::floor(at), part = at - low;
+  std::fill(std::begin(shares), std::end(shares), 0.0f);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+    float weight = 1.0f;
+    for (int axis = 0; axis < 3; ++axis) weight *= step[axis] ? part[axis] : 1.0f - part[axis];
+    const std::uint64_t bits = mask(glm::ivec3(low) + step);
+    for (std::size_t k = 0; k < 64; ++k) shares[k] += weight * float(bits >> k & 1);
+  }
+}
+
+std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& vertices,
+                                               const VisibilityPlaces& places,
+                                               const reference::RayScene& scene, const SkyTable& sky) {
+  std::vector<glm::vec3> radiance;
+  for (const glm::vec3 direction : VisibilityPlaces::directions())
+    radiance.push_back(sky.radiance(direction));
+  std::vector<glm::vec3> result(vertices.size());
+  parallel_for(
+      vertices.size(),
+      [&](std::size_t v) {
+        float shares[64];
+        places.interpolate(vertices[v].position, shares);
+        glm::vec3 sum(0.0f);
+        for (std::size_t k = 0; k < 64; ++k)
+          sum += shares[k] * std::max(glm::dot(VisibilityPlaces::directions()[k], vertices[v].normal), 0.0f) *
+                 radiance[k];
+        result[v] = 6.2831853f / 64.0f * sum;
+        const float facing = glm::dot(sky.to_sun(), vertices[v].normal);
+        if (facing > 0.0f && is_open(scene, lifted(vertices[v]), sky.to_sun(), v))
+          result[v] += facing * sky.sun_irradiance();
+      },
+      64);
+  return result;
+}
+
+RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double rays_per_ms, bool has_places) {
+  const double affordable =
+      budget_ms * rays_per_ms / double(std::max<std::size_t>(vertices, 1)) / 1.25;  // and rays to the sun
+  const int rays = std::min(max_rays, int(affordable) / 4 * 4);
+  if (rays >= min_rays) return {Relighting::traced, rays};
+  // a vertex interpolates in the time of about two rays
+  if (has_places && affordable >= 2.0) return {Relighting::interpolated, 0};
+  return {Relighting::open, 0};
+}
+
+std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky) {
+  std::vector<glm::vec3> result(vertices.size());
+  parallel_for(
+      vertices.size(),
+      [&](std::size_t v) {
+        glm::vec3 sum(0.0f);
+        for (const glm::vec3 direction : VisibilityPlaces::directions())
+          sum += std::max(glm::dot(direction, vertices[v].normal), 0.0f) * sky.radiance(direction);
+        result[v] = 6.2831853f / 64.0f * sum +
+                    std::max(glm::dot(sky.to_sun(), vertices[v].normal), 0.0f) * sky.sun_irradiance();
+      },
+      64);
+  return result;
+}
+
+}  // namespace parvis::light
