@@ -4,9 +4,11 @@
 
 #include <exception>
 
+#include "base/isolated_process.h"
 #include "commands.h"
 
 int main(int count, char** arguments) {
+  parvis::start_isolation();  // before there are threads
   CLI::App app{"Parvis shows a city square before it changes."};
   app.name("parvis");
   app.require_subcommand(1);

@@ -1,27 +1,136 @@
 #include "base/files.h"
 
-#include <fstream>
-#include <sstream>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <random>
 
 namespace parvis {
 namespace fs = std::filesystem;
 
-Result<std::string> read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file)) return error("{}: cannot be opened for reading", file.string());
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::move(text).str();
+namespace {
+
+/// A file descriptor, closed at the end.
+class OpenFile {
+ public:
+  OpenFile(const fs::path& file, int flags, mode_t mode = 0)
+      : descriptor_(open(file.c_str(), flags | O_CLOEXEC, mode)) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  explicit operator bool() const { return descriptor_ >= 0; }
+  int get() const { return descriptor_; }
+  /// False where bytes written before turn out to be lost.
+  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+std::string reason() { return std::strerror(errno); }
+
+/// Appends up to `count` bytes; false if reading fails.
+bool read_some(int file, std::string& text, std::size_t count) {
+  const std::size_t before = text.size();
+  text.resize(before + count);
+  ssize_t got = 0;
+  do got = read(file, text.data() + before, count);
+  while (got < 0 && errno == EINTR);
+  text.resize(before + std::size_t(std::max<ssize_t>(got, 0)));
+  return got >= 0;
 }
 
-Status write_atomically(const fs::path& file, const std::function<Status(const fs::path&)>& write) {
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(std::size_t(written));
+  }
+  return true;
+}
+
+Error cannot_write(const fs::path& file) {
+  return error("{}: cannot be written ({}); is the folder writable and the disk not full?", file.string(),
+               reason());
+}
+
+/// A new, empty file beside `file` that nobody else has opened, of a name that fits into a folder; empty if
+/// none can be made. Links are not followed.
+fs::path make_temporary(const fs::path& file, mode_t mode) {
+  constexpr std::size_t max_name = 255, random_digits = 8;
+  const std::string extension = file.extension().string(), front = ".partial-";
+  std::string stem = file.stem().string();
+  const std::size_t around = front.size() + random_digits + 1 + extension.size();
+  if (around > max_name) return {};
+  stem.resize(std::min(stem.size(), max_name - around));
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    fs::path temporary =
+        file.parent_path() / fmt::format("{}{:08x}-{}{}", front, std::uint32_t(random()), stem, extension);
+    if (OpenFile(temporary, O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY, mode)) return temporary;
+    if (errno != EEXIST) break;
+  }
+  return {};
+}
+
+/// Waits until the bytes are on the disk: a full one may say so only now.
+bool is_kept(const fs::path& file) {
+  OpenFile written(file, O_RDONLY);
+  return written && fsync(written.get()) == 0 && written.close();
+}
+
+}  // namespace
+
+Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
+  const OpenFile opened(file,
+                        O_RDONLY | O_NONBLOCK);  // a pipe without a writer is refused below, not waited for
+  if (!opened) return error("{}: cannot be opened for reading ({})", file.string(), reason());
+  struct stat status {};
+  if (fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    return error("{}: is not a regular file; expected one, no folder, pipe or device", file.string());
+  const Error too_large =
+      error("{}: is larger than the {:.1f} MB that are read", file.string(), double(max_bytes) / 1e6);
+  if (std::uint64_t(status.st_size) > max_bytes) return too_large;
+  std::string text;
+  text.reserve(std::size_t(status.st_size) + 1);
+  // Files of /proc and those that grow have another size than they say: read to the end, one byte beyond the
+  // limit.
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  for (std::size_t before = std::size_t(-1); before != text.size();) {
+    before = text.size();
+    const std::uint64_t left = max_bytes + 1 - before;
+    const std::size_t expected =
+        std::max(std::size_t(status.st_size) + 1 - std::min(before, std::size_t(status.st_size)), piece);
+    if (!read_some(opened.get(), text,
+                   std::size_t(std::min<std::uint64_t>(left, before == 0 ? expected : piece))))
+      return error("{}: cannot be read ({})", file.string(), reason());
+    if (text.size() > max_bytes) return too_large;
+  }
+  return text;
+}
+
+Status write_atomically(const fs::path& named, const std::function<Status(const fs::path&)>& write) {
   std::error_code code;
+  const fs::path file = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
   if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
   if (code)
     return error("{}: the folder cannot be made ({}); choose one that can be written",
                  file.parent_path().string(), code.message());
-  const fs::path temporary = file.parent_path() / (".partial-" + file.filename().string());
+  struct stat before {};
+  const bool is_replaced = stat(file.c_str(), &before) == 0;
+  if (is_replaced && !S_ISREG(before.st_mode))
+    return error("{}: is not a regular file and is not replaced", file.string());
+  const fs::path temporary = make_temporary(file, 0666);
+  if (temporary.empty()) return cannot_write(file);
   Status status = write(temporary);
+  if (status && is_replaced && chmod(temporary.c_str(), before.st_mode & 07777) != 0)
+    status = cannot_write(file);
+  if (status && !is_kept(temporary)) status = cannot_write(file);
   if (status) {
     fs::rename(temporary, file, code);
     if (code) status = error("{}: cannot be written ({})", file.string(), code.message());
@@ -32,11 +141,8 @@ Status write_atomically(const fs::path& file, const std::function<Status(const f
 
 Status write_file(const fs::path& file, std::string_view text) {
   return write_atomically(file, [&](const fs::path& temporary) -> Status {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream.write(text.data(), std::streamsize(text.size()));
-    stream.close();
-    if (!stream)
-      return error("{}: cannot be written; is the folder writable and the disk not full?", file.string());
+    OpenFile opened(temporary, O_WRONLY | O_TRUNC | O_NOFOLLOW);
+    if (!opened || !write_all(opened.get(), text) || !opened.close()) return cannot_write(file);
     return Done{};
   });
 }
@@ -64,7 +170,10 @@ Result<fs::path> Roots::find(const std::string& name, const FileLocation& where)
     const fs::path path = fs::weakly_canonical(folder / name, code);
     if (code || !is_below(path, folder)) continue;
     leads_out = false;
-    if (fs::exists(path, code)) return path;
+    const fs::file_type type = fs::status(path, code).type();
+    if (type == fs::file_type::regular || type == fs::file_type::directory) return path;
+    if (fs::exists(fs::file_status(type)))
+      return error_at(where, "\"{}\" is neither a file nor a folder", name);
   }
   if (leads_out)
     return error_at(

@@ -1,6 +1,10 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
 
 #include "base/image_io.h"
 #include "base/test_folder.h"
@@ -46,6 +50,78 @@ TEST(Files, AFailedWriteLeavesNothing) {
   });
   EXPECT_FALSE(status);
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Files, OnlyRegularFilesUpToALimitAreRead) {
+  const TestFolder folder;
+  ASSERT_EQ(mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  fs::create_directory(folder.path() / "folder");
+  for (const fs::path& file : {folder.path() / "pipe", folder.path() / "folder", fs::path("/dev/zero")}) {
+    const Result<std::string> text = read_file(file);
+    ASSERT_FALSE(text) << file;
+    EXPECT_NE(to_string(text.errors()).find("regular file"), std::string::npos) << to_string(text.errors());
+  }
+  folder.write("ten.txt", "0123456789");
+  EXPECT_EQ(*read_file(folder.path() / "ten.txt", 10), "0123456789");
+  const Result<std::string> too_large = read_file(folder.path() / "ten.txt", 9);
+  ASSERT_FALSE(too_large);
+  EXPECT_NE(to_string(too_large.errors()).find("ten.txt"), std::string::npos);
+  folder.write("sparse", "");
+  fs::resize_file(folder.path() / "sparse", max_file_bytes + 1);
+  EXPECT_FALSE(read_file(folder.path() / "sparse"));
+  EXPECT_FALSE(read_file("/proc/self/maps", 100));  // says that it is empty
+}
+
+TEST(Files, RootsGiveNoPipes) {
+  const TestFolder folder;
+  ASSERT_EQ(mkfifo((folder.path() / "pipe.png").c_str(), 0600), 0);
+  const Result<fs::path> found = Roots(folder.path()).find("pipe.png", {"a.xp", 1, 1});
+  ASSERT_FALSE(found);
+  EXPECT_NE(to_string(found.errors()).find("neither a file nor a folder"), std::string::npos);
+}
+
+TEST(Files, WritingFollowsNoLinkOfItsTemporaryFile) {
+  const TestFolder folder;
+  folder.write("mine.txt", "mine");
+  fs::create_symlink(folder.path() / "mine.txt", folder.path() / ".partial-s.xp");
+  ASSERT_TRUE(write_file(folder.path() / "s.xp", "new"));
+  EXPECT_EQ(*read_file(folder.path() / "mine.txt"), "mine");
+  EXPECT_EQ(*read_file(folder.path() / "s.xp"), "new");
+}
+
+TEST(Files, ReplacingKeepsPermissionsAndLinks) {
+  const TestFolder folder;
+  folder.write("real/s.xp", "old");
+  fs::permissions(folder.path() / "real/s.xp", fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("real/s.xp", folder.path() / "s.xp");
+  ASSERT_TRUE(write_file(folder.path() / "s.xp", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "s.xp"));
+  EXPECT_EQ(*read_file(folder.path() / "real/s.xp"), "new");
+  EXPECT_EQ(fs::status(folder.path() / "real/s.xp").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(Files, LongNamesAreWritten) {
+  const TestFolder folder;
+  const std::string name = fmt::format("{:n>251}.txt", "");  // 255 bytes, as many as a folder takes
+  ASSERT_TRUE(write_file(folder.path() / name, "x"));
+  EXPECT_EQ(*read_file(folder.path() / name), "x");
+}
+
+TEST(Files, AFullDiskLeavesTheOldFile) {
+  const TestFolder folder;
+  folder.write("out.txt", "old");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{1000, before.rlim_max};  // fails as a full disk does, in the middle
+  signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const Status status = write_file(folder.path() / "out.txt", std::string(5000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find("out.txt: cannot be written"), std::string::npos);
+  EXPECT_EQ(*read_file(folder.path() / "out.txt"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Files, AFolderThatCannotBeMadeIsNamed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstring>
 #include <optional>
 
 #include "base/files.h"
@@ -143,6 +144,60 @@ TEST(ImageIo, WhatCannotBeWrittenLeavesNothing) {
   ASSERT_FALSE(unknown_kind);
   EXPECT_NE(to_string(unknown_kind.errors()).find("picture.xyz"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ImageIo, FormatsAreKnownByTheirContent) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "p.png", noise(5, 4, 3)));
+  fs::copy(folder.path() / "p.png", folder.path() / "p.jpg");
+  EXPECT_TRUE(read_image8(folder.path() / "p.jpg"));
+  for (const char* name : {"t.avi", "x.null?RES=32768x32768", "icon.ico", "s.psd"}) {
+    folder.write(name, "#EXTM3U\nfile:///etc/passwd\n");
+    const Result<Image8> picture = read_image8(folder.path() / name);
+    ASSERT_FALSE(picture) << name;
+    EXPECT_NE(to_string(picture.errors()).find("expected PNG"), std::string::npos)
+        << to_string(picture.errors());
+    EXPECT_FALSE(write_image(folder.path() / name, noise(2, 2, 3))) << name;
+  }
+}
+
+TEST(ImageIo, EveryFormatThatIsWrittenIsRead) {
+  const TestFolder folder;
+  for (const char* name : {"p.png", "p.JPG", "p.exr", "p.hdr", "p.tif", "p.bmp", "p.webp", "p.tga"}) {
+    ASSERT_TRUE(write_image(folder.path() / name, Image8(16, 8, 3, 120))) << name;
+    const Result<Image8> again = read_image8(folder.path() / name);
+    ASSERT_TRUE(again) << name << ": " << to_string(again.errors());
+    EXPECT_EQ(again->width, 16) << name;
+  }
+}
+
+TEST(ImageIo, AHeaderThatClaimsMoreThanItsFileHoldsIsRefused) {
+  const TestFolder folder;
+  std::vector<char> header(54);
+  const auto put = [&](std::size_t at, std::uint32_t value) {
+    std::memcpy(header.data() + at, &value, sizeof value);
+  };
+  std::memcpy(header.data(), "BM", 2);
+  put(10, 54), put(14, 40), put(18, 32768), put(22, 32768), put(26, 24u << 16 | 1);
+  folder.write("bomb.bmp", {header.data(), header.size()});
+  const Result<Image8> picture = read_image8(folder.path() / "bomb.bmp");
+  ASSERT_FALSE(picture);
+  EXPECT_NE(to_string(picture.errors()).find("claims 32768 x 32768"), std::string::npos)
+      << to_string(picture.errors());
+}
+
+TEST(ImageIo, RadianceIsFinite) {
+  const TestFolder folder;
+  ImageF radiance(2, 1, 3, 2.0f);
+  radiance.pixels[0] = std::numeric_limits<float>::infinity();
+  radiance.pixels[1] = std::numeric_limits<float>::quiet_NaN();
+  radiance.pixels[3] = 5.0f;
+  ASSERT_TRUE(write_image(folder.path() / "sun.exr", radiance));
+  std::size_t replaced = 0;
+  const Result<ImageF> again = read_image_float(folder.path() / "sun.exr", &replaced);
+  ASSERT_TRUE(again) << to_string(again.errors());
+  EXPECT_EQ(replaced, 2u);
+  EXPECT_EQ(again->pixels, (std::vector<float>{5.0f, 0.0f, 2.0f, 5.0f, 2.0f, 2.0f}));
 }
 
 }  // namespace

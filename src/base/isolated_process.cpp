@@ -1,0 +1,339 @@
+#include "base/isolated_process.h"
+
+#include <fcntl.h>
+#include <linux/landlock.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <new>
+
+namespace parvis {
+namespace {
+
+/// A file descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  int get() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+enum class Outcome : char { done = 'd', failed = 'f', out_of_memory = 'm' };
+
+/// A request as it travels to the server, with three descriptors: input, output, status.
+struct Request {
+  IsolatedWork work;
+  std::uint64_t memory_bytes;
+  double seconds;
+  std::uint32_t readable_bytes;  ///< of the input's front: paths that may be read, each ended by a zero
+};
+
+/// Sent by the worker when it starts, so that its caller can end it.
+struct Started {
+  pid_t worker;
+};
+
+constexpr std::size_t descriptors_per_request = 3;
+using Descriptors = std::array<int, descriptors_per_request>;
+
+bool send_request(int socket, const Request& request, const Descriptors& descriptors) {
+  iovec part{const_cast<Request*>(&request), sizeof request};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Descriptors))> control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  cmsghdr* header = CMSG_FIRSTHDR(&message);
+  header->cmsg_level = SOL_SOCKET;
+  header->cmsg_type = SCM_RIGHTS;
+  header->cmsg_len = CMSG_LEN(sizeof descriptors);
+  std::memcpy(CMSG_DATA(header), descriptors.data(), sizeof descriptors);
+  ssize_t sent = 0;
+  do sent = sendmsg(socket, &message, MSG_NOSIGNAL);
+  while (sent < 0 && errno == EINTR);
+  return sent == ssize_t(sizeof request);
+}
+
+/// False when the program has ended.
+bool receive_request(int socket, Request& request, Descriptors& descriptors) {
+  iovec part{&request, sizeof request};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Descriptors))> control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  ssize_t received = 0;
+  do received = recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
+  while (received < 0 && errno == EINTR);
+  const cmsghdr* header = CMSG_FIRSTHDR(&message);
+  if (received != ssize_t(sizeof request) || header == nullptr) return false;
+  std::memcpy(descriptors.data(), CMSG_DATA(header), sizeof descriptors);
+  return true;
+}
+
+std::uint64_t address_space_bytes() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+void limit_memory([[maybe_unused]] std::uint64_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__)  // whose shadow memory takes terabytes of address space
+  const rlim_t all = address_space_bytes() + bytes;
+  const rlimit limit{all, all};
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+/// Lets the worker open files for reading below `paths` alone. Older kernels lack Landlock: then the limits
+/// and the readers' own checks of paths remain.
+void limit_files(const std::vector<std::string>& paths) {
+#if defined(SYS_landlock_create_ruleset)
+  landlock_ruleset_attr rules{};
+  rules.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;  // all rights of Landlock's first version
+  const Descriptor ruleset(int(syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0)));
+  if (!ruleset) return;
+  for (const std::string& path : paths) {
+    const Descriptor place(open(path.c_str(), O_PATH | O_CLOEXEC));
+    if (!place) continue;
+    struct stat status {};
+    fstat(place.get(), &status);
+    landlock_path_beneath_attr rule{};
+    rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
+    if (S_ISDIR(status.st_mode)) rule.allowed_access |= LANDLOCK_ACCESS_FS_READ_DIR;
+    rule.parent_fd = place.get();
+    syscall(SYS_landlock_add_rule, ruleset.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+  }
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  syscall(SYS_landlock_restrict_self, ruleset.get(), 0);
+#endif
+}
+
+std::string_view map_whole(int file) {
+  struct stat status {};
+  if (fstat(file, &status) != 0 || status.st_size == 0) return {};
+  void* const bytes = mmap(nullptr, std::size_t(status.st_size), PROT_READ, MAP_SHARED, file, 0);
+  if (bytes == MAP_FAILED) return {};
+  return {static_cast<const char*>(bytes), std::size_t(status.st_size)};
+}
+
+void fill(IsolatedOutput& output, std::string_view text) {
+  const std::span<std::byte> bytes = output.allocate(text.size());
+  if (bytes.size() == text.size()) std::memcpy(bytes.data(), text.data(), text.size());
+}
+
+/// Errors travel as their messages, each ended by a zero: places in files are part of the caller's knowledge.
+Outcome fail(const Errors& errors, IsolatedOutput& output) {
+  std::string text;
+  for (const Error& error : errors) text += to_string(error) + '\0';
+  fill(output, text);
+  return Outcome::failed;
+}
+
+Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& output) {
+  try {
+    const Status status = work(input, output);
+    return status ? Outcome::done : fail(status.errors(), output);
+  } catch (const std::bad_alloc&) {
+    return Outcome::out_of_memory;
+  } catch (const std::exception& problem) {
+    return fail({error("the reader gave up: {}", problem.what())}, output);
+  } catch (...) {
+    return fail({error("the reader gave up")}, output);
+  }
+}
+
+[[noreturn]] void be_worker(const Request& request, const Descriptors& descriptors) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const Started started{getpid()};
+  if (write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
+  std::atexit([] { _exit(1); });  // a reader that calls exit must not run into the program's destructors
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const auto seconds = rlim_t(request.seconds) + 1;
+  const rlimit processor_time{seconds * 64, seconds * 64};  // of all threads; the caller watches the clock
+  setrlimit(RLIMIT_CPU, &processor_time);
+
+  const std::string_view all = map_whole(descriptors[0]);
+  std::vector<std::string> readable;
+  for (std::string_view paths = all.substr(0, request.readable_bytes); !paths.empty();) {
+    readable.emplace_back(paths.data());
+    paths.remove_prefix(std::min(paths.size(), readable.back().size() + 1));
+  }
+  limit_files(readable);
+  limit_memory(request.memory_bytes);
+  IsolatedOutput output(descriptors[1]);
+  const Outcome outcome = carry_out(request.work, all.substr(request.readable_bytes), output);
+  const ssize_t written = write(descriptors[2], &outcome, sizeof outcome);
+  _exit(written == ssize_t(sizeof outcome) ? 0 : 1);  // no destructors: they are the program's
+}
+
+[[noreturn]] void be_server(int socket) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGCHLD, SIG_IGN);  // workers leave no zombies
+  signal(SIGINT, SIG_IGN);   // the program decides when its server ends
+  const Descriptor nothing(open("/dev/null", O_RDWR));
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing.get(), stream);
+  Request request{};
+  Descriptors descriptors{};
+  while (receive_request(socket, request, descriptors)) {
+    if (fork() == 0) {
+      close(socket);
+      be_worker(request, descriptors);
+    }
+    for (const int descriptor : descriptors) close(descriptor);  // no worker: the caller reads an end of file
+  }
+  _exit(0);
+}
+
+/// The program's end of the socket to the server; -1 where none can be had.
+int server_socket() {
+  static const int socket = [] {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return -1;
+    const pid_t child = fork();
+    if (child == 0) {
+      close(ends[0]);
+      be_server(ends[1]);
+    }
+    close(ends[1]);
+    return child < 0 ? -1 : ends[0];
+  }();
+  return socket;
+}
+
+Descriptor memory_file(const char* name) { return Descriptor(memfd_create(name, MFD_CLOEXEC)); }
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(std::size_t(written));
+  }
+  return true;
+}
+
+/// Reads a value that the worker sends before the deadline; false at its end or too late.
+template <class T>
+bool receive(int status, T& value, std::chrono::steady_clock::time_point deadline, bool& is_late) {
+  for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    pollfd waiting{status, POLLIN, 0};
+    const int ready = poll(&waiting, 1, int(std::max<std::int64_t>(0, left.count())));
+    if (ready < 0 && errno == EINTR) continue;
+    is_late = ready == 0;
+    return ready > 0 && read(status, &value, sizeof value) == ssize_t(sizeof value);
+  }
+}
+
+Errors errors_of(std::span<const std::byte> bytes, const std::string& subject) {
+  Errors errors;
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\0'), text.size());
+    errors.push_back(error("{}", text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  if (errors.empty()) errors.push_back(error("{}: cannot be read", subject));
+  return errors;
+}
+
+}  // namespace
+
+IsolatedOutput::~IsolatedOutput() {
+  if (!mapped_.empty()) munmap(mapped_.data(), mapped_.size());
+}
+
+std::span<std::byte> IsolatedOutput::allocate(std::size_t size) {
+  if (!mapped_.empty()) munmap(mapped_.data(), mapped_.size());
+  mapped_ = {};
+  if (ftruncate(file_, 0) != 0 || ftruncate(file_, off_t(size)) != 0 || size == 0) return {};
+  void* const bytes = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+  if (bytes == MAP_FAILED) return {};
+  return mapped_ = {static_cast<std::byte*>(bytes), size};
+}
+
+IsolatedBytes::IsolatedBytes(int file) : file_(file) {
+  const std::string_view all = map_whole(file);
+  mapped_ = std::as_bytes(std::span(all.data(), all.size()));
+}
+
+IsolatedBytes::IsolatedBytes(IsolatedBytes&& other) noexcept
+    : file_(std::exchange(other.file_, -1)), mapped_(std::exchange(other.mapped_, {})) {}
+
+IsolatedBytes::~IsolatedBytes() {
+  if (!mapped_.empty()) munmap(const_cast<std::byte*>(mapped_.data()), mapped_.size());
+  if (file_ >= 0) close(file_);
+}
+
+void start_isolation() { server_socket(); }
+
+Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
+                                   const IsolationLimits& limits) {
+  std::string readable;
+  for (const std::filesystem::path& path : limits.readable) readable += path.string() + '\0';
+  Descriptor given = memory_file("input"), made = memory_file("output");
+  std::array<int, 2> status{};
+  if (!given || !made || pipe2(status.data(), O_CLOEXEC) != 0)
+    return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
+  const Descriptor status_out(status[0]);
+  Descriptor status_in(status[1]);
+  if (!write_all(given.get(), readable) || !write_all(given.get(), input))
+    return error("{}: there is no memory to hand it to its reader ({})", subject, std::strerror(errno));
+  const Request request{work, limits.memory_bytes, limits.seconds, std::uint32_t(readable.size())};
+  if (!send_request(server_socket(), request, {given.get(), made.get(), status_in.get()}))
+    return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
+  status_in = Descriptor();  // so that the worker's end is the last one
+
+  const auto deadline =
+      std::chrono::steady_clock::now() +
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(limits.seconds));
+  bool is_late = false;
+  Started started{};
+  Outcome outcome{};
+  const bool has_started = receive(status_out.get(), started, deadline, is_late);
+  if (!has_started || !receive(status_out.get(), outcome, deadline, is_late)) {
+    if (is_late && has_started) kill(started.worker, SIGKILL);
+    if (is_late)
+      return error("{}: its reader took more than {:.0f} s and was ended", subject, limits.seconds);
+    return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
+  }
+  if (outcome == Outcome::out_of_memory)
+    return error("{}: reading it needs more than {:.1f} GB of memory", subject,
+                 double(limits.memory_bytes) / 1e9);
+  IsolatedBytes result(made.release());
+  if (outcome == Outcome::failed) return errors_of(result.bytes(), subject);
+  return result;
+}
+
+}  // namespace parvis

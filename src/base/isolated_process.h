@@ -1,0 +1,75 @@
+// Work on bytes that nobody trusts, in a child process: a third-party reader that crashes, exits, hangs or
+// takes all memory there is becomes an error of ours.
+//
+// A small server process is forked before the program has threads (start_isolation, at the head of main) and
+// forks a worker for each call, so that no worker inherits a lock that another thread holds. A worker has
+// limits on memory and time and, where the kernel has Landlock, opens no file except below the folders that
+// the call names.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace parvis {
+
+/// What a worker may use.
+struct IsolationLimits {
+  std::uint64_t memory_bytes = std::uint64_t{8} << 30;  ///< address space beyond that of the program
+  double seconds = 120.0;                               ///< by the wall clock
+  std::vector<std::filesystem::path> readable;          ///< folders and files that may be opened for reading
+};
+
+/// Memory that a worker fills and its caller reads, without a copy between them.
+class IsolatedOutput {
+ public:
+  explicit IsolatedOutput(int file) : file_(file) {}
+  IsolatedOutput(const IsolatedOutput&) = delete;
+  IsolatedOutput& operator=(const IsolatedOutput&) = delete;
+  ~IsolatedOutput();
+
+  /// `size` bytes of zeros, in place of any asked for before; empty if there is not so much memory.
+  std::span<std::byte> allocate(std::size_t size);
+
+ private:
+  int file_;
+  std::span<std::byte> mapped_;
+};
+
+/// What a worker gave; unmapped at the end.
+class IsolatedBytes {
+ public:
+  /// Maps the whole of a file that lies in memory, and owns it.
+  explicit IsolatedBytes(int file);
+  IsolatedBytes(IsolatedBytes&& other) noexcept;
+  IsolatedBytes& operator=(IsolatedBytes&&) = delete;
+  ~IsolatedBytes();
+
+  /// All bytes, as the worker left them.
+  std::span<const std::byte> bytes() const { return mapped_; }
+
+ private:
+  int file_;
+  std::span<const std::byte> mapped_;
+};
+
+/// Runs in the worker: reads `input`, fills `output`; its errors are handed to the caller. A plain function
+/// of the program, for workers share the program's code.
+using IsolatedWork = Status (*)(std::string_view input, IsolatedOutput& output);
+
+/// Forks the server. To be called before the program starts threads; later calls do nothing. Without it the
+/// first call of run_isolated does so.
+void start_isolation();
+
+/// Gives `input` to `work` in a worker, and what it made. Errors are those of `work`, or say that the reader
+/// of `subject` (a file's name) crashed, took too long or needed too much memory.
+Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
+                                   const IsolationLimits& limits = {});
+
+}  // namespace parvis

@@ -1,0 +1,123 @@
+#include "base/isolated_process.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "base/test_folder.h"
+
+namespace parvis {
+namespace {
+
+Status repeat_backwards(std::string_view input, IsolatedOutput& output) {
+  const std::span<std::byte> bytes = output.allocate(input.size());
+  for (std::size_t i = 0; i < input.size(); ++i) bytes[i] = std::byte(input[input.size() - 1 - i]);
+  return Done{};
+}
+
+Status refuse(std::string_view input, IsolatedOutput&) {
+  return Errors{error("{}: first", input), error("{}: second", input)};
+}
+
+Status crash(std::string_view, IsolatedOutput&) {
+  raise(SIGSEGV);
+  return Done{};
+}
+Status give_up(std::string_view, IsolatedOutput&) { std::abort(); }
+Status leave(std::string_view, IsolatedOutput&) { std::exit(0); }
+Status hang(std::string_view, IsolatedOutput&) {
+  for (;;) pause();
+}
+Status throw_it(std::string_view, IsolatedOutput&) { throw std::runtime_error("no such chunk"); }
+
+Status take_all_memory(std::string_view, IsolatedOutput&) {
+  std::vector<std::vector<char>> all;
+  for (;;) all.emplace_back(std::size_t{64} << 20, 'x');
+}
+
+Status read_path(std::string_view path, IsolatedOutput& output) {
+  std::ifstream stream{std::string(path)};
+  std::string text;
+  if (!std::getline(stream, text)) return error("cannot open {}", path);
+  const std::span<std::byte> bytes = output.allocate(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  return Done{};
+}
+
+std::string text_of(const Result<IsolatedBytes>& result) {
+  if (!result) return to_string(result.errors());
+  return {reinterpret_cast<const char*>(result->bytes().data()), result->bytes().size()};
+}
+
+TEST(IsolatedProcess, GivesWhatTheWorkMade) {
+  EXPECT_EQ(text_of(run_isolated(repeat_backwards, "parvis", "x")), "sivrap");
+  const Result<IsolatedBytes> nothing = run_isolated(repeat_backwards, "", "x");
+  ASSERT_TRUE(nothing);
+  EXPECT_TRUE(nothing->bytes().empty());
+}
+
+TEST(IsolatedProcess, HandsOnEveryError) {
+  const Result<IsolatedBytes> result = run_isolated(refuse, "car.dae", "car.dae");
+  ASSERT_FALSE(result);
+  ASSERT_EQ(result.errors().size(), 2u);
+  EXPECT_EQ(result.errors()[1].message, "car.dae: second");
+}
+
+TEST(IsolatedProcess, WhatEndsAReaderIsAnErrorThatNamesTheFile) {
+  for (const IsolatedWork work : {crash, give_up, leave}) {
+    const Result<IsolatedBytes> result = run_isolated(work, "", "car.dae");
+    ASSERT_FALSE(result);
+    EXPECT_NE(text_of(result).find("car.dae: its reader crashed"), std::string::npos) << text_of(result);
+  }
+  EXPECT_NE(text_of(run_isolated(throw_it, "", "car.dae")).find("no such chunk"), std::string::npos);
+}
+
+TEST(IsolatedProcess, AReaderThatHangsIsEnded) {
+  IsolationLimits limits;
+  limits.seconds = 0.3;
+  EXPECT_NE(text_of(run_isolated(hang, "", "car.dae", limits)).find("took more than"), std::string::npos);
+}
+
+TEST(IsolatedProcess, MemoryIsLimited) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer needs an address space without a limit";
+#endif
+  IsolationLimits limits;
+  limits.memory_bytes = std::uint64_t{512} << 20;
+  EXPECT_NE(text_of(run_isolated(take_all_memory, "", "car.dae", limits)).find("needs more than"),
+            std::string::npos);
+}
+
+TEST(IsolatedProcess, OpensOnlyWhatTheCallNames) {
+  const TestFolder folder;
+  folder.write("inside/a.txt", "inside");
+  folder.write("outside.txt", "outside");
+  IsolationLimits limits;
+  limits.readable = {folder.path() / "inside"};
+  EXPECT_EQ(text_of(run_isolated(read_path, (folder.path() / "inside/a.txt").string(), "x", limits)),
+            "inside");
+  const std::string refused =
+      text_of(run_isolated(read_path, (folder.path() / "outside.txt").string(), "x", limits));
+  if (refused == "outside") GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_NE(refused.find("cannot open"), std::string::npos);
+}
+
+TEST(IsolatedProcess, ManyThreadsMayCallAtOnce) {
+  std::atomic<int> right = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 10; ++i) right += text_of(run_isolated(repeat_backwards, "abc", "x")) == "cba";
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, 80);
+}
+
+}  // namespace
+}  // namespace parvis
