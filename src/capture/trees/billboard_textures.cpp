@@ -1,0 +1,213 @@
+// Textures by optimisation. A pixel is the over of the billboards' texels (equation 4.2), so with T the light
+// that reaches a texel from the eye, its colour takes the share T alpha of the pixel's error (simultaneous
+// iterative reconstruction), and its extinction the factor by which the room's opacity method would change it
+// (opacity.h): the products of transparency along the pixel then agree with the matte. What a photograph does
+// not see keeps the volume's colour.
+#include "capture/trees/billboard_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "capture/trees/billboard_math.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr float max_alpha_factor = 3.0f;  // of a texel's extinction, per iteration
+constexpr float max_alpha = 0.998f;
+constexpr float min_seen = 0.02f;  // share of a billboard's pixels below which it has no texture of its own
+constexpr float rectangle_share = 0.7f;  // of a billboard that its cell covers, in the mean
+
+/// Billboards of the cells `levels` above the volume's: the mean colour and extinction of their parts.
+BillboardTree bare_billboards(const TreeVolume& volume, int levels) {
+  const int branching = volume.grid.branching();
+  int step = 1;
+  for (int i = 0; i < levels && volume.grid.side() % (step * branching) == 0; ++i) step *= branching;
+  std::map<std::array<int, 3>, glm::vec4> parents;  // sums: colour weighed by extinction, extinction
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    const glm::ivec3 place = glm::ivec3(volume.grid.cells()[i]) / step;
+    const float tau = volume.extinction_per_m[i];
+    parents[{place.z, place.y, place.x}] += glm::vec4(volume.colour[i] * tau, tau);
+  }
+  BillboardTree tree;
+  std::vector<glm::u16vec3> cells;
+  const int side = volume.grid.side() / step;
+  const float chord_m = mean_chord_m(volume.grid.box().size() / float(side));
+  for (const auto& [place, sum] : parents) {
+    const float alpha = 1.0f - std::exp(-sum.w / float(step * step * step) * chord_m);
+    if (alpha < 1.0f / 510.0f) continue;
+    cells.emplace_back(place[2], place[1], place[0]);
+    tree.base.emplace_back(
+        glm::round(255.0f * glm::vec4(glm::clamp(glm::vec3(sum) / sum.w, 0.0f, 1.0f), alpha)));
+  }
+  tree.grid = CellGrid(volume.grid.box(), branching, side, std::move(cells));
+  return tree;
+}
+
+/// Colour and opacity of the volume along a ray within a box.
+glm::vec4 seen_within(const TreeVolume& volume, const Bounds& box, const ViewRay& ray) {
+  glm::vec3 direction = ray.direction;
+  const glm::vec2 span = box_distances(box, ray.origin, inverse_of(direction));
+  if (span.x >= span.y) return glm::vec4(0.0f);
+  const float inside_m = 1e-4f * (span.y - span.x);
+  const ViewRay rest{ray.origin + (span.x + inside_m) * direction, direction};
+  const float length_m = span.y - span.x - 2.0f * inside_m;
+  glm::vec4 sum(0.0f);
+  volume.grid.walk(rest, [&](std::size_t cell, float enter, float leave) {
+    if (enter >= length_m) return false;
+    const float alpha = 1.0f - std::exp(-volume.extinction_per_m[cell] * (std::min(leave, length_m) - enter));
+    sum += (1.0f - sum.w) * alpha * glm::vec4(volume.colour[cell], 1.0f);
+    return leave < length_m;
+  });
+  return sum.w > 0.0f ? glm::vec4(glm::vec3(sum) / sum.w, sum.w) : sum;
+}
+
+/// Texels of one photograph while they are fitted.
+class Fit {
+ public:
+  Fit(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view, int side)
+      : tree_(tree), view_(view), side_(side), placed_(placed_billboards(tree.grid, view.camera, false)) {
+    const std::size_t per_texture = std::size_t(side * side);
+    texels_.assign(tree.grid.size() * per_texture, glm::vec4(0.0f));
+    colour_.assign(texels_.size(), glm::vec4(0.0f)), opacity_.assign(texels_.size(), glm::vec2(0.0f));
+    const glm::vec3 eye = view.camera.position_in_world;
+    for (const PlacedBillboard& b : placed_) {
+      const glm::vec3 centre = tree.grid.centre(b.cell), to_eye = glm::normalize(eye - centre);
+      const glm::vec3 right = display::billboard_right(to_eye), up = display::billboard_up(to_eye, right);
+      const Bounds box = tree.grid.bounds(b.cell);
+      const glm::vec3 base = glm::vec3(tree.base[b.cell]) / 255.0f;
+      for (int v = 0; v < side; ++v)
+        for (int u = 0; u < side; ++u) {
+          const glm::vec2 m = b.half_size_m * glm::vec2((2.0f * float(u) + 1.0f) / float(side) - 1.0f,
+                                                        1.0f - (2.0f * float(v) + 1.0f) / float(side));
+          const glm::vec3 point = centre + m.x * right + m.y * up;
+          glm::vec4 seen = seen_within(volume, box, {eye, glm::normalize(point - eye)});
+          if (seen.w <= 0.0f) seen = glm::vec4(base, 0.0f);
+          seen.w = std::min(seen.w, max_alpha);
+          texels_[b.cell * per_texture + std::size_t(v * side + u)] = seen;
+        }
+    }
+  }
+
+  void iterate() {
+    render();
+    gather();
+    for (std::size_t i = 0; i < texels_.size(); ++i) {
+      glm::vec4& t = texels_[i];
+      const glm::vec4 c = colour_[i];
+      if (c.w > 1e-4f) t = glm::vec4(glm::clamp(glm::vec3(t) + glm::vec3(c) / c.w, 0.0f, 1.0f), t.w);
+      const glm::vec2 o = opacity_[i];
+      if (o.y > 1e-7f) {
+        const float factor = std::clamp(o.x / o.y, 1.0f / max_alpha_factor, max_alpha_factor);
+        t.w = std::min(1.0f - std::pow(1.0f - t.w, factor), max_alpha);
+      }
+    }
+  }
+
+  BillboardTextures result() const {
+    BillboardTextures textures{view_.camera, std::vector<std::int32_t>(tree_.grid.size(), -1), {}};
+    const std::size_t per_texture = std::size_t(side_ * side_);
+    std::int32_t next = 0;
+    for (const PlacedBillboard& b : placed_) {
+      float seen = 0.0f;
+      for (std::size_t k = 0; k < per_texture; ++k) seen += colour_[b.cell * per_texture + k].w;
+      const glm::ivec2 extent = b.high - b.low;
+      if (seen < min_seen * float(extent.x * extent.y)) continue;
+      textures.texture_of_cell[b.cell] = next++;
+      for (std::size_t k = 0; k < per_texture; ++k) {
+        const glm::vec4 t = glm::round(255.0f * texels_[b.cell * per_texture + k]);
+        for (int c = 0; c < 4; ++c) textures.texels.push_back(std::uint8_t(t[c]));
+      }
+    }
+    return textures;
+  }
+
+ private:
+  /// A texture at a point: the texels and, premultiplied, the colour.
+  glm::vec4 sample(const PlacedBillboard& b, glm::vec2 metres, Footprint& footprint) const {
+    footprint = Footprint(display::billboard_uv(metres, b.half_size_m), side_);
+    glm::vec4 sum(0.0f);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const glm::vec4 t = texels_[b.cell * std::size_t(side_ * side_) + std::size_t(footprint.texel[k])];
+      sum += footprint.weight[k] * t.w * glm::vec4(glm::vec3(t), 1.0f);
+    }
+    return sum;
+  }
+
+  void render() {
+    picture_.assign(std::size_t(view_.camera.width) * std::size_t(view_.camera.height), glm::vec4(0.0f));
+    Footprint footprint({0.0f, 0.0f}, side_);
+    for (const PlacedBillboard& b : placed_)
+      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 metres) {
+        glm::vec4& p = pixel(picture_, x, y);
+        if (p.w < 0.9995f) p += (1.0f - p.w) * sample(b, metres, footprint);
+      });
+  }
+
+  /// What each texel should change, from the pixels' errors.
+  void gather() {
+    std::ranges::fill(colour_, glm::vec4(0.0f)), std::ranges::fill(opacity_, glm::vec2(0.0f));
+    std::vector<float> passed(picture_.size(), 1.0f);
+    Footprint footprint({0.0f, 0.0f}, side_);
+    for (const PlacedBillboard& b : placed_)
+      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 metres) {
+        float& before = pixel(passed, x, y);
+        const glm::vec4 found = pixel(picture_, x, y);
+        const std::uint8_t* p = view_.picture.at(x, y);
+        const float alpha = float(p[3]) / 255.0f, left = 1.0f - found.w + 1e-3f;
+        const glm::vec3 wanted = glm::vec3(float(p[0]), float(p[1]), float(p[2])) * (alpha / 255.0f);
+        const glm::vec3 residual = wanted - glm::vec3(found);
+        const glm::vec4 own = sample(b, metres, footprint);
+        const std::size_t first = b.cell * std::size_t(side_ * side_);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::size_t i = first + std::size_t(footprint.texel[k]);
+          const float share = before * footprint.weight[k] * texels_[i].w;
+          colour_[i] += share * glm::vec4(residual, 1.0f);
+          opacity_[i] += footprint.weight[k] * left * glm::vec2(alpha, found.w);
+        }
+        before *= 1.0f - own.w;
+      });
+  }
+
+  template <class T>
+  T& pixel(std::vector<T>& picture, int x, int y) const {
+    return picture[std::size_t(y) * std::size_t(view_.camera.width) + std::size_t(x)];
+  }
+
+  const BillboardTree& tree_;
+  const TreeView& view_;
+  int side_;
+  std::vector<PlacedBillboard> placed_;  // front to back
+  std::vector<glm::vec4> texels_;        // straight colour and alpha, side * side per cell
+  std::vector<glm::vec4> colour_;        // per texel: sum of share * residual; sum of shares
+  std::vector<glm::vec2> opacity_;       // per texel: wanted and found
+  std::vector<glm::vec4> picture_;       // premultiplied
+};
+
+}  // namespace
+
+BillboardTextures optimised_texels(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view,
+                                   const TextureOptions& options) {
+  Fit fit(tree, volume, view, options.texels_per_side);
+  for (int i = 0; i < options.iterations; ++i) fit.iterate();
+  return fit.result();
+}
+
+BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
+                       const TextureOptions& options) {
+  BillboardTree tree = bare_billboards(volume, options.parent_levels);
+  tree.texels_per_side = options.texels_per_side;
+  tree.views.resize(views.size());
+  parallel_for(views.size(), [&](std::size_t i) {
+    tree.views[i] = options.method == TextureMethod::optimised
+                        ? optimised_texels(tree, volume, views[i], options)
+                        : selected_texels(tree, views[i], options);
+  });
+  // Seen from where no photograph sees it, a cell fills only a part of its rectangle.
+  for (glm::u8vec4& base : tree.base) base.w = std::uint8_t(rectangle_share * float(base.w));
+  return tree;
+}
+
+}  // namespace parvis::trees

@@ -1,0 +1,89 @@
+// A captured tree as it is displayed: a billboard per cell with a texture per photograph
+// (003_d5b01da2d2f805f6, sections 4.5.3 and 4.6).
+#pragma once
+
+#include <array>
+
+#include "capture/trees/tree_volume.h"
+
+namespace parvis::trees {
+
+/// Textures of one photograph.
+struct BillboardTextures {
+  Pinhole camera;
+  std::vector<std::int32_t>
+      texture_of_cell;  ///< -1: the photograph does not see the cell; its base colour stands in
+  std::vector<std::uint8_t>
+      texels;  ///< RGBA, sRGB, straight alpha; texels_per_side^2 per texture, top row first
+
+  /// How many textures there are, of `texels_per_side`.
+  std::size_t count(int texels_per_side) const {
+    return texels.size() / (4 * std::size_t(texels_per_side) * std::size_t(texels_per_side));
+  }
+};
+
+/// Cells with their billboards. Cells that are empty are not kept.
+struct BillboardTree {
+  CellGrid grid;
+  std::vector<glm::u8vec4> base;  ///< per cell: colour (sRGB) and opacity along its mean chord
+  int texels_per_side = 4;        ///< M of the thesis
+  std::vector<BillboardTextures> views;
+};
+
+/// A billboard in a picture: where its pixels lie on it.
+struct PlacedBillboard {
+  std::uint32_t cell;
+  glm::vec2 middle;  ///< pixels
+  glm::mat2
+      metres_from_pixels;  ///< right and upward; affine, which a billboard far smaller than its distance is
+  glm::vec2 half_size_m;
+  glm::ivec2 low, high;  ///< pixels that it may cover, high excluded
+};
+
+/// The billboards that a camera sees, in the order of visibility of the cells: exact, from every place
+/// outside of the grid.
+std::vector<PlacedBillboard> placed_billboards(const CellGrid& grid, const Pinhole& camera,
+                                               bool back_to_front);
+
+/// Half width and height of a cell's billboard towards a point.
+glm::vec2 billboard_half_size_towards(const CellGrid& grid, std::size_t cell, glm::vec3 eye);
+
+/// Up to two photographs and their weights, which add up to 1.
+struct ClosestViews {
+  std::array<int, 2> views{0, 0};
+  std::array<float, 2> weights{1.0f, 0.0f};
+};
+/// The two photographs whose directions from the tree's middle are closest to the eye's.
+ClosestViews closest_views(const BillboardTree& tree, glm::vec3 eye);
+
+/// The picture from a camera: RGBA, premultiplied, sRGB. Billboards from back to front, the textures of the
+/// two closest photographs, over.
+ImageF render_billboards(const BillboardTree& tree, const Pinhole& camera);
+
+/// Calls visit(x, y, metres) for the pixels of a placed billboard that lie on it, within rows [row0, row1).
+template <class Visit>
+void visit_pixels(const PlacedBillboard& b, int row0, int row1, Visit&& visit) {
+  for (int y = std::max(b.low.y, row0); y < std::min(b.high.y, row1); ++y)
+    for (int x = b.low.x; x < b.high.x; ++x) {
+      const glm::vec2 metres =
+          b.metres_from_pixels * (glm::vec2(float(x) + 0.5f, float(y) + 0.5f) - b.middle);
+      if (std::abs(metres.x) <= b.half_size_m.x && std::abs(metres.y) <= b.half_size_m.y) visit(x, y, metres);
+    }
+}
+
+/// The four texels round a point of a texture, by bilinear interpolation, clamped at the edges.
+struct Footprint {
+  std::array<int, 4> texel;
+  std::array<float, 4> weight;
+
+  Footprint(glm::vec2 uv, int side) {
+    const glm::vec2 at = glm::clamp(uv * float(side) - 0.5f, glm::vec2(0.0f), glm::vec2(float(side - 1)));
+    const glm::ivec2 low = glm::min(glm::ivec2(at), glm::ivec2(std::max(side - 2, 0)));
+    const glm::vec2 f = at - glm::vec2(low);
+    const int right = side > 1 ? 1 : 0, down = side > 1 ? side : 0, first = low.y * side + low.x;
+    texel = {first, first + right, first + down, first + down + right};
+    weight = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y, f.x * f.y};
+  }
+};
+
+}  // namespace parvis::trees

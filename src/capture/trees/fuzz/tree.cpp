@@ -1,0 +1,18 @@
+// Any bytes as a captured tree, and as a volume: with the checksum that they lack, so that the checks behind
+// it are met.
+#include "base/fuzz_file.h"
+#include "base/sealed_file.h"
+#include "capture/trees/tree_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static parvis::FuzzFile raw(".tree");
+  const std::filesystem::path& file = raw.with(data, size);
+  (void)parvis::trees::read_tree(file);
+  (void)parvis::trees::read_volume(file);
+  const std::string_view content(reinterpret_cast<const char*>(data), size);
+  if (parvis::write_sealed(file, {"PVTREE_1", "captured tree"}, content))
+    (void)parvis::trees::read_tree(file);
+  if (parvis::write_sealed(file, {"PVTVOL_1", "tree volume"}, content))
+    (void)parvis::trees::read_volume(file);
+  return 0;
+}

@@ -1,0 +1,28 @@
+// How close a picture of a captured tree comes to the photograph from the same place.
+#pragma once
+
+#include "base/result.h"
+#include "capture/trees/tree_view.h"
+
+namespace parvis::trees {
+
+/// Of one view, or their mean.
+struct ViewErrors {
+  double psnr_db = 0.0;     ///< RGBA over white, sRGB
+  double ssim = 0.0;        ///< over white
+  double flip = 0.0;        ///< over white, mean
+  double alpha_rmse = 0.0;  ///< 0..1
+
+  ViewErrors& operator+=(const ViewErrors& other);
+  ViewErrors& operator/=(double count);
+};
+
+/// A premultiplied RGBA picture over white, 8-bit RGB.
+Image8 over_white(const ImageF& premultiplied);
+/// A view over white, 8-bit RGB.
+Image8 over_white(const Image8& straight);
+
+/// Compares a premultiplied RGBA picture with the view of the same size.
+Result<ViewErrors> judged(const ImageF& premultiplied, const TreeView& view);
+
+}  // namespace parvis::trees

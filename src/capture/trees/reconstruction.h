@@ -1,0 +1,32 @@
+// From photographs to a volume in one call: hull, grid, opacity, colours, one finer level.
+#pragma once
+
+#include <optional>
+
+#include "capture/trees/tree_volume.h"
+
+namespace parvis::trees {
+
+/// The steps' options.
+struct ReconstructionOptions {
+  GridOptions grid;             ///< of the opacity estimate
+  OpacityOptions opacity;       ///< its own cutoff is not used: `cutoff` is
+  std::optional<float> cutoff;  ///< transparency above which cells are dropped; none: by held-out error
+  int coarse_epochs = 3;        ///< of the fit at the grid's level
+  int fine_epochs = 2;          ///< of the fit at one level more; 0: there is none
+  bool leaves_out_inconsistent = false;  ///< a photograph that contradicts all others; else it is an error
+};
+
+/// What was reconstructed.
+struct Reconstruction {
+  TreeVolume volume;
+  Opacities opacities;             ///< of the first estimate, with its convergence
+  float cutoff = 1.0f;             ///< that was used
+  std::vector<std::string> notes;  ///< per step: what was found, and seconds
+};
+
+/// Reconstructs a tree. Errors: what hull_box and hull_grid say; a photograph whose silhouette contradicts
+/// the others, by name.
+Result<Reconstruction> reconstruct(std::span<const TreeView> views, const ReconstructionOptions& options);
+
+}  // namespace parvis::trees

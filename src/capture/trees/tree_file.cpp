@@ -1,0 +1,231 @@
+#include "capture/trees/tree_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/sealed_file.h"
+#include "capture/trees/texture_blocks.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr SealedKind kind{"PVTREE_1", "captured tree"}, volume_kind{"PVTVOL_1", "tree volume"};
+constexpr int max_billboard_side = 256;  // finer billboards than this are smaller than pixels
+constexpr int max_texels_per_side = 64, max_views = 1024;
+
+/// A texture's block at (column, row), counted in blocks.
+BlockTexels block_of(const std::uint8_t* texture, int side, int column, int row) {
+  BlockTexels texels;
+  for (int y = 0; y < 4; ++y)
+    std::copy_n(texture + 4 * std::size_t((4 * row + y) * side + 4 * column), 16, texels.data() + 16 * y);
+  return texels;
+}
+
+void put_block(std::uint8_t* texture, int side, int column, int row, const BlockTexels& texels) {
+  for (int y = 0; y < 4; ++y)
+    std::copy_n(texels.data() + 16 * y, 16, texture + 4 * std::size_t((4 * row + y) * side + 4 * column));
+}
+
+std::vector<TextureBlock> blocks_of(const BillboardTextures& view, int side) {
+  std::vector<TextureBlock> blocks;
+  const std::size_t count = view.count(side);
+  for (std::size_t i = 0; i < count; ++i)
+    for (int row = 0; row < side / 4; ++row)
+      for (int column = 0; column < side / 4; ++column)
+        blocks.push_back(compressed_block(
+            block_of(view.texels.data() + 4 * i * std::size_t(side * side), side, column, row)));
+  return blocks;
+}
+
+std::vector<std::uint8_t> texels_of(const std::vector<TextureBlock>& blocks, int side) {
+  const std::size_t per_texture = std::size_t(side / 4) * std::size_t(side / 4);
+  std::vector<std::uint8_t> texels(blocks.size() * 64);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const int within = int(i % per_texture);
+    put_block(texels.data() + 4 * (i / per_texture) * std::size_t(side * side), side, within % (side / 4),
+              within / (side / 4), decompressed_block(blocks[i]));
+  }
+  return texels;
+}
+
+/// One bit per cell: has the view a texture of it?
+std::vector<std::uint8_t> bits_of(const std::vector<std::int32_t>& texture_of_cell) {
+  std::vector<std::uint8_t> bits((texture_of_cell.size() + 7) / 8, 0);
+  for (std::size_t i = 0; i < texture_of_cell.size(); ++i)
+    if (texture_of_cell[i] >= 0) bits[i / 8] |= std::uint8_t(1u << (i % 8));
+  return bits;
+}
+
+bool is_finite(const Pinhole& camera) {
+  const auto finite = [](const auto& v) { return !glm::any(glm::isnan(v)) && !glm::any(glm::isinf(v)); };
+  return finite(camera.focal) && finite(camera.principal_point) && finite(camera.position_in_world) &&
+         finite(camera.world_from_camera[0]) && finite(camera.world_from_camera[1]) &&
+         finite(camera.world_from_camera[2]);
+}
+
+/// Checks what the grid's constructor takes for granted.
+std::string grid_problem(const Bounds& box, int branching, int side, int max_side,
+                         const std::vector<glm::u16vec3>& cells) {
+  const glm::vec3 size = box.size();
+  if (!(size.x > 0.0f && size.y > 0.0f && size.z > 0.0f) || glm::any(glm::isinf(size)))
+    return "its box has no extent";
+  if (branching != 2 && branching != 3) return fmt::format("its branching is {}, expected 2 or 3", branching);
+  int power = 1;
+  while (power < side && power <= max_side) power *= branching;
+  if (side < 1 || side > max_side || power != side)
+    return fmt::format("its side of {} cells is no power of {} up to {}", side, branching, max_side);
+  std::set<std::array<int, 3>> seen;
+  for (const glm::u16vec3 c : cells) {
+    if (c.x >= side || c.y >= side || c.z >= side) return "a cell lies outside of its grid";
+    if (!seen.insert({c.x, c.y, c.z}).second) return "a cell occurs twice";
+  }
+  return "";
+}
+
+}  // namespace
+
+Result<std::size_t> write_tree(const std::filesystem::path& file, const BillboardTree& tree) {
+  if (tree.texels_per_side % 4 != 0 || tree.texels_per_side > max_texels_per_side)
+    return error(
+        "{}: textures of {} texels along a side cannot be written, expected a multiple of 4 up to {}",
+        file.string(), tree.texels_per_side, max_texels_per_side);
+  // Views number the textures in the order of the cells: then a bit per cell says it all.
+  std::string content;
+  append_value(content, tree.grid.box()), append_value(content, std::int32_t(tree.grid.branching()));
+  append_value(content, std::int32_t(tree.grid.side())),
+      append_value(content, std::int32_t(tree.texels_per_side));
+  append_values(content, tree.grid.cells()), append_values(content, tree.base);
+  append_value(content, std::uint32_t(tree.views.size()));
+  const std::size_t bytes_per_texture =
+      4 * std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
+  for (const BillboardTextures& view : tree.views) {
+    BillboardTextures ordered{view.camera, {}, {}};
+    for (const std::int32_t texture : view.texture_of_cell)
+      if (texture >= 0) {
+        const auto first = view.texels.begin() + std::ptrdiff_t(std::size_t(texture) * bytes_per_texture);
+        ordered.texels.insert(ordered.texels.end(), first, first + std::ptrdiff_t(bytes_per_texture));
+      }
+    append_value(content, view.camera), append_values(content, bits_of(view.texture_of_cell));
+    append_values(content, blocks_of(ordered, tree.texels_per_side));
+  }
+  if (Status status = write_sealed(file, kind, content); !status) return status.errors();
+  return content.size() + kind.magic.size() + sizeof(std::uint64_t);
+}
+
+Result<BillboardTree> read_tree(const std::filesystem::path& file) {
+  const Result<std::string> content = read_sealed(file, kind);
+  if (!content) return content.errors();
+  const auto wrong = [&](const std::string& what) {
+    return error("{}: the captured tree is damaged: {}", file.string(), what);
+  };
+  Taker taker(*content);
+  const auto box = taker.take<Bounds>();
+  const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>(),
+             texels = taker.take<std::int32_t>();
+  std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
+  BillboardTree tree;
+  tree.base = taker.take_values<glm::u8vec4>();
+  const auto view_count = taker.take<std::uint32_t>();
+  if (taker.has_ended_early()) return cut_short(file);
+  if (const std::string problem = grid_problem(box, branching, side, max_billboard_side, cells);
+      !problem.empty())
+    return wrong(problem);
+  if (tree.base.size() != cells.size()) return wrong("as many base colours as cells were expected");
+  if (texels < 4 || texels > max_texels_per_side || texels % 4 != 0)
+    return wrong(fmt::format("textures of {} texels along a side", texels));
+  if (view_count > max_views)
+    return wrong(fmt::format("{} views, at most {} are possible", view_count, max_views));
+  const std::size_t cell_count = cells.size(),
+                    blocks_per_texture = std::size_t(texels / 4) * std::size_t(texels / 4);
+  tree.grid = CellGrid(box, branching, side, std::move(cells)), tree.texels_per_side = texels;
+  for (std::uint32_t v = 0; v < view_count; ++v) {
+    BillboardTextures view;
+    view.camera = taker.take<Pinhole>();
+    const auto bits = taker.take_values<std::uint8_t>();
+    const auto blocks = taker.take_values<TextureBlock>();
+    if (taker.has_ended_early()) return cut_short(file);
+    if (!is_finite(view.camera) || view.camera.width < 1 || view.camera.height < 1)
+      return wrong("a camera is no camera");
+    if (bits.size() != (cell_count + 7) / 8) return wrong("a view's cells do not match the grid's");
+    std::int32_t next = 0;
+    for (std::size_t i = 0; i < cell_count; ++i)
+      view.texture_of_cell.push_back(bits[i / 8] >> (i % 8) & 1 ? next++ : -1);
+    if (blocks.size() != std::size_t(next) * blocks_per_texture)
+      return wrong("a view's textures do not match its cells");
+    view.texels = texels_of(blocks, texels);
+    tree.views.push_back(std::move(view));
+  }
+  if (!taker.is_at_end()) return wrong("bytes follow its end");
+  return tree;
+}
+
+Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume) {
+  std::string content;
+  append_value(content, volume.grid.box()), append_value(content, std::int32_t(volume.grid.branching()));
+  append_value(content, std::int32_t(volume.grid.side()));
+  append_values(content, volume.grid.cells()), append_values(content, volume.extinction_per_m);
+  append_values(content, volume.colour);
+  if (Status status = write_sealed(file, volume_kind, content); !status) return status.errors();
+  return content.size() + volume_kind.magic.size() + sizeof(std::uint64_t);
+}
+
+Result<TreeVolume> read_volume(const std::filesystem::path& file) {
+  const Result<std::string> content = read_sealed(file, volume_kind);
+  if (!content) return content.errors();
+  const auto wrong = [&](const std::string& what) {
+    return error("{}: the tree volume is damaged: {}", file.string(), what);
+  };
+  Taker taker(*content);
+  const auto box = taker.take<Bounds>();
+  const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>();
+  std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
+  TreeVolume volume;
+  volume.extinction_per_m = taker.take_values<float>(), volume.colour = taker.take_values<glm::vec3>();
+  if (taker.has_ended_early()) return cut_short(file);
+  if (const std::string problem = grid_problem(box, branching, side, max_grid_side, cells); !problem.empty())
+    return wrong(problem);
+  if (volume.extinction_per_m.size() != cells.size() || volume.colour.size() != cells.size() ||
+      !taker.is_at_end())
+    return wrong("as many values as cells were expected");
+  for (const float tau : volume.extinction_per_m)
+    if (!(tau >= 0.0f) || std::isinf(tau)) return wrong("an extinction is no number from 0 on");
+  volume.grid = CellGrid(box, branching, side, std::move(cells));
+  return volume;
+}
+
+BillboardTree as_stored(BillboardTree tree) {
+  for (BillboardTextures& view : tree.views)
+    view.texels = texels_of(blocks_of(view, tree.texels_per_side), tree.texels_per_side);
+  return tree;
+}
+
+Packing packed_disjoint_alphas(const BillboardTree& tree, std::size_t window) {
+  Packing packing;
+  const std::size_t per_texture = std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
+  using Mask = std::vector<std::uint64_t>;
+  for (const BillboardTextures& view : tree.views) {
+    std::vector<Mask> open;  // with room for one more texture
+    for (std::size_t i = 0; i < view.count(tree.texels_per_side); ++i) {
+      Mask mask((per_texture + 63) / 64, 0);
+      for (std::size_t k = 0; k < per_texture; ++k)
+        if (view.texels[4 * (i * per_texture + k) + 3] > 0) mask[k / 64] |= std::uint64_t(1) << (k % 64);
+      ++packing.textures;
+      const auto fits = std::ranges::find_if(open, [&](const Mask& other) {
+        for (std::size_t w = 0; w < mask.size(); ++w)
+          if (mask[w] & other[w]) return false;
+        return true;
+      });
+      if (fits != open.end()) {
+        open.erase(fits);
+        continue;
+      }
+      ++packing.packed;
+      open.push_back(std::move(mask));
+      if (open.size() > window) open.erase(open.begin());
+    }
+  }
+  return packing;
+}
+
+}  // namespace parvis::trees

@@ -1,0 +1,137 @@
+#include "capture/trees/tree_file.h"
+
+#include <gtest/gtest.h>
+
+#include "base/sealed_file.h"
+#include "base/test_folder.h"
+#include "capture/trees/test_volume.h"
+#include "capture/trees/texture_blocks.h"
+
+namespace parvis::trees {
+namespace {
+
+/// A small tree with random textures, of which some cells have none.
+BillboardTree random_tree() {
+  BillboardTree tree;
+  tree.grid = TestVolume(9, 0.1f).grid, tree.texels_per_side = 8;
+  Random random(8);
+  for (std::size_t i = 0; i < tree.grid.size(); ++i) tree.base.emplace_back(i % 256, 100, 30, 200);
+  for (const TreeView& view : TestVolume(3).ring(3, 16)) {
+    BillboardTextures textures{view.camera, {}, {}};
+    std::int32_t next = 0;
+    for (std::size_t i = 0; i < tree.grid.size(); ++i) {
+      const bool has_one = random.chance(0.6f);
+      textures.texture_of_cell.push_back(has_one ? next++ : -1);
+      const int grey = random.index(200);
+      for (int k = 0; has_one && k < 64; ++k)
+        for (int c = 0; c < 4; ++c) textures.texels.push_back(std::uint8_t(grey + k % 8 * 5));
+    }
+    tree.views.push_back(std::move(textures));
+  }
+  return tree;
+}
+
+TEST(TextureBlocks, KeepSmoothColoursAndAlphas) {
+  BlockTexels texels{};
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto value = std::uint8_t(40 + 8 * i);
+    texels[4 * i] = value, texels[4 * i + 1] = std::uint8_t(value / 2),
+               texels[4 * i + 2] = std::uint8_t(value / 3);
+    texels[4 * i + 3] = std::uint8_t(255 - 10 * i);
+  }
+  const BlockTexels again = decompressed_block(compressed_block(texels));
+  for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(again[i], texels[i], i % 4 == 3 ? 12 : 24) << i;
+}
+
+TEST(TextureBlocks, ColoursOfTransparentTexelsDoNotMatter) {
+  BlockTexels texels{};
+  for (std::size_t i = 0; i < 16; ++i) {
+    const bool is_seen = i % 2 == 0;
+    texels[4 * i] = is_seen ? 60 : 255, texels[4 * i + 1] = is_seen ? 120 : 0,
+               texels[4 * i + 2] = is_seen ? 40 : 255;
+    texels[4 * i + 3] = is_seen ? 255 : 0;
+  }
+  const BlockTexels again = decompressed_block(compressed_block(texels));
+  for (std::size_t i = 0; i < 16; i += 2) {
+    EXPECT_NEAR(again[4 * i], 60, 5);
+    EXPECT_NEAR(again[4 * i + 1], 120, 5);
+    EXPECT_EQ(again[4 * i + 3], 255);
+    EXPECT_EQ(again[4 * i + 7], 0);
+  }
+}
+
+TEST(TreeFile, ReturnsWhatWasWritten) {
+  const TestFolder folder;
+  const BillboardTree tree = random_tree(), stored = as_stored(tree);
+  const Result<std::size_t> bytes = write_tree(folder.path() / "a.tree", tree);
+  ASSERT_TRUE(bytes.ok());
+  EXPECT_EQ(*bytes, std::filesystem::file_size(folder.path() / "a.tree"));
+  const Result<BillboardTree> again = read_tree(folder.path() / "a.tree");
+  ASSERT_TRUE(again.ok()) << to_string(again.errors());
+  EXPECT_EQ(again->grid.cells(), tree.grid.cells());
+  EXPECT_EQ(again->base, tree.base);
+  ASSERT_EQ(again->views.size(), tree.views.size());
+  for (std::size_t v = 0; v < tree.views.size(); ++v) {
+    EXPECT_EQ(again->views[v].texture_of_cell, tree.views[v].texture_of_cell);
+    EXPECT_EQ(again->views[v].texels, stored.views[v].texels);
+    for (std::size_t i = 0; i < tree.views[v].texels.size(); ++i)
+      ASSERT_NEAR(int(again->views[v].texels[i]), int(tree.views[v].texels[i]), 16);
+  }
+}
+
+TEST(TreeFile, ReturnsVolumes) {
+  const TestFolder folder;
+  const TestVolume ball(9, 0.3f);
+  const TreeVolume volume{ball.grid, ball.extinction_per_m,
+                          std::vector<glm::vec3>(ball.grid.size(), glm::vec3(0.25f))};
+  ASSERT_TRUE(write_volume(folder.path() / "a.volume", volume).ok());
+  const Result<TreeVolume> again = read_volume(folder.path() / "a.volume");
+  ASSERT_TRUE(again.ok()) << to_string(again.errors());
+  EXPECT_EQ(again->extinction_per_m, volume.extinction_per_m);
+  EXPECT_EQ(again->grid.cells(), volume.grid.cells());
+}
+
+TEST(TreeFile, EveryShorterFileIsRefused) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.tree";
+  ASSERT_TRUE(write_tree(file, random_tree()).ok());
+  const std::string content = *read_sealed(file, {"PVTREE_1", "captured tree"});
+  for (std::size_t size = 0; size < content.size(); size += 1 + size / 20) {
+    ASSERT_TRUE(
+        write_sealed(file, {"PVTREE_1", "captured tree"}, std::string_view(content).substr(0, size)).ok());
+    EXPECT_FALSE(read_tree(file).ok()) << size << " of " << content.size();
+  }
+}
+
+TEST(TreeFile, RefusesImpossibleGridsAndCounts) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.tree";
+  ASSERT_TRUE(write_tree(file, random_tree()).ok());
+  const std::string content = *read_sealed(file, {"PVTREE_1", "captured tree"});
+  // Offsets: box 24 bytes, branching, side, texels, cell count, cells.
+  for (const auto& [offset, value] :
+       {std::pair{24, 7}, std::pair{28, 10}, std::pair{28, 6561}, std::pair{32, 5}, std::pair{32, 4000},
+        std::pair{36, 0x7fffffff}, std::pair{40, 0xffff}}) {
+    std::string damaged = content;
+    std::memcpy(damaged.data() + offset, &value, 4);
+    ASSERT_TRUE(write_sealed(file, {"PVTREE_1", "captured tree"}, damaged).ok());
+    EXPECT_FALSE(read_tree(file).ok()) << "offset " << offset;
+  }
+}
+
+TEST(Packing, PairsTexturesOfDisjointAlphas) {
+  BillboardTree tree = random_tree();
+  tree.views.resize(1);
+  BillboardTextures& view = tree.views[0];
+  const std::size_t count = view.count(8);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < 64; ++k)
+      view.texels[4 * (64 * i + k) + 3] = (k < 32) == (i % 2 == 0) ? 255 : 0;
+  EXPECT_EQ(packed_disjoint_alphas(tree).packed, (count + 1) / 2);
+  EXPECT_NEAR(packed_disjoint_alphas(tree).ratio(), 0.625, 0.02);
+  for (std::size_t i = 3; i < view.texels.size(); i += 4) view.texels[i] = 255;
+  EXPECT_EQ(packed_disjoint_alphas(tree).packed, count);
+}
+
+}  // namespace
+}  // namespace parvis::trees

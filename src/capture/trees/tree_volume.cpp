@@ -1,0 +1,243 @@
+#include "capture/trees/tree_volume.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr int rows_per_task = 8;
+constexpr float opaque_enough = 1e-3f;  // of the light: what lies behind is not seen
+constexpr float max_depth_per_cell =
+    12.0f;  // optical, along the mean chord: more is not distinguishable from opaque
+constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
+
+/// A photograph, premultiplied, at the resolution of the fit.
+struct Target {
+  Pinhole camera;
+  ImageF rgba;
+};
+
+Target target_of(const TreeView& view, int factor) {
+  Target result{reduced(view.camera, factor), {}};
+  result.rgba = ImageF(result.camera.width, result.camera.height, 4);
+  for (int y = 0; y < result.rgba.height; ++y)
+    for (int x = 0; x < result.rgba.width; ++x) {
+      glm::vec4 sum(0.0f);
+      int count = 0;
+      for (int v = y * factor; v < std::min((y + 1) * factor, view.picture.height); ++v)
+        for (int u = x * factor; u < std::min((x + 1) * factor, view.picture.width); ++u, ++count) {
+          const std::uint8_t* p = view.picture.at(u, v);
+          const float alpha = float(p[3]) / 255.0f;
+          sum += glm::vec4(glm::vec3(float(p[0]), float(p[1]), float(p[2])) * (alpha / 255.0f), alpha);
+        }
+      for (int c = 0; c < 4; ++c) result.rgba.at(x, y)[c] = sum[c] / float(count);
+    }
+  return result;
+}
+
+/// A cell on a ray.
+struct Crossing {
+  std::uint32_t cell;
+  float length_m, kept,
+      before;  ///< exp(-tau l); what of the light reaches the cell from behind it to the eye: T
+};
+
+/// The cells of a ray until it is opaque; returns what passes all of them.
+float collect(const TreeVolume& volume, const ViewRay& ray, std::vector<Crossing>& crossings) {
+  crossings.clear();
+  float passed = 1.0f;
+  volume.grid.walk(ray, [&](std::size_t cell, float enter, float leave) {
+    const float kept = std::exp(-volume.extinction_per_m[cell] * (leave - enter));
+    crossings.push_back({std::uint32_t(cell), leave - enter, kept, passed});
+    passed *= kept;
+    return passed > opaque_enough;
+  });
+  return passed;
+}
+
+glm::vec4 colour_of(const TreeVolume& volume, std::uint32_t cell) {
+  return glm::vec4(volume.colour[cell], 1.0f);
+}
+
+using Gradients = std::vector<glm::vec4>;  // per cell: of the colour; of the logarithm of the extinction
+
+/// Gradients of one pixel's squared error; returns that error.
+double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossings, glm::vec4 wanted,
+                 Gradients& gradients) {
+  glm::vec4 found(0.0f);
+  for (const Crossing& c : crossings) found += c.before * (1.0f - c.kept) * colour_of(volume, c.cell);
+  const glm::vec4 residual = found - wanted;
+  glm::vec4 behind = found;  // what the cells from here on bring
+  for (const Crossing& c : crossings) {
+    const float weight = c.before * (1.0f - c.kept);
+    const glm::vec4 colour = colour_of(volume, c.cell);
+    behind -= weight * colour;
+    const glm::vec4 by_extinction = c.length_m * (c.before * c.kept * colour - behind);
+    glm::vec4& g = gradients[c.cell];
+    g += glm::vec4(weight * glm::vec3(residual),
+                   volume.extinction_per_m[c.cell] * glm::dot(by_extinction, residual));
+  }
+  return double(glm::dot(residual, residual));
+}
+
+/// Moments of Adam per cell.
+struct Adam {
+  std::vector<glm::vec4> first, second;
+  std::vector<std::uint16_t> steps;
+
+  explicit Adam(std::size_t count)
+      : first(count, glm::vec4(0.0f)), second(count, glm::vec4(0.0f)), steps(count, 0) {}
+
+  glm::vec4 step(std::size_t i, glm::vec4 gradient) {
+    steps[i] = std::uint16_t(std::min(int(steps[i]) + 1, 60000));
+    first[i] = beta1 * first[i] + (1.0f - beta1) * gradient;
+    second[i] = beta2 * second[i] + (1.0f - beta2) * gradient * gradient;
+    const float n = float(steps[i]);
+    const glm::vec4 m = first[i] / (1.0f - std::pow(beta1, n)), v = second[i] / (1.0f - std::pow(beta2, n));
+    return m / (glm::sqrt(v) + adam_epsilon);
+  }
+};
+
+}  // namespace
+
+float TreeVolume::alpha(std::size_t cell) const {
+  return 1.0f - std::exp(-extinction_per_m[cell] * mean_chord_m(grid.cell_size_m()));
+}
+
+TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views) {
+  TreeVolume volume{std::move(grid), std::move(extinction_per_m), {}};
+  tbb::enumerable_thread_specific<Gradients> partial(
+      [&] { return Gradients(volume.grid.size(), glm::vec4(0.0f)); });
+  tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
+  for (const TreeView& view : views)
+    parallel_for(
+        std::size_t(view.camera.height),
+        [&](std::size_t row) {
+          Gradients& sums = partial.local();
+          std::vector<Crossing>& crossings = rays.local();
+          for (int x = 0; x < view.camera.width; ++x) {
+            const std::uint8_t* p = view.picture.at(x, int(row));
+            if (p[3] == 0) continue;
+            const glm::vec4 seen = glm::vec4(float(p[0]), float(p[1]), float(p[2]), 255.0f) / 255.0f;
+            collect(volume, view.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
+            for (const Crossing& c : crossings)
+              sums[c.cell] += c.before * (1.0f - c.kept + 1e-4f) * (float(p[3]) / 255.0f) * seen;
+          }
+        },
+        rows_per_task);
+  Gradients all(volume.grid.size(), glm::vec4(0.0f));
+  for (const Gradients& sums : partial)
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
+  for (const glm::vec4& sum : all)
+    volume.colour.push_back(sum.w > 0.0f ? glm::vec3(sum) / sum.w : glm::vec3(0.2f, 0.25f, 0.15f));
+  return volume;
+}
+
+std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
+                               const FitOptions& options) {
+  const std::size_t count = volume.grid.size();
+  std::vector<Target> targets(views.size());
+  parallel_for(views.size(),
+               [&](std::size_t i) { targets[i] = target_of(views[i], options.picture_factor); });
+  const float chord_m = mean_chord_m(volume.grid.cell_size_m());
+  Adam adam(count);
+  Random random(options.seed, 500);
+  std::vector<std::size_t> order(views.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::vector<double> errors;
+  tbb::enumerable_thread_specific<Gradients> partial([&] { return Gradients(count, glm::vec4(0.0f)); });
+  tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
+  for (int epoch = 0; epoch < options.epochs; ++epoch) {
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[std::size_t(random.index(int(i)))]);
+    const float rate = 1.0f / (1.0f + 0.25f * float(epoch));  // smaller steps toward the end
+    double error = 0.0, pixels = 0.0;
+    for (const std::size_t view : order) {
+      const Target& target = targets[view];
+      tbb::enumerable_thread_specific<double> errors_of_rows(0.0);
+      parallel_for(
+          std::size_t(target.rgba.height),
+          [&](std::size_t row) {
+            for (int x = 0; x < target.rgba.width; ++x) {
+              std::vector<Crossing>& crossings = rays.local();
+              collect(volume, target.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
+              const float* p = target.rgba.at(x, int(row));
+              errors_of_rows.local() +=
+                  add_pixel(volume, crossings, {p[0], p[1], p[2], p[3]}, partial.local());
+            }
+          },
+          rows_per_task);
+      error += errors_of_rows.combine(std::plus<>()), pixels += double(target.rgba.pixels.size());
+      parallel_for(
+          count,
+          [&](std::size_t i) {
+            glm::vec4 gradient(0.0f);
+            for (Gradients& g : partial) gradient += g[i], g[i] = glm::vec4(0.0f);
+            if (gradient == glm::vec4(0.0f)) return;
+            const glm::vec4 step = rate * adam.step(i, gradient);
+            volume.colour[i] =
+                glm::clamp(volume.colour[i] - options.colour_rate * glm::vec3(step), 0.0f, 1.0f);
+            volume.extinction_per_m[i] =
+                std::min(volume.extinction_per_m[i] * std::exp(-options.extinction_rate * step.w),
+                         max_depth_per_cell / chord_m);
+          },
+          1024);
+    }
+    errors.push_back(std::sqrt(error / pixels));
+  }
+  return errors;
+}
+
+TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff) {
+  TreeVolume result;
+  std::vector<glm::u16vec3> cells;
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    if (1.0f - volume.alpha(i) > cutoff) continue;
+    cells.push_back(volume.grid.cells()[i]);
+    result.extinction_per_m.push_back(volume.extinction_per_m[i]), result.colour.push_back(volume.colour[i]);
+  }
+  result.grid = CellGrid(volume.grid.box(), volume.grid.branching(), volume.grid.side(), std::move(cells));
+  return result;
+}
+
+Result<TreeVolume> subdivided(const TreeVolume& volume) {
+  const int branching = volume.grid.branching(), side = volume.grid.side() * branching;
+  if (side > max_grid_side)
+    return error("the grid cannot be divided again: {} cells along each side, at most {} are possible", side,
+                 max_grid_side);
+  TreeVolume result;
+  std::vector<glm::u16vec3> cells;
+  for (std::size_t i = 0; i < volume.grid.size(); ++i)
+    for (int c = 0; c < branching * branching * branching; ++c) {
+      cells.emplace_back(branching * glm::ivec3(volume.grid.cells()[i]) +
+                         glm::ivec3(c % branching, c / branching % branching, c / (branching * branching)));
+      result.extinction_per_m.push_back(volume.extinction_per_m[i]),
+          result.colour.push_back(volume.colour[i]);
+    }
+  result.grid = CellGrid(volume.grid.box(), branching, side, std::move(cells));
+  return result;
+}
+
+ImageF render_volume(const TreeVolume& volume, const Pinhole& camera) {
+  ImageF picture(camera.width, camera.height, 4);
+  tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
+  parallel_for(std::size_t(camera.height), [&](std::size_t row) {
+    std::vector<Crossing>& crossings = rays.local();
+    for (int x = 0; x < camera.width; ++x) {
+      collect(volume, camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
+      glm::vec4 sum(0.0f);
+      for (const Crossing& c : crossings) sum += c.before * (1.0f - c.kept) * colour_of(volume, c.cell);
+      for (int k = 0; k < 4; ++k) picture.at(x, int(row))[k] = sum[k];
+    }
+  });
+  return picture;
+}
+
+}  // namespace parvis::trees

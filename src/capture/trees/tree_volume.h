@@ -1,0 +1,51 @@
+// A tree as a volume: extinction and colour per cell, fitted to the photographs through the over operator.
+//
+// The thesis estimates opacity alone and leaves colour to the textures (003_d5b01da2d2f805f6, section 4.5.2):
+// alpha gives little more than a soft hull. Fitting colours with it (equation 4.1 as the model of a pixel,
+// gradient descent by Adam, Kingma and Ba 2015) finds which of the cells along a ray are seen, which is what
+// the textures need to know.
+#pragma once
+
+#include "capture/trees/opacity.h"
+
+namespace parvis::trees {
+
+/// Extinction and colour of a grid's cells.
+struct TreeVolume {
+  CellGrid grid;
+  std::vector<float> extinction_per_m;  ///< per cell
+  std::vector<glm::vec3> colour;        ///< per cell, sRGB 0..1
+
+  /// Opacity of a cell along its mean chord, 0..1: the thesis's alpha of the cell.
+  float alpha(std::size_t cell) const;
+};
+
+/// How the volume is fitted.
+struct FitOptions {
+  int epochs = 10;                ///< passes over all photographs
+  float colour_rate = 0.04f;      ///< Adam's step, in sRGB
+  float extinction_rate = 0.12f;  ///< Adam's step, of the logarithm of the extinction
+  int picture_factor = 1;         ///< photographs are reduced so many times
+  std::uint64_t seed = 1;         ///< of the photographs' order
+};
+
+/// Colours of an opacity estimate: for each cell the mean of the photographs' foreground, weighed by how much
+/// of it each pixel sees.
+TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views);
+
+/// Improves extinction and colours together. Returns the root mean square error over RGBA (premultiplied) of
+/// each epoch.
+std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
+                               const FitOptions& options);
+
+/// Without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its oak).
+TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff);
+
+/// The volume with every cell divided once more; the parts inherit what the whole had. Errors: a side above
+/// max_grid_side.
+Result<TreeVolume> subdivided(const TreeVolume& volume);
+
+/// What a camera sees of the volume: RGBA, premultiplied, sRGB.
+ImageF render_volume(const TreeVolume& volume, const Pinhole& camera);
+
+}  // namespace parvis::trees
