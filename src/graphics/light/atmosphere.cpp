@@ -96,7 +96,7 @@ Densities AirColumns::to_top(double r, double mu) const {
   const double y = u * (heights - 1), x = v * (cosines - 1);
   const int row = std::min(int(y), heights - 2), column = std::min(int(x), cosines - 2);
   const float fy = float(y - row), fx = float(x - column);
-  const glm::vec3* cell = &columns_[std::size_t(row * cosines + column)];
+  const glm::vec3* cell = &columns_[std::size_t(row) * cosines + std::size_t(column)];
   const glm::vec3 sum =
       glm::mix(glm::mix(cell[0], cell[1], fx), glm::mix(cell[cosines], cell[cosines + 1], fx), fy);
   return {double(sum.x), double(sum.y), double(sum.z)};
@@ -124,7 +124,7 @@ Atmosphere::Field Atmosphere::field_at(double r, double sun_mu) const {
   const double x = (suns - 1) * sun_coordinate(sun_mu);
   const int row = std::min(int(y), heights - 2), column = std::min(int(x), suns - 2);
   const float fy = float(y - row), fx = float(x - column);
-  const Field* cell = &fields_[std::size_t(row * suns + column)];
+  const Field* cell = &fields_[std::size_t(row) * suns + std::size_t(column)];
   Field result;
   for (int i = 0; i < harmonics; ++i) {
     const std::size_t k = std::size_t(i);

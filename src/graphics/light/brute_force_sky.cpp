@@ -59,15 +59,15 @@ class Path {
   /// haze, half over the whole of it, which finds the lit air of a twilight (both weighted by the balance
   /// heuristic, Veach 1997). Gives the optical depths up to there.
   Bands choose_distance(glm::dvec3 from, glm::dvec3 direction, double length, double& t, double& density) {
-    constexpr int steps = 64, middle = 4;
+    constexpr std::size_t steps = 64;
+    constexpr int middle = 4;
     std::array<double, steps + 1> depths{}, ends{};
-    for (int i = 0; i < steps; ++i) {
-      const double a = double(i) / steps, b = double(i + 1) / steps;
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double a = double(i) / double(steps), b = double(i + 1) / double(steps);
       const Densities d =
           densities_at(glm::length(from + 0.5 * length * (a * a + b * b) * direction) - ground_radius_m);
-      ends[std::size_t(i + 1)] = length * b * b;
-      depths[std::size_t(i + 1)] =
-          depths[std::size_t(i)] + length * (b * b - a * a) * double(air_.extinction(d)[middle]);
+      ends[i + 1] = length * b * b;
+      depths[i + 1] = depths[i] + length * (b * b - a * a) * double(air_.extinction(d)[middle]);
     }
     const double scattered = 1.0 - std::exp(-depths.back());
     if (next() < 0.5) {

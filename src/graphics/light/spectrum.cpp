@@ -48,13 +48,15 @@ glm::dvec3 observer(double nm) {
 
 /// The band that stands for a wavelength: the outer ones also for what lies beyond.
 int band_of(double nm) {
-  return std::clamp(int((nm - first_band_nm) / band_width_nm + 0.5), 0, band_count - 1);
+  return std::clamp(int(std::lround((nm - first_band_nm) / band_width_nm)), 0, band_count - 1);
 }
 
 std::array<glm::dvec3, band_count> sunlight_of_bands() {
   std::array<glm::dvec3, band_count> sums{};
-  for (double nm = 360.5; nm < 830.0; nm += 1.0)
+  for (int i = 360; i < 830; ++i) {
+    const double nm = i + 0.5;
     sums[std::size_t(band_of(nm))] += at(solar_irradiance, nm) * observer(nm);
+  }
   return sums;
 }
 
