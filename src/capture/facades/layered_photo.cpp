@@ -15,7 +15,7 @@ struct Texel {
   float alpha = 0.0f, seen = 0.0f;
 };
 
-Texel looked_up(const LayeredPhoto& photo, std::uint32_t layer, glm::dvec2 pixel) {
+Texel looked_up(const LayeredPhoto& photo, const Balance& balance, std::uint32_t layer, glm::dvec2 pixel) {
   const PixelBox& box = photo.boxes[layer];
   const glm::dvec2 at = pixel - glm::dvec2(box.x, box.y) + glm::dvec2(photo.atlas.offsets[layer]) - 0.5;
   const glm::ivec2 low(glm::floor(at));
@@ -26,7 +26,11 @@ Texel looked_up(const LayeredPhoto& photo, std::uint32_t layer, glm::dvec2 pixel
     const int y = std::clamp(low.y + (k >> 1), 0, photo.atlas.colours.height - 1);
     const float weight = (k & 1 ? f.x : 1.0f - f.x) * (k >> 1 ? f.y : 1.0f - f.y);
     const std::uint8_t* p = photo.atlas.colours.at(x, y);
-    sum.colour += weight * linear_from_srgb8(p[0], p[1], p[2]);
+    for (int c = 0; c < 3; ++c) {
+      const double srgb =
+          balance.scale[std::size_t(c)] * double(p[c]) / 255.0 + balance.offset[std::size_t(c)];
+      sum.colour[c] += weight * linear_from_srgb(float(std::clamp(srgb, 0.0, 1.0)));
+    }
     sum.alpha += weight * float(p[3]) / 255.0f;
     sum.seen += weight * float(*photo.atlas.seen.at(x, y)) / 255.0f;
   }
@@ -66,11 +70,20 @@ ImageF drawn(const LayerModel& model, const View& view, Colour colour_of) {
 }  // namespace
 
 LayeredPhoto layered_photo(const std::string& name, const LayersOfModel& layers, const LayerPixels& pixels) {
-  LayeredPhoto photo{name, layers.view, {}, {}, layer_atlas(layers.layered, pixels)};
+  LayeredPhoto photo{name, layers.view, {}, {}, layer_atlas(layers.layered, pixels), {}};
   for (const std::uint32_t item : item_of_triangle(layers.model, layers.visibility.items))
     photo.layer_of_triangle.push_back(item == no_item ? no_item : layers.layered.layer_of_item[item]);
   for (const ImageLayer& layer : layers.layered.layers) photo.boxes.push_back(layer.box);
   return photo;
+}
+
+void distrust(const ImageF& trust, LayeredView& layered) {
+  for (std::size_t l = 0; l < layered.layers.size(); ++l) {
+    const PixelBox& box = layered.layers[l].box;
+    for (int y = 0; y < box.height; ++y)
+      for (int x = 0; x < box.width; ++x)
+        if (*trust.at(x + box.x, y + box.y) < 0.5f) layered.masks[l].at(x, y)[1] = 0;
+  }
 }
 
 std::vector<Opinion> opinions(std::span<const LayeredPhoto> photos, const BlendSettings& settings,
@@ -83,7 +96,7 @@ std::vector<Opinion> opinions(std::span<const LayeredPhoto> photos, const BlendS
     std::uint32_t layer = no_item;
     if (!find_pixel(photo, triangle, point, in_camera, pixel, layer)) continue;
     const glm::vec2 size(float(photo.view.width), float(photo.view.height));
-    const Texel texel = looked_up(photo, layer, pixel);
+    const Texel texel = looked_up(photo, photo.balance, layer, pixel);
     // A filled pixel mixed into the footprint of a seen one: it is as uncertain as the occluder's rim.
     const float seen = glm::smoothstep(0.75f, 1.0f, texel.seen);
     const float confidence = border_feather(glm::vec2(pixel), size, settings.feather * size.x) * texel.alpha *
@@ -117,7 +130,7 @@ ImageF own_view(const LayerModel& model, const LayeredPhoto& photo) {
     glm::dvec2 pixel;
     std::uint32_t layer = no_item;
     if (!find_pixel(photo, triangle, point, in_camera, pixel, layer)) return glm::vec4(0.0f);
-    const Texel texel = looked_up(photo, layer, pixel);
+    const Texel texel = looked_up(photo, Balance{}, layer, pixel);
     return glm::vec4(texel.colour, texel.alpha);
   });
 }

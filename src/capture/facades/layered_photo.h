@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/facades/balance.h"
 #include "capture/facades/layer_atlas.h"
 #include "capture/facades/layer_edits.h"
 #include "capture/facades/novel_view.h"
@@ -17,6 +18,7 @@ struct LayeredPhoto {
   std::vector<std::uint32_t> layer_of_triangle;  ///< no_item: the photograph does not see the triangle's item
   std::vector<PixelBox> boxes;                   ///< per layer
   LayerAtlas atlas;
+  Balance balance;  ///< applied where photographs are blended; the layers keep the photograph's own colours
 };
 
 LayeredPhoto layered_photo(const std::string& name, const LayersOfModel& layers, const LayerPixels& pixels);
@@ -34,6 +36,10 @@ std::vector<Opinion> opinions(std::span<const LayeredPhoto> photos, const BlendS
 /// What `view` sees of the model through the layers: linear RGBA, alpha 0 where there is nothing.
 ImageF novel_view(const LayerModel& model, const View& view, std::span<const LayeredPhoto> photos,
                   const BlendSettings& settings);
+
+/// Takes what hides the model in a photograph, and is no part of it (trust below one half), for not seen: it
+/// is to be filled.
+void distrust(const ImageF& trust, LayeredView& layered);
 
 /// A photograph's own viewpoint: plainly its layers, nothing blended (3.6).
 ImageF own_view(const LayerModel& model, const LayeredPhoto& photo);

@@ -1,0 +1,74 @@
+#include "capture/facades/place_layers.h"
+
+#include "base/colour.h"
+
+namespace parvis::facades {
+namespace {
+
+Image8 srgb_of(const ImageF& colours) {
+  ImageF rgba(colours.width, colours.height, 4, 1.0f);
+  for (std::size_t i = 0; i < colours.pixels.size(); ++i) rgba.pixels[i / 3 * 4 + i % 3] = colours.pixels[i];
+  return srgb8_from_linear(rgba);
+}
+
+}  // namespace
+
+Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& photos,
+                                 const std::vector<NamedMesh>& meshes, const PlaceSettings& settings) {
+  Result<LayerModelResult> model = layer_model(meshes);
+  if (!model) return model.errors();
+  PlaceLayers place;
+  place.model = std::move(model->model), place.warnings = std::move(model->warnings);
+
+  Progress progress("making layers", 3 * photos.size());
+  std::vector<PreparedPhoto> prepared;
+  for (const photographs::Photograph& photo : photos) {
+    Result<PreparedPhoto> one = prepared_photo(photo, place.model);
+    progress.advance();
+    if (!one) {
+      place.warnings.insert(place.warnings.end(), one.errors().begin(), one.errors().end());
+      continue;
+    }
+    place.names.push_back(one->name), place.views.push_back(one->view);
+    prepared.push_back(*std::move(one));
+  }
+  if (prepared.empty()) {
+    place.warnings.push_back(
+        error("there is no photograph to make layers of; expected at least one with its camera"));
+    return place.warnings;
+  }
+
+  place.visibility = visibility_layers(place.model, place.views, place.names);
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    const Errors& warnings = place.visibility[i].warnings;
+    place.warnings.insert(place.warnings.end(), warnings.begin(), warnings.end());
+    place.layered.push_back(image_layers(place.model, place.views[i], place.visibility[i]));
+    place.originals.push_back(original_pixels(srgb_of(prepared[i].colours), place.layered[i]));
+    progress.advance();
+  }
+
+  place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
+  for (std::size_t i = 0; i < prepared.size(); ++i) apply(place.balances[i], prepared[i]);
+  if (settings.finds_occluders) {
+    find_occluders(prepared);
+    for (std::size_t i = 0; i < prepared.size(); ++i) distrust(prepared[i].trust, place.layered[i]);
+  }
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    const FillSettings fill{settings.fills, settings.fills, 1};
+    place.filled.push_back(filled_layers(place.layers(i), prepared, i, place.originals[i], fill));
+    progress.advance();
+  }
+  return place;
+}
+
+std::vector<LayeredPhoto> displayed(const PlaceLayers& place) {
+  std::vector<LayeredPhoto> photos;
+  for (std::size_t i = 0; i < place.names.size(); ++i) {
+    photos.push_back(
+        layered_photo(place.names[i], place.layers(i), chosen_pixels(place.filled[i], place.originals[i])));
+    photos.back().balance = place.balances[i];
+  }
+  return photos;
+}
+
+}  // namespace parvis::facades
