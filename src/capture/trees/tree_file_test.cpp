@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/files.h"
 #include "base/sealed_file.h"
 #include "base/test_folder.h"
 #include "capture/trees/test_volume.h"
@@ -117,6 +118,23 @@ TEST(TreeFile, RefusesImpossibleGridsAndCounts) {
     ASSERT_TRUE(write_sealed(file, {"PVTREE_1", "captured tree"}, damaged).ok());
     EXPECT_FALSE(read_tree(file).ok()) << "offset " << offset;
   }
+}
+
+TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "seed";
+  int seeds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(PARVIS_SOURCE_DIR) +
+                                                               "/src/capture/trees/fuzz/corpus/tree")) {
+    const std::string content = *read_file(entry.path());
+    const bool is_tree = entry.path().filename().string().starts_with("tree");
+    const SealedKind kind =
+        is_tree ? SealedKind{"PVTREE_1", "captured tree"} : SealedKind{"PVTVOL_1", "tree volume"};
+    ASSERT_TRUE(write_sealed(file, kind, content).ok());
+    EXPECT_TRUE(is_tree ? read_tree(file).ok() : read_volume(file).ok()) << entry.path();
+    ++seeds;
+  }
+  EXPECT_GE(seeds, 6);
 }
 
 TEST(Packing, PairsTexturesOfDisjointAlphas) {
