@@ -1,5 +1,6 @@
 #include "capture/trees/tree_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/files.h"
@@ -124,8 +125,8 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "seed";
   int seeds = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(PARVIS_SOURCE_DIR) +
-                                                               "/src/capture/trees/fuzz/corpus/tree")) {
+  const std::string corpus = fmt::format("{}/src/capture/trees/fuzz/corpus/tree", PARVIS_SOURCE_DIR);
+  for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     const std::string content = *read_file(entry.path());
     const bool is_tree = entry.path().filename().string().starts_with("tree");
     const SealedKind kind =
