@@ -38,12 +38,14 @@ struct ColmapPoint {
   glm::dvec3 position{0.0};
   glm::u8vec3 colour{0};
   double error_px = 0.0;
+  /// A keypoint of an image.
   struct Sighting {
     std::uint32_t image_id = 0, keypoint = 0;
   };
   std::vector<Sighting> track;
 };
 
+/// All of a model, as its files order it.
 struct ColmapModel {
   std::map<std::uint32_t, Lens> cameras;  ///< by CAMERA_ID
   std::vector<ColmapImage> images;
@@ -61,7 +63,9 @@ Result<ColmapModel> parse_colmap_text(const ColmapFiles& files, const std::files
 /// Reads cameras.bin, images.bin, points3D.bin (little-endian). Errors name the file and the byte.
 Result<ColmapModel> parse_colmap_binary(const ColmapFiles& files, const std::filesystem::path& folder);
 
+/// The text files of a model; numbers read back exactly.
 ColmapFiles colmap_text(const ColmapModel& model);
+/// The binary files of a model.
 ColmapFiles colmap_binary(const ColmapModel& model);
 
 /// Reads the model in `folder`: the binary files where all are there, else the text files, as COLMAP does.

@@ -42,6 +42,7 @@ struct LensModelInfo {
 };
 /// All models, ordered by MODEL_ID.
 std::span<const LensModelInfo> lens_models();
+/// The entry of one model.
 const LensModelInfo& info(LensModel model);
 /// Nothing for a name that is none of COLMAP 3.8's.
 std::optional<LensModel> lens_model_of_name(std::string_view name);

@@ -75,8 +75,9 @@ Camera camera_of(const Photograph& photograph);
 /// A photograph by a house camera.
 Photograph photograph_of(const Camera& camera, std::string name, int width, int height);
 
-/// World to the frame of OpenCV and COLMAP (x right, y downward, z forward), and back.
+/// The pose in the convention of OpenCV and COLMAP: world to a camera with x right, y downward, z forward.
 glm::dmat4 opencv_from_world(const Photograph& photograph);
+/// The house's pose of a camera from such a one.
 glm::dmat4 world_from_camera_of_opencv(const glm::dmat4& opencv_from_world);
 
 }  // namespace parvis::photographs

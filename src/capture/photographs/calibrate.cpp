@@ -1,0 +1,301 @@
+#include "capture/photographs/calibrate.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/content_hash.h"
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/progress.h"
+#include "capture/photographs/alignment.h"
+#include "capture/photographs/camera_files.h"
+#include "capture/photographs/colmap_database.h"
+#include "capture/photographs/neighbours.h"
+#include "capture/photographs/picture.h"
+#include "capture/photographs/picture_header.h"
+#include "capture/photographs/program.h"
+#include "capture/photographs/set_file.h"
+
+namespace parvis::photographs {
+namespace {
+namespace fs = std::filesystem;
+
+/// The pictures that a job works on.
+struct Pictures {
+  std::vector<std::string> names;
+  bool are_alike = true;  ///< one size and focal length
+  std::string hash;       ///< of names, sizes, times
+};
+
+/// Decodes every picture once: COLMAP would take half of a file that is cut short for a whole one.
+Pictures usable_pictures(const fs::path& folder, Errors& problems) {
+  Pictures pictures;
+  PictureHeader first;
+  std::string identity;
+  const std::vector<std::string> names = picture_names(folder);
+  Progress progress("reading photographs", names.size());
+  for (const std::string& name : names) {
+    progress.advance();
+    const Result<PictureHeader> info = read_picture_header(folder / name);
+    Photograph photograph;
+    photograph.name = name;
+    photograph.file = folder / name;
+    if (info) photograph.lens = pinhole_lens(info->width, info->height, 1.0, 1.0, 0.0, 0.0);
+    const Result<Image8> image = info ? read_picture(photograph) : info.errors();
+    if (!image) {
+      problems.push_back(image.errors().front());
+      continue;
+    }
+    if (pictures.names.empty()) first = *info;
+    pictures.are_alike = pictures.are_alike && info->width == first.width && info->height == first.height &&
+                         info->focal_length_mm == first.focal_length_mm;
+    pictures.names.push_back(name);
+    std::error_code ignored;
+    identity += fmt::format("{} {} {}\n", name, fs::file_size(folder / name, ignored),
+                            fs::last_write_time(folder / name, ignored).time_since_epoch().count());
+  }
+  pictures.hash = identity;
+  return pictures;
+}
+
+/// The files of COLMAP in the job's folder.
+struct WorkFolder {
+  fs::path root;
+  fs::path database() const { return root / "database.db"; }
+  fs::path list() const { return root / "pictures.txt"; }
+  fs::path inputs() const { return root / "inputs.txt"; }
+  fs::path sparse() const { return root / "sparse"; }
+  fs::path finished() const { return root / "sparse_finished.txt"; }
+  fs::path given() const { return root / "given_cameras"; }
+  fs::path log(const std::string& stage) const { return root / (stage + ".log"); }
+};
+
+/// Starts afresh where pictures or options are not those of the work that lies there.
+Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
+  std::error_code code;
+  fs::create_directories(work.root, code);
+  if (code) return error("{}: cannot be made ({})", work.root.string(), code.message());
+  const std::string inputs = fmt::format("{} {} {}\n{}\n{}", job.lens, job.one_lens_for_all, job.max_features,
+                                         job.cameras.string(), pictures.hash);
+  const Result<std::string> before = read_file(work.inputs());
+  if (before && *before == inputs) return Done{};
+  for (const fs::path& old : {work.database(), work.sparse(), work.finished(), work.given()})
+    fs::remove_all(old, code);
+  std::string list;
+  for (const std::string& name : pictures.names) list += name + "\n";
+  if (Status status = write_file(work.list(), list); !status) return status;
+  return write_file(work.inputs(), inputs);
+}
+
+/// Runs one stage of COLMAP with a bar that `done` moves.
+Status run_stage(const std::string& what, std::size_t total, const std::function<std::size_t()>& done,
+                 const std::vector<std::string>& arguments, const fs::path& log) {
+  Progress progress(what, total);
+  std::size_t counted = 0;
+  return run_program(arguments, log, [&] {
+    const std::size_t now = std::min(done(), total);
+    if (now > counted) progress.advance(now - counted);
+    counted = std::max(counted, now);
+  });
+}
+
+Status find_features(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
+  const bool one_lens = job.one_lens_for_all && pictures.are_alike;
+  return run_stage(
+      "finding features", pictures.names.size(), [&] { return colmap_progress(work.database()).pictures; },
+      {"colmap", "feature_extractor", "--database_path", work.database(), "--image_path", job.pictures,
+       "--image_list_path", work.list(), "--ImageReader.camera_model", job.lens,
+       "--ImageReader.single_camera", one_lens ? "1" : "0", "--SiftExtraction.use_gpu", "0",
+       "--SiftExtraction.max_num_features", std::to_string(job.max_features)},
+      work.log("features"));
+}
+
+Status match(const Pictures& pictures, const WorkFolder& work) {
+  const std::size_t pairs = pictures.names.size() * (pictures.names.size() - 1) / 2;
+  return run_stage(
+      "comparing pairs of photographs", pairs, [&] { return colmap_progress(work.database()).pairs; },
+      {"colmap", "exhaustive_matcher", "--database_path", work.database(), "--SiftMatching.use_gpu", "0"},
+      work.log("matches"));
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+    ++count;
+  return count;
+}
+
+/// Which photographs have nothing in common with any other, for an error or a problem.
+Error no_common_place(const std::string& name, int agreement) {
+  constexpr int enough_for_a_pair = 15;
+  if (agreement < enough_for_a_pair)
+    return error(
+        "{}: no camera was found: it has nothing in common with any other photograph; it shows another "
+        "place, or "
+        "photographs between are missing",
+        name);
+  return error(
+      "{}: no camera was found, though {} of its features agree with another photograph's; photographs "
+      "between "
+      "are missing, or all were taken from one spot",
+      name, agreement);
+}
+
+Status find_cameras(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
+  std::error_code code;
+  fs::remove_all(work.sparse(), code);
+  fs::create_directories(work.sparse(), code);
+  const fs::path log = work.log("cameras");
+  const auto registered = [&] {
+    const Result<std::string> text = read_file(log);
+    return text ? count_of(*text, "Registering image #") + 2 : std::size_t(0);
+  };
+  const Status status =
+      run_stage("placing photographs", pictures.names.size(), registered,
+                {"colmap", "mapper", "--database_path", work.database(), "--image_path", job.pictures,
+                 "--output_path", work.sparse(), "--Mapper.min_model_size", "2"},
+                log);
+  if (fs::exists(work.sparse() / "0" / "images.bin", code)) return status;
+  Errors errors{error("{}: no two photographs show one place well enough to place their cameras",
+                      job.pictures.string())};
+  for (const auto& [name, agreement] : best_agreement(work.database()))
+    errors.push_back(no_common_place(name, agreement));
+  if (errors.size() == 1 && !status) return status;
+  return errors;
+}
+
+Status triangulate(const CalibrationJob& job, const PhotographSet& given, const WorkFolder& work) {
+  PhotographSet cameras = given;
+  cameras.points.clear();
+  if (Status status = write_colmap_model(work.given(), colmap_model_of(cameras), ColmapFormat::text); !status)
+    return status;
+  std::error_code code;
+  fs::create_directories(work.sparse() / "0", code);
+  const fs::path log = work.log("points");
+  const auto triangulated = [&] {
+    const Result<std::string> text = read_file(log);
+    return text ? count_of(*text, "Triangulating image #") : std::size_t(0);
+  };
+  return run_stage(
+      "triangulating points", given.photographs.size(), triangulated,
+      {"colmap", "point_triangulator", "--database_path", work.database(), "--image_path", job.pictures,
+       "--input_path", work.given(), "--output_path", work.sparse() / "0", "--clear_points", "1"},
+      log);
+}
+
+/// The model with the most photographs; those of the others are named: they show another place.
+Result<LoadedSet> largest_model(const CalibrationJob& job, const WorkFolder& work) {
+  std::vector<LoadedSet> models;
+  std::error_code code;
+  std::vector<fs::path> folders;
+  for (const fs::directory_entry& entry : fs::directory_iterator(work.sparse(), code))
+    folders.push_back(entry.path());
+  std::ranges::sort(folders);
+  for (const fs::path& folder : folders) {
+    const Result<ColmapModel> model = read_colmap_model(folder);
+    if (!model) return model.errors();
+    models.push_back(photograph_set_of(*model, job.pictures));
+  }
+  if (models.empty()) return error("{}: COLMAP wrote no model", work.sparse().string());
+  std::ranges::stable_sort(models, std::greater{},
+                           [](const LoadedSet& m) { return m.set.photographs.size(); });
+  for (std::size_t i = 1; i < models.size(); ++i)
+    for (const Photograph& photograph : models[i].set.photographs)
+      if (!find(models[0].set, photograph.name))
+        models[0].problems.push_back(
+            error("{}: belongs to another place than most photographs ({} show that one, {} this); "
+                  "calibrate them apart",
+                  photograph.name, models[i].set.photographs.size(), models[0].set.photographs.size()));
+  return std::move(models[0]);
+}
+
+void name_missing(const Pictures& pictures, const WorkFolder& work, LoadedSet& loaded) {
+  const std::map<std::string, int> agreement = best_agreement(work.database());
+  std::set<std::string> named;
+  for (const Error& problem : loaded.problems)
+    named.insert(problem.message.substr(0, problem.message.find(": ")));
+  for (const std::string& name : pictures.names) {
+    if (find(loaded.set, name) || named.contains(name)) continue;
+    const auto found = agreement.find(name);
+    loaded.problems.push_back(no_common_place(name, found == agreement.end() ? 0 : found->second));
+  }
+}
+
+Status turn_and_scale(const CalibrationJob& job, PhotographSet& set) {
+  make_z_up(set, !job.cameras.empty());
+  double scale = job.scale;
+  if (job.distance) {
+    const Result<double> found =
+        scale_of_distance(set, job.distance->a, job.distance->b, job.distance->metres);
+    if (!found) return found.errors();
+    scale = *found;
+  }
+  transform(set, glm::dmat3(1.0), scale, glm::dvec3(0.0));
+  return Done{};
+}
+
+Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
+  LoadedSet given;
+  if (!job.cameras.empty()) {
+    Result<LoadedSet> read = read_cameras(job.cameras, job.pictures);
+    if (!read) return read;
+    given = std::move(*read);
+    std::erase_if(given.set.photographs, [&](const Photograph& p) {
+      return std::ranges::find(pictures.names, p.name) == pictures.names.end();
+    });
+    given.set.points.clear();
+  }
+  if (std::error_code code; !fs::exists(work.finished(), code)) {
+    if (Status status = find_features(job, pictures, work); !status) return status.errors();
+    if (Status status = match(pictures, work); !status) return status.errors();
+    const Status status =
+        job.cameras.empty() ? find_cameras(job, pictures, work) : triangulate(job, given.set, work);
+    if (!status) return status.errors();
+    if (Status written = write_file(work.finished(), "\n"); !written) return written.errors();
+  }
+  Result<LoadedSet> loaded = largest_model(job, work);
+  if (loaded) loaded->problems.insert(loaded->problems.begin(), given.problems.begin(), given.problems.end());
+  return loaded;
+}
+
+}  // namespace
+
+Result<LoadedSet> calibrate(const CalibrationJob& job) {
+  Errors problems;
+  const Pictures pictures = usable_pictures(job.pictures, problems);
+  if (pictures.names.size() < 2) {
+    problems.push_back(error("{}: holds {} photographs that can be read; expected 2 or more",
+                             job.pictures.string(), pictures.names.size()));
+    return problems;
+  }
+  const WorkFolder work{job.folder / "colmap"};
+  if (Status status = prepare(job, pictures, work); !status) return status.errors();
+  Result<LoadedSet> loaded = reconstruct(job, pictures, work);
+  if (!loaded) return loaded;
+  loaded->problems.insert(loaded->problems.begin(), problems.begin(), problems.end());
+  name_missing(pictures, work, *loaded);
+  if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
+  const Errors misfits = cameras_that_do_not_fit(loaded->set);
+  loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());
+  if (Status status = write_photograph_set(job.folder, loaded->set, job.pictures); !status)
+    return status.errors();
+  return loaded;
+}
+
+std::string calibration_report(const PhotographSet& set) {
+  const std::vector<Fit> all = fits(set);
+  std::string text =
+      fmt::format("{:<32} {:>10} {:>8} {:>9}\n", "photograph", "neighbours", "points", "error px");
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    text += fmt::format("{:<32} {:>10} {:>8} {:>9.3f}\n", set.photographs[i].name, all[i].neighbours,
+                        all[i].points, all[i].reprojection_error_px);
+    sum += all[i].points * std::max(all[i].reprojection_error_px, 0.0);
+    count += all[i].points;
+  }
+  text += fmt::format("{} photographs, {} points, mean reprojection error {:.3f} pixels\n",
+                      set.photographs.size(), set.points.size(), count > 0.0 ? sum / count : 0.0);
+  return text;
+}
+
+}  // namespace parvis::photographs

@@ -1,0 +1,98 @@
+// Calibration by COLMAP of photographs whose cameras are known. Skipped where COLMAP is not installed.
+#include "capture/photographs/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include "base/image_io.h"
+#include "base/test_folder.h"
+#include "capture/photographs/program.h"
+#include "capture/photographs/set_file.h"
+#include "capture/photographs/test_place.h"
+
+namespace parvis::photographs {
+namespace {
+
+bool has_colmap(const TestFolder& folder) {
+  return bool(run_program({"colmap", "help"}, folder.path() / "help.log", [] {}));
+}
+
+TEST(Program, SaysWhatFailed) {
+  const TestFolder folder;
+  const auto log = folder.path() / "log";
+  const Status missing = run_program({"no-such-program-of-ours"}, log, [] {});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(to_string(missing.errors()).find("cannot be started; install it"), std::string::npos);
+  const Status failed = run_program({"ls", "/no/such/folder"}, log, [] {});
+  ASSERT_FALSE(failed);
+  EXPECT_NE(to_string(failed.errors()).find("No such file"), std::string::npos) << to_string(failed.errors());
+  EXPECT_TRUE(run_program({"true"}, log, [] {}));
+}
+
+TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
+  const TestFolder folder;
+  if (!has_colmap(folder)) GTEST_SKIP() << "colmap is not installed";
+  const auto pictures = folder.path() / "pictures";
+  std::filesystem::create_directories(pictures);
+  const PhotographSet truth = test_photographs(5, 480, 360);
+  for (const Photograph& photograph : truth.photographs)
+    ASSERT_TRUE(write_image(pictures / photograph.name, test_picture(photograph, 1)));
+  ASSERT_TRUE(write_image(pictures / "elsewhere.png", test_picture(truth.photographs[0], 77)));
+  folder.write("pictures/damaged.jpg", "\xff\xd8\xff\xe0 and no more");
+  CalibrationJob job;
+  job.pictures = pictures;
+  job.folder = folder.path() / "out";
+  job.max_features = 1500;
+  job.distance = {
+      "place_0.png", "place_4.png",
+      glm::distance(truth.photographs[0].position_in_world(), truth.photographs[4].position_in_world())};
+  const auto calibrated = calibrate(job);
+  ASSERT_TRUE(calibrated) << to_string(calibrated.errors());
+  const std::string problems = to_string(calibrated->problems);
+  EXPECT_NE(problems.find("damaged.jpg"), std::string::npos) << problems;
+  EXPECT_NE(problems.find("elsewhere.png: no camera was found: it has nothing in common"), std::string::npos)
+      << problems;
+  ASSERT_EQ(calibrated->set.photographs.size(), 5u) << problems;
+  for (const Photograph& photograph : calibrated->set.photographs) {
+    EXPECT_GT(photograph.reprojection_error_px, 0.0);
+    EXPECT_LT(photograph.reprojection_error_px, 1.0);
+  }
+  // All distances between cameras, as truth has them: the frame's heading and origin are free.
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto distance = [&](const PhotographSet& set) {
+        return glm::distance(set.photographs[i].position_in_world(), set.photographs[j].position_in_world());
+      };
+      EXPECT_NEAR(distance(calibrated->set), distance(truth), 0.1) << i << ", " << j;
+    }
+  // A second run takes over what is there, and the folder reads back.
+  const auto again = calibrate(job);
+  ASSERT_TRUE(again) << to_string(again.errors());
+  EXPECT_EQ(again->set.points.size(), calibrated->set.points.size());
+  const auto kept = read_photograph_set(job.folder);
+  ASSERT_TRUE(kept) << to_string(kept.errors());
+  EXPECT_EQ(kept->set.photographs.size(), 5u);
+  EXPECT_GT(calibration_report(kept->set).size(), 200u);
+}
+
+TEST(Calibrate, TwoPlacesAreToldApart) {
+  const TestFolder folder;
+  if (!has_colmap(folder)) GTEST_SKIP() << "colmap is not installed";
+  const auto pictures = folder.path() / "pictures";
+  std::filesystem::create_directories(pictures);
+  const PhotographSet truth = test_photographs(2, 320, 240);
+  ASSERT_TRUE(write_image(pictures / "here.png", test_picture(truth.photographs[0], 1)));
+  ASSERT_TRUE(write_image(pictures / "there.png", test_picture(truth.photographs[1], 99)));
+  CalibrationJob job;
+  job.pictures = pictures;
+  job.folder = folder.path() / "out";
+  job.max_features = 800;
+  const auto calibrated = calibrate(job);
+  ASSERT_FALSE(calibrated);
+  const std::string errors = to_string(calibrated.errors());
+  EXPECT_NE(errors.find("no two photographs show one place"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("here.png: no camera was found"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("there.png: no camera was found"), std::string::npos) << errors;
+}
+
+}  // namespace
+}  // namespace parvis::photographs

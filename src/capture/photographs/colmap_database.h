@@ -1,0 +1,22 @@
+// What COLMAP's database says about work in progress (https://colmap.github.io/database.html): read only.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace parvis::photographs {
+
+/// How far the work in a database is; all 0 where there is none yet.
+struct ColmapProgress {
+  std::size_t pictures = 0;  ///< whose features are found
+  std::size_t pairs = 0;     ///< of pictures that were compared
+};
+/// Reads the counts; while COLMAP writes, too.
+ColmapProgress colmap_progress(const std::filesystem::path& database);
+
+/// For each picture the most features that agree, by one geometry, with another picture; 0 where it agrees
+/// with none.
+std::map<std::string, int> best_agreement(const std::filesystem::path& database);
+
+}  // namespace parvis::photographs

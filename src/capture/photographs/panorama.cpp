@@ -1,0 +1,91 @@
+#include "capture/photographs/panorama.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/image_io.h"
+#include "base/parallel.h"
+#include "capture/photographs/picture_header.h"
+#include "capture/photographs/resample.h"
+
+namespace parvis::photographs {
+namespace {
+
+struct Face {
+  const char* name;
+  glm::dvec3 forward, up;
+};
+
+constexpr Face faces[] = {{"north", {0, 1, 0}, {0, 0, 1}},  {"east", {1, 0, 0}, {0, 0, 1}},
+                          {"south", {0, -1, 0}, {0, 0, 1}}, {"west", {-1, 0, 0}, {0, 0, 1}},
+                          {"up", {0, 0, 1}, {0, -1, 0}},    {"down", {0, 0, -1}, {0, 1, 0}}};
+
+/// Where a direction appears in an equirectangular picture.
+glm::dvec2 panorama_pixel(const Image8& panorama, glm::dvec3 direction) {
+  const double heading = std::atan2(direction.x, direction.y);  // from north over east
+  const double height = std::atan2(direction.z, std::hypot(direction.x, direction.y));
+  return {(0.5 + heading / (2.0 * std::numbers::pi)) * panorama.width,
+          (0.5 - height / std::numbers::pi) * panorama.height};
+}
+
+Photograph photograph_of(const Face& face, const std::string& name, int side, glm::dvec3 position) {
+  Photograph photograph;
+  photograph.name = name + "_" + face.name + ".png";
+  photograph.lens = pinhole_lens(side, side, 0.5 * side, 0.5 * side, 0.5 * side, 0.5 * side);
+  photograph.world_from_camera[0] = glm::dvec4(glm::cross(face.forward, face.up), 0.0);
+  photograph.world_from_camera[1] = glm::dvec4(face.up, 0.0);
+  photograph.world_from_camera[2] = glm::dvec4(-face.forward, 0.0);
+  photograph.world_from_camera[3] = glm::dvec4(position, 1.0);
+  return photograph;
+}
+
+}  // namespace
+
+Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std::string& name,
+                                               glm::dvec3 position) {
+  if (panorama.channels != 4 || panorama.width < 8 || std::abs(panorama.width - 2 * panorama.height) > 2)
+    return error("{}: {} x {} pixels are no full panorama; expected one twice as wide as high", name,
+                 panorama.width, panorama.height);
+  std::vector<Picture> pictures;
+  for (const Face& face : faces) {
+    Picture picture{photograph_of(face, name, panorama.width / 4, position),
+                    Image8(panorama.width / 4, panorama.width / 4, 4)};
+    parallel_for(
+        std::size_t(picture.image.height),
+        [&](std::size_t y) {
+          for (int x = 0; x < picture.image.width; ++x)
+            if (const auto direction = direction_in_world(picture.photograph, {x + 0.5, double(y) + 0.5}))
+              sample_bicubic(panorama, panorama_pixel(panorama, *direction), Border::wraps_around,
+                             picture.image.at(x, int(y)));
+        },
+        16);
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+Result<PhotographSet> split_panorama(const std::filesystem::path& file, const std::filesystem::path& folder,
+                                     glm::dvec3 position) {
+  const Result<PictureHeader> header = read_picture_header(file);
+  if (!header) return header.errors();
+  Photograph whole;
+  whole.name = file.filename().string();
+  whole.file = file;
+  whole.lens = pinhole_lens(header->width, header->height, 1.0, 1.0, 0.0, 0.0);
+  const Result<Image8> panorama = read_picture(whole);
+  if (!panorama) return panorama.errors();
+  Result<std::vector<Picture>> pictures = faces_of_panorama(*panorama, file.stem().string(), position);
+  if (!pictures) return pictures.errors();
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  PhotographSet set;
+  for (Picture& picture : *pictures) {
+    picture.photograph.file = folder / picture.photograph.name;
+    if (Status status = write_image(picture.photograph.file, picture.image); !status) return status.errors();
+    set.photographs.push_back(std::move(picture.photograph));
+  }
+  std::ranges::sort(set.photographs, {}, &Photograph::name);
+  return set;
+}
+
+}  // namespace parvis::photographs

@@ -1,0 +1,21 @@
+// Panoramas as six calibrated photographs: the faces of a cube around the viewpoint (thesis, section 5.3.1).
+#pragma once
+
+#include "base/result.h"
+#include "capture/photographs/picture.h"
+
+namespace parvis::photographs {
+
+/// The faces of an equirectangular picture (RGBA, twice as wide as high, its middle looks north, z up), each
+/// seeing 90 degrees, without distortion, at `position`: NAME_north, _east, _south, _west, _up, _down. A face
+/// has a quarter of the picture's width on a side: as many pixels per degree as the horizon has. Errors:
+/// another shape.
+Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std::string& name,
+                                               glm::dvec3 position);
+
+/// Reads an equirectangular picture, writes its faces as NAME_*.png into `folder` and returns them as a set
+/// without points, whose files they are.
+Result<PhotographSet> split_panorama(const std::filesystem::path& file, const std::filesystem::path& folder,
+                                     glm::dvec3 position);
+
+}  // namespace parvis::photographs

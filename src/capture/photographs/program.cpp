@@ -1,0 +1,58 @@
+#include "capture/photographs/program.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "base/files.h"
+
+namespace parvis::photographs {
+namespace {
+
+constexpr int cannot_start = 127;
+constexpr std::size_t shown_bytes = 600;
+
+/// In the child: only calls that are safe after a fork in a program with threads.
+[[noreturn]] void become(char* const* arguments, const char* log) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);
+  execvp(arguments[0], arguments);
+  _exit(cannot_start);
+}
+
+std::string end_of(const std::filesystem::path& log) {
+  const Result<std::string> text = read_file(log);
+  if (!text) return "";
+  return text->size() > shown_bytes ? text->substr(text->size() - shown_bytes) : *text;
+}
+
+}  // namespace
+
+Status run_program(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                   const std::function<void()>& poll) {
+  std::vector<std::string> copies = arguments;
+  std::vector<char*> pointers;
+  for (std::string& argument : copies) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const std::string log_name = log.string();
+  const pid_t child = fork();
+  if (child < 0) return error("{}: no process can be started", arguments[0]);
+  if (child == 0) become(pointers.data(), log_name.c_str());
+  int state = 0;
+  while (waitpid(child, &state, WNOHANG) == 0) {
+    poll();
+    usleep(200'000);
+  }
+  poll();
+  if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return Done{};
+  if (WIFEXITED(state) && WEXITSTATUS(state) == cannot_start)
+    return error("{} cannot be started; install it (Debian: apt install {})", arguments[0], arguments[0]);
+  return error("{} {} failed; the end of {} says: {}", arguments[0], arguments.size() > 1 ? arguments[1] : "",
+               log_name, end_of(log));
+}
+
+}  // namespace parvis::photographs

@@ -1,0 +1,83 @@
+#include "capture/photographs/set_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "capture/photographs/picture.h"
+
+namespace parvis::photographs {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* file_name = "photographs.json";
+
+/// As it is stored: relative to `folder` where there is such a path.
+std::string stored(const fs::path& path, const fs::path& folder) {
+  if (path.empty()) return "";
+  const fs::path relative =
+      fs::absolute(path).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
+  return (relative.empty() ? fs::absolute(path) : relative).generic_string();
+}
+
+fs::path found(const std::string& stored_path, const fs::path& folder) {
+  return stored_path.empty() ? fs::path() : (folder / stored_path).lexically_normal();
+}
+
+/// Gains and mask of one photograph; false where the entry is none.
+bool apply(const Json& entry, const fs::path& folder, PhotographSet& set) {
+  if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return false;
+  const std::string name = entry["name"];
+  const Json gain = entry.value("gain", Json::array());
+  for (Photograph& photograph : set.photographs) {
+    if (photograph.name != name) continue;
+    if (gain.is_array() && gain.size() == 3)
+      for (int c = 0; c < 3; ++c) {
+        if (!gain[std::size_t(c)].is_number() || !(gain[std::size_t(c)].get<double>() > 0.0)) return false;
+        photograph.gain[c] = gain[std::size_t(c)].get<double>();
+      }
+    if (entry.contains("mask") && entry["mask"].is_string()) photograph.mask = found(entry["mask"], folder);
+  }
+  return true;
+}
+
+}  // namespace
+
+Status write_photograph_set(const fs::path& folder, const PhotographSet& set,
+                            const fs::path& picture_folder) {
+  if (Status status = write_colmap_model(folder, colmap_model_of(set), ColmapFormat::binary); !status)
+    return status;
+  Json json{{"pictures", stored(picture_folder, folder)}, {"photographs", Json::array()}};
+  for (const Photograph& photograph : set.photographs) {
+    Json entry{{"name", photograph.name},
+               {"gain", {photograph.gain.x, photograph.gain.y, photograph.gain.z}},
+               {"reprojection_error_px", photograph.reprojection_error_px}};
+    if (!photograph.mask.empty()) entry["mask"] = stored(photograph.mask, folder);
+    json["photographs"].push_back(std::move(entry));
+  }
+  return write_file(folder / file_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Result<LoadedSet> read_photograph_set(const fs::path& folder) {
+  const std::string file = (folder / file_name).string();
+  const Result<std::string> text = read_file(folder / file_name);
+  if (!text)
+    return error("{}: is no folder of calibrated photographs; parvis facade calibrate makes one",
+                 folder.string());
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("pictures") || !json["pictures"].is_string())
+    return error("{}: expected an object with \"pictures\", the folder of the photographs", file);
+  const Result<ColmapModel> model = read_colmap_model(folder);
+  if (!model) return model.errors();
+  const fs::path pictures = found(json["pictures"], folder);
+  LoadedSet loaded = photograph_set_of(*model, pictures);
+  const Json entries = json.value("photographs", Json::array());
+  for (const Json& entry : entries)
+    if (!apply(entry, folder, loaded.set))
+      loaded.problems.push_back(
+          error("{}: expected a name and three gains > 0 in {}", file, entry.dump().substr(0, 80)));
+  fit_to_files(loaded, pictures);
+  return loaded;
+}
+
+}  // namespace parvis::photographs
