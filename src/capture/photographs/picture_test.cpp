@@ -58,8 +58,10 @@ TEST(Picture, ExifSaysHowItWasHeldAndHowFarItWasZoomed) {
       "\x46\0\0\0\x02\0\0\0",
       8 + 2 + 24 + 4 + 2 + 24 + 4 + 8);
   std::string jpeg("\xff\xd8\xff\xe1\0", 5);
-  jpeg += char(2 + 6 + tiff.size());
-  jpeg += std::string("Exif\0\0", 6) + tiff + std::string("\xff\xc0\0\x0b\x08\0\x02\0\x03\x01\x01\x11\0", 13);
+  jpeg.push_back(char(2 + 6 + tiff.size()));
+  jpeg.append("Exif\0\0", 6);
+  jpeg.append(tiff);
+  jpeg.append("\xff\xc0\0\x0b\x08\0\x02\0\x03\x01\x01\x11\0", 13);
   const auto header = parse_picture_header(jpeg, "p.jpg");
   ASSERT_TRUE(header) << to_string(header.errors());
   EXPECT_EQ(header->width, 3);
