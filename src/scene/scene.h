@@ -15,6 +15,7 @@
 #include "base/result.h"
 #include "scene/model.h"
 #include "scene/road_graph.h"
+#include "scene/traced_scene.h"
 
 namespace parvis::scene {
 
@@ -153,6 +154,8 @@ struct Scene {
   TrafficDemand traffic;
   glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
   std::filesystem::path file;  ///< the script; empty: the scene was made in memory
+  /// What rooms draw by themselves, beside the objects; of those rooms that the program has.
+  std::vector<TracedKind> traced_kinds;
 
   const NamedCamera* find_camera(const std::string& name) const;
   /// Where a camera is now: it may stay with an object, which must be there to be seen.

@@ -17,8 +17,10 @@ const char* embedded_text(const std::string& path) {
 }
 
 /// Texts put together: each file once, with #line directives that carry the file's place in `files`.
+/// `#include NAME "file"` includes the file that the define NAME names, in quotes; without it, this one.
 struct Assembly {
   std::vector<std::string>& files;
+  const Defines& defines;
   std::set<std::string> seen{};
   std::string text{};
 
@@ -31,7 +33,7 @@ struct Assembly {
     text += fmt::format("#line 1 {}\n", number);
 
     std::istringstream lines(body);
-    static const std::regex include(R"re(^\s*#\s*include\s+"([^"]+)")re");
+    static const std::regex include(R"re(^\s*#\s*include\s+(?:(\w+)\s+)?"([^"]+)")re");
     int line_number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++line_number;
@@ -40,7 +42,7 @@ struct Assembly {
         text += line + "\n";
         continue;
       }
-      if (Status status = add(match[1]); !status) {
+      if (Status status = add(included(match[1], match[2])); !status) {
         Errors errors = status.errors();
         if (errors.front().where.file.empty()) errors.front().where = {path, line_number, 0};
         return errors;
@@ -48,6 +50,12 @@ struct Assembly {
       text += fmt::format("#line {} {}\n", line_number + 1, number);
     }
     return Done{};
+  }
+
+  std::string included(const std::string& name, const std::string& file) const {
+    for (const auto& [define, value] : defines)
+      if (!name.empty() && define == name && value.size() > 2) return value.substr(1, value.size() - 2);
+    return file;
   }
 };
 
@@ -80,7 +88,7 @@ std::string info_log(GLuint name, GetLength get_length, GetLog get_log) {
 
 Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
                                 std::vector<std::string>& files) {
-  Assembly assembly{files};
+  Assembly assembly{files, defines};
   if (dialect == Dialect::es_300)
     assembly.text =
         "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"

@@ -20,8 +20,9 @@ enum class Dialect { desktop_450, es_300 };
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
 /// The text of a shader ready to compile: version, preamble, defines, and `path` with its includes in place.
-/// An include that names no file and a `path` that is none are errors. `files` receives the names that #line
-/// numbers stand for.
+/// `#include NAME "default.glsl"` includes the file that the define NAME has as its value, in quotes, where
+/// it is defined: so one shader serves surfaces of several rooms. An include that names no file and a `path`
+/// that is none are errors. `files` receives the names that #line numbers stand for.
 Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
                                 std::vector<std::string>& files);
 

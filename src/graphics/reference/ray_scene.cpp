@@ -4,17 +4,21 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "graphics/reference/traced_hit.h"
 #include "scene/mip_levels.h"
 
 namespace parvis::reference {
 namespace {
 
+using Places = std::vector<std::unique_ptr<PlacedPart>>;
+
 /// What travels with a query to the filters below.
 struct QueryContext {
   RTCIntersectContext embree;
+  const Places& places;
   Passage* passage;  ///< null: the ray sees as the renderer draws
 
-  explicit QueryContext(Passage* p) : passage(p) { rtcInitIntersectContext(&embree); }
+  QueryContext(const Places& all, Passage* p) : places(all), passage(p) { rtcInitIntersectContext(&embree); }
 };
 
 RTCRay embree_ray(const Ray& ray) {
@@ -43,42 +47,53 @@ bool meets_back(const RTCFilterFunctionNArguments* arguments) {
   return glm::dot(ng, direction) > 0.0f;
 }
 
-float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+/// The ray is in the mesh's frame.
+glm::vec3 direction_in_world(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
+  return glm::mat3(place.world_from_mesh) * direction;
+}
+
+float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
+  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+  const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
+  if (place.surface) {
+    const glm::vec3 along = glm::normalize(direction_in_world(place, arguments));
+    return place.surface->alpha(traced_hit(place, triangle, {u, v}, is_shadow ? along : -along, 0.0f));
+  }
   const scene::Material& material = *place.material;
   if (material.base_colour_texture == scene::no_index) return material.alpha;
-  const glm::vec2 uv = texture_coordinates(place, RTCHitN_primID(arguments->hit, arguments->N, 0),
-                                           RTCHitN_u(arguments->hit, arguments->N, 0),
-                                           RTCHitN_v(arguments->hit, arguments->N, 0));
+  const glm::vec2 uv = texture_coordinates(place, triangle, u, v);
   return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
 }
 
-bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments) {
+bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments,
+                 bool is_shadow) {
   const scene::Material& material = *place.material;
   if (!passage.sees_backs && !material.is_double_sided && meets_back(arguments)) return false;
   if (material.alpha_mode == scene::Alpha::opaque) return true;
-  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments) >= 0.5f;
-  return place.part->casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments);
+  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
+  return place.casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments, is_shadow);
 }
 
 /// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass throw no
 /// shadow.
-template <bool is_shadow>
-bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
   const scene::Material& material = *place.material;
   const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
-  if (is_shadow && (!place.part->casts_shadow || lets_through)) return false;
+  if (is_shadow && (!place.casts_shadow || lets_through)) return false;
   if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
-  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments) >= 0.5f;
+  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
 }
 
-/// Embree calls this for each candidate hit; geometry belongs to a mesh, whose first place stands for its
-/// material.
+/// Embree calls this for each candidate hit.
 template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
-  const PlacedPart& place = *static_cast<const PlacedPart*>(arguments->geometryUserPtr);
-  Passage* passage = reinterpret_cast<const QueryContext*>(arguments->context)->passage;
-  const bool stops =
-      passage ? stops_light(place, *passage, arguments) : stops_as_drawn<is_shadow>(place, arguments);
+  const QueryContext& context = *reinterpret_cast<const QueryContext*>(arguments->context);
+  const PlacedPart& place = *context.places[RTCHitN_instID(arguments->hit, arguments->N, 0, 0)];
+  const bool stops = context.passage ? stops_light(place, *context.passage, arguments, is_shadow)
+                                     : stops_as_drawn(place, arguments, is_shadow);
   if (!stops) arguments->valid[0] = 0;
 }
 
@@ -92,25 +107,52 @@ glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, f
   return glm::vec2(place.material->texture_from_mesh_uv * glm::vec3(uv, 1.0f));
 }
 
-RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    const scene::Object& object = scene.objects[o];
-    if (!object.is_visible) continue;
-    const scene::Model& model = *object.model;
-    auto& textures = textures_[&model];
-    if (!textures) {
-      textures = std::make_unique<std::vector<MipTexture>>();
-      const std::vector<char> is_cutout = scene::cutout_textures(model);
-      for (std::size_t t = 0; t < model.textures.size(); ++t)
-        textures->emplace_back(model.textures[t], is_cutout[t] != 0);
-    }
-    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
-    for (std::size_t p = 0; p < model.parts.size(); ++p) {
-      const scene::Part& part = model.parts[p];
-      place(part, object.mesh(p), object.world_from_model * pose[std::size_t(part.node)], int(o),
-            object.takes_reflection, model.materials[std::size_t(part.material)], *textures);
-    }
+/// Takes over what rooms draw by themselves.
+class RayScene::TracedThings final : public scene::TracedScene {
+ public:
+  TracedThings(RayScene& rays, int first_thing) : rays_(rays), first_thing_(first_thing) {}
+
+  void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
+           const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
+    if (!placing.is_visible) return;
+    auto material = std::make_shared<scene::Material>();
+    material->alpha_mode = surface->alpha_mode();
+    material->is_double_sided = surface->is_double_sided();
+    PlacedPart part{};
+    part.mesh = mesh.get();
+    part.material = material.get();
+    part.surface = surface.get();
+    part.world_from_mesh = world_from_mesh;
+    part.object = first_thing_ + placing.thing;
+    part.casts_shadow = placing.casts_shadow;
+    rays_.place(part);
+    rays_.kept_.insert(rays_.kept_.end(), {std::move(mesh), std::move(surface), std::move(material)});
   }
+
+  void add(std::shared_ptr<const scene::Model> model, const glm::mat4& world_from_model,
+           const scene::TracedPlacing& placing) override {
+    if (!placing.is_visible) return;
+    const std::vector<glm::mat4> pose = scene::rest_pose(*model);
+    for (std::size_t p = 0; p < model->parts.size(); ++p) {
+      const scene::Part& part = model->parts[p];
+      rays_.place(*model, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
+                  first_thing_ + placing.thing, false);
+    }
+    rays_.kept_.push_back(std::move(model));
+  }
+
+ private:
+  RayScene& rays_;
+  int first_thing_;
+};
+
+RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o)
+    if (scene.objects[o].is_visible) add_object(scene.objects[o], int(o));
+  scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int first_thing) {
+    TracedThings things(*this, first_thing);
+    kind.trace(scene, things);
+  });
   rtcCommitScene(top_);
 }
 
@@ -120,20 +162,51 @@ RayScene::~RayScene() {
   rtcReleaseDevice(device_);
 }
 
-void RayScene::place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
-                     bool takes_reflection, const scene::Material& material,
-                     const std::vector<MipTexture>& textures) {
-  const float volume = glm::determinant(glm::mat3(world_from_mesh));
+const std::vector<MipTexture>& RayScene::textures_of(const scene::Model& model) {
+  auto& textures = textures_[&model];
+  if (textures) return *textures;
+  textures = std::make_unique<std::vector<MipTexture>>();
+  const std::vector<char> is_cutout = scene::cutout_textures(model);
+  for (std::size_t t = 0; t < model.textures.size(); ++t)
+    textures->emplace_back(model.textures[t], is_cutout[t] != 0);
+  return *textures;
+}
+
+void RayScene::add_object(const scene::Object& object, int number) {
+  const scene::Model& model = *object.model;
+  const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    place(model, p, object.mesh(p), object.world_from_model * pose[std::size_t(model.parts[p].node)], number,
+          object.takes_reflection);
+}
+
+void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
+                     const glm::mat4& world_from_mesh, int number, bool takes_reflection) {
+  const scene::Part& source = model.parts[p];
+  PlacedPart part{};
+  part.mesh = &mesh;
+  part.material = &model.materials[std::size_t(source.material)];
+  part.textures = &textures_of(model);
+  part.world_from_mesh = world_from_mesh;
+  part.object = number;
+  part.casts_shadow = source.casts_shadow;
+  part.is_mirror = takes_reflection && part.material->is_mirror_like;
+  place(part);
+}
+
+void RayScene::place(PlacedPart part) {
+  const Mesh& mesh = *part.mesh;
+  const float volume = glm::determinant(glm::mat3(part.world_from_mesh));
   if (mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
-  places_.push_back(std::make_unique<PlacedPart>(
-      PlacedPart{&part, &mesh, &material, &textures, world_from_mesh,
-                 glm::transpose(glm::inverse(glm::mat3(world_from_mesh))), object,
-                 takes_reflection && material.is_mirror_like, volume < 0.0f}));
+  part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
+  part.is_mirrored = volume < 0.0f;
+  places_.push_back(std::make_unique<PlacedPart>(part));
   triangle_count_ += mesh.triangle_count();
 
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, mesh_scene(*places_.back()));
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                          glm::value_ptr(part.world_from_mesh));
   rtcCommitGeometry(instance);
   rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
   rtcReleaseGeometry(instance);
@@ -150,7 +223,6 @@ RTCScene RayScene::mesh_scene(const PlacedPart& place) {
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           3 * sizeof(std::uint32_t), mesh.triangle_count());
   std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
-  rtcSetGeometryUserData(geometry, const_cast<PlacedPart*>(&place));
   rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
   rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
   rtcCommitGeometry(geometry);
@@ -163,7 +235,7 @@ RTCScene RayScene::mesh_scene(const PlacedPart& place) {
 }
 
 std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
-  QueryContext context(passage);
+  QueryContext context(places_, passage);
   RTCRayHit query{};
   query.ray = embree_ray(ray);
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -173,7 +245,7 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const
 }
 
 bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
-  QueryContext context(passage);
+  QueryContext context(places_, passage);
   RTCRay query = embree_ray(ray);
   rtcOccluded1(top_, &context.embree, &query);
   return query.tfar < 0.0f;

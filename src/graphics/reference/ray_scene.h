@@ -20,15 +20,16 @@ struct Ray {
   float least_m = 1e-4f, most_m = 1e30f;
 };
 
-/// A part of an object in the world.
+/// A part of an object in the world, or a mesh that a room draws by itself.
 struct PlacedPart {
-  const scene::Part* part;
   const Mesh* mesh;  ///< the part's, or the object's where it bends
   const scene::Material* material;
   const std::vector<MipTexture>* textures;  ///< of its model
+  const scene::TracedSurface* surface;      ///< in place of material and textures; null: they hold
   glm::mat4 world_from_mesh;
   glm::mat3 world_from_normal;
-  int object;
+  int object;  ///< index in the scene; beyond them, of what rooms draw by themselves: for_each_traced_kind
+  bool casts_shadow;
   bool is_mirror;    ///< takes reflections
   bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
 };
@@ -50,8 +51,8 @@ struct Passage {
 
 class RayScene {
  public:
-  /// Takes the scene as it stands now; it must outlive this. What a transform flattens or makes infinite is
-  /// left out.
+  /// Takes the scene as it stands now, with what rooms draw by themselves (Scene::traced_kinds); it must
+  /// outlive this. What a transform flattens or makes infinite is left out.
   explicit RayScene(const scene::Scene& scene);
   RayScene(const RayScene&) = delete;
   ~RayScene();
@@ -64,10 +65,15 @@ class RayScene {
   std::size_t triangle_count() const { return triangle_count_; }
 
  private:
+  class TracedThings;
+
   std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
   bool is_blocked(const Ray& ray, Passage* passage) const;
-  void place(const scene::Part& part, const Mesh& mesh, const glm::mat4& world_from_mesh, int object,
-             bool takes_reflection, const scene::Material& material, const std::vector<MipTexture>& textures);
+  void add_object(const scene::Object& object, int number);
+  void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
+             int number, bool takes_reflection);
+  void place(PlacedPart part);
+  const std::vector<MipTexture>& textures_of(const scene::Model& model);
   RTCScene mesh_scene(const PlacedPart& place);
 
   RTCDevice device_;
@@ -75,6 +81,7 @@ class RayScene {
   std::vector<std::unique_ptr<PlacedPart>> places_;
   std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
+  std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::size_t triangle_count_ = 0;
 };
 

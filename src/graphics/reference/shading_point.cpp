@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graphics/reference/traced_hit.h"
 #include "graphics/shading/glass.h"
 
 namespace parvis::reference {
@@ -81,7 +82,28 @@ float uv_per_m(const Corners& corners, vec3 facet) {
 
 }  // namespace
 
+namespace {
+
+/// Where a room's own functions say what the surface is like.
+ShadingPoint traced_point(const Hit& hit, vec3 direction, float width_m) {
+  const scene::TracedHit seen = traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -direction, width_m);
+  const scene::TracedPoint found = hit.place->surface->point(seen);
+  ShadingPoint point;
+  point.position = seen.position;
+  point.geometric_normal = seen.normal;
+  point.curvature_per_m = 0.0f;
+  point.is_back = seen.is_back;
+  point.alpha = hit.place->surface->alpha(seen);
+  point.surface = {found.normal,       found.base_colour, found.metallic,
+                   found.roughness,    found.clear_coat,  found.clear_coat_roughness,
+                   found.translucency, found.occlusion,   found.emission};
+  return point;
+}
+
+}  // namespace
+
 ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
+  if (hit.place->surface) return traced_point(hit, direction, width_m);
   const PlacedPart& place = *hit.place;
   const scene::Material& material = *place.material;
   const Corners corners = corners_of(hit);

@@ -14,6 +14,7 @@ inline constexpr GLuint virtual_vertex_unit = 14;   ///< of the room that places
 inline constexpr GLuint glass_picture_unit = 14;    ///< in the main view, which has no virtual vertices
 inline constexpr GLuint sky_visibility_unit = 15;
 inline constexpr GLuint grid_table_unit = 16, grid_results_unit = 17;  ///< of virtual grids
+inline constexpr GLuint first_drawable_unit = 18;  ///< and all above: of what rooms draw by themselves
 
 /// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
 /// sky_lookup.glsl or sun_lookup.glsl.

@@ -10,7 +10,7 @@ CullingCheck check_culling(Renderer& renderer, const scene::Scene& scene, const 
                            int height) {
   std::vector<std::uint8_t> is_seen(scene.objects.size() + 1, 0);
   for (const std::uint32_t object_and_one : renderer.pick(camera, width, height, false).pixels)
-    is_seen[object_and_one] = 1;
+    if (object_and_one < is_seen.size()) is_seen[object_and_one] = 1;  // else a room's own
   renderer.prepare_main_view(camera, width, height);
   const std::vector<int>& drawn = renderer.visible_objects();
 

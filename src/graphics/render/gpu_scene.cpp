@@ -196,6 +196,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     first_item_.push_back(std::uint32_t(items_.size()));
     is_moving_.push_back(object.is_dynamic);
     is_visible_.push_back(object.is_visible);
+    is_newcomer_.push_back(false);
     rest_poses_.push_back(scene::rest_pose(*object.model));
     const int first = first_part_[o];
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {

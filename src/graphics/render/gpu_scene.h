@@ -9,6 +9,7 @@
 
 #include "base/bounds.h"
 #include "graphics/gl/objects.h"
+#include "graphics/render/drawable.h"
 #include "graphics/render/gpu_geometry.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/body_shade.h"
@@ -67,15 +68,6 @@ struct Item {
   int part;
   int object;
   bool is_mirror;  ///< takes the scene's reflection method
-};
-
-/// Fixed objects that appeared, vanished or were put elsewhere in one update.
-struct FixedChange {
-  std::vector<Bounds> gone;  ///< where one stood
-  std::vector<Bounds> come;  ///< where one stands now
-  bool has_moved = false;    ///< one stood elsewhere before
-
-  bool empty() const { return gone.empty() && come.empty(); }
 };
 
 class GpuScene {

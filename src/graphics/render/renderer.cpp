@@ -24,26 +24,69 @@ constexpr GLsizeiptr block_alignment = 256;  // no OpenGL asks for more
 
 bool has_colour(const View& view) { return view.kind < ViewKind::shadow; }
 
+std::vector<Drawable*> all_of(SceneDrawable& scene, const std::vector<std::unique_ptr<Drawable>>& others) {
+  std::vector<Drawable*> all{&scene};
+  for (const std::unique_ptr<Drawable>& other : others) all.push_back(other.get());
+  return all;
+}
+
+Bounds fixed_bounds_of(const std::vector<Drawable*>& drawables) {
+  Bounds bounds;
+  for (const Drawable* drawable : drawables) bounds.add(drawable->extents().fixed);
+  return bounds;
+}
+
+/// Each drawable's wish gets a level: within the budget of a frame, or the best where it has none.
+void choose_quality(const std::vector<Drawable*>& drawables, const View& main_view, const Culling& culling,
+                    double budget_ms) {
+  std::vector<QualityWish> wishes;
+  std::vector<std::span<QualityWish>> by_drawable;
+  for (Drawable* drawable : drawables) {
+    by_drawable.push_back(drawable->quality_wishes(main_view, culling));
+    wishes.insert(wishes.end(), by_drawable.back().begin(), by_drawable.back().end());
+  }
+  if (wishes.empty()) return;
+  if (budget_ms > 0.0)
+    QualityBudget(budget_ms).choose(wishes);
+  else
+    for (QualityWish& wish : wishes) wish.level = int(wish.levels.size()) - 1;
+  auto chosen = wishes.begin();
+  for (const std::span<QualityWish> own : by_drawable)
+    for (QualityWish& wish : own) wish.level = (chosen++)->level;
+}
+
+template <class T, class Range>
+void append(std::vector<T>& all, const Range& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
-Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene) {
+Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables) {
   Result<SceneDrawable> drawable = SceneDrawable::create(scene);
   if (!drawable) return drawable.errors();
+  Result<std::vector<std::unique_ptr<Drawable>>> room_drawables = drawables.make(scene);
+  if (!room_drawables) return room_drawables.errors();
   Result<SkyTextures> sky = SkyTextures::create(scene);
   if (!sky) return sky.errors();
   Result<PictureTarget> target = PictureTarget::create();
   if (!target) return target.errors();
-  return std::unique_ptr<Renderer>(
-      new Renderer(scene, *std::move(drawable), *std::move(sky), *std::move(target)));
+  return std::unique_ptr<Renderer>(new Renderer(scene, *std::move(drawable), *std::move(room_drawables),
+                                                *std::move(sky), *std::move(target)));
 }
 
-Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target)
+Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable,
+                   std::vector<std::unique_ptr<Drawable>> room_drawables, SkyTextures sky,
+                   PictureTarget target)
     : sky_(std::move(sky)),
       sun_(scene.sun),
       haze_per_m_(scene.haze_per_m),
       scene_(std::move(drawable)),
-      shadows_(scene.sun.direction_to_sun, scene_.gpu().fixed_bounds()),
-      drawables_{&scene_},
+      occluders_(scene, scene_.gpu()),
+      room_drawables_(std::move(room_drawables)),
+      drawables_(all_of(scene_, room_drawables_)),
+      fixed_bounds_(fixed_bounds_of(drawables_)),
+      shadows_(scene.sun.direction_to_sun, fixed_bounds_),
       frame_blocks_(1 << 18),
       body_blocks_(1 << 16),
       target_(std::move(target)) {}
@@ -118,16 +161,43 @@ void Renderer::draw_prepared(const View& view) {
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // as a window's panels expect it
 }
 
+Culling Renderer::cull(const View& view) {
+  const bool draws_occluders = view.culls_hidden && view.kind != ViewKind::rays;
+  if (draws_occluders) occluders_.draw(view, scene_.gpu());
+  return {view, draws_occluders ? &occluders_.culler() : nullptr};
+}
+
 void Renderer::draw_view(const View& view) {
-  for (Drawable* drawable : drawables_) drawable->prepare(view);
+  const Culling culling = cull(view);
+  for (Drawable* drawable : drawables_) drawable->prepare(view, culling);
   draw_prepared(view);
 }
 
+void Renderer::gather_extents() {
+  fixed_bounds_ = {};
+  moving_bounds_.clear();
+  bodies_.clear();
+  fixed_change_ = {};
+  for (const Drawable* drawable : drawables_) {
+    const Extents extents = drawable->extents();
+    fixed_bounds_.add(extents.fixed);
+    append(moving_bounds_, extents.moving);
+    append(bodies_, extents.bodies);
+    if (!extents.fixed_change || extents.fixed_change->empty()) continue;
+    append(fixed_change_.gone, extents.fixed_change->gone);
+    append(fixed_change_.come, extents.fixed_change->come);
+    // The heights that hide the sky follow single objects of the scene; else all are made again.
+    fixed_change_.has_moved |= extents.fixed_change->has_moved || drawable != &scene_;
+  }
+}
+
 void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade) {
-  scene_.update(scene);
-  if (const FixedChange& change = scene_.gpu().fixed_change(); !change.empty()) {
-    shadows_.renew(change, scene_.gpu().fixed_bounds());
-    sky_.renew_visibility(scene, scene_.gpu());
+  for (Drawable* drawable : drawables_) drawable->update(scene);
+  gather_extents();
+  if (!fixed_change_.empty()) {
+    occluders_.find_fixed(scene);
+    shadows_.renew(fixed_change_, fixed_bounds_);
+    sky_.renew_visibility(scene, scene_.gpu(), fixed_change_);
     ++fixed_changes_;
   }
   const bool has_new_light = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
@@ -135,15 +205,16 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
   sun_ = scene.sun;
   haze_per_m_ = scene.haze_per_m;
   exposure_ = scene.exposure;
+  budget_ms_ = double(scene.reflection.budget_ms);
   body_shade_ = shading::make_body_shade(
-      has_moving_shade ? std::span(scene_.gpu().bodies()) : std::span<const shading::Body>(),
+      has_moving_shade ? std::span<const shading::Body>(bodies_) : std::span<const shading::Body>(),
       camera.position_in_world());
   const GLintptr bodies =
       body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
   shadows_.update(camera, scene.sun.direction_to_sun,
-                  has_moving_shade ? std::span(scene_.gpu().moving_bounds()) : std::span<const Bounds>(),
+                  has_moving_shade ? std::span<const Bounds>(moving_bounds_) : std::span<const Bounds>(),
                   [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
   sky_.bind();  // for methods of reflection that work light out before any view is drawn
@@ -155,7 +226,9 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height, Su
   main_view_ = camera_view(camera, target_.framebuffer(), width, height);
   main_view_.culls_hidden = true;
   main_view_.subjects = subjects;
-  for (Drawable* drawable : drawables_) drawable->prepare(main_view_);
+  const Culling culling = cull(main_view_);
+  choose_quality(drawables_, main_view_, culling, budget_ms_);
+  for (Drawable* drawable : drawables_) drawable->prepare(main_view_, culling);
 }
 
 void Renderer::draw_main_view() {

@@ -9,25 +9,29 @@
 #include <vector>
 
 #include "graphics/gl/context.h"
+#include "graphics/render/drawables.h"
 #include "graphics/render/picture_target.h"
 #include "graphics/render/scene_drawable.h"
+#include "graphics/render/scene_occluders.h"
 #include "graphics/render/sky_textures.h"
 #include "graphics/render/sun_shadow_maps.h"
 #include "graphics/shading/drawn_light.h"
 
 namespace parvis::render {
 
-/// Which object each pixel shows: its index in the scene and 1; 0 where there is none. Top row first.
+/// Which object each pixel shows: its index in the scene and 1; 0 where there is none. Things that rooms draw
+/// by themselves are numbered behind the objects (scene::for_each_traced_kind). Top row first.
 using ObjectPicture = BasicImage<std::uint32_t>;
 
 class Renderer {
  public:
-  /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene; fails only if a shader
-  /// does.
-  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene);
+  /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene and what rooms draw by
+  /// themselves in it: `drawables` has furnished it. Fails only if a shader does, or if a kind of
+  /// Scene::traced_kinds is not among the drawables.
+  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables = {});
   Renderer(const Renderer&) = delete;
 
-  /// A room's own drawables, drawn after the scene's in every view. Not owned.
+  /// One more drawable, after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
   Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
 
@@ -71,7 +75,10 @@ class Renderer {
   shading::DrawnLight drawn_light() const { return {shadows_.read_back(), &sky_.visibility(), &body_shade_}; }
 
  private:
-  Renderer(const scene::Scene& scene, SceneDrawable drawable, SkyTextures sky, PictureTarget target);
+  Renderer(const scene::Scene& scene, SceneDrawable drawable,
+           std::vector<std::unique_ptr<Drawable>> room_drawables, SkyTextures sky, PictureTarget target);
+  void gather_extents();
+  Culling cull(const View& view);
   void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
   void begin_view(const View& view);
   void draw_prepared(const View& view);
@@ -81,10 +88,20 @@ class Renderer {
   scene::Sun sun_;
   float haze_per_m_ = 0.0f;
   float exposure_ = 1.0f;
+  double budget_ms_ = 0.0;  ///< of a frame; 0: none
   int fixed_changes_ = 0;
   SceneDrawable scene_;
+  SceneOccluders occluders_;
+  std::vector<std::unique_ptr<Drawable>> room_drawables_;
+  std::vector<Drawable*> drawables_;  ///< all: the scene's, the rooms', and those that were added
+
+  // Extents of all drawables in this frame.
+  Bounds fixed_bounds_;
+  std::vector<Bounds> moving_bounds_;
+  std::vector<shading::Body> bodies_;
+  FixedChange fixed_change_;
+
   SunShadowMaps shadows_;
-  std::vector<Drawable*> drawables_;
   shading::BodyShade body_shade_;
   StreamBuffer frame_blocks_, body_blocks_;
   PictureTarget target_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "graphics/render/fixed_parts.h"
 #include "graphics/render/mesh_levels.h"
 
 namespace parvis::render {
@@ -45,27 +44,6 @@ float size_of(const Item::Record& record) {
   return most;
 }
 
-/// What a mirror shows may stand anywhere.
-bool may_see(const View& view, const Frustum& frustum, const Bounds& bounds) {
-  return view.kind == ViewKind::mirrored ? view.virtual_vertices->may_show(bounds) : frustum.may_see(bounds);
-}
-
-bool shows(Subjects subjects, const GpuScene& gpu, int object) {
-  switch (subjects) {
-    case Subjects::all:
-      return true;
-    case Subjects::moving:
-      return gpu.is_moving(object);
-    case Subjects::fixed:
-      return !gpu.is_moving(object);
-    case Subjects::staying:
-      return !gpu.is_moving(object) && !gpu.is_newcomer(object);
-    case Subjects::newcomers:
-      return gpu.is_newcomer(object);
-  }
-  return true;
-}
-
 }  // namespace
 
 Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
@@ -86,40 +64,15 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
         make("graphics/render/depth.vert", "graphics/render/solid_depth.frag", programs.solid_depth),
         make("graphics/render/depth.vert", "graphics/render/picking.frag", programs.picking)})
     if (!status) return status.errors();
-  return SceneDrawable(scene, std::move(gpu), std::move(programs));
+  return SceneDrawable(std::move(gpu), std::move(programs));
 }
 
-SceneDrawable::SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs)
-    : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {
-  find_occluders(scene);
-  keep_moving_shapes(scene);
-}
+SceneDrawable::SceneDrawable(GpuScene gpu, Programs programs)
+    : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {}
 
-void SceneDrawable::find_occluders(const scene::Scene& scene) {
-  occlusion_.clear();
-  for_each_fixed_opaque_part(
-      scene, [this](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
-        const bool has_backs = object.model->materials[std::size_t(part.material)].is_double_sided;
-        if (object.is_visible) occlusion_.add_occluder(part.mesh, world_from_mesh, has_backs);
-      });
-}
-
-void SceneDrawable::keep_moving_shapes(const scene::Scene& scene) {
-  shape_of_part_.assign(gpu_.parts().size(), -1);
-  std::size_t item = 0;
-  for (const scene::Object& object : scene.objects)
-    for (const scene::Part& part : object.model->parts) {
-      int& shape = shape_of_part_[std::size_t(gpu_.items()[item++].part)];
-      const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      const bool is_rigid = object.bent_meshes.empty() || !part.deformation;
-      if (object.is_dynamic && is_rigid && material.alpha_mode == scene::Alpha::opaque && shape < 0)
-        shape = occlusion_.add_shape(part.mesh, material.is_double_sided);
-    }
-}
-
-void SceneDrawable::update(const scene::Scene& scene) {
-  gpu_.update(scene);
-  if (!gpu_.fixed_change().empty()) find_occluders(scene);
+Extents SceneDrawable::extents() const {
+  return {gpu_.fixed_bounds(), gpu_.moving_bounds(), gpu_.bodies(), gpu_.object_bounds(),
+          &gpu_.fixed_change()};
 }
 
 Status SceneDrawable::set_reflection(ReflectionSource* source) {
@@ -158,11 +111,11 @@ bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
 }
 
 /// The coarsest that no eye tells from the mesh. Reflections show errors of a surface enlarged.
-int SceneDrawable::level_of(const Item& item, const ScreenScale& scale) const {
+int SceneDrawable::level_of(const Item& item, const Culling& culling) const {
   const std::span<const LevelRange> levels = gpu_.levels_of(gpu_.parts()[std::size_t(item.part)]);
   if (levels.empty()) return 0;
   const float most_error_m =
-      (item.is_mirror ? most_mirror_error_px : most_error_px) / scale.pixels_a_metre(item.bounds);
+      (item.is_mirror ? most_mirror_error_px : most_error_px) / culling.pixels_per_metre(item.bounds);
   const float size = size_of(item.record);
   const auto too_coarse = std::ranges::find_if(
       levels, [&](const LevelRange& level) { return level.error_m * size > most_error_m; });
@@ -187,22 +140,6 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& v
 }
 
 /// Of what moves, only what is near: what hides others must look larger than they do.
-void SceneDrawable::draw_occluders(const View& view, const Frustum& frustum) {
-  constexpr float farthest_radii = 40.0f;
-  placed_shapes_.clear();
-  for (const Item& item : gpu_.items()) {
-    const int shape = shape_of_part_[std::size_t(item.part)];
-    if (shape < 0 || !gpu_.is_moving(item.object) || !gpu_.is_visible(item.object)) continue;
-    const Bounds& bounds = gpu_.object_bounds()[std::size_t(item.object)];
-    const float distance_m = glm::distance(bounds.centre(), view.position_in_world);
-    if (distance_m > farthest_radii * bounds.radius() || !frustum.may_see(item.bounds)) continue;
-    const glm::mat4 rows(item.record.rows[0], item.record.rows[1], item.record.rows[2],
-                         glm::vec4(0, 0, 0, 1));
-    placed_shapes_.push_back({shape, glm::transpose(rows)});
-  }
-  occlusion_.draw(view.clip_from_world, placed_shapes_);
-}
-
 void SceneDrawable::sort(ViewList& list) {
   std::ranges::sort(list.order, {},
                     [](const ViewList::Entry& entry) { return std::pair(entry.key, entry.item); });
@@ -213,10 +150,7 @@ bool SceneDrawable::refracts(const Item& item) const {
   return (gpu_.materials()[std::size_t(part.material)].features & surface_is_glass) != 0;
 }
 
-void SceneDrawable::gather(const View& view, ViewList& list) {
-  const Frustum frustum(view.clip_of_part() * view.clip_from_world);
-  const ScreenScale scale(view);
-  if (view.culls_hidden) draw_occluders(view, frustum);
+void SceneDrawable::gather(const View& view, const Culling& culling, ViewList& list) {
   list.order.clear();
   list.statistics = {};
   const std::vector<Item>& items = gpu_.items();
@@ -226,17 +160,17 @@ void SceneDrawable::gather(const View& view, ViewList& list) {
         item.object == view.excluded_object && (view.kind != ViewKind::mirrored || item.is_mirror);
     if (is_left_out || std::ranges::count(view.left_out_items, std::uint32_t(i)) > 0) continue;
     if (!view.shows_glass && refracts(item)) continue;
-    if (!shows(view.subjects, gpu_, item.object)) continue;
-    if (!gpu_.is_visible(item.object) || !view.shows(item.object)) continue;
+    const Standing standing{gpu_.is_moving(item.object), gpu_.is_newcomer(item.object)};
+    if (!gpu_.is_visible(item.object) || !culling.shows(item.object, standing)) continue;
     if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
-    if (!may_see(view, frustum, item.bounds)) continue;
+    if (!culling.may_see(item.bounds)) continue;
     ++list.statistics.items_in_frustum;
-    if (view.culls_hidden && occlusion_.hides(item.bounds)) {
+    if (culling.is_hidden(item.bounds)) {
       ++list.statistics.items_hidden;
       continue;
     }
     const int level =
-        view.kind == ViewKind::mirrored || view.kind == ViewKind::picking ? 0 : level_of(item, scale);
+        view.kind == ViewKind::mirrored || view.kind == ViewKind::picking ? 0 : level_of(item, culling);
     list.order.push_back({sort_key(item, level, view), int(i), level});
     if (view.kind == ViewKind::mirrored) list.order.back().virtual_grid = view.virtual_vertices->add(item);
   }
@@ -285,12 +219,12 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
   list.statistics.draws = int(list.commands.size());
 }
 
-void SceneDrawable::prepare(const View& view) {
+void SceneDrawable::prepare(const View& view, const Culling& culling) {
   ViewList& list = view.kind == ViewKind::main ? main_list_ : other_list_;
   if (view.kind == ViewKind::rays)
     gather_mirrors(view, list);
   else
-    gather(view, list);
+    gather(view, culling, list);
   batch(view, list);
   list.first_record = list.record_store.append(std::span<const Item::Record>(list.records), 64);
   list.first_command = list.command_store.append(std::span<const Command>(list.commands), 4);

@@ -8,10 +8,7 @@
 
 #include "graphics/gl/program.h"
 #include "graphics/render/bindings.h"
-#include "graphics/render/frustum.h"
 #include "graphics/render/gpu_scene.h"
-#include "graphics/render/occlusion.h"
-#include "graphics/render/screen_scale.h"
 #include "graphics/render/stream_buffer.h"
 #include "graphics/render/surface_programs.h"
 #include "graphics/render/view.h"
@@ -54,11 +51,12 @@ class SceneDrawable final : public Drawable {
  public:
   static Result<SceneDrawable> create(const scene::Scene& scene);
 
-  void update(const scene::Scene& scene);
   /// null: all reflect the sky alone. What was set before is set again at once.
   Status set_reflection(ReflectionSource* source);
 
-  void prepare(const View& view) override;
+  void update(const scene::Scene& scene) override { gpu_.update(scene); }
+  Extents extents() const override;
+  void prepare(const View& view, const Culling& culling) override;
   void draw(const View& view, Pass pass) override;
 
   /// Objects that the main view shows: what reflections are worth making for.
@@ -99,18 +97,15 @@ class SceneDrawable final : public Drawable {
     DrawStatistics statistics;
   };
 
-  SceneDrawable(const scene::Scene& scene, GpuScene gpu, Programs programs);
+  SceneDrawable(GpuScene gpu, Programs programs);
   Status link(ReflectionSource& source) const;
-  void find_occluders(const scene::Scene& scene);
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
   bool refracts(const Item& item) const;
-  int level_of(const Item& item, const ScreenScale& scale) const;
+  int level_of(const Item& item, const Culling& culling) const;
   std::uint64_t sort_key(const Item& item, int level, const View& view) const;
-  void keep_moving_shapes(const scene::Scene& scene);
-  void draw_occluders(const View& view, const Frustum& frustum);
   static void sort(ViewList& list);
-  void gather(const View& view, ViewList& list);
+  void gather(const View& view, const Culling& culling, ViewList& list);
   void gather_mirrors(const View& view, ViewList& list) const;
   void batch(const View& view, ViewList& list) const;
   void draw_commands(const ViewList& list, std::uint32_t first, std::uint32_t count) const;
@@ -120,9 +115,6 @@ class SceneDrawable final : public Drawable {
   }
 
   GpuScene gpu_;
-  OcclusionCuller occlusion_;
-  std::vector<int> shape_of_part_;  ///< for occlusion; -1: the part hides nothing while it moves
-  std::vector<OcclusionCuller::PlacedShape> placed_shapes_;
   Programs programs_;
   ReflectionSource* reflection_ = nullptr;
   gl::VertexArray vertex_array_;

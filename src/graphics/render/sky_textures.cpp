@@ -10,32 +10,29 @@ namespace {
 /// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
 shading::Heightfield heights_of(const scene::Scene& scene) {
   Bounds bounds;
-  for_each_fixed_opaque_part(
-      scene, [&](const scene::Object&, const scene::Part& part, const glm::mat4& world_from_mesh) {
-        bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
-      });
+  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+    bounds.add(transformed(part.world_from_mesh, part.mesh.bounds()));
+  });
   shading::Heightfield heights(bounds);
-  for_each_fixed_opaque_part(
-      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
-        if (object.is_visible) heights.add(part.mesh, world_from_mesh);
-      });
+  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+    if (part.is_visible) heights.add(part.mesh, part.world_from_mesh);
+  });
   return heights;
 }
 
 /// What has come is put onto the heights; where something has gone they are made anew. All objects stand
-/// where they stood, seen or hidden.
+/// where they stood, seen or hidden, and no room's own drawable has changed.
 void renew_heights(const scene::Scene& scene, const GpuScene& gpu, shading::Heightfield& heights) {
   const std::vector<Bounds> places_left = united(gpu.fixed_change().gone, 0.0f);
   for (const Bounds& place : places_left) heights.clear(place);
-  for_each_fixed_opaque_part(
-      scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
-        if (!object.is_visible) return;
-        const int index = int(&object - scene.objects.data());
-        if (gpu.is_newcomer(index)) return heights.add(part.mesh, world_from_mesh);
-        for (const Bounds& place : places_left)
-          if (overlap_from_above(place, gpu.object_bounds()[std::size_t(index)]))
-            heights.add(part.mesh, world_from_mesh, &place);
-      });
+  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+    if (!part.is_visible) return;
+    const bool is_object = std::size_t(part.object) < scene.objects.size();
+    if (is_object && gpu.is_newcomer(part.object)) return heights.add(part.mesh, part.world_from_mesh);
+    for (const Bounds& place : places_left)
+      if (!is_object || overlap_from_above(place, gpu.object_bounds()[std::size_t(part.object)]))
+        heights.add(part.mesh, part.world_from_mesh, &place);
+  });
 }
 
 gl::Texture upload(const shading::SkyLight& sky) {
@@ -92,8 +89,8 @@ bool SkyTextures::renew_light(const scene::Sky& sky) {
   return true;
 }
 
-void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gpu) {
-  const FixedChange& change = gpu.fixed_change();
+void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gpu,
+                                   const FixedChange& change) {
   if (change.has_moved)
     heights_ = heights_of(scene);  // its bounds may be others, too
   else

@@ -18,8 +18,9 @@ class SkyTextures {
   /// Takes over another sky: its picture (by the name of its file), strength or heading; false where it is
   /// the same. Takes as long as when the scene was loaded.
   bool renew_light(const scene::Sky& sky);
-  /// Takes over fixed things that appeared, vanished or moved in the last update of `gpu`.
-  void renew_visibility(const scene::Scene& scene, const GpuScene& gpu);
+  /// Takes over static things that appeared, vanished or moved in this frame: `change`, of which what is the
+  /// scene's has been taken over by `gpu`.
+  void renew_visibility(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change);
 
   /// Texture units `sky_unit` and `sky_visibility_unit`.
   void bind() const;

@@ -1,4 +1,4 @@
-#include "graphics/render/surface_vertex.glsl"
+#include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 
 void main() {
   surface_vertex();

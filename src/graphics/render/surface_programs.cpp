@@ -37,6 +37,9 @@ Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path
                                                 const std::vector<GpuMaterial>& materials,
                                                 const std::string& vertex_path, const gl::Defines& common) {
   SurfacePrograms made;
+  made.vertex_path_ = vertex_path;
+  made.fragment_path_ = fragment_path;
+  made.defines_ = common;
   for (const GpuMaterial& material : materials) {
     gl::Defines defines = defines_of(material.features);
     defines.insert(defines.end(), common.begin(), common.end());
@@ -49,6 +52,19 @@ Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path
       return status.errors();
   }
   return made;
+}
+
+const gl::Program* SurfacePrograms::of(const DrawableShader& shader) {
+  const auto [entry, is_new] = of_rooms_.try_emplace({shader.vertex_path, shader.surface_path});
+  gl::Program& program = entry->second;
+  if (is_new) {
+    gl::Defines defines = defines_of(shader);
+    for (const auto& define : defines_)
+      if (define.first != "HAS_VERTEX_SEARCH") defines.push_back(define);  // of the scene's meshes alone
+    if (const Status status = link(program, vertex_path_, fragment_path_, defines); !status)
+      fmt::print(stderr, "{}\n", to_string(status.errors()));
+  }
+  return program.name() ? &program : nullptr;
 }
 
 }  // namespace parvis::render

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graphics/gl/program.h"
+#include "graphics/render/drawable_shader.h"
 #include "graphics/render/gpu_scene.h"
 
 namespace parvis::render {
@@ -26,7 +29,14 @@ class SurfacePrograms {
     return (discards ? one_sample_ : programs_)[material.features];
   }
 
+  /// The same shaders for a surface that a room draws by itself, for views of many samples per pixel; linked
+  /// when it is asked for first. Null, with a message on standard error, where it does not link.
+  const gl::Program* of(const DrawableShader& shader);
+
  private:
+  std::string vertex_path_, fragment_path_;
+  gl::Defines defines_;
+  std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
   using Variants = std::array<gl::Program, surface_feature_combinations>;
   Variants programs_;
   Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha

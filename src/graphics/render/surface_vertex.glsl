@@ -14,15 +14,7 @@ layout(location = 4) in vec4 world_from_mesh_row1;
 layout(location = 5) in vec4 world_from_mesh_row2;
 layout(location = 6) in uint object;
 
-out vec3 position;
-out vec3 vertex_normal;
-out vec2 uv;
-#ifdef IS_LEAF
-// A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
-out float leaf_sun;
-out vec4 leaf_sky_cell;
-#endif
-flat out int object_of_surface;
+#include "graphics/render/surface_outputs.glsl"
 
 void surface_vertex() {
   vec4 p = vec4(mesh_position, 1.0f);

@@ -1,4 +1,4 @@
-// Views and drawables: any drawable draws into any view, and no room loops over the scene itself.
+// Views: from where, of what and onto which target a picture is drawn. Every drawable draws into every view.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -41,7 +41,9 @@ struct View {
   int width = 0, height = 0;
   glm::ivec4 part{
       0};  ///< x, y, width, height in pixels, from the lower left: all that is drawn; none: everything
-  const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< a flag for each object; null: all
+  const std::vector<std::uint8_t>* shown_objects =
+      nullptr;  ///< a flag for each object, and for things that rooms draw; those beyond are left out; null:
+                ///< all
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   std::span<const std::uint32_t>
       left_out_items;       ///< of GpuScene: parts of objects that do not see themselves
@@ -51,7 +53,10 @@ struct View {
   bool clears = true;                           ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
-  bool shows(int object) const { return !shown_objects || (*shown_objects)[std::size_t(object)]; }
+  bool shows(int object) const {
+    return !shown_objects ||
+           (std::size_t(object) < shown_objects->size() && (*shown_objects)[std::size_t(object)]);
+  }
   bool has_part() const { return part.z > 0 && part.w > 0; }
   /// Spreads the part's share of the clip square over the whole square: what is to be drawn lies within.
   glm::mat4 clip_of_part() const;
@@ -81,16 +86,5 @@ inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int
 /// In the order in which a view draws them. Shadow and picking views have no blend pass.
 enum class Pass : std::uint8_t { opaque, cutout, blend };
 inline constexpr int pass_count = 3;
-
-/// What a room puts into pictures. The renderer asks every drawable in every view.
-class Drawable {
- public:
-  virtual ~Drawable() = default;
-  /// Once for each view, before its passes: cull, choose levels of detail, upload. Other views are prepared
-  /// and drawn between the main view's preparation and its drawing.
-  virtual void prepare(const View& view) = 0;
-  /// Draws one pass; the target is bound, the uniform block of render/frame.glsl is filled.
-  virtual void draw(const View& view, Pass pass) = 0;
-};
 
 }  // namespace parvis::render

@@ -22,11 +22,14 @@ class VirtualVertices {
   virtual void prepare() {}
 
   const gl::Program& program_of(const GpuMaterial& material) const { return programs_.of(material, true); }
+  /// Of a surface that a room draws by itself; linked when it is asked for first. Null, with a message on
+  /// standard error, where it does not link.
+  const gl::Program* program_of(const DrawableShader& shader) { return programs_.of(shader); }
 
  protected:
-  /// Compiled with IS_MIRRORED, for all materials of the scene: a vertex shader that includes
-  /// render/surface_vertex.glsl and sets `seen_from` of render/surface_body.glsl, too, and a fragment shader
-  /// that includes that file and defines `is_mirrored_here`.
+  /// Compiled with IS_MIRRORED, for all materials of the scene: a vertex shader that includes SURFACE_VERTEX
+  /// and sets `seen_from` of surface_body.glsl, too, and a fragment shader that includes that file and
+  /// defines `is_mirrored_here`.
   explicit VirtualVertices(SurfacePrograms programs) : programs_(std::move(programs)) {}
 
  private:

@@ -1,6 +1,6 @@
 // Where a body of solid glass shows each vertex of the scene: on the ray to where its light leaves the glass toward the viewer, as far
 // away as its light has come. So what lies behind other things in the glass is hidden by them.
-#include "graphics/render/surface_vertex.glsl"
+#include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 #include "reflections/curved_reflectors/patch_uniforms.glsl"
 
 uniform mat4 refraction_rays[37];  // refraction_start_count

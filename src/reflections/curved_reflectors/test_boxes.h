@@ -90,8 +90,9 @@ struct Compared {
 
 /// `make(scene, renderer)` gives the method; null: mirrors show the sky.
 template <class Make>
-Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Make make) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Make make,
+                 const render::Drawables& drawables = {}) {
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene, drawables);
   EXPECT_TRUE(renderer) << to_string(renderer.errors());
   Result<std::unique_ptr<render::Reflections>> reflections = make(scene, **renderer);
   EXPECT_TRUE(reflections) << to_string(reflections.errors());

@@ -1,6 +1,6 @@
 // Where a first mirror shows each vertex of the scene as a second one shows it: two_bounce_search.glsl. The second's virtual vertex
 // is mirrored once more, in the plane that touches the first.
-#include "graphics/render/surface_vertex.glsl"
+#include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 #include "reflections/curved_reflectors/virtual_place.glsl"
 
 void turn_to(int to) { mirror = to; }

@@ -1,7 +1,7 @@
 // Where a patch of a reflector shows each vertex of the scene (Estalella and others 2005, sections 3 to 6.1): as it was searched for
 // ahead of the view, or out of the virtual grid about its mesh, where that tells, else by a search of its own. The vertex stands behind its reflection point
 // as behind the plane that touches there.
-#include "graphics/render/surface_vertex.glsl"
+#include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 #include "reflections/curved_reflectors/virtual_place.glsl"
 
 #ifdef HAS_VERTEX_SEARCH

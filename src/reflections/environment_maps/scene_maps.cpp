@@ -64,10 +64,9 @@ float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
 shading::Heightfield heights_of(const scene::Scene& scene) {
   Bounds bounds;
   const auto each_part = [&](auto&& visit) {
-    render::for_each_fixed_opaque_part(
-        scene, [&](const scene::Object& object, const scene::Part& part, const glm::mat4& world_from_mesh) {
-          if (object.is_visible) visit(part.mesh, world_from_mesh);
-        });
+    render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
+      if (part.is_visible) visit(part.mesh, part.world_from_mesh);
+    });
   };
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
     bounds.add(transformed(world_from_mesh, mesh.bounds()));

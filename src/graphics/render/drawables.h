@@ -1,0 +1,41 @@
+// The kinds of things that rooms draw by themselves: each with its drawable and its counterpart in the ray
+// tracer.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "graphics/render/drawable.h"
+
+namespace parvis::render {
+
+struct DrawableKind {
+  /// Name, number of things in a scene, and what rays see of them. Needs no OpenGL.
+  scene::TracedKind traced;
+  /// The drawable of all things of this kind in a scene that has some. `first_thing` is the number of thing
+  /// 0: Culling::shows takes it, picking views get it and 1. Needs a current OpenGL 4.5 context as long as it
+  /// lives.
+  std::function<Result<std::unique_ptr<Drawable>>(const scene::Scene& scene, int first_thing)> make;
+};
+
+class Drawables {
+ public:
+  /// Names differ. The functions must be there: no ground truth, no drawable.
+  void add(DrawableKind kind);
+  const DrawableKind* find(std::string_view name) const;
+  const std::vector<DrawableKind>& kinds() const { return kinds_; }
+
+  /// To be called for each scene that is loaded: from then on renderers and ray tracers show these kinds.
+  void furnish(scene::Scene& scene) const;
+  /// The drawables of all kinds of which the scene has things. A scene's kind that is not registered here is
+  /// an error: it would be traced, but not drawn.
+  Result<std::vector<std::unique_ptr<Drawable>>> make(const scene::Scene& scene) const;
+
+ private:
+  std::vector<DrawableKind> kinds_;
+};
+
+}  // namespace parvis::render

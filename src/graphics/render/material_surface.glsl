@@ -1,0 +1,116 @@
+// What a surface is like by its material: the block of material.glsl and its textures. A room that draws by itself has a
+// file of its own in place of this one, with
+//   Surface surface_at(SeenPoint seen, inout float sun, out float alpha)
+// which may take from `sun` what the surface itself keeps out. `alpha` counts where HAS_HOLES is defined, and in passes
+// that blend.
+#include "graphics/render/anisotropy.glsl"
+
+#define surface_mirrors material_mirrors
+
+// Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
+#ifdef HAS_RELIEF
+vec4 looked_up(sampler2D picture, vec2 at, vec2 along_x, vec2 along_y) {
+  return textureGrad(picture, at, along_x, along_y);
+}
+#else
+#define looked_up(picture, at, along_x, along_y) texture(picture, at)
+#endif
+
+#ifdef HAS_RELIEF
+float relief_level;
+
+float relief_depth(vec2 at) { return 1.0f - textureLod(normal_texture, at, relief_level).a; }
+#include "graphics/shading/relief.glsl"
+
+// Moves `at` to where the view meets the relief; `sun` loses what the edge of the opening keeps out.
+vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 along_y, inout float sun) {
+  TextureFrame frame = TextureFrame(dFdx(position), dFdy(position), along_x, along_y);
+  float pixel_m = min(length(frame.step_1), length(frame.step_2));
+  float depth_m = material_relief_m * relief_share(pixel_m, material_relief_m);
+  if (depth_m <= 0.0f) return at;
+  vec2 size = vec2(textureSize(normal_texture, 0));
+  relief_level = 0.5f * log2(max(abs(along_x.x * along_y.y - along_x.y * along_y.x) * size.x * size.y, 1e-8f));
+  vec3 hit = relief_hit(at, uv_through_relief(frame, normal, -to_viewer, depth_m));
+  if (dot(normal, frame_to_sun.xyz) > 0.0f && hit.z > 0.0f)
+    sun *= relief_light(hit, uv_through_relief(frame, normal, frame_to_sun.xyz, depth_m));
+  return hit.xy;
+}
+#endif
+
+#ifdef HAS_NORMAL_MAP
+// The normal map turns the normal within the frame of the triangle's texture gradients: +x along u, +y against v.
+vec3 mapped_normal(vec3 normal, vec2 texture_uv, vec2 tx, vec2 ty) {
+  vec3 px = dFdx(position), py = dFdy(position);
+  float determinant = tx.x * ty.y - tx.y * ty.x;
+  vec3 along_u = (px * ty.y - py * tx.y) * sign(determinant);
+  vec3 along_v = (py * tx.x - px * ty.x) * sign(determinant);
+  vec3 tangent = along_u - normal * dot(normal, along_u);
+  float size = dot(tangent, tangent);
+  if (size < 1e-20f || determinant == 0.0f) return normal;
+  tangent *= inversesqrt(size);
+  vec3 bitangent = cross(normal, tangent);
+  bitangent *= dot(bitangent, along_v) > 0.0f ? -1.0f : 1.0f;
+  vec3 n = looked_up(normal_texture, texture_uv, tx, ty).xyz * 2.0f - 1.0f;
+  return normalize((tangent * n.x + bitangent * n.y) * material_emission.a + normal * max(n.z, 0.01f));
+}
+#endif
+
+vec4 base_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
+#ifdef IS_LEAF
+  vec4 base = texture(base_colour_texture, texture_uv);
+#else
+  vec4 base = base_colour_at(texture_uv, along_x, along_y);
+#endif
+  return vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
+}
+
+// Occlusion, roughness, metallic.
+vec3 detail_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
+#ifdef HAS_SURFACE_MAP
+  return looked_up(surface_texture, texture_uv, along_x, along_y).rgb;
+#else
+  return vec3(1.0f);
+#endif
+}
+
+vec3 emission_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
+#ifdef HAS_EMISSION_MAP
+  return material_emission.rgb * looked_up(emission_texture, texture_uv, along_x, along_y).rgb;
+#else
+  return material_emission.rgb;
+#endif
+}
+
+Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+  vec2 texture_uv = texture_coordinates(uv);
+  vec2 along_x = dFdx(texture_uv), along_y = dFdy(texture_uv);
+#ifdef HAS_RELIEF
+  texture_uv = through_relief(texture_uv, seen.to_viewer, seen.normal, along_x, along_y, sun);
+#endif
+  vec4 base = base_at(texture_uv, along_x, along_y);
+  vec3 detail = detail_at(texture_uv, along_x, along_y);
+  alpha = base.a;
+
+  Surface s;
+#ifdef HAS_NORMAL_MAP
+  s.normal = mapped_normal(seen.normal, texture_uv, along_x, along_y);
+#else
+  s.normal = seen.normal;
+#endif
+  s.base_colour = base.rgb;
+  s.metallic = material_layers.x * detail.b;
+  s.roughness = material_layers.y * detail.g;
+#ifdef HAS_COAT
+  s.clear_coat = material_layers.z;
+#else
+  s.clear_coat = 0.0f;
+#endif
+  s.clear_coat_roughness = material_layers.w;
+  s.translucency = material_texture_u.w;
+  s.occlusion = detail.r;
+  s.emission = emission_at(texture_uv, along_x, along_y);
+#ifdef IS_GLASS
+  s = glass_surface(s, material_ior);
+#endif
+  return s;
+}
