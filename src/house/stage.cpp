@@ -1,5 +1,6 @@
 #include "house/stage.h"
 
+#include "graphics/render/frame_views.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/curved_reflectors/long_edges.h"
 #include "reflections/curved_reflectors/refracted_objects.h"
@@ -139,14 +140,13 @@ void Stage::draw(const Camera& camera, int width, int height) {
       fmt::print(stderr, "{}", to_string(status.errors()));
   width_ = width, height_ = height;
   pass_times_.begin_frame();
-  renderer_->begin_frame(play_.scene, camera);
-  pass_times_.end_pass("shadows");
   const glm::ivec2 drawn = scale_.drawn_size(width, height);
-  renderer_->prepare_main_view(camera, drawn.x, drawn.y);
-  reflections_->update(*renderer_, play_.scene, camera);
-  pass_times_.end_pass("reflections");
-  renderer_->draw_main_view();
-  pass_times_.end_pass("picture");
+  render::FrameSteps steps;
+  steps.reflect = [&](const Camera& eye) { reflections_->update(*renderer_, play_.scene, eye); };
+  steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
+  const Status status =
+      render::draw_frame(*renderer_, play_.scene, render::EyeView{camera, drawn.x, drawn.y}, steps);
+  assert(status.ok() && "one eye has its target");
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel,

@@ -56,7 +56,8 @@ struct Sky {
   ImageF picture;  ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
   float intensity = 1.0f;      ///< multiplies the picture
   float heading = 0.0f;        ///< radians, turns the picture about the zenith, clockwise from above
-  std::filesystem::path file;  ///< the picture's; empty: it was made in memory, and stays
+  std::filesystem::path file;  ///< the picture's; empty: it was made in memory
+  int version = 0;             ///< of a picture that is computed: counted up whenever it changes
 };
 
 struct NamedCamera {

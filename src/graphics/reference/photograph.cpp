@@ -40,6 +40,7 @@ std::uint64_t work_key(const scene::Scene& scene, const Camera& camera, int widt
   hash.add(camera.world_from_camera);
   for (const float value : {camera.vertical_fov, camera.near_m, options.paths.clamp.value_or(-1.0f)})
     hash.add(value);
+  if (camera.off_axis) hash.add(*camera.off_axis);
   for (const int value : {width, height, options.samples_a_pixel, options.paths.bounces.value_or(-1),
                           int(options.paths.strategy)})
     hash.add(value);
@@ -59,7 +60,7 @@ float centre_depth_m(const RayScene& rays, const Camera& camera, int width, int 
 std::uint64_t trace_tile(const PathTracer& tracer, const RayScene& rays, const Camera& camera, int width,
                          int height, const PhotographOptions& options, const Tile& tile,
                          std::vector<float>& values) {
-  const float pixel_spread = 2.0f * std::tan(0.5f * camera.vertical_fov) / float(height);
+  const float pixel_spread = camera.height_at_1m() / float(height);
   const float spread = pixel_spread / std::sqrt(float(options.samples_a_pixel));
   std::uint64_t ray_count = 0;
   for (int y = tile.y0; y < tile.y1; ++y)

@@ -215,7 +215,7 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
   const Tracer tracer(rays, scene, sky, options);
   const int side = int(std::ceil(std::sqrt(float(options.samples_a_pixel)))), samples = side * side;
   const float spread =  // of a sample's share of the pixel
-      2.0f * std::tan(0.5f * camera.vertical_fov) / float(height) / float(side);
+      camera.height_at_1m() / float(height) / float(side);
 
   const PixelWindow window = options.window.width > 0 ? options.window : PixelWindow{0, 0, width, height};
 

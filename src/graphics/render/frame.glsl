@@ -1,5 +1,5 @@
-// What is the same for all that one view draws. Filled by render/renderer.cpp.
-layout(std140) uniform Frame {
+// What is the same for all that one view draws: the uniform block, and in C++ the struct that renderer.cpp fills.
+UNIFORM_BLOCK(Frame) {
   mat4 clip_from_world;
   vec4 viewer_position;
   vec4 frame_to_sun;     // w: haze a metre

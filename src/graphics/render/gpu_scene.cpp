@@ -8,29 +8,28 @@
 #include "base/parallel.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/mesh_levels.h"
+#include "graphics/shading/glsl.h"
 #include "scene/mip_levels.h"
 
 namespace parvis::render {
 namespace {
 
-/// The uniform block of render/material.glsl, std140.
-struct MaterialBlock {
-  glm::vec4 base_colour;              // rgb, alpha
-  glm::vec4 emission;                 // rgb, normal scale
-  glm::vec4 metallic_roughness_coat;  // metallic, roughness, coat, coat roughness
-  glm::vec4 texture_rows[2];  // of texture_from_mesh_uv; w of the first: translucency, of the second: cutout
-  glm::vec4 relief_mirrors_ior;  // x: metres; y: 1 if it takes the scene's reflection method; z: index of
-                                 // refraction
-};
+using glm::vec4;
+#include "graphics/render/material_block.glsl"
 
-MaterialBlock block_of(const scene::Material& material) {
+Material block_of(const scene::Material& material) {
   const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
-  return {glm::vec4(material.base_colour, material.alpha),
-          glm::vec4(material.emission, material.normal_scale),
-          {material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness},
-          {glm::vec4(rows[0], material.translucency),
-           glm::vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f)},
-          {material.relief_m, material.is_mirror_like ? 1.0f : 0.0f, material.ior, 0.0f}};
+  Material block{};
+  block.material_base_colour = vec4(material.base_colour, material.alpha);
+  block.material_emission = vec4(material.emission, material.normal_scale);
+  block.material_layers = {material.metallic, material.roughness, material.clear_coat,
+                           material.clear_coat_roughness};
+  block.material_texture_u = vec4(rows[0], material.translucency);
+  block.material_texture_v = vec4(rows[1], material.alpha_mode == scene::Alpha::cutout ? 1.0f : 0.0f);
+  block.material_relief_m = material.relief_m;
+  block.material_mirrors = material.is_mirror_like ? 1.0f : 0.0f;
+  block.material_ior = material.ior;
+  return block;
 }
 
 Pass pass_of(scene::Alpha alpha) {
@@ -87,7 +86,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   white_ = plain_texture({255, 255, 255, 255});
   flat_normal_ = plain_texture({128, 128, 255, 255});
   glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &block_stride_);
-  block_stride_ = (GLint(sizeof(MaterialBlock)) + block_stride_ - 1) / block_stride_ * block_stride_;
+  block_stride_ = (GLint(sizeof(Material)) + block_stride_ - 1) / block_stride_ * block_stride_;
 
   add_models(scene);
   add_levels(scene);
@@ -183,7 +182,7 @@ void GpuScene::upload_model_materials(const scene::Model& model) {
                           texture_or(material.surface_texture, white_),
                           texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
                           material.is_double_sided, material.is_mirror_like, features_of(material)});
-    const MaterialBlock block = block_of(material);
+    const Material block = block_of(material);
     const std::size_t offset = material_bytes_.size();
     material_bytes_.resize(offset + std::size_t(block_stride_));
     std::memcpy(material_bytes_.data() + offset, &block, sizeof(block));
@@ -300,7 +299,7 @@ void GpuScene::bind_material(int index) const {
   const GLuint textures[]{material.base_colour, material.normal, material.surface, material.emission};
   glBindTextures(0, 4, textures);
   glBindBufferRange(GL_UNIFORM_BUFFER, 1, material_blocks_.name(), GLintptr(index) * block_stride_,
-                    GLsizeiptr(sizeof(MaterialBlock)));
+                    GLsizeiptr(sizeof(Material)));
   cull_faces(!material.is_double_sided);
 }
 

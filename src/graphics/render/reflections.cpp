@@ -7,7 +7,7 @@ namespace parvis::render {
 void find_reflectors(const Renderer& renderer, const scene::Scene& scene, const Camera& camera,
                      std::vector<Reflector>& reflectors) {
   reflectors.clear();
-  const float pixels_at_1m = 0.5f * float(renderer.height()) / std::tan(0.5f * camera.vertical_fov);
+  const float pixels_at_1m = float(renderer.height()) / camera.height_at_1m();
   for (const int object : renderer.visible_objects()) {
     if (!scene.objects[std::size_t(object)].takes_reflection) continue;
     const Bounds& bounds = renderer.gpu().object_bounds()[std::size_t(object)];

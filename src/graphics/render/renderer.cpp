@@ -1,16 +1,11 @@
 #include "graphics/render/renderer.h"
 
+#include "graphics/render/frame.h"
+#include "graphics/render/sun_and_sky.h"
+#include "graphics/render/sun_shadow_maps.h"
+
 namespace parvis::render {
 namespace {
-
-/// The uniform block of render/frame.glsl, std140.
-struct FrameBlock {
-  glm::mat4 clip_from_world;
-  glm::vec4 viewer_position, to_sun, sun_irradiance, haze;
-  glm::vec4 sky_sh[9];
-  glm::mat4 uvz_from_world[2];
-  glm::vec4 shadow_texel, size, visibility_origin, visibility_size;
-};
 
 /// Depth 1 at the near plane and 0 far away: floats then resolve a centimetre at a kilometre, where depth
 /// that grows confuses what lies 0.5 m apart. Needs GL_ZERO_TO_ONE.
@@ -62,54 +57,47 @@ void append(std::vector<T>& all, const Range& more) {
 
 }  // namespace
 
-Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables) {
+Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed) {
+  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene.sun.direction_to_sun, fixed));
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables,
+                                                   const MakeLight& make_light) {
   Result<SceneDrawable> drawable = SceneDrawable::create(scene);
   if (!drawable) return drawable.errors();
   Result<std::vector<std::unique_ptr<Drawable>>> room_drawables = drawables.make(scene);
   if (!room_drawables) return room_drawables.errors();
-  Result<SkyTextures> sky = SkyTextures::create(scene);
-  if (!sky) return sky.errors();
+  Result<std::unique_ptr<LightSource>> light =
+      make_light(scene, fixed_bounds_of(all_of(*drawable, *room_drawables)));
+  if (!light) return light.errors();
   Result<PictureTarget> target = PictureTarget::create();
   if (!target) return target.errors();
   return std::unique_ptr<Renderer>(new Renderer(scene, *std::move(drawable), *std::move(room_drawables),
-                                                *std::move(sky), *std::move(target)));
+                                                *std::move(light), *std::move(target)));
 }
 
 Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable,
-                   std::vector<std::unique_ptr<Drawable>> room_drawables, SkyTextures sky,
+                   std::vector<std::unique_ptr<Drawable>> room_drawables, std::unique_ptr<LightSource> light,
                    PictureTarget target)
-    : sky_(std::move(sky)),
-      sun_(scene.sun),
-      haze_per_m_(scene.haze_per_m),
+    : light_(std::move(light)),
       scene_(std::move(drawable)),
       occluders_(scene, scene_.gpu()),
       room_drawables_(std::move(room_drawables)),
       drawables_(all_of(scene_, room_drawables_)),
-      fixed_bounds_(fixed_bounds_of(drawables_)),
-      shadows_(scene.sun.direction_to_sun, fixed_bounds_),
       frame_blocks_(1 << 18),
-      body_blocks_(1 << 16),
-      target_(std::move(target)) {}
+      body_blocks_(1 << 16) {
+  targets_.push_back(std::move(target));
+}
 
 void Renderer::bind_frame(const View& view) {
-  FrameBlock block{};
-  block.clip_from_world =
+  Frame frame{};
+  frame.clip_from_world =
       view.kind == ViewKind::shadow ? view.clip_from_world : with_reversed_depth(view.clip_from_world);
-  block.viewer_position = glm::vec4(view.position_in_world, 1.0f);
-  block.to_sun = glm::vec4(glm::normalize(sun_.direction_to_sun), haze_per_m_);
-  block.sun_irradiance = glm::vec4(sun_.irradiance, 0.0f);
-  const shading::SkyLight& sky = sky_.light();
-  block.haze = glm::vec4(sky.haze_radiance, sky.heading);
-  for (std::size_t i = 0; i < 9; ++i) block.sky_sh[i] = glm::vec4(sky.irradiance_sh[i], 0.0f);
-  const shading::ShadowMaps& maps = shadows_.maps();
-  for (int i = 0; i < 2; ++i) block.uvz_from_world[i] = maps.uvz_from_world[i];
-  block.shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
-  block.size = {float(view.width), float(view.height), float(sky.levels.size()), 0.0f};
-  const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
-  block.visibility_origin = glm::vec4(grid.origin, grid.lift_m);
-  block.visibility_size = glm::vec4(grid.size_m, 0.0f);
-  const GLintptr offset = frame_blocks_.append(std::span<const FrameBlock>(&block, 1), block_alignment);
-  glBindBufferRange(GL_UNIFORM_BUFFER, 0, frame_blocks_.name(), offset, sizeof(FrameBlock));
+  frame.viewer_position = glm::vec4(view.position_in_world, 1.0f);
+  frame.frame_size = {float(view.width), float(view.height), 0.0f, 0.0f};
+  light_->fill(frame);
+  const GLintptr offset = frame_blocks_.append(std::span<const Frame>(&frame, 1), block_alignment);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 0, frame_blocks_.name(), offset, sizeof(Frame));
 }
 
 void Renderer::begin_view(const View& view) {
@@ -138,17 +126,14 @@ void Renderer::draw_prepared(const View& view) {
     glClearBufferuiv(GL_COLOR, 0, nothing);
   }
   if (view.clears) glClear(GL_DEPTH_BUFFER_BIT);
-  if (has_colour(view)) {
-    sky_.bind();
-    shadows_.bind();
-  }
+  if (has_colour(view)) light_->bind();
   for (Drawable* drawable : drawables_) drawable->draw(view, Pass::opaque);
   if (has_colour(view)) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   for (Drawable* drawable : drawables_) drawable->draw(view, Pass::cutout);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 
   if (has_colour(view)) {
-    if (view.kind != ViewKind::mirrored) sky_.draw(view);
+    if (view.kind != ViewKind::mirrored) light_->draw_sky(view);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                         GL_ONE_MINUS_SRC_ALPHA);  // alpha: coverage
@@ -196,14 +181,10 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
   gather_extents();
   if (!fixed_change_.empty()) {
     occluders_.find_fixed(scene);
-    shadows_.renew(fixed_change_, fixed_bounds_);
-    sky_.renew_visibility(scene, scene_.gpu(), fixed_change_);
+    light_->renew(scene, scene_.gpu(), fixed_change_, fixed_bounds_);
     ++fixed_changes_;
   }
-  const bool has_new_light = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
-  if (sky_.renew_light(scene.sky) || has_new_light) ++fixed_changes_;
-  sun_ = scene.sun;
-  haze_per_m_ = scene.haze_per_m;
+  if (light_->update(scene)) ++fixed_changes_;
   exposure_ = scene.exposure;
   budget_ms_ = double(scene.reflection.budget_ms);
   body_shade_ = shading::make_body_shade(
@@ -213,17 +194,25 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
       body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
-  shadows_.update(camera, scene.sun.direction_to_sun,
-                  has_moving_shade ? std::span<const Bounds>(moving_bounds_) : std::span<const Bounds>(),
-                  [this](const View& view) { draw_view(view); });
+  light_->draw_shadows(camera,
+                       has_moving_shade ? std::span<const Bounds>(moving_bounds_) : std::span<const Bounds>(),
+                       [this](const View& view) { draw_view(view); });
   glDisable(GL_DEPTH_CLAMP);
-  sky_.bind();  // for methods of reflection that work light out before any view is drawn
-  shadows_.bind();
+  light_->bind();  // for methods of reflection that evaluate light before any view is drawn
+}
+
+Status Renderer::reserve_eyes(std::size_t count) {
+  while (targets_.size() < count) {
+    Result<PictureTarget> target = PictureTarget::create();
+    if (!target) return target.errors();
+    targets_.push_back(*std::move(target));
+  }
+  return Done{};
 }
 
 void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects) {
-  target_.resize(width, height);
-  main_view_ = camera_view(camera, target_.framebuffer(), width, height);
+  target().resize(width, height);
+  main_view_ = camera_view(camera, target().framebuffer(), width, height);
   main_view_.culls_hidden = true;
   main_view_.subjects = subjects;
   const Culling culling = cull(main_view_);
@@ -233,7 +222,7 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height, Su
 
 void Renderer::draw_main_view() {
   draw_prepared(main_view_);
-  target_.resolve(exposure_);
+  target().resolve(exposure_);
 }
 
 ObjectPicture Renderer::pick(const Camera& camera, int width, int height, bool culls_hidden) {

@@ -10,11 +10,10 @@
 
 #include "graphics/gl/context.h"
 #include "graphics/render/drawables.h"
+#include "graphics/render/light_source.h"
 #include "graphics/render/picture_target.h"
 #include "graphics/render/scene_drawable.h"
 #include "graphics/render/scene_occluders.h"
-#include "graphics/render/sky_textures.h"
-#include "graphics/render/sun_shadow_maps.h"
 #include "graphics/shading/drawn_light.h"
 
 namespace parvis::render {
@@ -23,12 +22,19 @@ namespace parvis::render {
 /// by themselves are numbered behind the objects (scene::for_each_traced_kind). Top row first.
 using ObjectPicture = BasicImage<std::uint32_t>;
 
+/// Makes the light of a scene; `fixed` bounds all static things. Needs a current OpenGL context.
+using MakeLight =
+    std::function<Result<std::unique_ptr<LightSource>>(const scene::Scene& scene, const Bounds& fixed)>;
+/// Scene::sun with two cascades of shadow maps, and Scene::sky.
+Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
+
 class Renderer {
  public:
   /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene and what rooms draw by
   /// themselves in it: `drawables` has furnished it. Fails only if a shader does, or if a kind of
   /// Scene::traced_kinds is not among the drawables.
-  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables = {});
+  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables = {},
+                                                  const MakeLight& make_light = sun_and_sky);
   Renderer(const Renderer&) = delete;
 
   /// One more drawable, after the scene's in every view. Not owned.
@@ -39,6 +45,10 @@ class Renderer {
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
   /// The same for pictures of what stands still: what moves throws no shade.
   void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
+  /// Makes targets for so many eyes (frame_views.h); fails only if a shader does.
+  Status reserve_eyes(std::size_t count);
+  /// The eye whose main view is prepared, drawn, displayed and read from now on: below the count reserved.
+  void select_eye(std::size_t eye) { eye_ = eye; }
   /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for. A
   /// bench may leave out what stands still.
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
@@ -53,14 +63,14 @@ class Renderer {
 
   /// Tone-maps the main view into the first `size` pixels of a framebuffer (0: the window's).
   void display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
-    target_.display(framebuffer, size, exposure);
+    target().display(framebuffer, size, exposure);
   }
-  void start_reading(float exposure, GLsizeiptr bytes) const { target_.start_reading(exposure, bytes); }
-  Image8 read_picture(float exposure) const { return target_.read_picture(exposure); }
-  ImageF read_radiance() const { return target_.read_radiance(); }
+  void start_reading(float exposure, GLsizeiptr bytes) const { target().start_reading(exposure, bytes); }
+  Image8 read_picture(float exposure) const { return target().read_picture(exposure); }
+  ImageF read_radiance() const { return target().read_radiance(); }
 
-  int width() const { return target_.width(); }
-  int height() const { return target_.height(); }
+  int width() const { return target().width(); }
+  int height() const { return target().height(); }
   float exposure() const { return exposure_; }
   const DrawStatistics& statistics() const { return scene_.main_statistics(); }
   const GpuScene& gpu() const { return scene_.gpu(); }
@@ -69,14 +79,17 @@ class Renderer {
   int fixed_changes() const { return fixed_changes_; }
 
   // The light that the ray tracer needs to agree with the picture.
-  const shading::SkyLight& sky() const { return sky_.light(); }
+  const shading::SkyLight& sky() const { return light_->sky(); }
   /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
   /// begins.
-  shading::DrawnLight drawn_light() const { return {shadows_.read_back(), &sky_.visibility(), &body_shade_}; }
+  shading::DrawnLight drawn_light() const { return light_->drawn_light(body_shade_); }
 
  private:
   Renderer(const scene::Scene& scene, SceneDrawable drawable,
-           std::vector<std::unique_ptr<Drawable>> room_drawables, SkyTextures sky, PictureTarget target);
+           std::vector<std::unique_ptr<Drawable>> room_drawables, std::unique_ptr<LightSource> light,
+           PictureTarget target);
+  PictureTarget& target() { return targets_[eye_]; }
+  const PictureTarget& target() const { return targets_[eye_]; }
   void gather_extents();
   Culling cull(const View& view);
   void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
@@ -84,9 +97,7 @@ class Renderer {
   void draw_prepared(const View& view);
   void bind_frame(const View& view);
 
-  SkyTextures sky_;
-  scene::Sun sun_;
-  float haze_per_m_ = 0.0f;
+  std::unique_ptr<LightSource> light_;
   float exposure_ = 1.0f;
   double budget_ms_ = 0.0;  ///< of a frame; 0: none
   int fixed_changes_ = 0;
@@ -101,10 +112,10 @@ class Renderer {
   std::vector<shading::Body> bodies_;
   FixedChange fixed_change_;
 
-  SunShadowMaps shadows_;
-  shading::BodyShade body_shade_;
+  shading::BodyShade body_shade_{};
   StreamBuffer frame_blocks_, body_blocks_;
-  PictureTarget target_;
+  std::vector<PictureTarget> targets_;  ///< of each eye
+  std::size_t eye_ = 0;
   View main_view_;
 };
 

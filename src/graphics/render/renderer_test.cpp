@@ -233,6 +233,9 @@ TEST_F(RendererTest, TheSkyMayTurnAndBrightenAndBeAnother) {
   scene.sky.picture = ImageF(16, 8, 3, 0.1f);
   scene.sky.file = "evening.hdr";
   expect_as_new("another picture");
+  scene.sky.picture = ImageF(16, 8, 3, 0.15f);
+  ++scene.sky.version;
+  expect_as_new("computed again");
   const int changes = renderer->fixed_changes();
   draw(*renderer, scene, camera, 64, 48);
   EXPECT_EQ(renderer->fixed_changes(), changes) << "nothing new";

@@ -15,7 +15,7 @@ class SkyTextures {
  public:
   static Result<SkyTextures> create(const scene::Scene& scene);
 
-  /// Takes over another sky: its picture (by the name of its file), strength or heading; false where it is
+  /// Takes over another sky: its picture (by its file and version), strength or heading; false where it is
   /// the same. Takes as long as when the scene was loaded.
   bool renew_light(const scene::Sky& sky);
   /// Takes over static things that appeared, vanished or moved in this frame: `change`, of which what is the
@@ -36,10 +36,13 @@ class SkyTextures {
   /// What the light was made of.
   struct Source {
     std::filesystem::path file;
+    int version;
     float intensity, heading;
     bool operator==(const Source&) const = default;
   };
-  static Source source_of(const scene::Sky& sky) { return {sky.file, sky.intensity, sky.heading}; }
+  static Source source_of(const scene::Sky& sky) {
+    return {sky.file, sky.version, sky.intensity, sky.heading};
+  }
 
   Source source_;
   shading::SkyLight light_;

@@ -105,7 +105,7 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   return view;
 }
 
-void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw) {
+void SunShadowMaps::draw_near_fixed(glm::vec3 position, const DrawView& draw) {
   near_centre_ = position;
   near_view_ = aim(shading::shadow_near_map, position, near_half_width(fixed_));
   View fixed_view = near_view_;
@@ -114,7 +114,7 @@ void SunShadowMaps::draw_near_fixed(glm::vec3 position, const std::function<void
   drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
 }
 
-void SunShadowMaps::draw_far(const std::function<void(const View&)>& draw) {
+void SunShadowMaps::draw_far(const DrawView& draw) {
   const glm::vec3 size = fixed_in_sun_.size();
   far_view_ = aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
   draw(far_view_);
@@ -144,7 +144,7 @@ bool SunShadowMaps::near_map_serves(const Bounds& box) const {
 
 /// Draws anew the squares of a map where the boxes fall, with all of the `subjects` there.
 void SunShadowMaps::redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
-                           const std::function<void(const View&)>& draw) const {
+                           const DrawView& draw) const {
   std::vector<Bounds> squares;  // in texels, flat
   for (const Bounds& box : boxes) squares.push_back(texels_of(map, box));
   view.subjects = subjects;
@@ -156,7 +156,7 @@ void SunShadowMaps::redraw(View view, int map, std::span<const Bounds> boxes, Su
 
 /// Draws what came over what is there.
 void SunShadowMaps::draw_newcomers(View view, int map, std::span<const Bounds> boxes,
-                                   const std::function<void(const View&)>& draw) const {
+                                   const DrawView& draw) const {
   Bounds texels;
   for (const Bounds& box : boxes)
     if (const Bounds square = texels_of(map, box); square.size().x > 0.0f && square.size().y > 0.0f)
@@ -168,7 +168,7 @@ void SunShadowMaps::draw_newcomers(View view, int map, std::span<const Bounds> b
   draw(view);
 }
 
-void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
+void SunShadowMaps::draw_changed(const DrawView& draw) {
   if (far_is_drawn_) {
     std::vector<Bounds> gone, come;
     for (const Bounds& box : change_.gone) (near_map_serves(box) ? postponed_ : gone).push_back(box);
@@ -191,7 +191,7 @@ void SunShadowMaps::draw_changed(const std::function<void(const View&)>& draw) {
 }
 
 /// The near map is about to serve another region.
-void SunShadowMaps::draw_postponed(const std::function<void(const View&)>& draw) {
+void SunShadowMaps::draw_postponed(const DrawView& draw) {
   redraw(far_view_, shading::shadow_far_map, postponed_, Subjects::fixed, draw);
   postponed_.clear();
 }
@@ -218,7 +218,7 @@ Bounds SunShadowMaps::texels_of(int map, const Bounds& box) const {
 }
 
 void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
-                           const std::function<void(const View&)>& draw) {
+                           const DrawView& draw) {
   if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
   if (!change_.empty()) draw_changed(draw);
   if (!far_is_drawn_) draw_far(draw);

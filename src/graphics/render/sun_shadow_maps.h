@@ -11,31 +11,29 @@
 #include "base/bounds.h"
 #include "base/image.h"
 #include "graphics/gl/objects.h"
-#include "graphics/render/gpu_scene.h"
+#include "graphics/render/light_source.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/shadow.h"
 
 namespace parvis::render {
 
-class SunShadowMaps {
+class SunShadowMaps final : public ShadowMethod {
  public:
   /// `fixed` bounds all that does not move, in the world.
   SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
 
   /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
   /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
-  void renew(const FixedChange& change, const Bounds& fixed);
+  void renew(const FixedChange& change, const Bounds& fixed) override;
 
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
   /// `moving` bounds each thing that moves.
   void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
-              const std::function<void(const View&)>& draw);
+              const DrawView& draw) override;
 
-  /// At `shadow_unit`.
-  void bind() const;
-  const shading::ShadowMaps& maps() const { return maps_; }
-  /// A copy for the ray tracer.
-  shading::SunShadow read_back() const;
+  void bind() const override;
+  const shading::ShadowMaps& maps() const override { return maps_; }
+  shading::SunShadow read_back() const override;
 
  private:
   struct Square {
@@ -43,14 +41,13 @@ class SunShadowMaps {
   };
   void turn_to(glm::vec3 to_sun);
   View aim(int map, glm::vec3 centre, float half_width_m);
-  void draw_near_fixed(glm::vec3 position, const std::function<void(const View&)>& draw);
-  void draw_far(const std::function<void(const View&)>& draw);
-  void draw_changed(const std::function<void(const View&)>& draw);
-  void draw_postponed(const std::function<void(const View&)>& draw);
+  void draw_near_fixed(glm::vec3 position, const DrawView& draw);
+  void draw_far(const DrawView& draw);
+  void draw_changed(const DrawView& draw);
+  void draw_postponed(const DrawView& draw);
   void redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
-              const std::function<void(const View&)>& draw) const;
-  void draw_newcomers(View view, int map, std::span<const Bounds> boxes,
-                      const std::function<void(const View&)>& draw) const;
+              const DrawView& draw) const;
+  void draw_newcomers(View view, int map, std::span<const Bounds> boxes, const DrawView& draw) const;
   bool near_map_serves(const Bounds& box) const;
   void put_back(const Square& square);
   Square square_of(int map, const Bounds& box) const;

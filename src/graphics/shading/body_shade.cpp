@@ -81,7 +81,7 @@ std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, cons
 }
 
 BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer) {
-  BodyShade shade;
+  BodyShade shade{};
   const float half_m = 0.5f * body_cell_m * float(body_cells_a_side);
   shade.body_grid = vec4(viewer.x - half_m, viewer.y - half_m, 0.0f, 0.0f);
   std::vector<std::pair<float, const Body*>> near;  // by distance

@@ -10,19 +10,16 @@
 
 namespace parvis::shading {
 #include "graphics/shading/body_shade.glsl"
+#include "graphics/shading/body_shade_block.glsl"
 
 /// The body of an object with these bounds and this shape within them, in its own frame. None where there is
 /// nothing, or more than `most_body_m`, whose shape no box tells.
 std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, const glm::mat4& world_from_model,
                             int object);
 
-/// The bodies near a viewer, and which of them shade each cell of the ground: laid out as the std140 block of
-/// render/body_lookup.glsl.
-struct BodyShade {
-  glm::vec4 body_grid{0.0f};
-  glm::uvec4 body_cells[body_cells_a_side * body_cells_a_side / 4]{};
-  Body bodies[most_bodies]{};
-};
+/// The bodies near a viewer, and which of them shade each cell of the ground: the uniform block of
+/// body_shade_block.glsl.
+using BodyShade = Bodies;
 
 /// Of the bodies, those nearest to the viewer: `most_bodies` in all and `bodies_a_cell` in each cell, over a
 /// square of 156 m. Toward its border, and toward the farthest where there are more, their shade fades.

@@ -1,0 +1,62 @@
+// What lights the pictures, as one seam of the renderer: sun, sky, air, and what of them each place sees.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "graphics/render/drawable.h"
+#include "graphics/render/frame.h"
+#include "graphics/render/gpu_scene.h"
+#include "graphics/shading/drawn_light.h"
+#include "graphics/shading/sky.h"
+
+namespace parvis::render {
+
+/// Draws a view of all drawables, for those who make shadow maps.
+using DrawView = std::function<void(const View&)>;
+
+/// What of the sun each point sees, by maps that are drawn for the viewer; sun_lookup.glsl looks them up.
+class ShadowMethod {
+ public:
+  virtual ~ShadowMethod() = default;
+  /// Static things appeared, vanished or moved in this frame; `fixed` bounds all of them, hidden ones
+  /// included.
+  virtual void renew(const FixedChange& change, const Bounds& fixed) = 0;
+  /// Draws what a viewer needs; everything when the sun has moved. `moving` bounds each dynamic caster.
+  virtual void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+                      const DrawView& draw) = 0;
+  /// At `shadow_unit`.
+  virtual void bind() const = 0;
+  virtual const shading::ShadowMaps& maps() const = 0;
+  /// A copy for the ray tracer; waits for the GPU.
+  virtual shading::SunShadow read_back() const = 0;
+};
+
+/// Light of a scene. Sun and sky may change in every frame; static geometry, too.
+class LightSource {
+ public:
+  virtual ~LightSource() = default;
+  /// First of a frame: takes over the scene's light. True where it differs from that of the last frame: what
+  /// has been kept of pictures of the surroundings is then out of date.
+  virtual bool update(const scene::Scene& scene) = 0;
+  /// Static things appeared, vanished or moved in this frame: `change`, which `gpu` has taken over as far as
+  /// they are the scene's. `fixed` bounds all of them.
+  virtual void renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
+                     const Bounds& fixed) = 0;
+  /// Draws shadow maps for a viewer.
+  virtual void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) = 0;
+
+  /// The sky's levels, its visibility and the shadow maps, at their units of bindings.h.
+  virtual void bind() const = 0;
+  /// Its members of the block that all views share.
+  virtual void fill(Frame& frame) const = 0;
+  /// The sky where the view's depth is empty.
+  virtual void draw_sky(const View& view) const = 0;
+
+  // What the ray tracer needs to agree with the picture.
+  virtual const shading::SkyLight& sky() const = 0;
+  /// Waits for the GPU. Points to the source's own, and to `body_shade`: good until the next frame begins.
+  virtual shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const = 0;
+};
+
+}  // namespace parvis::render

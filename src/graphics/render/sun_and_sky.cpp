@@ -1,0 +1,45 @@
+#include "graphics/render/sun_and_sky.h"
+
+namespace parvis::render {
+
+Result<std::unique_ptr<LightSource>> SunAndSky::create(const scene::Scene& scene,
+                                                       std::unique_ptr<ShadowMethod> shadows) {
+  Result<SkyTextures> sky = SkyTextures::create(scene);
+  if (!sky) return sky.errors();
+  return std::unique_ptr<LightSource>(new SunAndSky(scene, *std::move(sky), std::move(shadows)));
+}
+
+bool SunAndSky::update(const scene::Scene& scene) {
+  const bool has_new_sun = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
+  sun_ = scene.sun;
+  haze_per_m_ = scene.haze_per_m;
+  return sky_.renew_light(scene.sky) || has_new_sun;
+}
+
+void SunAndSky::renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
+                      const Bounds& fixed) {
+  shadows_->renew(change, fixed);
+  sky_.renew_visibility(scene, gpu, change);
+}
+
+void SunAndSky::bind() const {
+  sky_.bind();
+  shadows_->bind();
+}
+
+void SunAndSky::fill(Frame& frame) const {
+  frame.frame_to_sun = glm::vec4(glm::normalize(sun_.direction_to_sun), haze_per_m_);
+  frame.frame_sun_irradiance = glm::vec4(sun_.irradiance, 0.0f);
+  const shading::SkyLight& sky = sky_.light();
+  frame.frame_haze = glm::vec4(sky.haze_radiance, sky.heading);
+  for (std::size_t i = 0; i < 9; ++i) frame.frame_sky_sh[i] = glm::vec4(sky.irradiance_sh[i], 0.0f);
+  frame.frame_size.z = float(sky.levels.size());
+  const shading::ShadowMaps& maps = shadows_->maps();
+  for (int i = 0; i < 2; ++i) frame.frame_uvz_from_world[i] = maps.uvz_from_world[i];
+  frame.frame_shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
+  const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
+  frame.frame_visibility_origin = glm::vec4(grid.origin, grid.lift_m);
+  frame.frame_visibility_size = glm::vec4(grid.size_m, 0.0f);
+}
+
+}  // namespace parvis::render

@@ -1,0 +1,43 @@
+// The light of a scene with one sun and the picture of a sky: Scene::sun, sky and haze_per_m, taken over in
+// every frame. A computed sky that changes with the time of day writes its picture and counts
+// scene::Sky::version up.
+#pragma once
+
+#include <memory>
+
+#include "graphics/render/light_source.h"
+#include "graphics/render/sky_textures.h"
+
+namespace parvis::render {
+
+class SunAndSky final : public LightSource {
+ public:
+  /// Fails only if a shader does.
+  static Result<std::unique_ptr<LightSource>> create(const scene::Scene& scene,
+                                                     std::unique_ptr<ShadowMethod> shadows);
+
+  bool update(const scene::Scene& scene) override;
+  void renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
+             const Bounds& fixed) override;
+  void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) override {
+    shadows_->update(camera, sun_.direction_to_sun, moving, draw);
+  }
+  void bind() const override;
+  void fill(Frame& frame) const override;
+  void draw_sky(const View& view) const override { sky_.draw(view); }
+  const shading::SkyLight& sky() const override { return sky_.light(); }
+  shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const override {
+    return {shadows_->read_back(), &sky_.visibility(), &body_shade};
+  }
+
+ private:
+  SunAndSky(const scene::Scene& scene, SkyTextures sky, std::unique_ptr<ShadowMethod> shadows)
+      : sun_(scene.sun), haze_per_m_(scene.haze_per_m), sky_(std::move(sky)), shadows_(std::move(shadows)) {}
+
+  scene::Sun sun_;
+  float haze_per_m_;
+  SkyTextures sky_;
+  std::unique_ptr<ShadowMethod> shadows_;
+};
+
+}  // namespace parvis::render
