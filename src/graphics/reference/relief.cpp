@@ -16,16 +16,15 @@ struct Lookup {
 #define GLSL_FUNCTION
 #include "graphics/shading/relief.glsl"
 
-  vec2 uv_to_floor(const TextureEdges& edges, vec3 normal, vec3 direction, float depth_m) {
-    return uv_through_relief({edges.step_1, edges.step_2, edges.uv_1, edges.uv_2}, normal, direction,
-                             depth_m);
+  vec2 uv_to_floor(const TextureFrame& edges, vec3 normal, vec3 direction, float depth_m) {
+    return uv_through_relief(edges, normal, direction, depth_m);
   }
 };
 
 }  // namespace
 
 Relief::Relief(const MipTexture& normal_texture, float texels, float depth_m, float width_m,
-               const TextureEdges& edges, vec3 normal, vec3 direction, vec2 uv)
+               const TextureFrame& edges, vec3 normal, vec3 direction, vec2 uv)
     : texels_(texels), edges_(edges), normal_(normal), hit_(uv, 0.0f) {
   Lookup lookup{normal_texture, texels};
   depth_m_ = depth_m * lookup.relief_share(width_m, depth_m);

@@ -2,15 +2,9 @@
 #pragma once
 
 #include "graphics/reference/mip_texture.h"
-#include "graphics/shading/glsl.h"
+#include "graphics/shading/texture_frame.h"
 
 namespace parvis::reference {
-
-/// Triangle edges in the world, and what texture coordinates make of them.
-struct TextureEdges {
-  glm::vec3 step_1, step_2;
-  glm::vec2 uv_1, uv_2;
-};
 
 /// Where a ray has met the relief of a surface; flat where it has none.
 class Relief {
@@ -18,7 +12,7 @@ class Relief {
   Relief() = default;
   /// `depth_m` is that of the normal texture's alpha 0; the ray sees `texels` of it, `width_m` wide.
   Relief(const MipTexture& normal_texture, float texels, float depth_m, float width_m,
-         const TextureEdges& edges, glm::vec3 normal, glm::vec3 direction, glm::vec2 uv);
+         const shading::TextureFrame& edges, glm::vec3 normal, glm::vec3 direction, glm::vec2 uv);
 
   bool is_flat() const { return texture_ == nullptr; }
   /// Where textures are looked up in place of the surface's own coordinates.
@@ -29,7 +23,7 @@ class Relief {
  private:
   const MipTexture* texture_ = nullptr;
   float texels_ = 0.0f, depth_m_ = 0.0f;
-  TextureEdges edges_{};
+  shading::TextureFrame edges_{};
   glm::vec3 normal_{0.0f, 0.0f, 1.0f};
   glm::vec3 hit_{0.0f};  ///< uv, depth
 };

@@ -51,25 +51,7 @@ float curvature_per_m(const Corners& corners, vec3 facet) {
   return sum / 3.0f;
 }
 
-/// The tangent frame of a triangle's texture gradients.
-vec3 mapped_normal(vec3 normal, const Corners& corners, vec3 sampled, float scale) {
-  const vec3 p1 = corners.position[1] - corners.position[0], p2 = corners.position[2] - corners.position[0];
-  const vec2 t1 = corners.uv[1] - corners.uv[0], t2 = corners.uv[2] - corners.uv[0];
-  const float determinant = t1.x * t2.y - t1.y * t2.x;
-  if (determinant == 0.0f) return normal;
-  const float sign = determinant > 0.0f ? 1.0f : -1.0f;
-  const vec3 along_u = (p1 * t2.y - p2 * t1.y) * sign, along_v = (p2 * t1.x - p1 * t2.x) * sign;
-  vec3 tangent = along_u - normal * glm::dot(normal, along_u);
-  const float size = glm::dot(tangent, tangent);
-  if (size < 1e-20f) return normal;
-  tangent /= std::sqrt(size);
-  vec3 bitangent = glm::cross(normal, tangent);
-  if (glm::dot(bitangent, along_v) > 0.0f) bitangent = -bitangent;
-  const vec3 n = sampled * 2.0f - 1.0f;
-  return glm::normalize((tangent * n.x + bitangent * n.y) * scale + normal * std::max(n.z, 0.01f));
-}
-
-TextureEdges edges_of(const Corners& corners) {
+shading::TextureFrame frame_of(const Corners& corners) {
   return {corners.position[1] - corners.position[0], corners.position[2] - corners.position[0],
           corners.uv[1] - corners.uv[0], corners.uv[2] - corners.uv[0]};
 }
@@ -133,7 +115,7 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   if (material.relief_m > 0.0f && material.normal_texture != scene::no_index) {
     const MipTexture& mips = mips_of(material.normal_texture);
     point.relief =
-        Relief(mips, texels_of(mips), material.relief_m, width_m, edges_of(corners), normal, direction, uv);
+        Relief(mips, texels_of(mips), material.relief_m, width_m, frame_of(corners), normal, direction, uv);
     uv = point.relief.uv();
   }
   const auto sampled = [&](int texture, vec4 plain) {
@@ -152,17 +134,15 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   point.is_back = is_back;
   point.alpha = base.w * material.alpha;
   shading::Surface& s = point.surface;
-  s.normal = material.normal_texture == scene::no_index
-                 ? normal
-                 : mapped_normal(normal, corners, vec3(bump), material.normal_scale);
-  s.base_colour = vec3(base) * material.base_colour;
-  s.metallic = material.metallic * detail.z;
-  s.roughness = material.roughness * detail.y;
-  s.clear_coat = material.clear_coat;
-  s.clear_coat_roughness = material.clear_coat_roughness;
-  s.translucency = material.translucency;
-  s.occlusion = detail.x;
-  s.emission = material.emission * vec3(sampled(material.emission_texture, white));
+  const vec3 shading_normal =
+      material.normal_texture == scene::no_index
+          ? normal
+          : shading::mapped_normal(frame_of(corners), normal, vec3(bump), material.normal_scale);
+  s = shading::assembled_surface(
+      shading_normal, vec3(base) * material.base_colour, vec3(detail),
+      material.emission * vec3(sampled(material.emission_texture, white)),
+      vec4(material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness),
+      material.translucency);
   if (material.refracts()) s = shading::glass_surface(s, material.ior);
   return point;
 }

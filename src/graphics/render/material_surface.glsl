@@ -4,6 +4,7 @@
 // which may take from `sun` what the surface itself keeps out. `alpha` counts where HAS_HOLES is defined, and in passes
 // that blend.
 #include "graphics/render/anisotropy.glsl"
+#include "graphics/shading/texture_frame.glsl"
 
 #define surface_mirrors material_mirrors
 
@@ -37,23 +38,14 @@ vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 alo
 }
 #endif
 
+vec3 normal_at(SeenPoint seen, vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #ifdef HAS_NORMAL_MAP
-// The normal map turns the normal within the frame of the triangle's texture gradients: +x along u, +y against v.
-vec3 mapped_normal(vec3 normal, vec2 texture_uv, vec2 tx, vec2 ty) {
-  vec3 px = dFdx(position), py = dFdy(position);
-  float determinant = tx.x * ty.y - tx.y * ty.x;
-  vec3 along_u = (px * ty.y - py * tx.y) * sign(determinant);
-  vec3 along_v = (py * tx.x - px * ty.x) * sign(determinant);
-  vec3 tangent = along_u - normal * dot(normal, along_u);
-  float size = dot(tangent, tangent);
-  if (size < 1e-20f || determinant == 0.0f) return normal;
-  tangent *= inversesqrt(size);
-  vec3 bitangent = cross(normal, tangent);
-  bitangent *= dot(bitangent, along_v) > 0.0f ? -1.0f : 1.0f;
-  vec3 n = looked_up(normal_texture, texture_uv, tx, ty).xyz * 2.0f - 1.0f;
-  return normalize((tangent * n.x + bitangent * n.y) * material_emission.a + normal * max(n.z, 0.01f));
-}
+  vec3 texel = looked_up(normal_texture, texture_uv, along_x, along_y).xyz;
+  return mapped_normal(TextureFrame(dFdx(position), dFdy(position), along_x, along_y), seen.normal, texel, material_emission.a);
+#else
+  return seen.normal;
 #endif
+}
 
 vec4 base_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #ifdef IS_LEAF
@@ -91,24 +83,11 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   vec3 detail = detail_at(texture_uv, along_x, along_y);
   alpha = base.a;
 
-  Surface s;
-#ifdef HAS_NORMAL_MAP
-  s.normal = mapped_normal(seen.normal, texture_uv, along_x, along_y);
-#else
-  s.normal = seen.normal;
-#endif
-  s.base_colour = base.rgb;
-  s.metallic = material_layers.x * detail.b;
-  s.roughness = material_layers.y * detail.g;
-#ifdef HAS_COAT
-  s.clear_coat = material_layers.z;
-#else
+  Surface s = assembled_surface(normal_at(seen, texture_uv, along_x, along_y), base.rgb, detail,
+                                emission_at(texture_uv, along_x, along_y), material_layers, material_texture_u.w);
+#ifndef HAS_COAT
   s.clear_coat = 0.0f;
 #endif
-  s.clear_coat_roughness = material_layers.w;
-  s.translucency = material_texture_u.w;
-  s.occlusion = detail.r;
-  s.emission = emission_at(texture_uv, along_x, along_y);
 #ifdef IS_GLASS
   s = glass_surface(s, material_ior);
 #endif

@@ -1,18 +1,10 @@
 // What lies behind a flat surface, such as a window in its reveal: a ray goes on until it meets the relief that a
 // texture gives, and the sun's light comes in only where the relief lets it (Policarpo et al. 2005, Real-Time Relief
 // Mapping on Arbitrary Polygonal Surfaces). Openings with flat floors need few lookups: a floor is met at once, and a
-// wall that hides it is found by bisection. From the host:
+// wall that hides it is found by bisection. Needs texture_frame.glsl, and from the host:
 //   float relief_depth(vec2 uv)   0: at the surface, 1: at the floor of the deepest
 
 const float relief_tolerance = 0.03f;  // in depths: less is the same floor
-
-// Steps along a surface and what texture coordinates make of them: a triangle's two edges, or two pixels' differences.
-struct TextureFrame {
-  vec3 step_1;  // metres, in the world
-  vec3 step_2;
-  vec2 uv_1;
-  vec2 uv_2;
-};
 
 // By how much texture coordinates change while `direction` passes through `depth_m` below the surface.
 GLSL_FUNCTION vec2 uv_through_relief(TextureFrame frame, vec3 normal, vec3 direction, float depth_m) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "graphics/shading/glsl.h"
+#include "graphics/shading/texture_frame.h"
 
 namespace parvis::shading {
 namespace {

@@ -13,6 +13,23 @@ struct Surface {
   vec3 emission;
 };
 
+// By the factors of a material (`layers`: metallic, roughness, clear coat, its roughness) and what its textures have at a
+// point (`detail`: occlusion, roughness, metallic; glTF 2.0, section 3.9.2). Colours are products already.
+GLSL_FUNCTION Surface assembled_surface(vec3 normal, vec3 base_colour, vec3 detail, vec3 emission, vec4 layers,
+                                        float translucency) {
+  Surface s;
+  s.normal = normal;
+  s.base_colour = base_colour;
+  s.metallic = layers.x * detail.z;
+  s.roughness = layers.y * detail.y;
+  s.clear_coat = layers.z;
+  s.clear_coat_roughness = layers.w;
+  s.translucency = translucency;
+  s.occlusion = detail.x;
+  s.emission = emission;
+  return s;
+}
+
 // Highlights of the sun are not allowed to get sharper than this: a mirror would show the sun's disc, of 0.5 degrees.
 const float min_roughness = 0.05f;
 const float pi = 3.14159265f;
