@@ -15,6 +15,7 @@
 #include "base/result.h"
 #include "scene/model.h"
 #include "scene/road_graph.h"
+#include "scene/room_data.h"
 #include "scene/traced_scene.h"
 
 namespace parvis::scene {
@@ -157,6 +158,17 @@ struct Scene {
   std::filesystem::path file;  ///< the script; empty: the scene was made in memory
   /// What rooms draw by themselves, beside the objects; of those rooms that the program has.
   std::vector<TracedKind> traced_kinds;
+  RoomDataSet room_data;  ///< `data` finds what a room keeps here
+
+  /// What a room keeps in the scene; reading one that nobody has set gives the type's default.
+  template <SceneData T>
+  T& data() {
+    return room_data.get<T>();
+  }
+  template <SceneData T>
+  const T& data() const {
+    return room_data.get<T>();
+  }
 
   const NamedCamera* find_camera(const std::string& name) const;
   /// Where a camera is now: it may stay with an object, which must be there to be seen.

@@ -38,8 +38,9 @@ std::uint64_t model_key(const scene::Model& model) {
   return hash.value();
 }
 
-template <class Counts>
-std::uint64_t key_of(const scene::Scene& scene, Counts&& counts) {
+/// `counts`: the objects, `counts_data`: the roles of rooms' data, on which the key depends.
+template <class Counts, class CountsData>
+std::uint64_t key_of(const scene::Scene& scene, Counts&& counts, CountsData&& counts_data) {
   ContentHash hash;
   std::unordered_map<const scene::Model*, std::uint64_t> models;
   for (const scene::Object& object : scene.objects) {
@@ -59,17 +60,22 @@ std::uint64_t key_of(const scene::Scene& scene, Counts&& counts) {
   hash.add(scene.sky.picture.width);
   hash.add(scene.sky.picture.pixels);
   for (const float value : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m}) hash.add(value);
+  scene.room_data.hash(hash, counts_data);
   return hash.value();
 }
 
 }  // namespace
 
 std::uint64_t scene_key(const scene::Scene& scene) {
-  return key_of(scene, [](const scene::Object&) { return true; });
+  return key_of(
+      scene, [](const scene::Object&) { return true; },
+      [](scene::DataRole role) { return role != scene::DataRole::settings; });
 }
 
 std::uint64_t fixed_scene_key(const scene::Scene& scene) {
-  return key_of(scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; });
+  return key_of(
+      scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; },
+      [](scene::DataRole role) { return role == scene::DataRole::static_content; });
 }
 
 }  // namespace parvis::reference

@@ -7,8 +7,9 @@
 
 namespace parvis::reference {
 
-/// The shapes, surfaces and places of all objects, sun, sky and air. Cameras, roads and exposure leave it
-/// alone.
+/// The shapes, surfaces and places of all objects, sun, sky, air, and what rooms keep in the scene to be
+/// drawn
+/// (`DataRole`). Cameras, roads and exposure leave it alone.
 std::uint64_t scene_key(const scene::Scene& scene);
 
 /// The same without what moves and what is hidden: what a picture of the fixed surroundings depends on.
