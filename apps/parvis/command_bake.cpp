@@ -1,11 +1,12 @@
 // parvis bake: what takes long and stays the same is made once and kept beside the scene.
 #include "base/image_io.h"
 #include "commands.h"
-#include "reflections/curved_reflectors/reflector_cache.h"
-#include "reflections/environment_maps/map_cache.h"
-#include "reflections/environment_maps/placement.h"
-#include "reflections/environment_maps/placement_plan.h"
-#include "reflections/environment_maps/scene_maps.h"
+#include "reflections/reference_maps/map_cache.h"
+#include "reflections/reference_maps/placement.h"
+#include "reflections/reference_maps/placement_plan.h"
+#include "reflections/reference_maps/scene_maps.h"
+#include "reflections/reflector_maps/reflector_cache.h"
+#include "reflections/reflector_maps/settings.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -19,8 +20,8 @@ struct Arguments : SceneArguments {
 };
 
 /// Curved mirrors that show what is near them as virtual objects, and solid glass. Adds them to `all`.
-Status bake_reflectors(const scene::Scene& scene, curved_reflectors::BakedReflectors& all) {
-  const Result<curved_reflectors::BakedReflectors> baked = curved_reflectors::bake_reflectors(scene);
+Status bake_reflectors(const scene::Scene& scene, reflector_maps::BakedReflectors& all) {
+  const Result<reflector_maps::BakedReflectors> baked = reflector_maps::bake_reflectors(scene);
   if (!baked) return baked.errors();
   if (!baked->files.empty()) fmt::print("{} reflectors: {}\n", baked->files.size(), baked->folder.string());
   all.folder = baked->folder;
@@ -29,30 +30,29 @@ Status bake_reflectors(const scene::Scene& scene, curved_reflectors::BakedReflec
 }
 
 /// Bakes one state of the scene, which `arguments` name.
-Result<environment_maps::MapCache> bake_state(const Arguments& arguments,
-                                              curved_reflectors::BakedReflectors& reflectors) {
+Result<reference_maps::MapCache> bake_state(const Arguments& arguments,
+                                            reflector_maps::BakedReflectors& reflectors) {
   const Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   const scene::Scene& scene = play->scene;
   if (Status status = bake_reflectors(scene, reflectors); !status) return status.errors();
-  if (scene.reflection.method == scene::ReflectionMethod::virtual_objects)
-    return environment_maps::MapCache(scene);
+  if (reflector_maps::shows_all_objects(scene)) return reference_maps::MapCache(scene);
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
-  const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
-  const Result<environment_maps::ReferenceMaps> maps =
-      environment_maps::bake_maps(scene, heights, **renderer, environment_maps::Keep::yes);
+  const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
+  const Result<reference_maps::ReferenceMaps> maps =
+      reference_maps::bake_maps(scene, heights, **renderer, reference_maps::Keep::yes);
   if (!maps) return maps.errors();
-  environment_maps::MapCache cache(scene);
+  reference_maps::MapCache cache(scene);
   fmt::print("{} reference maps of {} x {} texels, {:.1f} MB of graphics memory: {}\n", maps->places().size(),
              maps->resolution(), maps->resolution(), double(maps->bytes()) / megabyte,
              cache.folder().string());
   if (!arguments.plan.empty()) {
     const std::vector<glm::vec3> even =
-        environment_maps::spread_over_roads(scene, heights, int(maps->places().size()));
+        reference_maps::spread_over_roads(scene, heights, int(maps->places().size()));
     if (Status status = write_image(
             arguments.plan,
-            environment_maps::placement_plan(**renderer, scene, maps->places(), even, plan_side_px));
+            reference_maps::placement_plan(**renderer, scene, maps->places(), even, plan_side_px));
         !status)
       return status.errors();
   }
@@ -64,18 +64,18 @@ Status bake(const Arguments& arguments) {
     if (Status status = arguments.expect_one_scenario(); !status) return status;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  std::vector<environment_maps::MapCache> baked;
-  curved_reflectors::BakedReflectors reflectors;
+  std::vector<reference_maps::MapCache> baked;
+  reflector_maps::BakedReflectors reflectors;
   for (const std::string& scenario :
        arguments.scenarios.empty() ? std::vector<std::string>{"base"} : arguments.scenarios) {
     Arguments state = arguments;
     state.scenarios = {scenario};
-    Result<environment_maps::MapCache> cache = bake_state(state, reflectors);
+    Result<reference_maps::MapCache> cache = bake_state(state, reflectors);
     if (!cache) return cache.errors();
     baked.push_back(*std::move(cache));
   }
-  environment_maps::forget_other_states(baked);
-  curved_reflectors::forget_other_reflectors(reflectors);
+  reference_maps::forget_other_states(baked);
+  reflector_maps::forget_other_reflectors(reflectors);
   return Done{};
 }
 

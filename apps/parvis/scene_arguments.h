@@ -60,11 +60,10 @@ struct SceneArguments {
     Result<house::Play> play = house::open_play(scene, data);
     if (!play) return play.errors();
     if (!method.empty()) {
-      const auto& names = scene::reflection_method_names;
-      const auto found = std::find(names.begin(), names.end(), method);
-      if (found == names.end())
+      const std::vector<std::string> names = house::method_registry().names();
+      if (std::find(names.begin(), names.end(), method) == names.end())
         return error("--reflection {}: expected one of {}", method, fmt::join(names, ", "));
-      play->scene.reflection.method = scene::ReflectionMethod(found - names.begin());
+      methods::settings(play->scene).method = method;
     }
     action::Actions& actions = play->actions;
     if (!scenarios.empty())

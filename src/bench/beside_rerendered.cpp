@@ -5,6 +5,7 @@
 #include "bench/judged_method.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
+#include "reflections/methods/settings.h"
 
 namespace parvis::bench {
 namespace {
@@ -16,12 +17,12 @@ constexpr int baseline_faces_px = 512;
 
 Status measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, int width,
                                  int height, const std::string& key, Report& report) {
-  scene::Reflection baseline = stage.scene().reflection;
-  baseline.method = scene::ReflectionMethod::rerendered_cube_map;
+  methods::Settings baseline = methods::settings(stage.scene());
+  baseline.method = "rerendered_cube_map";
   baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] :
-       {std::pair{"virtual objects", stage.scene().reflection}, {"rerendered cube maps", baseline}}) {
+       {std::pair{"virtual objects", methods::settings(stage.scene())}, {"rerendered cube maps", baseline}}) {
     Result<JudgedMethod> method = judged_method(stage, name, reflection);
     if (!method) return method.errors();
     methods.push_back(*std::move(method));

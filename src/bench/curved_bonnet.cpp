@@ -12,6 +12,8 @@
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/car.h"
 #include "places/paper_city/walker.h"
+#include "reflections/reference_maps/settings.h"
+#include "reflections/reflector_maps/settings.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
@@ -52,10 +54,10 @@ scene::Scene street() {
   scene.objects[std::size_t(car)].takes_reflection = true;
   scene.objects[std::size_t(car)].name = "car";
   scene::add(scene, std::make_shared<scene::Model>(city::city_walkers().front()), true);
-  scene.reflection.method = scene::ReflectionMethod::multiple_environment_maps;
-  scene.reflection.most_maps = 12;
-  scene.reference_maps.places = {{-16, 0, 1.5f}, {-8, 0, 1.5f}, {-4, 0, 1.5f}, {0, 4, 1.5f},
-                                 {0, -4, 1.5f},  {4, 0, 1.5f},  {8, 0, 1.5f},  {16, 0, 1.5f}};
+  methods::settings(scene).method = "multiple_environment_maps";
+  methods::own_settings<reference_maps::MapSettings>(scene).max_maps = 12;
+  reference_maps::map_plan(scene).places = {{-16, 0, 1.5f}, {-8, 0, 1.5f}, {-4, 0, 1.5f}, {0, 4, 1.5f},
+                                            {0, -4, 1.5f},  {4, 0, 1.5f},  {8, 0, 1.5f},  {16, 0, 1.5f}};
   return scene;
 }
 
@@ -85,11 +87,11 @@ Status measure_bonnet(bool is_quick, Report& report) {
   Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(street()));
   if (!made) return made.errors();
   house::Stage& stage = **made;
-  scene::Reflection near = stage.scene().reflection;
-  near.virtual_within_m = virtual_within_m;
+  methods::Settings near = methods::settings(stage.scene());
+  near.own.get<reflector_maps::VirtualObjectSettings>().within_m = virtual_within_m;
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] :
-       {std::pair{"with virtual objects", near}, {"maps", stage.scene().reflection}}) {
+       {std::pair{"with virtual objects", near}, {"maps", methods::settings(stage.scene())}}) {
     Result<JudgedMethod> method = judged_method(stage, name, reflection);
     if (!method) return method.errors();
     methods.push_back(*std::move(method));

@@ -4,17 +4,20 @@
 
 #include "bench/reflection_cost.h"
 #include "graphics/gl/context.h"
-#include "graphics/render/bindings.h"
 #include "graphics/render/test_room.h"
-#include "reflections/curved_reflectors/reflector_cache.h"
-#include "reflections/curved_reflectors/shown_patch.h"
-#include "reflections/curved_reflectors/vertex_search.h"
-#include "reflections/curved_reflectors/virtual_objects.h"
+#include "reflections/reflector_maps/bindings.h"
+#include "reflections/reflector_maps/reflector_cache.h"
+#include "reflections/reflector_maps/settings.h"
+#include "reflections/reflector_maps/shown_patch.h"
+#include "reflections/virtual_objects/vertex_search.h"
+#include "reflections/virtual_objects/virtual_objects.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
+using namespace virtual_objects;
 
 constexpr int width = 1280, height = 720;
 constexpr int small_width = 64, small_height = 36;  // few pixels: what is left is searching and interpolating
@@ -45,8 +48,8 @@ scene::Scene balls_round_a_mirror() {
   const int object =
       scene::add(scene, mirror, true, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, 1.1f)));
   scene.objects[std::size_t(object)].takes_reflection = true;
-  scene.reflection.method = scene::ReflectionMethod::virtual_objects;
-  scene.reflection.uses_level_of_detail = false;  // no virtual grids: every vertex is searched for
+  methods::settings(scene).method = "virtual_objects";
+  methods::settings(scene).uses_level_of_detail = false;  // no virtual grids: every vertex is searched for
   return scene;
 }
 
@@ -83,7 +86,7 @@ class SearchAhead {
       if (item.object < balls) search_.add(item, 0.0f);
     search_.search([&](const gl::Program& program) {
       GpuReflector::bind(program, reflector_.patches().front(), world_from_mirror_,
-                         render::virtual_vertex_unit);
+                         reflector_maps::reflector_unit);
       program.set("viewer_in_reflector", in_reflector(world_from_mirror_, camera.position_in_world()));
     });
   }
@@ -105,7 +108,7 @@ class SearchAhead {
 /// A share of the vertices that is searched for, by grids; 1: each vertex.
 struct SearchedShare {
   float share;
-  std::unique_ptr<render::Reflections> reflections;
+  std::unique_ptr<methods::Reflections> reflections;
   std::vector<double> ms;  ///< of its passes with the balls, less those without
 };
 
@@ -115,8 +118,8 @@ Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer
                                  bool is_quick, Report& report) {
   std::vector<SearchedShare> shares;
   for (const float share : {1.0f, 0.143f, grid10_share, 0.055f, 0.041f}) {
-    scene.reflection.virtual_grid = share;
-    Result<std::unique_ptr<render::Reflections>> made = make_virtual_objects(scene, renderer);
+    reflector_maps::virtual_settings(scene).grid_share = share;
+    Result<std::unique_ptr<methods::Reflections>> made = make_virtual_objects(scene, renderer);
     if (!made) return made.errors();
     shares.push_back({share, *std::move(made), {}});
   }
@@ -154,7 +157,7 @@ Status measure_cost(bool is_quick, Report& report) {
   Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene);
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
-  Result<std::unique_ptr<render::Reflections>> reflections = make_virtual_objects(scene, renderer);
+  Result<std::unique_ptr<methods::Reflections>> reflections = make_virtual_objects(scene, renderer);
   if (!reflections) return reflections.errors();
   if (Status status = renderer.set_reflection(reflections->get()); !status) return status.errors();
   Camera camera;

@@ -3,16 +3,18 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/random.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
-#include "reflections/curved_reflectors/long_edges.h"
-#include "reflections/curved_reflectors/reflection_search.h"
-#include "reflections/curved_reflectors/reflector_map.h"
+#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflector_maps/reflector_map.h"
+#include "reflections/virtual_objects/long_edges.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
+using namespace virtual_objects;
 using MapSearch = ReflectionSearch<ReflectorMap>;
 
 constexpr std::size_t points = 20000, quick_points = 4000;

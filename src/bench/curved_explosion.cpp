@@ -6,16 +6,17 @@
 #include <optional>
 
 #include "base/random.h"
-#include "reflections/curved_reflectors/ellipsoid.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
-#include "reflections/curved_reflectors/reflection_search.h"
-#include "reflections/curved_reflectors/reflector_map.h"
+#include "reflections/reflection_search/ellipsoid.h"
+#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflector_maps/reflector_map.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
 using MapSearch = ReflectionSearch<ReflectorMap>;
 
 constexpr glm::vec3 radii{1.0f, 0.6f, 0.8f};

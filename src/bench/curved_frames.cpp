@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "bench/judged_method.h"
+#include "reflections/reflector_maps/settings.h"
 
 namespace parvis::bench {
 namespace {
@@ -14,15 +15,15 @@ constexpr int width = 480, height = 300;
 constexpr int turns = 2;  // each frame takes seconds in software
 constexpr int baseline_faces_px = 512;
 
-std::vector<std::pair<std::string, scene::Reflection>> ways_to_reflect(const scene::Reflection& by_area) {
-  scene::Reflection every = by_area, baseline = by_area;
+std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const methods::Settings& by_area) {
+  methods::Settings every = by_area, baseline = by_area;
   every.uses_level_of_detail = false;
-  baseline.method = scene::ReflectionMethod::rerendered_cube_map;
+  baseline.method = "rerendered_cube_map";
   baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
-  std::vector<std::pair<std::string, scene::Reflection>> ways{{"every vertex", every}};
+  std::vector<std::pair<std::string, methods::Settings>> ways{{"every vertex", every}};
   for (const float share : {0.143f, 0.096f, 0.055f, 0.041f}) {
-    scene::Reflection grid = every;
-    grid.virtual_grid = share;
+    methods::Settings grid = every;
+    grid.own.get<reflector_maps::VirtualObjectSettings>().grid_share = share;
     ways.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
   }
   ways.emplace_back("grids by area", by_area);
@@ -59,7 +60,7 @@ Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& method
 
 Status measure_frames(house::Stage& stage, Report& report) {
   std::vector<JudgedMethod> methods;
-  for (const auto& [name, reflection] : ways_to_reflect(stage.scene().reflection)) {
+  for (const auto& [name, reflection] : ways_to_reflect(methods::settings(stage.scene()))) {
     Result<JudgedMethod> method = judged_method(stage, name, reflection);
     if (!method) return method.errors();
     methods.push_back(*std::move(method));

@@ -10,16 +10,18 @@
 #include "graphics/shading/sky.h"
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/mirror_bodies.h"
-#include "reflections/curved_reflectors/ellipsoid.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
-#include "reflections/curved_reflectors/reflection_search.h"
-#include "reflections/curved_reflectors/virtual_grid.h"
+#include "reflections/reflection_search/ellipsoid.h"
+#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/reflection_search.h"
+#include "reflections/virtual_objects/virtual_grid.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
+using namespace virtual_objects;
 using Search = ReflectionSearch<Ellipsoid>;
 
 constexpr int width = 640, height = 480, samples_a_pixel = 9;

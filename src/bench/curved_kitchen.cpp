@@ -9,7 +9,7 @@
 #include "bench/scratch_folder.h"
 #include "graphics/gl/context.h"
 #include "places/paper_city/kitchen.h"
-#include "reflections/curved_reflectors/reflector_cache.h"
+#include "reflections/reflector_maps/reflector_cache.h"
 
 namespace parvis::bench {
 namespace {
@@ -48,7 +48,7 @@ Result<std::unique_ptr<house::Stage>> open_kitchen(const std::filesystem::path& 
   Result<house::Play> play = house::open_play(folder / script, {});
   if (!play) return play.errors();
   // Once for all: the points, the stage and the method that is judged each need them.
-  if (const auto baked = curved_reflectors::bake_reflectors(play->scene); !baked) return baked.errors();
+  if (const auto baked = reflector_maps::bake_reflectors(play->scene); !baked) return baked.errors();
   return house::Stage::create(*std::move(play));
 }
 

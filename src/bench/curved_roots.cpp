@@ -5,16 +5,17 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
-#include "reflections/curved_reflectors/reflection_search.h"
-#include "reflections/curved_reflectors/reflector_map.h"
-#include "reflections/curved_reflectors/surface_rays.h"
+#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflector_maps/reflector_map.h"
+#include "reflections/reflector_maps/surface_rays.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
 using MapSearch = ReflectionSearch<ReflectorMap>;
 
 constexpr std::size_t tasks = 4000, quick_tasks = 1000;

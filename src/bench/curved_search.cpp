@@ -7,15 +7,15 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "bench/judged_body.h"
-#include "reflections/curved_reflectors/ellipsoid.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/reflection_search/ellipsoid.h"
+#include "reflections/reflection_search/exact_reflection.h"
 #include "scene/model_source.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
 namespace fs = std::filesystem;
 
 constexpr std::array ellipsoids{glm::vec3(1.0f), glm::vec3(1.0f, 0.6f, 0.8f), glm::vec3(2.0f, 0.9f, 0.6f)};

@@ -10,6 +10,7 @@
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/mirror_bodies.h"
 #include "places/paper_city/walker.h"
+#include "reflections/methods/settings.h"
 #include "scene/test_scene.h"
 
 namespace parvis::bench {
@@ -55,8 +56,8 @@ scene::Scene mirrors_among_boxes() {
   add_mirror(scene, ball, {-0.9f, 0.0f, 0.8f}, 0.75f);
   add_mirror(scene, ball, {0.9f, -0.2f, 0.75f}, 0.7f);
   add_mirror(scene, egg, {0.1f, 1.3f, 0.85f}, 0.8f);
-  scene.reflection.method = scene::ReflectionMethod::virtual_objects;
-  scene.reflection.bounces = 2;
+  methods::settings(scene).method = "virtual_objects";
+  methods::settings(scene).bounces = 2;
   return scene;
 }
 
@@ -69,7 +70,7 @@ constexpr std::array places{Place{{-0.2f, -2.2f, 1.2f}, {-0.6f, 0.0f, 0.8f}},
 
 /// What the ray tracer makes of a view, with as many bounces.
 reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, int w, int h, int bounces) {
-  stage.play().scene.reflection.bounces = bounces;
+  methods::settings(stage.play().scene).bounces = bounces;
   return stage.trace(camera, w, h, samples_a_pixel);
 }
 
@@ -82,10 +83,10 @@ Status measure_two_bounces(bool is_quick, Report& report) {
   Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(mirrors_among_boxes()));
   if (!made) return made.errors();
   house::Stage& stage = **made;
-  const scene::Reflection twice = stage.scene().reflection;
-  scene::Reflection once = twice, baseline = twice;
+  const methods::Settings twice = methods::settings(stage.scene());
+  methods::Settings once = twice, baseline = twice;
   once.bounces = 1;
-  baseline.method = scene::ReflectionMethod::rerendered_cube_map;
+  baseline.method = "rerendered_cube_map";
   baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] :

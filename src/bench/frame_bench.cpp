@@ -12,6 +12,7 @@
 #include "graphics/render/culling_check.h"
 #include "house/stage.h"
 #include "places/paper_city/paper_city.h"
+#include "reflections/methods/settings.h"
 #include "scene/city_json.h"
 
 namespace parvis::bench {
@@ -20,20 +21,17 @@ namespace fs = std::filesystem;
 
 constexpr int width = 1280, height = 720;
 
-using scene::ReflectionMethod;
-
-constexpr scene::Reflection mem{ReflectionMethod::multiple_environment_maps, 128, false};
+const methods::Settings mem{"multiple_environment_maps", 128, false};
 
 /// Times whole frames of each method in alternating order.
 Status time_methods(house::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
                     std::vector<Median>& medians) {
   std::vector<JudgedMethod> methods;
-  for (const auto& [key, reflection] :
-       {std::pair{"none", scene::Reflection{ReflectionMethod::none}},
-        {"rerendered", {ReflectionMethod::rerendered_cube_map, 128, false}},
-        {"rerendered_lod", {ReflectionMethod::rerendered_cube_map, 128, true}},
-        {"mem", mem},
-        {"mem_lod", {ReflectionMethod::multiple_environment_maps, 128, true}}}) {
+  for (const auto& [key, reflection] : {std::pair{"none", methods::Settings{"none"}},
+                                        {"rerendered", {"rerendered_cube_map", 128, false}},
+                                        {"rerendered_lod", {"rerendered_cube_map", 128, true}},
+                                        {"mem", mem},
+                                        {"mem_lod", {"multiple_environment_maps", 128, true}}}) {
     Result<JudgedMethod> method = judged_method(stage, key, reflection);
     if (!method) return method.errors();
     methods.push_back(*std::move(method));

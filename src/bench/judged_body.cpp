@@ -6,12 +6,12 @@
 
 #include "base/random.h"
 #include "bench/report.h"
-#include "reflections/curved_reflectors/exact_reflection.h"
+#include "reflections/reflection_search/exact_reflection.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
 
 constexpr int map_side = 512;
 constexpr std::size_t most_maps = 200;

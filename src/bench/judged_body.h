@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "reflections/curved_reflectors/reflection_search.h"
-#include "reflections/curved_reflectors/reflector_map.h"
-#include "reflections/curved_reflectors/surface_rays.h"
+#include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflector_maps/reflector_map.h"
+#include "reflections/reflector_maps/surface_rays.h"
 
 namespace parvis::bench {
 
-using MapSearch = curved_reflectors::ReflectionSearch<curved_reflectors::ReflectorMap>;
+using MapSearch = reflection_search::ReflectionSearch<reflector_maps::ReflectorMap>;
 
 struct KnownReflection {
   std::size_t patch;
@@ -43,9 +43,9 @@ class JudgedBody {
  private:
   std::string name_;
   std::size_t triangles_ = 0, patches_ = 0;
-  std::vector<curved_reflectors::ReflectorMap> maps_;
+  std::vector<reflector_maps::ReflectorMap> maps_;
   /// Of the fine mesh: each map's own part, and beside it that of its neighbours.
-  std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>> own_rays_, rays_around_;
+  std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> own_rays_, rays_around_;
   std::vector<KnownReflection> reflections_;
 };
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "reflections/environment_maps/scene_maps.h"
+#include "reflections/methods/settings.h"
+#include "reflections/reference_maps/scene_maps.h"
 
 namespace parvis::bench {
 namespace {
@@ -24,24 +25,23 @@ void make_maps(house::Stage& stage, const JudgedMethod& method, const Camera& ca
 
 }  // namespace
 
-Status keep_maps(scene::Scene scene, const scene::Reflection& reflection) {
-  scene.reflection = reflection;
+Status keep_maps(scene::Scene scene, const methods::Settings& reflection) {
+  methods::settings(scene) = reflection;
   const Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
-  const environment_maps::HeightPyramid heights(environment_maps::heights_of(scene));
-  const Result<environment_maps::ReferenceMaps> maps =
-      environment_maps::bake_maps(scene, heights, **renderer, environment_maps::Keep::yes);
+  const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
+  const Result<reference_maps::ReferenceMaps> maps =
+      reference_maps::bake_maps(scene, heights, **renderer, reference_maps::Keep::yes);
   return maps ? Status(Done{}) : Status(maps.errors());
 }
 
 Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
-                                   const scene::Reflection& reflection) {
+                                   const methods::Settings& reflection) {
   scene::Scene scene = stage.scene();  // models are shared
-  scene.reflection = reflection;
-  Result<std::unique_ptr<render::Reflections>> made = house::make_reflections(scene, stage.renderer());
+  methods::settings(scene) = reflection;
+  Result<std::unique_ptr<methods::Reflections>> made = house::method_registry().make(scene, stage.renderer());
   if (!made) return made.errors();
-  return JudgedMethod{std::move(name), *std::move(made),
-                      reflection.method == scene::ReflectionMethod::time_sliced_cube_map};
+  return JudgedMethod{std::move(name), *std::move(made), reflection.method == "time_sliced_cube_map"};
 }
 
 Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {

@@ -5,21 +5,22 @@
 #include <string>
 
 #include "house/stage.h"
+#include "reflections/methods/settings.h"
 
 namespace parvis::bench {
 
 struct JudgedMethod {
   std::string name;
-  std::shared_ptr<render::Reflections> reflections;
+  std::shared_ptr<methods::Reflections> reflections;
   bool shows_earlier_frames = false;  ///< its maps are taken little by little
 };
 
 /// Draws a scene's reference maps and keeps them beside its file, so that no method need draw them again.
-Status keep_maps(scene::Scene scene, const scene::Reflection& reflection);
+Status keep_maps(scene::Scene scene, const methods::Settings& reflection);
 
 /// Makes a method for a stage's scene; it lives no longer than the stage.
 Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
-                                   const scene::Reflection& reflection);
+                                   const methods::Settings& reflection);
 
 /// Draws a frame of the stage by a method: all of it, or cars alone.
 Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,

@@ -3,14 +3,15 @@
 #include <algorithm>
 
 #include "base/random.h"
-#include "reflections/environment_maps/placement.h"
-#include "reflections/environment_maps/reference_maps.h"
-#include "reflections/environment_maps/scene_maps.h"
+#include "reflections/reference_maps/placement.h"
+#include "reflections/reference_maps/reference_maps.h"
+#include "reflections/reference_maps/scene_maps.h"
+#include "reflections/reference_maps/settings.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace environment_maps;
+using namespace reference_maps;
 
 constexpr float wanted_share = 0.99f;
 constexpr float sharp = 4.0f;  // times the footprint of a map at the vehicle
@@ -69,7 +70,7 @@ void measure_rays(const scene::Scene& scene, Report& report) {
   constexpr float reach_m = 1000.0f;
   for (const auto& [key, cell_m] : {std::pair{"ray_ns_1m", 1.0f}, {"ray_ns_025m", 0.25f}}) {
     scene::Scene with_cells = scene;  // models are shared
-    with_cells.reference_maps.cell_m = cell_m;
+    reference_maps::map_plan(with_cells).cell_m = cell_m;
     const HeightPyramid heights(heights_of(with_cells));
     const std::vector<glm::vec3> starts = spread_places(scene, heights, 100);
     std::vector<double> samples(7);

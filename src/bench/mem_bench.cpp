@@ -15,28 +15,28 @@
 #include "bench/street_views.h"
 #include "graphics/gl/context.h"
 #include "places/paper_city/paper_city.h"
+#include "reflections/methods/settings.h"
+#include "reflections/probes/methods.h"
 
 namespace parvis::bench {
 namespace {
 
-using scene::ReflectionMethod;
-
 constexpr int width = 1280, height = 720;
 
 /// The configuration that every key speaks of.
-scene::Reflection shipped() {
-  scene::Reflection reflection;
-  reflection.method = ReflectionMethod::multiple_environment_maps;
+methods::Settings shipped() {
+  methods::Settings reflection;
+  reflection.method = "multiple_environment_maps";
   return reflection;
 }
 
-scene::Reflection usual(ReflectionMethod method, bool uses_level_of_detail = false) {
+methods::Settings usual(const char* method, bool uses_level_of_detail = false) {
   return {method, 128, uses_level_of_detail};
 }
 
 /// Makes methods for a stage.
 Result<std::vector<JudgedMethod>> make(house::Stage& stage,
-                                       const std::vector<std::pair<const char*, scene::Reflection>>& wanted) {
+                                       const std::vector<std::pair<const char*, methods::Settings>>& wanted) {
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] : wanted) {
     Result<JudgedMethod> method = judged_method(stage, name, reflection);
@@ -60,13 +60,12 @@ std::vector<ViewFlips> those_at(const std::vector<ViewFlips>& views, bool is_at_
 }
 
 Status measure_quality(house::Stage& stage, bool is_quick, Report& report) {
-  const Result<std::vector<JudgedMethod>> methods =
-      make(stage, {{"mem", shipped()},
-                   {"none", usual(ReflectionMethod::none)},
-                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
-                   {"box", usual(ReflectionMethod::box_projected_probe)},
-                   {"simple_blend", usual(ReflectionMethod::simple_blend)},
-                   {"local", usual(ReflectionMethod::local_environment_maps)}});
+  const Result<std::vector<JudgedMethod>> methods = make(stage, {{"mem", shipped()},
+                                                                 {"none", usual("none")},
+                                                                 {"rerendered", usual("rerendered_cube_map")},
+                                                                 {"box", usual("box_projected_probe")},
+                                                                 {"simple_blend", usual("simple_blend")},
+                                                                 {"local", usual("local_environment_maps")}});
   if (!methods) return methods.errors();
   const Result<std::vector<ViewFlips>> views =
       is_quick ? flips_of_methods(stage, *methods, 8, width / 2, height / 2)
@@ -97,10 +96,8 @@ Status measure_quality(house::Stage& stage, bool is_quick, Report& report) {
 /// least.
 Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
   constexpr int views = 3;
-  const Result<std::vector<JudgedMethod>> methods =
-      make(stage, {{"none", usual(ReflectionMethod::none)},
-                   {"mem", shipped()},
-                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)}});
+  const Result<std::vector<JudgedMethod>> methods = make(
+      stage, {{"none", usual("none")}, {"mem", shipped()}, {"rerendered", usual("rerendered_cube_map")}});
   if (!methods) return methods.errors();
   NearViews near_views(stage, width, height);
   std::vector<double> mem_ms, face_ms;
@@ -121,14 +118,12 @@ Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& re
 }
 
 Status measure_motion(house::Stage& stage, bool is_quick, Report& report) {
-  scene::Reflection sliced = usual(ReflectionMethod::time_sliced_cube_map);
+  methods::Settings sliced = usual("time_sliced_cube_map");
   const Result<int> faces = faces_for_the_same_time(stage, is_quick ? 3 : 20, report);
   if (!faces) return faces.errors();
-  sliced.faces_a_frame = *faces;
-  const Result<std::vector<JudgedMethod>> methods =
-      make(stage, {{"mem", shipped()},
-                   {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
-                   {"time_sliced", sliced}});
+  sliced.own.get<probes::TimeSlicing>().faces_per_frame = *faces;
+  const Result<std::vector<JudgedMethod>> methods = make(
+      stage, {{"mem", shipped()}, {"rerendered", usual("rerendered_cube_map")}, {"time_sliced", sliced}});
   if (!methods) return methods.errors();
   const Result<MotionErrors> errors = is_quick ? errors_in_motion(stage, *methods, 2, width / 2, height / 2)
                                                : errors_in_motion(stage, *methods, 20, width, height);
@@ -146,7 +141,7 @@ Status measure_motion(house::Stage& stage, bool is_quick, Report& report) {
 /// Times methods beside one without reflections, and tells what each costs.
 Result<std::vector<ReflectionCost>> told_costs(
     house::Stage& stage, const Camera& camera, int repeats, Frames frames,
-    const std::vector<std::pair<const char*, scene::Reflection>>& wanted, Report& report) {
+    const std::vector<std::pair<const char*, methods::Settings>>& wanted, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, wanted);
   if (!methods) return methods.errors();
   Result<std::vector<ReflectionCost>> costs =
@@ -169,19 +164,16 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   const Result<Camera> camera = view_of_cars(**stage, cars_seen, cars_seen, width, height, report);
   if (!camera) return camera.errors();
   // What costs least differs least from none, and needs most samples.
-  const Result<std::vector<ReflectionCost>> cheap =
-      told_costs(**stage, *camera, is_quick ? 20 : 60, Frames::whole,
-                 {{"none", usual(ReflectionMethod::none)},
-                  {"mem", usual(ReflectionMethod::multiple_environment_maps)},
-                  {"mem_lod", shipped()}},
-                 report);
+  const Result<std::vector<ReflectionCost>> cheap = told_costs(
+      **stage, *camera, is_quick ? 20 : 60, Frames::whole,
+      {{"none", usual("none")}, {"mem", usual("multiple_environment_maps")}, {"mem_lod", shipped()}}, report);
   if (!cheap) return cheap.errors();
   const Result<std::vector<ReflectionCost>> dear =
       told_costs(**stage, *camera, is_quick ? 5 : 30, Frames::left_out,
-                 {{"none", usual(ReflectionMethod::none)},
-                  {"rerendered", usual(ReflectionMethod::rerendered_cube_map)},
-                  {"rerendered_lod", usual(ReflectionMethod::rerendered_cube_map, true)},
-                  {"local", usual(ReflectionMethod::local_environment_maps)}},
+                 {{"none", usual("none")},
+                  {"rerendered", usual("rerendered_cube_map")},
+                  {"rerendered_lod", usual("rerendered_cube_map", true)},
+                  {"local", usual("local_environment_maps")}},
                  report);
   if (!dear) return dear.errors();
   const Median mem = median((*cheap)[1].ms), mem_lod = median((*cheap)[2].ms),

@@ -5,6 +5,7 @@
 
 #include "bench/judged_method.h"
 #include "graphics/render/picture_scale.h"
+#include "reflections/methods/settings.h"
 
 namespace parvis::bench {
 namespace {
@@ -55,13 +56,13 @@ double p95(std::vector<double> samples) {
   return samples[std::size_t(quantile * double(samples.size() - 1))];
 }
 
-Result<JudgedMethod> with_budget(house::Stage& stage, scene::Reflection reflection, float budget_ms) {
+Result<JudgedMethod> with_budget(house::Stage& stage, methods::Settings reflection, float budget_ms) {
   reflection.budget_ms = budget_ms;
   return judged_method(stage, "budget", reflection);
 }
 
 /// What whole frames take with the fewest pixels and the cheapest reflections, and with all and the best.
-Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const scene::Reflection& reflection,
+Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const methods::Settings& reflection,
                                                   glm::ivec2 size) {
   const Result<JudgedMethod> cheapest = with_budget(stage, reflection, least_budget_ms),
                              best = with_budget(stage, reflection, 0.0f);
@@ -99,7 +100,7 @@ Result<double> own_spread_percent(house::Stage& stage, const JudgedMethod& metho
 
 }  // namespace
 
-Status measure_budget(house::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
+Status measure_budget(house::Stage& stage, const methods::Settings& reflection, int seconds, int width,
                       int height, Report& report) {
   const glm::ivec2 size(width, height);
   const Result<std::pair<double, double>> range = range_of_frames(stage, reflection, size);

@@ -3,13 +3,14 @@
 
 #include "bench/report.h"
 #include "house/stage.h"
+#include "reflections/methods/settings.h"
 
 namespace parvis::bench {
 
 /// `budget_p95_error_percent`: of a drive of so many seconds behind a car, at thirty frames a second and
 /// width x height. The budget lies midway between what frames take with the fewest pixels and the cheapest
 /// reflections, and with all pixels and the best.
-Status measure_budget(house::Stage& stage, const scene::Reflection& reflection, int seconds, int width,
+Status measure_budget(house::Stage& stage, const methods::Settings& reflection, int seconds, int width,
                       int height, Report& report);
 
 }  // namespace parvis::bench

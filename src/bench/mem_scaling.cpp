@@ -6,13 +6,14 @@
 #include "bench/near_views.h"
 #include "bench/reflection_cost.h"
 #include "places/paper_city/mirror_bodies.h"
-#include "reflections/environment_maps/map_cache.h"
-#include "reflections/environment_maps/scene_maps.h"
+#include "reflections/reference_maps/map_cache.h"
+#include "reflections/reference_maps/scene_maps.h"
+#include "reflections/reference_maps/settings.h"
 
 namespace parvis::bench {
 namespace {
 
-namespace maps = environment_maps;
+namespace maps = reference_maps;
 
 constexpr int width = 1280, height = 720;
 constexpr int balls_a_side = 10, rings_of_one = 160;
@@ -60,12 +61,12 @@ struct Timed {
   std::vector<double> ms;
 };
 
-Result<Timed> timed(const scene::Scene& scene, const scene::Reflection& reflection) {
+Result<Timed> timed(const scene::Scene& scene, const methods::Settings& reflection) {
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(scene));
   if (!stage) return stage.errors();
   Timed timed{*std::move(stage), {}, {}};
-  scene::Reflection none;
-  none.method = scene::ReflectionMethod::none;
+  methods::Settings none;
+  none.method = "none";
   for (const auto& [name, wanted] : {std::pair{"none", none}, {"mem", reflection}}) {
     Result<JudgedMethod> method = judged_method(*timed.stage, name, wanted);
     if (!method) return method.errors();
@@ -97,7 +98,7 @@ scene::Scene ten_cities(const scene::Scene& city, const std::vector<glm::vec3>& 
   for (int north = 0; north < tiles_north; ++north)
     for (int east = 0; east < tiles_east; ++east) {
       const glm::vec3 offset(float(east - middle_tile) * tile_m, float(north) * tile_m, 0.0f);
-      for (const glm::vec3& place : places) scene.reference_maps.places.push_back(place + offset);
+      for (const glm::vec3& place : places) reference_maps::map_plan(scene).places.push_back(place + offset);
       if (offset == glm::vec3(0.0f)) continue;
       for (const scene::Object& object : city.objects) {
         if (object.is_dynamic) continue;
@@ -112,10 +113,10 @@ scene::Scene ten_cities(const scene::Scene& city, const std::vector<glm::vec3>& 
 /// Keeps for the ten what is kept for the one: each of them looks the same from within.
 Status copy_maps(const maps::MapCache& of_one, std::size_t count, const scene::Scene& ten) {
   const maps::MapCache of_ten(ten);
-  for (std::size_t i = 0; i < ten.reference_maps.places.size(); ++i) {
+  for (std::size_t i = 0; i < reference_maps::map_plan(ten).places.size(); ++i) {
     std::optional<maps::MapFile> map = of_one.read(i % count);
     if (!map) return error("{}: a map is missing", of_one.file(i % count).string());
-    map->places = ten.reference_maps.places;
+    map->places = reference_maps::map_plan(ten).places;
     map->number = std::uint32_t(i);
     if (Status status = of_ten.write(*std::move(map)); !status) return status;
   }
@@ -124,7 +125,7 @@ Status copy_maps(const maps::MapCache& of_one, std::size_t count, const scene::S
 
 }  // namespace
 
-Status measure_body_count(const scene::Scene& city, const scene::Reflection& reflection, int repeats,
+Status measure_body_count(const scene::Scene& city, const methods::Settings& reflection, int repeats,
                           Report& report) {
   const Result<Camera> camera = street_camera(city);
   if (!camera) return camera.errors();
@@ -151,10 +152,10 @@ Status measure_body_count(const scene::Scene& city, const scene::Reflection& ref
   return Done{};
 }
 
-Status measure_city_size(const scene::Scene& city, const scene::Reflection& reflection, int repeats,
+Status measure_city_size(const scene::Scene& city, const methods::Settings& reflection, int repeats,
                          Report& report) {
   scene::Scene small = without_traffic(house::make_play(city).scene);  // cars stand where it begins
-  small.reflection = reflection;
+  methods::settings(small) = reflection;
   const maps::MapCache kept(small);
   const std::optional<maps::MapFile> first = kept.read(0);
   if (!first) return error("{}: no maps of the city are kept", kept.folder().string());
@@ -173,7 +174,7 @@ Status measure_city_size(const scene::Scene& city, const scene::Reflection& refl
                             map_count, reflective_pixels(*timed.stage, camera), ms.value, ms.low, ms.high));
   };
   cost("1 km2", first->places.size(), *here);
-  cost("10 km2", large.reference_maps.places.size(), *there);
+  cost("10 km2", reference_maps::map_plan(large).places.size(), *there);
   report.add("city_10km2_cost_over_1km2", ratio_in_turn(there->ms, here->ms));
   return Done{};
 }

@@ -6,7 +6,8 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
-#include "reflections/probes/reflections.h"
+#include "reflections/methods/settings.h"
+#include "reflections/probes/methods.h"
 
 namespace parvis::bench {
 namespace {
@@ -104,7 +105,7 @@ scene::Scene mirror_scene(Mesh mirror, float room_half_m) {
   scene.sun.irradiance = glm::vec3(0.0f);
   scene.objects.push_back({"room", room, glm::mat4(1.0f), {}, false, false});
   scene.objects.push_back({"mirror", reflector, glm::mat4(1.0f), {}, true, true});
-  scene.reflection = {scene::ReflectionMethod::rerendered_cube_map, map_resolution, false};
+  methods::settings(scene) = {"rerendered_cube_map", map_resolution, false};
   return scene;
 }
 
@@ -115,7 +116,7 @@ class SwappedFaces final : public probes::CubeMapReflections {
 
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene&,
-                   const std::vector<render::Reflector>& reflectors) override {
+                   const std::vector<methods::VisibleReflector>& reflectors) override {
     for (int face = 0; face < 6; ++face)
       map_.draw_face(renderer, face, reflectors.front().centre, reflectors.front().object);
     const gl::Texture kept = gl::texture_2d(GL_RGBA16F, map_resolution, map_resolution);
@@ -131,14 +132,17 @@ class SwappedFaces final : public probes::CubeMapReflections {
     map_.update_levels();
   }
 
-  render::CubeMap map_{map_resolution};
+  methods::CubeMap map_{map_resolution};
 };
 
 Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
   if (!renderer) return renderer.errors();
-  const std::unique_ptr<render::Reflections> reflections =
-      swaps_faces ? std::make_unique<SwappedFaces>() : probes::make_reflections(scene);
+  std::unique_ptr<methods::Reflections> reflections;
+  if (swaps_faces)
+    reflections = std::make_unique<SwappedFaces>();
+  else
+    reflections = std::make_unique<probes::RerenderedCubeMap>(scene);
   if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
   Camera camera;
   camera.world_from_camera = look_at({1.2f, -3.0f, 0.9f}, {0, 0, 0});

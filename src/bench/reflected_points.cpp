@@ -5,12 +5,13 @@
 
 #include "bench/judged_body.h"
 #include "graphics/reference/camera_ray.h"
-#include "reflections/curved_reflectors/reflector_cache.h"
+#include "reflections/reflector_maps/reflector_cache.h"
 
 namespace parvis::bench {
 namespace {
 
-using namespace curved_reflectors;
+using namespace reflection_search;
+using namespace reflector_maps;
 
 constexpr std::size_t most_tries = 400;  // for each pixel that is wanted
 constexpr float off_surface_m = 1e-4f;

@@ -8,8 +8,8 @@
 
 #include "base/random.h"
 #include "graphics/reference/ray_scene.h"
-#include "reflections/curved_reflectors/reflector_map.h"
-#include "reflections/curved_reflectors/surface_rays.h"
+#include "reflections/reflector_maps/reflector_map.h"
+#include "reflections/reflector_maps/surface_rays.h"
 #include "scene/scene.h"
 
 namespace parvis::bench {
@@ -29,8 +29,8 @@ class ReflectedPoints {
  private:
   /// A mirror's maps, and the fine mesh of each patch.
   struct Mirror {
-    curved_reflectors::Reflector reflector;
-    std::vector<std::unique_ptr<curved_reflectors::SurfaceRays>> patches;
+    reflector_maps::Reflector reflector;
+    std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> patches;
   };
   double error_px(const Mirror& mirror, const scene::Object& object, const Camera& camera,
                   const glm::mat4& pixel_from_world, glm::vec3 direction) const;

@@ -52,8 +52,8 @@ house::Play play_with(const scene::Scene& scene, int vehicles) {
 int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height) {
   stage.renderer().begin_frame(stage.scene(), camera);
   stage.renderer().prepare_main_view(camera, width, height);
-  std::vector<render::Reflector> reflectors;
-  render::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
+  std::vector<methods::VisibleReflector> reflectors;
+  methods::find_reflectors(stage.renderer(), stage.scene(), camera, reflectors);
   return int(reflectors.size());
 }
 

@@ -11,16 +11,14 @@
 #include "graphics/gl/pass_times.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/picture_scale.h"
-#include "graphics/render/reflections.h"
+#include "house/rooms.h"
 #include "house/scene_camera.h"
 #include "life/traffic/traffic.h"
+#include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
 #include "scene/scene_loader.h"
 
 namespace parvis::house {
-
-/// The types of nodes that scripts may use: those of all rooms.
-const scene::NodeRegistry& node_registry();
 
 /// A scene with its traffic and what its script lets happen.
 struct Play {
@@ -45,10 +43,6 @@ Play make_play(scene::Scene scene);
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
 
-/// The method of reflection that the scene names, handed to the renderer; both outlive it.
-Result<std::unique_ptr<render::Reflections>> make_reflections(const scene::Scene& scene,
-                                                              render::Renderer& renderer);
-
 /// Draws a play with an OpenGL context that is current.
 class Stage {
  public:
@@ -58,14 +52,14 @@ class Stage {
   Play& play() { return play_; }
   const scene::Scene& scene() const { return play_.scene; }
   render::Renderer& renderer() { return *renderer_; }
-  const render::Reflections& reflections() const { return *reflections_; }
+  const methods::Reflections& reflections() const { return *reflections_; }
   /// Of the passes of a frame: shadows, reflections, picture; those who draw more add theirs.
   gl::PassTimes& pass_times() { return pass_times_; }
 
   /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
   Status choose_scenario(const std::string& name) { return play_.actions.live().choose(play_.scene, name); }
   /// Changes the method of reflection.
-  Status set_reflection(const scene::Reflection& reflection);
+  Status set_reflection(const methods::Settings& reflection);
 
   /// Holds the scene's budget by how long the passes of a frame took: by the levels of reflections, and by
   /// the size at which the picture is drawn. For windows: pictures that follow a clock cannot be repeated.
@@ -95,8 +89,8 @@ class Stage {
 
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
-  std::unique_ptr<render::Reflections> reflections_;
-  scene::Reflection shown_reflection_;
+  std::unique_ptr<methods::Reflections> reflections_;
+  methods::Settings shown_reflection_;
   gl::PassTimes pass_times_;
   render::PictureScale scale_;
   int width_ = 0, height_ = 0;

@@ -292,12 +292,5 @@ TEST_F(LiveSceneTest, TheSkyTurnsAndAScenarioGivesAnother) {
   EXPECT_EQ(scene_.sky.intensity, 1.0f);
 }
 
-TEST_F(LiveSceneTest, TheMethodOfReflectionChanges) {
-  load("reflection(method=none)\n");
-  tell(live_, "%reflection", "method shared_cube_map");
-  EXPECT_TRUE(live_.refresh(scene_).empty());
-  EXPECT_EQ(scene_.reflection.method, ReflectionMethod::shared_cube_map);
-}
-
 }  // namespace
 }  // namespace parvis::scene

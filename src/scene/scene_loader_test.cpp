@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "base/test_folder.h"
+#include "scene/scene_builder.h"
 #include "scene/script_checker.h"
 #include "scene/thesis_examples.h"
 
@@ -33,8 +34,24 @@ class SceneLoader : public ::testing::Test {
   }
 
   TestFolder folder_;
-  NodeRegistry registry_ = core_nodes();
+  NodeRegistry registry_ = nodes();
   std::vector<std::filesystem::path> data_folders_;
+
+ private:
+  /// Those of this room, and one with attributes of further types.
+  static NodeRegistry nodes() {
+    NodeRegistry registry = core_nodes();
+    registry.add(
+        {.type = "print",
+         .attributes = {{.name = "paper", .type = AttributeType::choice, .choices = {"plain", "glossy"}},
+                        {.name = "resolution",
+                         .type = AttributeType::integer,
+                         .unit = "pixels",
+                         .minimum = 8,
+                         .maximum = 4096}}},
+        [](const Node&, SceneBuilder&) {});
+    return registry;
+  }
 };
 
 bool holds(const std::string& text, const std::string& piece) {
@@ -45,20 +62,16 @@ void expect_near(glm::vec3 a, glm::vec3 b) {
   EXPECT_LT(glm::length(a - b), 1e-4f) << a.x << " " << a.y << " " << a.z;
 }
 
-TEST_F(SceneLoader, ReadsLightAirAndReflection) {
+TEST_F(SceneLoader, ReadsLightAndAir) {
   const Scene scene = scene_of(
       "sun(azimuth_deg=90, elevation_deg=30, irradiance=\"#FFFFFF\")\nsky(intensity=0.5, heading_deg=90)\n"
-      "air(haze_per_m=0.001)\nexposure(value=2)\n"
-      "reflection(method=shared_cube_map, resolution=64, level_of_detail=no)");
+      "air(haze_per_m=0.001)\nexposure(value=2)");
   expect_near(scene.sun.direction_to_sun, {std::sqrt(0.75f), 0.0f, 0.5f});
   expect_near(scene.sun.irradiance, glm::vec3(1.0f));
   EXPECT_FLOAT_EQ(scene.sky.intensity, 0.5f);
   EXPECT_FLOAT_EQ(scene.sky.heading, glm::half_pi<float>());
   EXPECT_FLOAT_EQ(scene.haze_per_m, 0.001f);
   EXPECT_FLOAT_EQ(scene.exposure, 2.0f);
-  EXPECT_EQ(scene.reflection.method, ReflectionMethod::shared_cube_map);
-  EXPECT_EQ(scene.reflection.resolution, 64);
-  EXPECT_FALSE(scene.reflection.uses_level_of_detail);
 }
 
 TEST_F(SceneLoader, AnEmptyScriptIsAnEmptyScene) {
@@ -68,11 +81,9 @@ TEST_F(SceneLoader, AnEmptyScriptIsAnEmptyScene) {
 }
 
 TEST_F(SceneLoader, DefaultsOfNodesAreThoseOfTheScene) {
-  const Scene scene = scene_of("sun() sky() air() exposure() reflection()"), plain;
+  const Scene scene = scene_of("sun() sky() air() exposure()"), plain;
   expect_near(scene.sun.direction_to_sun, glm::normalize(plain.sun.direction_to_sun));
   expect_near(scene.sun.irradiance, plain.sun.irradiance);
-  EXPECT_EQ(scene.reflection.method, plain.reflection.method);
-  EXPECT_EQ(scene.reflection.resolution, plain.reflection.resolution);
   EXPECT_EQ(scene.sky.intensity, plain.sky.intensity);
   EXPECT_EQ(scene.exposure, plain.exposure);
 }
@@ -96,20 +107,20 @@ TEST_F(SceneLoader, SuggestsTheNearestNodeAttributeChoiceAndName) {
                     "scene.xp:2:2: unknown node type \"camrea\"; did you mean \"camera\"?"));
   EXPECT_TRUE(holds(errors_of("camera(name=a, postion=\"1 2 3\")"),
                     "scene.xp:1:16: camera has no attribute \"postion\"; did you mean \"position\"?"));
-  EXPECT_TRUE(holds(errors_of("reflection(method=\"shared_cube\")"),
-                    "scene.xp:1:19: method=\"shared_cube\": expected one of"));
-  EXPECT_TRUE(holds(errors_of("reflection(method=\"shared_cube\")"), "did you mean \"shared_cube_map\"?"));
+  EXPECT_TRUE(
+      holds(errors_of("print(paper=\"glossi\")"), "scene.xp:1:13: paper=\"glossi\": expected one of"));
+  EXPECT_TRUE(holds(errors_of("print(paper=\"glossi\")"), "did you mean \"glossy\"?"));
   EXPECT_TRUE(holds(errors_of("group(name=\"square\")\ncamera(name=a, follows=\"squaer\")"),
                     "no node of the scene has this name; did you mean \"square\"?"));
 }
 
 TEST_F(SceneLoader, TellsAllErrorsAtOnceWithTheirPlaces) {
   const std::string errors = errors_of(
-      "camera(position=\"1 2\")\nsun(elevation_deg=91)\nreflection(resolution=12.5)\nsky(intensity=dark)\n"
+      "camera(position=\"1 2\")\nsun(elevation_deg=91)\nprint(resolution=12.5)\nsky(intensity=dark)\n"
       "group(scale=0)\nexposure(value=1e999)\nsun()\nair(haze_per_m=nan)");
   for (const char* expected : {"1:1: camera needs name=", "1:17: position=\"1 2\": expected three numbers",
                                "2:19: elevation_deg=\"91\"", "from -90 to 90",
-                               "3:23: resolution=\"12.5\": expected a whole number in pixels from 8 to 4096",
+                               "3:18: resolution=\"12.5\": expected a whole number in pixels from 8 to 4096",
                                "4:15:", "5:13:", "6:16: value=\"1e999\"",
                                "7:1: a scene has one sun; scene.xp:2 has given it already", "8:16:"})
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
@@ -186,7 +197,7 @@ TEST_F(SceneLoader, RandomEditsOfAScriptNeverCrash) {
       "group(name=\"g\", position=\"1 2 3\", heading_deg=30) { # c\n camera(name=\"a\", target=\"10 20 3\")\n"
       "  road(path=\"0 0, 50 0, 70 20\", lanes=2)\n}\nsun(irradiance=\"#AABBCC\")\nair(haze_per_m=0.001)\n"
       "traffic(vehicles=12)\ncamera(name=b, follows=\"vehicle 1\")\ninclude(file=\"part.xp\")\n";
-  folder_.write("part.xp", "exposure(value=2)\nreflection(method=none)");
+  folder_.write("part.xp", "exposure(value=2)\nprint(paper=plain)");
   const std::string bytes = "(){}=,\"\\#/ \n.-01e9axz\xff";
   Random random(11);
   for (int round = 0; round < 3000; ++round) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graphics/gl/context.h"
+#include "reflections/methods/settings.h"
 #include "viewer/keys.h"
 
 namespace parvis::viewer {
@@ -159,12 +160,15 @@ void Panel::draw_light(Visit& visit) {
   if (rows_.drag("Exposure", &exposure, 1, {0.005f, "%.3f"}, 0.01, 100, "how bright the picture is"))
     visit.set_exposure(float(exposure));
 
-  std::vector<std::string> methods{scene::reflection_method_names.begin(),
-                                   scene::reflection_method_names.end()};
-  for (std::string& method : methods) std::replace(method.begin(), method.end(), '_', ' ');
-  if (const auto method = rows_.choice("Reflections", methods, methods[std::size_t(scene.reflection.method)],
+  const methods::Registry& registry = house::method_registry();
+  const std::vector<std::string> names = registry.names();
+  std::vector<std::string> shown = names;
+  for (std::string& name : shown) std::replace(name.begin(), name.end(), '_', ' ');
+  std::string current = registry.name_of(methods::settings(scene));
+  std::replace(current.begin(), current.end(), '_', ' ');
+  if (const auto method = rows_.choice("Reflections", shown, current,
                                        "how mirror-like parts of moving things see their surroundings"))
-    visit.set_reflection(scene::ReflectionMethod(*method));
+    visit.set_reflection(names[std::size_t(*method)]);
 }
 
 void Panel::draw_traffic(Visit& visit) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graphics/render/golden.h"
+#include "reflections/methods/settings.h"
 #include "viewer/test_square.h"
 
 namespace parvis::viewer {
@@ -191,7 +192,7 @@ TEST_F(PanelTest, LightIsDraggedAndWritten) {
   write("Exposure", "2");
   EXPECT_NEAR(visit_->scene().exposure, 2.0f, 1e-5f);
   choose("Reflections", "shared cube map");
-  EXPECT_EQ(visit_->scene().reflection.method, scene::ReflectionMethod::shared_cube_map);
+  EXPECT_EQ(methods::settings(visit_->scene()).method, "shared_cube_map");
 }
 
 TEST_F(PanelTest, TrafficIsHaltedAndMovedOn) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/image_io.h"
+#include "reflections/methods/settings.h"
 #include "viewer/screenshots.h"
 
 namespace parvis::viewer {
@@ -126,11 +127,11 @@ void Visit::set_exposure(float exposure) {
     stage_.play().scene.exposure = exposure;
 }
 
-void Visit::set_reflection(scene::ReflectionMethod method) {
+void Visit::set_reflection(const std::string& method) {
   if (const scene::Node* node = actions().live().find("%reflection"))
-    report(tell(*node, fmt::format("method {}", scene::reflection_method_names[std::size_t(method)])), "");
+    report(tell(*node, fmt::format("method {}", method)), "");
   else
-    stage_.play().scene.reflection.method = method;
+    methods::settings(stage_.play().scene).method = method;
 }
 
 void Visit::step_traffic() {

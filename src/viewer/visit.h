@@ -60,7 +60,7 @@ class Visit {
   // Light and reflections; with or without a node of the script that stands for them.
   void set_sun(float azimuth_deg, float elevation_deg);
   void set_exposure(float exposure);
-  void set_reflection(scene::ReflectionMethod method);
+  void set_reflection(const std::string& method);
 
   bool traffic_is_paused() const { return stage_.play().traffic_is_paused; }
   void pause_traffic(bool pauses) { stage_.play().traffic_is_paused = pauses; }

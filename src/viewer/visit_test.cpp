@@ -1,6 +1,7 @@
 #include "viewer/visit.h"
 
 #include "base/image_io.h"
+#include "reflections/methods/settings.h"
 #include "viewer/test_square.h"
 
 namespace parvis::viewer {
@@ -57,13 +58,13 @@ TEST_F(VisitTest, LightChangesWithAndWithoutNodes) {
     if (!has_nodes) open("camera(name=eye)\n");
     visit_->set_sun(90, 30);
     visit_->set_exposure(2.5f);
-    visit_->set_reflection(scene::ReflectionMethod::shared_cube_map);
+    visit_->set_reflection("shared_cube_map");
     wait();
     const glm::vec2 sun = azimuth_and_elevation_deg(visit_->scene().sun.direction_to_sun);
     EXPECT_NEAR(sun.x, 90.0f, 1e-3f);
     EXPECT_NEAR(sun.y, 30.0f, 1e-3f);
     EXPECT_EQ(visit_->scene().exposure, 2.5f);
-    EXPECT_EQ(visit_->scene().reflection.method, scene::ReflectionMethod::shared_cube_map);
+    EXPECT_EQ(methods::settings(visit_->scene()).method, "shared_cube_map");
     stage_->draw(visit_->camera(), 64, 48);
     EXPECT_EQ(told(), "");
   }

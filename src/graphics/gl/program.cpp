@@ -87,7 +87,7 @@ std::string info_log(GLuint name, GetLength get_length, GetLog get_log) {
 }  // namespace
 
 Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
-                                std::vector<std::string>& files) {
+                                std::vector<std::string>& files, std::span<const std::string> includes) {
   Assembly assembly{files, defines};
   if (dialect == Dialect::es_300)
     assembly.text =
@@ -98,14 +98,16 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
     assembly.text = "#version 450 core\n";
   for (const auto& [name, value] : defines) assembly.text += fmt::format("#define {} {}\n", name, value);
   if (Status status = assembly.add("graphics/shading/glsl.glsl"); !status) return status.errors();
+  for (const std::string& include : includes)
+    if (Status status = assembly.add(include); !status) return status.errors();
   if (Status status = assembly.add(path); !status) return status.errors();
   return std::move(assembly.text);
 }
 
-Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines,
-                              Dialect dialect) {
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
+                              std::span<const std::string> includes) {
   std::vector<std::string> files;
-  const Result<std::string> text = shader_text(path, defines, dialect, files);
+  const Result<std::string> text = shader_text(path, defines, dialect, files, includes);
   if (!text) return text.errors();
   const GLuint shader = glCreateShader(stage);
   const char* source = text->c_str();
@@ -120,11 +122,11 @@ Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defin
 }
 
 Result<Program> Program::create(const std::string& vertex_path, const std::string& fragment_path,
-                                const Defines& defines) {
+                                const Defines& defines, std::span<const std::string> fragment_includes) {
   const Result<GLuint> vertex = compile_shader(GL_VERTEX_SHADER, vertex_path, defines, Dialect::desktop_450);
   if (!vertex) return vertex.errors();
   const Result<GLuint> fragment =
-      compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450);
+      compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450, fragment_includes);
   if (!fragment) {
     glDeleteShader(*vertex);
     return fragment.errors();

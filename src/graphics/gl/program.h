@@ -23,18 +23,21 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 /// `#include NAME "default.glsl"` includes the file that the define NAME has as its value, in quotes, where
 /// it is defined: so one shader serves surfaces of several rooms. An include that names no file and a `path`
 /// that is none are errors. `files` receives the names that #line numbers stand for.
+/// The files of `includes` come before `path`, as if its first lines included them.
 Result<std::string> shader_text(const std::string& path, const Defines& defines, Dialect dialect,
-                                std::vector<std::string>& files);
+                                std::vector<std::string>& files, std::span<const std::string> includes = {});
 
 /// Compiles one stage in the current context; the errors name file and line.
-Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect);
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
+                              std::span<const std::string> includes = {});
 
 class Program {
  public:
   Program() = default;
-  /// Links a vertex and a fragment shader ("graphics/render/surface.vert").
+  /// Links a vertex and a fragment shader ("graphics/render/surface.vert"), the latter with further includes.
   static Result<Program> create(const std::string& vertex_path, const std::string& fragment_path,
-                                const Defines& defines = {});
+                                const Defines& defines = {},
+                                std::span<const std::string> fragment_includes = {});
   Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
   Program& operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);

@@ -63,7 +63,7 @@ class Tracer {
       : rays_(rays),
         sky_(sky),
         drawn_light_(options.drawn_light),
-        mirror_bounces_(scene.reflection.bounces),
+        mirror_bounces_(options.mirror_bounces),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;

@@ -21,6 +21,7 @@ struct TraceOptions {
   /// The renderer's; null: exact shadow rays, a sky open everywhere, and moving things that hide none of it.
   const shading::DrawnLight* drawn_light = nullptr;
   bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
+  int mirror_bounces = 1;              ///< after as many mirrors, mirror-like parts show the sky
   PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all
   std::string progress = "tracing";    ///< what the progress bar says
 };
@@ -39,7 +40,7 @@ ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int widt
 /// Traces one picture. Solid glass shows what its refracted rays meet, with Fresnel's share at each surface
 /// and reflections inside; in mirrors, and on objects that take no reflections, the sky straight through it.
 /// It throws no shadow. Mirror-like parts of objects that take reflections show what their mirror rays hit,
-/// shaded by the same recipe; after as many mirrors as reflection(bounces=) says they reflect the sky, as all
+/// shaded by the same recipe; after `mirror_bounces` mirrors they reflect the sky, as all
 /// other surfaces do. The same options
 /// give the same picture for any number of threads.
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,

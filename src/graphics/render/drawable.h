@@ -52,7 +52,7 @@ class Drawable {
   virtual void prepare(const View& view, const Culling& culling) = 0;
   /// Draws one pass of the view prepared last (or of the main view): the target is bound, the uniform block
   /// of frame.glsl is filled, depth is reversed but in shadow views. Light is bound in views that have
-  /// colour. ViewPrograms has a program for every kind of view. Views of rays (ViewKind::rays) show
+  /// colour. ViewPrograms has a program for every kind of view. Views of mirrors (ViewKind::mirrors) show
   /// reflectors alone.
   virtual void draw(const View& view, Pass pass) = 0;
 };

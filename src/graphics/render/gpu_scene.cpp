@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "graphics/gl/context.h"
+#include "graphics/render/bindings.h"
 #include "graphics/render/mesh_levels.h"
 #include "graphics/shading/glsl.h"
 #include "scene/mip_levels.h"
@@ -287,6 +288,13 @@ void GpuScene::update(const scene::Scene& scene) {
   geometry_.upload_bent();
 }
 
+std::vector<GpuMaterial> GpuScene::mirror_materials() const {
+  std::vector<GpuMaterial> mirrors;
+  for (const Item& item : items_)
+    if (item.is_mirror) mirrors.push_back(materials_[std::size_t(parts_[std::size_t(item.part)].material)]);
+  return mirrors;
+}
+
 Bounds GpuScene::fixed_bounds() const {
   Bounds bounds;
   for (std::size_t o = 0; o < object_bounds_.size(); ++o)
@@ -298,8 +306,8 @@ void GpuScene::bind_material(int index) const {
   const GpuMaterial& material = materials_[std::size_t(index)];
   const GLuint textures[]{material.base_colour, material.normal, material.surface, material.emission};
   glBindTextures(0, 4, textures);
-  glBindBufferRange(GL_UNIFORM_BUFFER, 1, material_blocks_.name(), GLintptr(index) * block_stride_,
-                    GLsizeiptr(sizeof(Material)));
+  glBindBufferRange(GL_UNIFORM_BUFFER, material_block, material_blocks_.name(),
+                    GLintptr(index) * block_stride_, GLsizeiptr(sizeof(Material)));
   cull_faces(!material.is_double_sided);
 }
 

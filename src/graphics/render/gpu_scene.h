@@ -61,7 +61,7 @@ struct Item {
   struct Record {
     glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;
-    glm::ivec2 virtual_grid{0};  ///< of mirrored views: as VirtualVertices::add has it
+    glm::ivec2 vertex_data{0};  ///< of mirrored views: what VirtualVertices::add has given
   };
   Record record;
   Bounds bounds;  ///< in the world
@@ -86,6 +86,8 @@ class GpuScene {
     return std::span(levels_).subspan(std::size_t(part.first_level), std::size_t(part.level_count));
   }
   const std::vector<GpuMaterial>& materials() const { return materials_; }
+  /// Of all items that are mirrors.
+  std::vector<GpuMaterial> mirror_materials() const;
   const std::vector<Item>& items() const { return items_; }
   /// An item for each part of the object's model follows, in their order.
   std::uint32_t first_item(int object) const { return first_item_[std::size_t(object)]; }

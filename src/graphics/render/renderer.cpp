@@ -1,5 +1,6 @@
 #include "graphics/render/renderer.h"
 
+#include "graphics/render/bindings.h"
 #include "graphics/render/frame.h"
 #include "graphics/render/sun_and_sky.h"
 #include "graphics/render/sun_shadow_maps.h"
@@ -97,7 +98,7 @@ void Renderer::bind_frame(const View& view) {
   frame.frame_size = {float(view.width), float(view.height), 0.0f, 0.0f};
   light_->fill(frame);
   const GLintptr offset = frame_blocks_.append(std::span<const Frame>(&frame, 1), block_alignment);
-  glBindBufferRange(GL_UNIFORM_BUFFER, 0, frame_blocks_.name(), offset, sizeof(Frame));
+  glBindBufferRange(GL_UNIFORM_BUFFER, frame_block, frame_blocks_.name(), offset, sizeof(Frame));
 }
 
 void Renderer::begin_view(const View& view) {
@@ -147,7 +148,7 @@ void Renderer::draw_prepared(const View& view) {
 }
 
 Culling Renderer::cull(const View& view) {
-  const bool draws_occluders = view.culls_hidden && view.kind != ViewKind::rays;
+  const bool draws_occluders = view.culls_hidden && view.kind != ViewKind::mirrors;
   if (draws_occluders) occluders_.draw(view, scene_.gpu());
   return {view, draws_occluders ? &occluders_.culler() : nullptr};
 }
@@ -192,7 +193,7 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
       camera.position_in_world());
   const GLintptr bodies =
       body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
-  glBindBufferRange(GL_UNIFORM_BUFFER, 2, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
+  glBindBufferRange(GL_UNIFORM_BUFFER, bodies_block, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
   glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
   light_->draw_shadows(camera,
                        has_moving_shade ? std::span<const Bounds>(moving_bounds_) : std::span<const Bounds>(),

@@ -39,7 +39,9 @@ class Renderer {
 
   /// One more drawable, after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
-  Status set_reflection(ReflectionSource* source) { return scene_.set_reflection(source); }
+  /// How mirror-like parts of objects that take reflections are shaded; null: they reflect the sky alone. Not
+  /// owned.
+  Status set_reflection(SurfaceShader* shader) { return scene_.set_reflection(shader); }
 
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }

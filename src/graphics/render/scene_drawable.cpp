@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "graphics/render/bindings.h"
 #include "graphics/render/mesh_levels.h"
 
 namespace parvis::render {
@@ -26,7 +27,7 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object
   glVertexArrayAttribBinding(name, 6, 1);
   glEnableVertexArrayAttrib(name, 7);
-  glVertexArrayAttribIFormat(name, 7, 2, GL_INT, offsetof(Item::Record, virtual_grid));
+  glVertexArrayAttribIFormat(name, 7, 2, GL_INT, offsetof(Item::Record, vertex_data));
   glVertexArrayAttribBinding(name, 7, 1);
   glVertexArrayBindingDivisor(name, 1, 1);
   return array;
@@ -49,7 +50,7 @@ float size_of(const Item::Record& record) {
 Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
   GpuScene gpu(scene);
   Programs programs;
-  Result<SurfacePrograms> surface = SurfacePrograms::create("graphics/render/surface.frag", gpu.materials());
+  Result<SurfacePrograms> surface = SurfacePrograms::create({}, gpu.materials());
   if (!surface) return surface.errors();
   programs.surface = *std::move(surface);
   const auto make = [](const char* vertex, const char* fragment, gl::Program& program) -> Status {
@@ -75,37 +76,19 @@ Extents SceneDrawable::extents() const {
           &gpu_.fixed_change()};
 }
 
-Status SceneDrawable::set_reflection(ReflectionSource* source) {
+Status SceneDrawable::set_reflection(SurfaceShader* shader) {
   reflection_ = nullptr;
-  if (source && !source->programs_)
-    if (Status status = link(*source); !status) return status;
-  reflection_ = source;
-  return Done{};
-}
-
-Status SceneDrawable::link(ReflectionSource& source) const {
-  std::vector<GpuMaterial> mirrors;
-  for (const Item& item : gpu_.items())
-    if (item.is_mirror)
-      mirrors.push_back(gpu_.materials()[std::size_t(gpu_.parts()[std::size_t(item.part)].material)]);
-  const auto make = [&](const std::string& fragment, SurfacePrograms& programs,
-                        const gl::Defines& defines) -> Status {
-    Result<SurfacePrograms> made =
-        SurfacePrograms::create(fragment, mirrors, "graphics/render/surface.vert", defines);
+  if (shader && !shader->programs_) {
+    Result<SurfacePrograms> made = SurfacePrograms::create(shader->source(), gpu_.mirror_materials());
     if (!made) return made.errors();
-    programs = *std::move(made);
-    return Done{};
-  };
-  ReflectionSource::Programs programs;
-  if (Status status = make(source.fragment_shader(), programs.mirror, source.defines()); !status)
-    return status;
-  if (source.takes_rays())
-    if (Status status = make("graphics/render/mirror_rays.frag", programs.rays, {}); !status) return status;
-  source.programs_ = std::move(programs);
+    shader->programs_ = *std::move(made);
+  }
+  reflection_ = shader;
   return Done{};
 }
 
-/// Methods serve the main view alone: in others mirrors show the sky, or what a room's own programs show.
+/// The room above shades mirrors in the main view alone: in others they show the sky, or what a room's own
+/// programs show.
 bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
 }
@@ -172,7 +155,7 @@ void SceneDrawable::gather(const View& view, const Culling& culling, ViewList& l
     const int level =
         view.kind == ViewKind::mirrored || view.kind == ViewKind::picking ? 0 : level_of(item, culling);
     list.order.push_back({sort_key(item, level, view), int(i), level});
-    if (view.kind == ViewKind::mirrored) list.order.back().virtual_grid = view.virtual_vertices->add(item);
+    if (view.kind == ViewKind::mirrored) list.order.back().vertex_data = view.virtual_vertices->add(item);
   }
   sort(list);
 }
@@ -194,7 +177,7 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
   list.records.clear();
   list.commands.clear();
   for (std::vector<Batch>& batches : list.batches) batches.clear();
-  for (const auto& [key, index, level, virtual_grid] : list.order) {
+  for (const auto& [key, index, level, vertex_data] : list.order) {
     const Item& item = gpu_.items()[std::size_t(index)];
     const PartRange& part = gpu_.parts()[std::size_t(item.part)];
     const MeshRange& mesh =
@@ -213,7 +196,7 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
       ++batches.back().command_count;
     }
     list.records.push_back(item.record);
-    list.records.back().virtual_grid = virtual_grid;
+    list.records.back().vertex_data = vertex_data;
     list.statistics.triangles += mesh.index_count / 3;
   }
   list.statistics.draws = int(list.commands.size());
@@ -221,7 +204,7 @@ void SceneDrawable::batch(const View& view, ViewList& list) const {
 
 void SceneDrawable::prepare(const View& view, const Culling& culling) {
   ViewList& list = view.kind == ViewKind::main ? main_list_ : other_list_;
-  if (view.kind == ViewKind::rays)
+  if (view.kind == ViewKind::mirrors)
     gather_mirrors(view, list);
   else
     gather(view, culling, list);
@@ -266,10 +249,9 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::picking) return programs_.picking;
   if (view.kind == ViewKind::mirrored)
     return view.virtual_vertices->program_of(gpu_.materials()[std::size_t(batch.material)]);
-  if (view.kind == ViewKind::rays)
-    return reflection_->programs_->rays.of(gpu_.materials()[std::size_t(batch.material)], false);
-  const SurfacePrograms& programs =
-      batch.mirror_object >= 0 ? reflection_->programs_->mirror : programs_.surface;
+  if (view.kind == ViewKind::mirrors)
+    return view.surface_programs->of(gpu_.materials()[std::size_t(batch.material)], false);
+  const SurfacePrograms& programs = batch.mirror_object >= 0 ? *reflection_->programs_ : programs_.surface;
   return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
 }
 

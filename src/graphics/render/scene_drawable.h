@@ -7,37 +7,13 @@
 #include <vector>
 
 #include "graphics/gl/program.h"
-#include "graphics/render/bindings.h"
 #include "graphics/render/gpu_scene.h"
 #include "graphics/render/stream_buffer.h"
-#include "graphics/render/surface_programs.h"
+#include "graphics/render/surface_shader.h"
 #include "graphics/render/view.h"
 #include "graphics/render/virtual_vertices.h"
 
 namespace parvis::render {
-
-/// How mirror-like parts of moving objects see their surroundings. A room above supplies the method.
-class ReflectionSource {
- public:
-  virtual ~ReflectionSource() = default;
-  /// A fragment shader that includes render/surface_body.glsl and defines `reflected_radiance`.
-  virtual std::string fragment_shader() const = 0;
-  /// What the shader is compiled with. HAS_NEAR_PICTURE: a picture of what stands near lies over what it
-  /// finds.
-  virtual gl::Defines defines() const { return {}; }
-  /// Does it draw a view of rays? Then their programs are made.
-  virtual bool takes_rays() const { return false; }
-  /// Binds what the shader needs for one object: texture units from `first_reflection_unit` on, uniforms of
-  /// `program`.
-  virtual void bind(const gl::Program& program, int object) = 0;
-
- private:
-  friend class SceneDrawable;
-  struct Programs {
-    SurfacePrograms mirror, rays;
-  };
-  std::optional<Programs> programs_;  ///< linked when it is first set, for the scene of that renderer
-};
 
 /// What one view drew.
 struct DrawStatistics {
@@ -52,7 +28,7 @@ class SceneDrawable final : public Drawable {
   static Result<SceneDrawable> create(const scene::Scene& scene);
 
   /// null: all reflect the sky alone. What was set before is set again at once.
-  Status set_reflection(ReflectionSource* source);
+  Status set_reflection(SurfaceShader* shader);
 
   void update(const scene::Scene& scene) override { gpu_.update(scene); }
   Extents extents() const override;
@@ -86,7 +62,7 @@ class SceneDrawable final : public Drawable {
       std::uint64_t key;  ///< by which entries are sorted
       int item;
       int level;  ///< 0: the mesh itself; then of the scene's levels
-      glm::ivec2 virtual_grid{0};
+      glm::ivec2 vertex_data{0};
     };
     std::vector<Entry> order;
     std::vector<Item::Record> records;
@@ -98,7 +74,6 @@ class SceneDrawable final : public Drawable {
   };
 
   SceneDrawable(GpuScene gpu, Programs programs);
-  Status link(ReflectionSource& source) const;
   const gl::Program& program_for(const View& view, const Batch& batch) const;
   bool is_mirror_in(const View& view, const Item& item) const;
   bool refracts(const Item& item) const;
@@ -116,7 +91,7 @@ class SceneDrawable final : public Drawable {
 
   GpuScene gpu_;
   Programs programs_;
-  ReflectionSource* reflection_ = nullptr;
+  SurfaceShader* reflection_ = nullptr;
   gl::VertexArray vertex_array_;
   ViewList main_list_, other_list_;
   std::vector<int> visible_objects_;

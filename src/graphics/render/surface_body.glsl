@@ -3,9 +3,9 @@
 //   void look_along(vec3 position, vec3 direction)   finds what lies in the mirror direction
 //   vec3 reflected_radiance(float roughness, int layer)   what comes from there, blurred; asked for each layer of a surface
 // They may use `surface_sky_cell`, what the place sees of the sky. The define SURFACE names the file that says what the
-// surface is like: material_surface.glsl or a room's own. In place of light a view may be given:
-//   WRITES_RAYS     where mirror rays leave (xyz; w: roughness of the base) and their direction (octahedral; z: roughness of the
-//                   coat, w: the object's number and 1)
+// surface is like: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY are expressions of rooms
+// above (SurfaceSource in surface_programs.h). In place of light a view may be given:
+//   WRITES_SURFACE  what the including file makes of it: void write_surface(Surface surface, vec3 to_viewer)
 //   WRITES_OBJECT   the object's number and 1
 //   WRITES_DEPTH    nothing but depth
 #include "graphics/render/frame.glsl"
@@ -15,7 +15,6 @@
 #include "graphics/shading/surface.glsl"
 #include "graphics/shading/glass.glsl"
 #include "graphics/shading/lighting.glsl"
-#include "graphics/shading/octahedral.glsl"
 
 const int base_layer = 0, coat_layer = 1;
 const float greatest_radiance = 30000.0f;  // the target holds half floats
@@ -34,13 +33,16 @@ const float seen_back = 0.1f;  // cosine: smooth normals turn away a little befo
 #else
 #define seen_from viewer_position.xyz
 #endif
-#if defined(WRITES_RAYS)
-layout(location = 0) out vec4 ray_start;
-layout(location = 1) out vec4 ray_way;
+#if defined(WRITES_SURFACE)
+void write_surface(Surface surface, vec3 to_viewer);
 #elif defined(WRITES_OBJECT)
 out uint object_and_one;
 #elif !defined(WRITES_DEPTH)
 out vec4 radiance;
+#endif
+#ifndef REFLECTION_OVERLAY
+#define REFLECTION_OVERLAY(radiance, roughness) radiance
+#define TRANSMISSION_OVERLAY(radiance) radiance
 #endif
 
 vec4 surface_sky_cell;
@@ -64,34 +66,11 @@ struct SeenPoint {
 #define surface_mirrors 0.0f  // 1: takes the scene's reflection method on things that do
 #endif
 
-#ifdef HAS_NEAR_PICTURE
-uniform sampler2D near_picture;  // of the main view's size: what stands near, as its mirrors show it; coverage in alpha
-uniform float near_share;        // 0: it shows what another mirror mirrors there, behind this one
-
-// The picture is sharp. A rough layer blurs it widely: it shows that much less of it.
-vec3 behind_near(vec3 far_radiance, float roughness) {
-  float sharp = near_share * surface_mirrors * (1.0f - smoothstep(0.15f, 0.72f, roughness));
-  vec4 seen = sharp * texelFetch(near_picture, ivec2(gl_FragCoord.xy), 0);
-  return seen.rgb + (1.0f - seen.a) * far_radiance;
-}
-#else
-#define behind_near(far_radiance, roughness) far_radiance
-#endif
-
 #ifdef IS_GLASS
-#ifdef HAS_GLASS_PICTURE
-uniform sampler2D glass_picture;  // of the main view's size: what glass lets through; coverage in alpha
-uniform float glass_share;        // 0: it shows what another glass lets through there
-#endif
-
-// What comes through glass; where that is not followed, the sky straight through it.
+// What comes through glass; where no overlay follows it, the sky straight through it.
 vec3 light_through(vec3 ahead) {
   vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
-#ifdef HAS_GLASS_PICTURE
-  vec4 seen = texelFetch(glass_picture, ivec2(gl_FragCoord.xy), 0);
-  if (glass_share * seen.a > 0.0f) return seen.rgb / seen.a;
-#endif
-  return sky;
+  return TRANSMISSION_OVERLAY(sky);
 }
 #endif
 
@@ -153,14 +132,14 @@ float visible_light(SeenPoint seen) {
 }
 
 // Radiance toward the viewer, through the haze; `sun`: what the surface's own shape lets in.
-vec3 radiance_of(Surface s, SeenPoint seen, vec3 mirrored, float sun) {
+vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   SceneLight light = scene_light();
   sun *= visible_light(seen);
-  look_along(position, mirrored);
-  vec3 base_reflection = behind_near(reflected_radiance(s.roughness, base_layer), s.roughness);
+  look_along(position, reflect(-seen.to_viewer, s.normal));
+  vec3 base_reflection = REFLECTION_OVERLAY(reflected_radiance(s.roughness, base_layer), s.roughness);
 #ifdef HAS_COAT
   vec3 coat_reflection =
-      behind_near(reflected_radiance(s.clear_coat_roughness, coat_layer), s.clear_coat_roughness);
+      REFLECTION_OVERLAY(reflected_radiance(s.clear_coat_roughness, coat_layer), s.clear_coat_roughness);
 #else
   vec3 coat_reflection = vec3(0.0f);
 #endif
@@ -178,13 +157,11 @@ void main() {
   float sun = 1.0f, alpha;
   Surface s = surface_at(seen, sun, alpha);
   alpha = covered(alpha);
-  vec3 mirrored = reflect(-seen.to_viewer, s.normal);
-#if defined(WRITES_RAYS)
-  ray_start = vec4(position, s.roughness);
-  ray_way = vec4(octahedral_uv(mirrored), s.clear_coat_roughness, float(object_of_surface + 1));
+#if defined(WRITES_SURFACE)
+  write_surface(s, seen.to_viewer);
 #elif defined(WRITES_OBJECT)
   object_and_one = uint(object_of_surface + 1);
 #elif !defined(WRITES_DEPTH)
-  radiance = vec4(min(radiance_of(s, seen, mirrored, sun), vec3(greatest_radiance)), alpha);
+  radiance = vec4(min(radiance_of(s, seen, sun), vec3(greatest_radiance)), alpha);
 #endif
 }

@@ -21,10 +21,9 @@ gl::Defines defines_of(std::uint16_t features) {
   return defines;
 }
 
-Status link(gl::Program& program, const std::string& vertex_path, const std::string& fragment_path,
-            const gl::Defines& defines) {
+Status link(gl::Program& program, const SurfaceSource& source, const gl::Defines& defines) {
   if (program.name()) return Done{};
-  Result<gl::Program> linked = gl::Program::create(vertex_path, fragment_path, defines);
+  Result<gl::Program> linked = gl::Program::create(source.vertex, source.fragment, defines, source.includes);
   if (!linked) return linked.errors();
   program = *std::move(linked);
   assign_bindings(program);
@@ -33,22 +32,21 @@ Status link(gl::Program& program, const std::string& vertex_path, const std::str
 
 }  // namespace
 
-Result<SurfacePrograms> SurfacePrograms::create(const std::string& fragment_path,
-                                                const std::vector<GpuMaterial>& materials,
-                                                const std::string& vertex_path, const gl::Defines& common) {
+Result<SurfacePrograms> SurfacePrograms::create(const SurfaceSource& source,
+                                                const std::vector<GpuMaterial>& materials) {
   SurfacePrograms made;
-  made.vertex_path_ = vertex_path;
-  made.fragment_path_ = fragment_path;
-  made.defines_ = common;
+  made.source_ = source;
+  made.source_.defines.emplace_back("REFLECTION_OVERLAY(radiance, roughness)", source.reflection);
+  made.source_.defines.emplace_back("TRANSMISSION_OVERLAY(radiance)", source.transmission);
   for (const GpuMaterial& material : materials) {
     gl::Defines defines = defines_of(material.features);
-    defines.insert(defines.end(), common.begin(), common.end());
-    if (Status status = link(made.programs_[material.features], vertex_path, fragment_path, defines); !status)
+    defines.insert(defines.end(), made.source_.defines.begin(), made.source_.defines.end());
+    defines.insert(defines.end(), source.mesh_defines.begin(), source.mesh_defines.end());
+    if (Status status = link(made.programs_[material.features], source, defines); !status)
       return status.errors();
     if (!(material.features & surface_has_holes)) continue;
     defines.emplace_back("ONE_SAMPLE", "");
-    if (Status status = link(made.one_sample_[material.features], vertex_path, fragment_path, defines);
-        !status)
+    if (Status status = link(made.one_sample_[material.features], source, defines); !status)
       return status.errors();
   }
   return made;
@@ -59,9 +57,8 @@ const gl::Program* SurfacePrograms::of(const DrawableShader& shader) {
   gl::Program& program = entry->second;
   if (is_new) {
     gl::Defines defines = defines_of(shader);
-    for (const auto& define : defines_)
-      if (define.first != "HAS_VERTEX_SEARCH") defines.push_back(define);  // of the scene's meshes alone
-    if (const Status status = link(program, vertex_path_, fragment_path_, defines); !status)
+    defines.insert(defines.end(), source_.defines.begin(), source_.defines.end());
+    if (const Status status = link(program, source_, defines); !status)
       fmt::print(stderr, "{}\n", to_string(status.errors()));
   }
   return program.name() ? &program : nullptr;

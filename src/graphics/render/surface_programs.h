@@ -14,14 +14,28 @@
 
 namespace parvis::render {
 
+/// What a surface shader is compiled from. Rooms above contribute files, defines and expressions of their
+/// own.
+struct SurfaceSource {
+  /// Includes render/surface_body.glsl and defines `look_along` and `reflected_radiance`.
+  std::string fragment = "graphics/render/surface.frag";
+  std::string vertex = "graphics/render/surface.vert";
+  gl::Defines defines = {};
+  gl::Defines mesh_defines = {};  ///< of the scene's meshes alone: rooms that draw by themselves lack them
+  std::vector<std::string> includes = {};  ///< before `fragment`: files that define what the expressions call
+  /// GLSL over `radiance`, which `reflected_radiance` has found for a layer of that `roughness`: what
+  /// overlays make of it.
+  std::string reflection = "radiance";
+  /// GLSL over `radiance`, the sky straight through solid glass: what overlays show through it.
+  std::string transmission = "radiance";
+};
+
 class SurfacePrograms {
  public:
-  /// Links both shaders for each combination of features among `materials`, for views of many samples a pixel
-  /// and of one. `defines` are those of all.
-  static Result<SurfacePrograms> create(const std::string& fragment_path,
-                                        const std::vector<GpuMaterial>& materials,
-                                        const std::string& vertex_path = "graphics/render/surface.vert",
-                                        const gl::Defines& defines = {});
+  /// Links the shaders for each combination of features among `materials`, for views of many samples per
+  /// pixel and of one.
+  static Result<SurfacePrograms> create(const SurfaceSource& source,
+                                        const std::vector<GpuMaterial>& materials);
 
   /// For a material that was among them.
   const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {
@@ -34,8 +48,7 @@ class SurfacePrograms {
   const gl::Program* of(const DrawableShader& shader);
 
  private:
-  std::string vertex_path_, fragment_path_;
-  gl::Defines defines_;
+  SurfaceSource source_;
   std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
   using Variants = std::array<gl::Program, surface_feature_combinations>;
   Variants programs_;

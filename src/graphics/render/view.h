@@ -12,6 +12,7 @@
 
 namespace parvis::render {
 
+class SurfacePrograms;
 class VirtualVertices;
 
 enum class ViewKind : std::uint8_t {
@@ -19,7 +20,7 @@ enum class ViewKind : std::uint8_t {
   cube_face,  ///< surroundings of a reflector
   mirrored,   ///< what a curved reflector shows, by `virtual_vertices`
   shadow,     ///< depth from the sun
-  rays,       ///< where mirror rays leave and their way: of what the main view shows
+  mirrors,    ///< the mirror-like surfaces that the main view shows, by `surface_programs`
   picking     ///< which object each pixel shows
 };
 
@@ -50,7 +51,9 @@ struct View {
   bool shows_glass = true;  ///< what refracts
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
-  bool clears = true;                           ///< depth; else it draws over what is there
+  const SurfacePrograms* surface_programs =
+      nullptr;                ///< of a view of mirrors: for GpuScene::mirror_materials()
+  bool clears = true;         ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
   bool shows(int object) const {

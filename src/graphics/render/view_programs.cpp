@@ -40,7 +40,7 @@ const gl::Program* ViewPrograms::use(const View& view) const {
     case ViewKind::shadow:
       program = &depth_;
       break;
-    case ViewKind::rays:
+    case ViewKind::mirrors:
       return nullptr;
     case ViewKind::picking:
       program = &picking_;

@@ -13,7 +13,7 @@ class ViewPrograms {
   static Result<ViewPrograms> create(DrawableShader shader);
 
   /// Uses the program for a view, with what the view itself binds, and gives it for the room's own uniforms.
-  /// Null: the view shows none of what rooms draw by themselves (rays of reflectors).
+  /// Null: the view shows none of what rooms draw by themselves (mirrors).
   const gl::Program* use(const View& view) const;
 
  private:

@@ -11,7 +11,7 @@ namespace parvis::render {
 class VirtualVertices {
  public:
   virtual ~VirtualVertices() = default;
-  /// Binds what the shaders need for the reflector that is drawn now: texture unit `virtual_vertex_unit`,
+  /// Binds what the shaders need for the reflector that is drawn now: textures from `first_unit_above` on,
   /// uniforms of `program`.
   virtual void bind(const gl::Program& program) = 0;
   /// May that reflector show any of what lies within these bounds? Else it is left out.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
 
 namespace parvis::probes {
@@ -37,7 +38,8 @@ float median(std::vector<float>& values, float otherwise) {
 
 }  // namespace
 
-BoxProjectedProbe::BoxProjectedProbe(const scene::Scene& scene) : resolution_(scene.reflection.resolution) {
+BoxProjectedProbe::BoxProjectedProbe(const scene::Scene& scene)
+    : resolution_(methods::settings(scene).resolution) {
   for (const scene::Lane& lane : scene.roads.lanes)
     walk(lane, [&](glm::vec3 position, glm::vec3 direction) {
       const glm::vec3 at = position + glm::vec3(0, 0, height_m);
@@ -81,10 +83,10 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
 }
 
 void BoxProjectedProbe::update_maps(render::Renderer& renderer, const scene::Scene&,
-                                    const std::vector<render::Reflector>& reflectors) {
+                                    const std::vector<methods::VisibleReflector>& reflectors) {
   for (Probe& probe : probes_) ++probe.idle_frames;
   probe_of_object_.clear();
-  for (const render::Reflector& reflector : reflectors) {
+  for (const methods::VisibleReflector& reflector : reflectors) {
     Probe* nearest = nullptr;
     float least = std::numeric_limits<float>::max();
     for (Probe& probe : probes_)

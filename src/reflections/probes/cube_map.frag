@@ -2,7 +2,7 @@
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/probes/box_projection.glsl"
 #include "graphics/render/surface_body.glsl"
-#include "graphics/render/cube_map_lookup.glsl"
+#include "reflections/methods/cube_map_lookup.glsl"
 
 uniform samplerCube reflection_map;
 uniform float reflection_levels;

@@ -1,79 +1,98 @@
-// The methods themselves, each named as scripts name it.
+// Baseline reflection methods: cube maps that differ in where and when they are rendered. Scripts name them
+// as room.cpp does.
 #pragma once
 
 #include <deque>
 #include <map>
 #include <optional>
 
-#include "reflections/probes/reflections.h"
+#include "reflections/methods/settings.h"
+#include "reflections/probes/cube_map_reflections.h"
 
 namespace parvis::probes {
 
+/// Settings of time_sliced_cube_map.
+struct TimeSlicing {
+  static constexpr std::string_view name = "probes.time_slicing";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  int faces_per_frame = 0;  ///< over all reflectors; 0: one for each of them
+
+  void hash(ContentHash& hash) const { hash.add(faces_per_frame); }
+};
+
 /// The paper's "no reflection": shading by the lights alone.
-class NoReflection final : public render::Reflections {
+class NoReflection final : public methods::Reflections {
  public:
-  std::string fragment_shader() const override { return "reflections/probes/no_reflection.frag"; }
+  explicit NoReflection(const scene::Scene&) {}
+  render::SurfaceSource source() const override {
+    return {.fragment = "reflections/probes/no_reflection.frag"};
+  }
   void bind(const gl::Program&, int) override {}
 
  private:
-  void update_maps(render::Renderer&, const scene::Scene&, const std::vector<render::Reflector>&) override {}
+  void update_maps(render::Renderer&, const scene::Scene&,
+                   const std::vector<methods::VisibleReflector>&) override {}
 };
 
 /// A map for each reflector, drawn anew every frame. With level of detail its resolution follows the
 /// reflector's size on the screen, and those that are far share one map.
 class RerenderedCubeMap final : public CubeMapReflections {
  public:
-  explicit RerenderedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
+  explicit RerenderedCubeMap(const scene::Scene& scene) : settings_(methods::settings(scene)) {}
   void bind(const gl::Program& program, int object) override;
-  const render::CubeMap* surroundings_of(int object) const override { return map_of_object_.at(object); }
+  const methods::CubeMap* surroundings_of(int object) const override { return map_of_object_.at(object); }
 
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
-                   const std::vector<render::Reflector>& reflectors) override;
-  render::CubeMap& take(int resolution);
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
+  methods::CubeMap& take(int resolution);
 
-  scene::Reflection settings_;
-  std::multimap<int, std::unique_ptr<render::CubeMap>> free_, used_;  ///< by resolution
-  std::map<int, const render::CubeMap*> map_of_object_;
+  methods::Settings settings_;
+  std::multimap<int, std::unique_ptr<methods::CubeMap>> free_, used_;  ///< by resolution
+  std::map<int, const methods::CubeMap*> map_of_object_;
 };
 
 /// A map for each reflector, of which a face is drawn a frame; or so many faces a frame in all as the script
 /// says, those first that have waited longest.
 class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
-  explicit TimeSlicedCubeMap(const scene::Reflection& reflection) : settings_(reflection) {}
+  explicit TimeSlicedCubeMap(const scene::Scene& scene)
+      : resolution_(methods::settings(scene).resolution),
+        slicing_(methods::own_settings<TimeSlicing>(scene)) {}
   void bind(const gl::Program& program, int object) override;
-  const render::CubeMap* surroundings_of(int object) const override { return &maps_.at(object).map; }
+  const methods::CubeMap* surroundings_of(int object) const override { return &maps_.at(object).map; }
 
  private:
   struct Sliced {
-    render::CubeMap map;
+    methods::CubeMap map;
     int next_face = 0;
     int idle_frames = 0;
     std::int64_t drawn_at = 0;  ///< of its latest face, counted in faces
   };
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
-                   const std::vector<render::Reflector>& reflectors) override;
-  void draw_next_face(render::Renderer& renderer, const render::Reflector& reflector);
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
+  void draw_next_face(render::Renderer& renderer, const methods::VisibleReflector& reflector);
 
-  scene::Reflection settings_;
+  int resolution_;
+  TimeSlicing slicing_;
   std::map<int, Sliced> maps_;  ///< by object
   std::int64_t faces_so_far_ = 0;
-  std::vector<render::Reflector> waiting_;  ///< reflectors whose maps were there before this frame
+  std::vector<methods::VisibleReflector> waiting_;  ///< reflectors whose maps were there before this frame
 };
 
 /// One map for all reflectors, drawn every frame about the one that is largest on the screen.
 class SharedCubeMap final : public CubeMapReflections {
  public:
-  explicit SharedCubeMap(const scene::Reflection& reflection) : map_(reflection.resolution) {}
+  explicit SharedCubeMap(const scene::Scene& scene) : map_(methods::settings(scene).resolution) {}
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
-  const render::CubeMap* surroundings_of(int) const override { return &map_; }
+  const methods::CubeMap* surroundings_of(int) const override { return &map_; }
 
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
-                   const std::vector<render::Reflector>& reflectors) override;
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
 
-  render::CubeMap map_;
+  methods::CubeMap map_;
 };
 
 /// Maps at fixed places along the roads, drawn once without what moves, each looked up as the inside of a box
@@ -82,7 +101,7 @@ class BoxProjectedProbe final : public CubeMapReflections {
  public:
   explicit BoxProjectedProbe(const scene::Scene& scene);
   void bind(const gl::Program& program, int object) override;
-  const render::CubeMap* surroundings_of(int object) const override {
+  const methods::CubeMap* surroundings_of(int object) const override {
     const Probe& probe = *probe_of_object_.at(object);
     return probe.map ? &*probe.map : nullptr;
   }
@@ -91,12 +110,12 @@ class BoxProjectedProbe final : public CubeMapReflections {
   struct Probe {
     glm::vec3 position;
     glm::vec2 heading;  ///< cosine and sine of the street's direction
-    std::optional<render::CubeMap> map;
+    std::optional<methods::CubeMap> map;
     glm::vec3 box_centre{0.0f}, box_half_size{0.0f};
     int idle_frames = 0;
   };
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
-                   const std::vector<render::Reflector>& reflectors) override;
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
   void forget_surroundings() override;
   void bake(Probe& probe, render::Renderer& renderer);
 

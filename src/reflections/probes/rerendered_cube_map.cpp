@@ -18,24 +18,24 @@ int resolution_for(float size_px, int most) {
 
 }  // namespace
 
-render::CubeMap& RerenderedCubeMap::take(int resolution) {
+methods::CubeMap& RerenderedCubeMap::take(int resolution) {
   if (const auto free = free_.find(resolution); free != free_.end())
     return *used_.insert(free_.extract(free))->second;
-  return *used_.emplace(resolution, std::make_unique<render::CubeMap>(resolution))->second;
+  return *used_.emplace(resolution, std::make_unique<methods::CubeMap>(resolution))->second;
 }
 
 void RerenderedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
-                                    const std::vector<render::Reflector>& reflectors) {
+                                    const std::vector<methods::VisibleReflector>& reflectors) {
   free_.merge(used_);
   map_of_object_.clear();
-  const render::CubeMap* shared = nullptr;
-  for (const render::Reflector& reflector : reflectors) {
+  const methods::CubeMap* shared = nullptr;
+  for (const methods::VisibleReflector& reflector : reflectors) {
     const bool is_far = settings_.uses_level_of_detail && reflector.size_px < shared_below_px;
     if (is_far && shared) {
       map_of_object_[reflector.object] = shared;
       continue;
     }
-    render::CubeMap& map =
+    methods::CubeMap& map =
         take(settings_.uses_level_of_detail ? resolution_for(reflector.size_px, settings_.resolution)
                                             : settings_.resolution);
     draw_whole(map, renderer, reflector);

@@ -3,7 +3,7 @@
 namespace parvis::probes {
 
 void SharedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
-                                const std::vector<render::Reflector>& reflectors) {
+                                const std::vector<methods::VisibleReflector>& reflectors) {
   if (!reflectors.empty()) draw_whole(map_, renderer, reflectors.front());
 }
 

@@ -10,7 +10,8 @@ constexpr int forgotten_after = 120;  // frames unseen
 
 }  // namespace
 
-void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer, const render::Reflector& reflector) {
+void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer,
+                                       const methods::VisibleReflector& reflector) {
   Sliced& sliced = maps_.at(reflector.object);
   sliced.map.draw_face(renderer, sliced.next_face, reflector.centre, reflector.object, render::Subjects::all,
                        reflector.shown);
@@ -21,11 +22,11 @@ void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer, const render:
 }
 
 void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
-                                    const std::vector<render::Reflector>& reflectors) {
+                                    const std::vector<methods::VisibleReflector>& reflectors) {
   for (auto& [object, sliced] : maps_) ++sliced.idle_frames;
   waiting_.clear();
-  for (const render::Reflector& reflector : reflectors) {
-    const auto [place, is_new] = maps_.try_emplace(reflector.object, render::CubeMap(settings_.resolution));
+  for (const methods::VisibleReflector& reflector : reflectors) {
+    const auto [place, is_new] = maps_.try_emplace(reflector.object, methods::CubeMap(resolution_));
     place->second.idle_frames = 0;
     if (is_new)  // a map with empty faces would be black
       draw_whole(place->second.map, renderer, reflector);
@@ -33,11 +34,11 @@ void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Sce
       waiting_.push_back(reflector);
   }
   if (!waiting_.empty()) {
-    std::ranges::sort(waiting_, {}, [&](const render::Reflector& reflector) {
+    std::ranges::sort(waiting_, {}, [&](const methods::VisibleReflector& reflector) {
       return std::pair(maps_.at(reflector.object).drawn_at, reflector.object);
     });
-    const std::size_t faces = settings_.faces_a_frame > 0
-                                  ? std::min(std::size_t(settings_.faces_a_frame), 6 * waiting_.size())
+    const std::size_t faces = slicing_.faces_per_frame > 0
+                                  ? std::min(std::size_t(slicing_.faces_per_frame), 6 * waiting_.size())
                                   : waiting_.size();
     for (std::size_t i = 0; i < faces; ++i) draw_next_face(renderer, waiting_[i % waiting_.size()]);
   }

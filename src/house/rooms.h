@@ -1,0 +1,18 @@
+// All rooms of the house. A room joins by one line in rooms.cpp.
+#pragma once
+
+#include "base/house.h"
+#include "reflections/methods/registry.h"
+#include "scene/node_registry.h"
+
+namespace parvis::house {
+
+/// What all rooms bring; made when first asked for, then always the same.
+const House& all_rooms();
+
+/// The types of nodes that scripts may use.
+inline const scene::NodeRegistry& node_registry() { return all_rooms().get<scene::NodeRegistry>(); }
+/// The methods of reflection.
+inline const methods::Registry& method_registry() { return all_rooms().get<methods::Registry>(); }
+
+}  // namespace parvis::house

@@ -1,9 +1,0 @@
-// C++ face of map_levels.glsl.
-#pragma once
-
-#include "graphics/shading/octahedral.h"
-
-namespace parvis::environment_maps {
-using namespace shading;  // vec2, sign and the like, which shared files take for granted
-#include "reflections/environment_maps/map_levels.glsl"
-}  // namespace parvis::environment_maps

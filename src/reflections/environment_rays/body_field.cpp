@@ -1,0 +1,190 @@
+#include "reflections/environment_rays/body_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/colour.h"
+
+namespace parvis::environment_rays {
+namespace {
+
+using namespace shading;
+
+std::size_t index_of(glm::ivec3 size, int x, int y, int z) {
+  return std::size_t(x) + std::size_t(size.x) * (std::size_t(y) + std::size_t(size.y) * std::size_t(z));
+}
+
+/// Gives the shared functions the distances that a shader has in its sampler, filtered as there.
+struct Tracer {
+  const BodyField& body;
+
+  float field_distance(vec3 cell, int) {
+    const glm::ivec3 size(field_cells), last = size - 1;
+    const vec3 between = glm::clamp(cell - 0.5f, vec3(0.0f), vec3(last));
+    const glm::ivec3 low(between), high = glm::min(low + 1, last);
+    const vec3 share = between - vec3(low);
+    const auto known = [&](int x, int y, int z) { return float(body.cells[index_of(size, x, y, z)].w); };
+    const auto along_x = [&](int y, int z) { return mix(known(low.x, y, z), known(high.x, y, z), share.x); };
+    const auto along_y = [&](int z) { return mix(along_x(low.y, z), along_x(high.y, z), share.y); };
+    const float byte = mix(along_y(low.z), along_y(high.z), share.z);
+    return (2.0f * byte / 255.0f - 1.0f) * field_reach_m(0.5f * body.box.size());
+  }
+
+#undef GLSL_FUNCTION
+#define GLSL_FUNCTION
+#include "reflections/environment_rays/body_field.glsl"
+};
+
+/// The point of a triangle nearest to `p`, as shares of its corners (Ericson 2005, section 5.1.5).
+vec3 nearest_shares(vec3 p, vec3 a, vec3 b, vec3 c) {
+  const vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const float d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+              d6 = dot(ac, cp);
+  if (d1 <= 0.0f && d2 <= 0.0f) return {1, 0, 0};
+  if (d3 >= 0.0f && d4 <= d3) return {0, 1, 0};
+  if (d6 >= 0.0f && d5 <= d6) return {0, 0, 1};
+  const float in_ab = d1 * d4 - d3 * d2, in_ac = d5 * d2 - d1 * d6, in_bc = d3 * d6 - d5 * d4;
+  if (in_ab <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  if (in_ac <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+  if (in_bc <= 0.0f && d4 >= d3 && d5 >= d6) {
+    const float of_c = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0, 1 - of_c, of_c};
+  }
+  return vec3(in_bc, in_ac, in_ab) / (in_ab + in_ac + in_bc);
+}
+
+/// A triangle in the model's frame.
+struct Face {
+  vec3 corners[3], normal;
+  glm::vec2 uvs[3];
+  const scene::Material* material;
+
+  vec3 at(vec3 shares) const { return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2]; }
+};
+
+std::vector<Face> solid_faces(const scene::Model& model) {
+  const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
+  std::vector<Face> faces;
+  for (const scene::Part& part : model.parts) {
+    const scene::Material& material = model.materials[std::size_t(part.material)];
+    if (material.alpha_mode == scene::Alpha::blend) continue;
+    const glm::mat4& to_model = model_from_node[std::size_t(part.node)];
+    const std::vector<std::uint32_t>& indices = part.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      Face face{};
+      face.material = &material;
+      for (std::size_t k = 0; k < 3; ++k) {
+        face.corners[k] = vec3(to_model * glm::vec4(part.mesh.positions[indices[i + k]], 1.0f));
+        if (!part.mesh.uvs.empty()) face.uvs[k] = part.mesh.uvs[indices[i + k]];
+      }
+      const vec3 normal = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+      const float length = glm::length(normal);
+      if (!(length > 0.0f)) continue;
+      face.normal = normal / length;
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+vec3 colour_at(const scene::Model& model, const Face& face, vec3 shares) {
+  const scene::Material& material = *face.material;
+  if (material.base_colour_texture == scene::no_index) return material.base_colour;
+  const Image8& image = model.textures[std::size_t(material.base_colour_texture)].image;
+  if (image.empty()) return material.base_colour;
+  const glm::vec2 uv = shares.x * face.uvs[0] + shares.y * face.uvs[1] + shares.z * face.uvs[2];
+  const vec3 in_texture = material.texture_from_mesh_uv * vec3(uv, 1.0f);
+  const glm::vec2 repeated = glm::fract(glm::vec2(in_texture));
+  const std::uint8_t* texel = image.at(std::min(int(repeated.x * float(image.width)), image.width - 1),
+                                       std::min(int(repeated.y * float(image.height)), image.height - 1));
+  return material.base_colour * linear_from_srgb8(texel[0], texel[1], texel[2]);
+}
+
+/// The nearest face that a cell has met so far.
+struct Nearest {
+  float distance_m = std::numeric_limits<float>::max(),
+        facing = 0.0f;  ///< facing: cosine; below 0 from behind
+  int face = scene::no_index;
+  vec3 shares{0.0f};
+};
+
+Bounds box_of(const std::vector<Face>& faces) {
+  Bounds box;
+  for (const Face& face : faces)
+    for (const vec3 corner : face.corners) box.add(corner);
+  if (box.empty()) return box;
+  const vec3 margin = glm::max(1.5f * box.size() / (vec3(BodyField::size()) - 3.0f), vec3(1e-3f));
+  return {box.min - margin, box.max + margin};
+}
+
+/// Enters a face into the cells that lie within the field's reach of it.
+void enter(const Face& face, int index, const Bounds& box, float reach_m, std::vector<Nearest>& cells) {
+  const glm::ivec3 size = BodyField::size();
+  const vec3 cell_m = box.size() / vec3(size);
+  const vec3 least = glm::min(face.corners[0], glm::min(face.corners[1], face.corners[2])) - reach_m;
+  const vec3 most = glm::max(face.corners[0], glm::max(face.corners[1], face.corners[2])) + reach_m;
+  const glm::ivec3 from = glm::max(glm::ivec3(glm::floor((least - box.min) / cell_m)), glm::ivec3(0));
+  const glm::ivec3 to = glm::min(glm::ivec3(glm::floor((most - box.min) / cell_m)), size - 1);
+  for (int z = from.z; z <= to.z; ++z)
+    for (int y = from.y; y <= to.y; ++y)
+      for (int x = from.x; x <= to.x; ++x) {
+        const vec3 middle = box.min + (vec3(x, y, z) + 0.5f) * cell_m;
+        const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
+        const vec3 way = middle - face.at(shares);
+        const float distance_m = glm::length(way);
+        Nearest& known = cells[index_of(size, x, y, z)];
+        constexpr float alike_m = 1e-4f;
+        if (distance_m > known.distance_m + alike_m || distance_m > reach_m) continue;
+        const float facing = distance_m > 0.0f ? dot(way, face.normal) / distance_m : 1.0f;
+        // Faces meet at edges: the one that is looked at most squarely tells inside from outside.
+        const bool is_nearer = distance_m < known.distance_m - alike_m;
+        if (is_nearer || std::abs(facing) > std::abs(known.facing))
+          known = {distance_m, facing, index, shares};
+      }
+}
+
+}  // namespace
+
+glm::ivec3 BodyField::size() {
+  const BodyField nothing;
+  return glm::ivec3(Tracer{nothing}.field_cells);
+}
+
+BodyField body_field(const scene::Model& model) {
+  const std::vector<Face> faces = solid_faces(model);
+  BodyField field{box_of(faces), {}};
+  if (field.box.empty()) return field;
+  const float reach_m = Tracer{field}.field_reach_m(0.5f * field.box.size());
+  const glm::ivec3 size = BodyField::size();
+  std::vector<Nearest> cells(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
+  for (std::size_t i = 0; i < faces.size(); ++i) enter(faces[i], int(i), field.box, reach_m, cells);
+
+  field.cells.resize(cells.size());
+  bool is_inside = false;  // along a row, cells far from the surface lie where the last near one did
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i % std::size_t(size.x) == 0) is_inside = false;
+    const Nearest& nearest = cells[i];
+    float share = 1.0f;
+    vec3 colour(0.0f);
+    if (nearest.face != scene::no_index) {
+      is_inside = nearest.facing < 0.0f;
+      share = nearest.distance_m / reach_m;
+      colour = colour_at(model, faces[std::size_t(nearest.face)], nearest.shares);
+    }
+    const float distance = 0.5f + 0.5f * (is_inside ? -share : share);
+    field.cells[i] =
+        glm::u8vec4(255.0f * glm::clamp(glm::vec4(glm::sqrt(colour), distance), 0.0f, 1.0f) + 0.5f);
+  }
+  return field;
+}
+
+float distance_to_body(const BodyField& field, glm::vec3 origin, glm::vec3 direction, float reach_m,
+                       bool is_own) {
+  if (field.box.empty()) return reach_m;
+  Tracer tracer{field};
+  return tracer.distance_to_body(origin - field.box.centre(), direction, 0.5f * field.box.size(), 0, reach_m,
+                                 is_own);
+}
+
+}  // namespace parvis::environment_rays

@@ -1,0 +1,33 @@
+// The surface of a moving body in a box of cells, for rays that meet it (body_field.glsl): how far away it is
+// and what colour it has there.
+#pragma once
+
+#include <vector>
+
+#include "base/bounds.h"
+#include "graphics/shading/glsl.h"
+#include "scene/model.h"
+
+namespace parvis::environment_rays {
+
+struct BodyField {
+  /// Bytes. rgb: square root of the linear base colour of what is nearest; a: distance from the surface, from
+  /// -field_reach_m (0) over 0 (127.5) to field_reach_m (255).
+  using Cell = glm::u8vec4;
+
+  Bounds box;               ///< in the model's frame; empty: there is nothing to meet
+  std::vector<Cell> cells;  ///< x, then y, then z
+
+  static glm::ivec3 size();  ///< in cells
+};
+
+/// Of a model's solid parts at rest; what blends is left out. What is not closed has its inside where its
+/// triangles turn their backs.
+BodyField body_field(const scene::Model& model);
+
+/// The distance at which a ray meets the body, `reach_m` where it does not: as distance_to_body in
+/// body_field.glsl, in the model's frame.
+float distance_to_body(const BodyField& field, glm::vec3 origin, glm::vec3 direction, float reach_m,
+                       bool is_own = false);
+
+}  // namespace parvis::environment_rays

@@ -1,0 +1,96 @@
+#include "reflections/environment_rays/body_field.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace parvis::environment_rays {
+namespace {
+
+glm::vec3 direction_of(Random& random) {
+  const float z = random.uniform(-1.0f, 1.0f), turn = random.uniform(0.0f, 6.2831853f);
+  return {std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z};
+}
+
+/// A ball of radius 1 about (2, 3, 4), finely meshed: red in its upper half.
+scene::Model ball() {
+  scene::Model model;
+  model.materials.resize(2);
+  model.materials[0].base_colour = {0.04f, 0.04f, 0.04f};
+  model.materials[1].base_colour = {0.81f, 0.04f, 0.04f};
+  model.parts.resize(2);
+  constexpr int rings = 48, around = 96;
+  const auto point = [](int ring, int step) {
+    const float polar = 3.14159265f * float(ring) / rings, turn = 6.2831853f * float(step) / around;
+    return glm::vec3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
+  };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int step = 0; step < around; ++step) {
+      scene::Part& part = model.parts[ring < rings / 2 ? 1 : 0];
+      part.material = ring < rings / 2 ? 1 : 0;
+      const auto first = std::uint32_t(part.mesh.positions.size());
+      for (const glm::vec3 p :
+           {point(ring, step), point(ring + 1, step), point(ring + 1, step + 1), point(ring, step + 1)}) {
+        part.mesh.positions.push_back(glm::vec3(2, 3, 4) + p);
+        part.mesh.normals.push_back(p);
+        part.mesh.uvs.emplace_back(0.0f);
+      }
+      for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) part.mesh.indices.push_back(first + corner);
+    }
+  return model;
+}
+
+TEST(BodyField, RaysMeetABallWhereItIs) {
+  const BodyField field = body_field(ball());
+  const glm::vec3 centre(2, 3, 4);
+  constexpr float cell_m = 2.0f / 17.0f;  // of the fewest cells
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 from = centre + 4.0f * direction_of(random);
+    const glm::vec3 aim = centre + 0.8f * direction_of(random) * random.uniform(0.0f, 1.0f);
+    const glm::vec3 direction = glm::normalize(aim - from);
+    const float half = glm::dot(centre - from, direction);
+    const float off = glm::length(from + half * direction - centre);
+    const float exact_m = half - std::sqrt(1.0f - off * off);
+    EXPECT_NEAR(distance_to_body(field, from, direction, 100.0f), exact_m, 0.6f * cell_m);
+    EXPECT_EQ(distance_to_body(field, from, -direction, 100.0f), 100.0f);
+    EXPECT_EQ(distance_to_body(field, from, direction, exact_m - cell_m), exact_m - cell_m) << "too far";
+  }
+}
+
+TEST(BodyField, RaysThatLeaveTheBodyDoNotMeetWhereTheyStart) {
+  const BodyField field = body_field(ball());
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 normal = direction_of(random);
+    const glm::vec3 direction = glm::normalize(normal + 0.9f * direction_of(random));
+    EXPECT_EQ(distance_to_body(field, glm::vec3(2, 3, 4) + normal, direction, 100.0f, true), 100.0f);
+  }
+}
+
+TEST(BodyField, CellsHaveTheColourOfWhatIsNearest) {
+  const BodyField field = body_field(ball());
+  const glm::ivec3 size = BodyField::size();
+  const auto cell_at = [&](glm::vec3 at) {
+    const glm::ivec3 cell((at - field.box.min) / field.box.size() * glm::vec3(size));
+    return field.cells[std::size_t(cell.x + size.x * (cell.y + size.y * cell.z))];
+  };
+  EXPECT_NEAR(cell_at({2, 3, 5}).x, 255 * 0.9, 1) << "the square root of 0.81";
+  EXPECT_NEAR(cell_at({2, 3, 5}).y, 255 * 0.2, 1);
+  EXPECT_NEAR(cell_at({2, 3, 3}).x, 255 * 0.2, 1);
+}
+
+TEST(BodyField, NothingFlatAndUncolouredThingsAreStood) {
+  EXPECT_TRUE(body_field({}).box.empty());
+  EXPECT_EQ(distance_to_body(body_field({}), {}, {1, 0, 0}, 7.0f), 7.0f);
+  scene::Model panel;
+  panel.materials.resize(1);
+  panel.parts.resize(1);
+  panel.parts[0].mesh.positions = {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}};
+  panel.parts[0].mesh.indices = {0, 1, 2, 0, 0, 0};
+  const float met = distance_to_body(body_field(panel), {-1, 0.6f, 0.4f}, {1, 0, 0}, 100.0f);
+  EXPECT_NEAR(met, 1.0f, 0.05f);
+}
+
+}  // namespace
+}  // namespace parvis::environment_rays

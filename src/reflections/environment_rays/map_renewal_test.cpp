@@ -1,0 +1,88 @@
+#include "reflections/reference_maps/map_renewal.h"
+
+#include <gtest/gtest.h>
+
+#include "graphics/gl/test_context.h"
+#include "graphics/render/test_room.h"
+#include "reflections/environment_rays/multiple_environment_maps.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::environment_rays {
+using namespace reference_maps;
+namespace {
+
+constexpr int face_resolution = 16;
+const std::vector<glm::vec3> places{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
+
+/// A room with a lamp in it that can be switched off.
+class MapRenewalTest : public gl::ContextTest {
+ protected:
+  MapRenewalTest() {
+    scene::Material lamp = scene::matt(glm::vec3(0.0f));
+    lamp.metallic = 1.0f;
+    lamp.emission = glm::vec3(3.0f);
+    scene::add(scene_, scene::model_of(scene::box({-1, -1, -1}, {1, 1, 1}), lamp));
+    lamp_ = scene_.objects.size() - 1;
+  }
+
+  scene::Scene scene_ = render::room_scene(8.0f);
+  std::size_t lamp_ = 0;
+};
+
+TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  ASSERT_TRUE(renderer);
+  (*renderer)->begin_frame(scene_, Camera{});
+  Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, places, face_resolution);
+  Result<MapRenewal> renewal = MapRenewal::create(face_resolution);
+  ASSERT_TRUE(maps && renewal);
+  EXPECT_TRUE(renewal->is_done());
+  EXPECT_EQ(renewal->renew_one(**renderer, *maps, {}), std::nullopt);
+
+  const auto with_lamp = maps->read(0);
+  scene_.objects[lamp_].is_visible = false;
+  (*renderer)->begin_frame(scene_, Camera{});
+  renewal->ask(places.size());
+  EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 1u);
+  EXPECT_EQ(maps->read(0), with_lamp) << "not its turn";
+  EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 2u);
+  EXPECT_FALSE(renewal->is_done());
+  EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 0u);
+  EXPECT_TRUE(renewal->is_done());
+  const Result<ReferenceMaps> anew = ReferenceMaps::bake(**renderer, places, face_resolution);
+  ASSERT_TRUE(anew);
+  for (std::size_t map = 0; map < places.size(); ++map) EXPECT_EQ(maps->read(map), anew->read(map));
+  EXPECT_NE(maps->read(0), with_lamp);
+}
+
+TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
+  render::add_mirror(scene_, {3, 0, 0}, 0.5f);
+  methods::settings(scene_).method = "multiple_environment_maps";
+  methods::settings(scene_).resolution = face_resolution;
+  map_plan(scene_).places = places;
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  ASSERT_TRUE(renderer);
+  Result<std::unique_ptr<methods::Reflections>> reflections =
+      make_multiple_environment_maps(scene_, **renderer);
+  ASSERT_TRUE(reflections);
+  ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
+  const auto faces_of_a_frame = [&] {
+    Camera camera;
+    camera.world_from_camera = look_at({7, 3, 1}, {3, 0, 0});
+    (*renderer)->begin_frame(scene_, camera);
+    (*renderer)->prepare_main_view(camera, 64, 48);
+    (*reflections)->update(**renderer, scene_, camera);
+    (*renderer)->draw_main_view();
+    return (*reflections)->faces_drawn();
+  };
+  EXPECT_EQ(faces_of_a_frame(), 0);
+  EXPECT_EQ(faces_of_a_frame(), 0);
+  scene_.objects[lamp_].is_visible = false;
+  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(faces_of_a_frame(), 6) << frame;
+  EXPECT_EQ(faces_of_a_frame(), 0);
+  scene_.sun.direction_to_sun = glm::vec3(0.0f, 0.0f, 1.0f);
+  EXPECT_EQ(faces_of_a_frame(), 6) << "the sun counts, too";
+}
+
+}  // namespace
+}  // namespace parvis::environment_rays

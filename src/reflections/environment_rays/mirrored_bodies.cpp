@@ -1,0 +1,116 @@
+#include "reflections/environment_rays/mirrored_bodies.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/parallel.h"
+#include "reflections/methods/bindings.h"
+
+namespace parvis::environment_rays {
+namespace {
+
+constexpr std::size_t most_fields = 100;  // upon one another in a texture as high as any driver allows
+
+gl::Texture upload(const std::vector<BodyField>& fields) {
+  const glm::ivec3 size = BodyField::size();
+  gl::Texture texture = gl::Texture::create(GL_TEXTURE_3D);
+  glTextureStorage3D(texture.name(), 1, GL_RGBA8, size.x, size.y,
+                     size.z * int(std::max(fields.size(), std::size_t{1})));
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture.name(), way, GL_CLAMP_TO_EDGE);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (!fields[i].cells.empty())
+      glTextureSubImage3D(texture.name(), 0, 0, 0, int(i) * size.z, size.x, size.y, size.z, GL_RGBA,
+                          GL_UNSIGNED_BYTE, fields[i].cells.data());
+  return texture;
+}
+
+}  // namespace
+
+MirroredBodies::MirroredBodies(const scene::Scene& scene)
+    : field_of_object_(scene.objects.size(), -1), body_of_object_(scene.objects.size(), -1) {
+  std::unordered_map<const scene::Model*, int> known;
+  std::vector<const scene::Model*> models;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    if (!object.is_dynamic || !object.model) continue;
+    const auto [place, is_new] = known.try_emplace(object.model.get(), int(models.size()));
+    if (is_new) models.push_back(object.model.get());
+    field_of_object_[o] = place->second;
+  }
+  models.resize(std::min(models.size(), most_fields));
+  std::vector<BodyField> fields(models.size());
+  parallel_for(models.size(), [&](std::size_t i) { fields[i] = body_field(*models[i]); });
+  std::ranges::transform(fields, std::back_inserter(boxes_), &BodyField::box);
+  for (int& field : field_of_object_)
+    if (field >= int(boxes_.size()) || (field >= 0 && boxes_[std::size_t(field)].empty())) field = -1;
+  fields_ = upload(fields);
+  block_ = gl::Buffer::create();
+  glNamedBufferStorage(block_.name(), sizeof(Body) * most, nullptr, GL_DYNAMIC_STORAGE_BIT);
+  bodies_.reserve(most), middles_.reserve(most), objects_.reserve(most),
+      by_distance_.reserve(scene.objects.size()), reflector_of_body_.reserve(most);
+}
+
+void MirroredBodies::update(const scene::Scene& scene,
+                            const std::vector<methods::VisibleReflector>& reflectors) {
+  const glm::vec3 viewer = reflectors.front().centre;
+  by_distance_.clear(), bodies_.clear(), middles_.clear(), objects_.clear();
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    body_of_object_[o] = -1;
+    if (field_of_object_[o] < 0 || !scene.objects[o].is_visible) continue;
+    const glm::vec3 at(scene.objects[o].world_from_model[3]);
+    by_distance_.emplace_back(glm::distance(at, viewer), int(o));
+  }
+  const std::size_t count = std::min(by_distance_.size(), std::size_t(most));
+  std::ranges::partial_sort(by_distance_, by_distance_.begin() + std::ptrdiff_t(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t o = std::size_t(by_distance_[i].second);
+    const glm::mat4& world_from_model = scene.objects[o].world_from_model;
+    const Bounds& box = boxes_[std::size_t(field_of_object_[o])];
+    const glm::vec3 middle(world_from_model * glm::vec4(box.centre(), 1.0f));
+    Body body{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::vec3 edge(world_from_model[axis]);
+      const float scale = std::max(glm::length(edge), 1e-6f);
+      body.box_from_world[axis] = glm::vec4(edge / scale, -glm::dot(edge / scale, middle));
+      body.half_size_m[axis] = 0.5f * scale * box.size()[axis];
+    }
+    body.half_size_m.w = float(field_of_object_[o]);
+    body_of_object_[o] = int(bodies_.size());
+    bodies_.push_back(body), middles_.push_back(middle), objects_.push_back(int(o));
+  }
+  find_neighbours(reflectors);
+  glNamedBufferSubData(block_.name(), 0, GLsizeiptr(sizeof(Body) * bodies_.size()), bodies_.data());
+}
+
+void MirroredBodies::find_neighbours(const std::vector<methods::VisibleReflector>& reflectors) {
+  reflector_of_body_.assign(bodies_.size(), nullptr);
+  for (const methods::VisibleReflector& reflector : reflectors)
+    if (const int body = body_of(reflector.object); body >= 0)
+      reflector_of_body_[std::size_t(body)] = &reflector;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const methods::VisibleReflector* reflector = reflector_of_body_[i];
+    by_distance_.clear();
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+      if (const float distance_m = glm::distance(middles_[i], middles_[k]);
+          distance_m < reach_m && !(reflector && reflector->is_overlaid(objects_[k])))
+        by_distance_.emplace_back(distance_m, int(k));
+    const std::size_t count = std::min(by_distance_.size(), std::size_t(most_near));
+    std::ranges::partial_sort(by_distance_, by_distance_.begin() + std::ptrdiff_t(count));
+    for (std::size_t n = 0; n < count; ++n)
+      bodies_[i].near[int(n / 4)] |= glm::uint(by_distance_[n].second + 1) << (8 * (n % 4));
+  }
+}
+
+void MirroredBodies::prepare(const gl::Program& program, GLuint unit) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, methods::method_block, block_.name());
+  if (const GLuint index = glGetUniformBlockIndex(program.name(), "MirroredBodies");
+      index != GL_INVALID_INDEX)
+    glUniformBlockBinding(program.name(), index, methods::method_block);
+  glBindTextureUnit(unit, fields_.name());
+  program.set("body_fields", int(unit));
+}
+
+}  // namespace parvis::environment_rays

@@ -1,0 +1,53 @@
+// What moves, for mirror rays to meet: cars reflect one another, the people beside them, and themselves. Each
+// model's surface is a field of distances (body_field.h), each body a box in which its model's field lies.
+#pragma once
+
+#include <vector>
+
+#include "graphics/gl/objects.h"
+#include "graphics/gl/program.h"
+#include "reflections/environment_rays/body_field.h"
+#include "reflections/methods/reflections.h"
+#include "scene/scene.h"
+
+namespace parvis::environment_rays {
+
+class MirroredBodies {
+ public:
+  /// Makes the fields of all models that move in the scene, which takes tenths of a second each.
+  explicit MirroredBodies(const scene::Scene& scene);
+
+  /// Takes over where bodies are: those nearest to the first reflector where there are more than can be
+  /// mirrored; `reflectors` holds one at least. What overlays draw in a reflector is left out of what it
+  /// mirrors.
+  void update(const scene::Scene& scene, const std::vector<methods::VisibleReflector>& reflectors);
+  /// Binds what mirrored_bodies.glsl needs; `reflecting_body` is the caller's to set.
+  void prepare(const gl::Program& program, GLuint unit) const;
+  /// Of an object; below 0: none.
+  int body_of(int object) const { return body_of_object_[std::size_t(object)]; }
+
+  static constexpr int most = 200, most_near = 16;
+  static constexpr float reach_m = 25.0f;  ///< between bodies that mirror one another
+
+ private:
+  /// As mirrored_bodies.glsl has it.
+  struct Body {
+    glm::vec4 box_from_world[3];
+    glm::vec4 half_size_m;
+    glm::uvec4 near;
+  };
+  void find_neighbours(const std::vector<methods::VisibleReflector>& reflectors);
+
+  std::vector<int> field_of_object_;  ///< below 0: none
+  std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
+  std::vector<int> body_of_object_;   ///< below 0: none now
+  std::vector<std::pair<float, int>> by_distance_;
+  std::vector<int> objects_;                                         ///< of each body
+  std::vector<const methods::VisibleReflector*> reflector_of_body_;  ///< null: it is not seen
+  std::vector<glm::vec3> middles_;
+  std::vector<Body> bodies_;
+  gl::Texture fields_;
+  gl::Buffer block_;
+};
+
+}  // namespace parvis::environment_rays

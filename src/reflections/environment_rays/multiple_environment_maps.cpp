@@ -1,0 +1,188 @@
+#include "reflections/environment_rays/multiple_environment_maps.h"
+
+#include <algorithm>
+
+#include "reflections/methods/bindings.h"
+#include "reflections/methods/settings.h"
+#include "reflections/reference_maps/map_choice.h"
+#include "reflections/reference_maps/scene_maps.h"
+
+namespace parvis::environment_rays {
+namespace {
+
+enum Unit : GLuint {
+  heights_unit = methods::first_method_unit,
+  colours_unit,
+  glosses_unit,
+  distances_unit,
+  choice_unit,
+  places_unit,
+  fields_unit
+};
+
+// The declared costs, and what each level of detail is worth.
+constexpr double shown_share = 0.25;  // of the square about a body
+constexpr std::array<double, 3> pixel_ms{0.4e-3, 0.7e-3, 1.5e-3};
+constexpr std::array<double, 3> worths{0.5, 0.8, 1.0};
+
+gl::Texture nearest_texture(GLenum format, int width, int height, int levels = 1) {
+  gl::Texture texture = gl::texture_2d(format, width, height, levels);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER,
+                      levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+gl::Texture upload(const HeightPyramid& heights) {
+  const std::vector<ImageF>& levels = heights.levels();
+  if (levels.empty()) return nearest_texture(GL_R32F, 1, 1);
+  gl::Texture texture =
+      nearest_texture(GL_R32F, levels.front().width, levels.front().height, int(levels.size()));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height, GL_RED,
+                        GL_FLOAT, levels[level].pixels.data());
+  return texture;
+}
+
+gl::Texture upload(const MapChoice& choice) {
+  gl::Texture texture = nearest_texture(GL_RGBA16UI, choice.cells().x, choice.cells().y);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, choice.cells().x, choice.cells().y, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_SHORT, choice.indices().data());
+  return texture;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
+                                                                                 render::Renderer& renderer) {
+  const HeightPyramid heights(heights_of(scene));
+  Result<ReferenceMaps> maps = bake_maps(scene, heights, renderer);
+  if (!maps) return maps.errors();
+  Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
+  if (!renewal) return renewal.errors();
+  Result<methods::MirrorPicture> picture = methods::MirrorPicture::create(renderer);
+  if (!picture) return picture.errors();
+  Programs programs;
+  for (std::size_t detail = 0; detail < programs.size(); ++detail) {
+    Result<gl::Program> program = gl::Program::create(
+        "graphics/render/whole_screen.vert", "reflections/environment_rays/multiple_environment_maps.frag",
+        {{"DETAIL", std::to_string(detail)}});
+    if (!program) return program.errors();
+    render::assign_bindings(*program);
+    programs[detail] = *std::move(program);
+  }
+  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(
+      scene, heights, *std::move(maps), *std::move(renewal), *std::move(picture), std::move(programs)));
+}
+
+MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
+                                                 ReferenceMaps maps, MapRenewal renewal,
+                                                 methods::MirrorPicture picture, Programs programs)
+    : uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
+      details_(scene.objects.size(), all),
+      budget_(double(methods::settings(scene).budget_ms)),
+      picture_(std::move(picture)),
+      programs_(std::move(programs)),
+      maps_(std::move(maps)),
+      renewal_(std::move(renewal)),
+      bodies_(scene),
+      origin_(heights.origin()),
+      cell_m_(heights.cell_m()),
+      cells_(heights.cells()),
+      top_level_(int(heights.levels().size()) - 1),
+      heights_(upload(heights)) {
+  const MapChoice choice(maps_.places(), heights);
+  choice_grid_ = glm::vec3(choice.origin(), choice.cell_m());
+  choice_ = upload(choice);
+}
+
+MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
+    const methods::VisibleReflector& reflector) const {
+  constexpr float traced_from_px = 40.0f, all_from_px = 120.0f;
+  if (!uses_level_of_detail_ || reflector.size_px >= all_from_px) return all;
+  return reflector.size_px < traced_from_px ? nearest_map : one_map;
+}
+
+/// The best for each by its size, or what of it the budget allows: the largest come first.
+void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
+                                             const std::vector<methods::VisibleReflector>& reflectors) {
+  if (budget_.budget_ms() <= 0.0) {
+    for (const methods::VisibleReflector& reflector : reflectors)
+      details_[std::size_t(reflector.object)] = best_detail_for(reflector);
+    return;
+  }
+  const double most_pixels = double(renderer.width()) * double(renderer.height());
+  qualities_.resize(reflectors.size());
+  wishes_.clear();
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
+    const double size_px = double(reflectors[i].size_px);
+    const double pixels = std::min(shown_share * size_px * size_px, most_pixels);
+    for (std::size_t detail = 0; detail < detail_count; ++detail)
+      qualities_[i][detail] = {pixels * pixel_ms[detail], worths[detail]};
+    const Detail best = best_detail_for(reflectors[i]);
+    wishes_.push_back({float(pixels * size_px), std::span(qualities_[i]).first(std::size_t(best) + 1),
+                       std::min(details_[std::size_t(reflectors[i].object)], best)});
+  }
+  budget_.choose(wishes_);
+  for (std::size_t i = 0; i < reflectors.size(); ++i)
+    details_[std::size_t(reflectors[i].object)] = Detail(wishes_[i].level);
+}
+
+void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                                          const std::vector<methods::VisibleReflector>& reflectors) {
+  prepared_.clear();
+  if (!reflectors.empty()) bodies_.update(scene, reflectors);
+  if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
+    faces_drawn_ += 6;
+  choose_details(renderer, reflectors);
+  if (reflectors.empty()) return;
+  picture_.draw_rays(renderer);
+  const gl::Program* current = nullptr;
+  picture_.draw_light(renderer, reflectors,
+                      [&](const methods::VisibleReflector& reflector) -> const gl::Program& {
+                        const gl::Program& program = programs_[std::size_t(detail_of(reflector.object))];
+                        if (current != &program) {
+                          program.use();
+                          prepare(program);
+                          current = &program;
+                        }
+                        program.set("reflecting_object", reflector.object);
+                        program.set("reflecting_body", bodies_.body_of(reflector.object));
+                        return program;
+                      });
+}
+
+void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
+  bodies_.prepare(program, fields_unit);
+  glBindTextureUnit(heights_unit, heights_.name());
+  glBindTextureUnit(colours_unit, maps_.colours());
+  glBindTextureUnit(glosses_unit, maps_.glosses());
+  glBindTextureUnit(distances_unit, maps_.distances());
+  glBindTextureUnit(choice_unit, choice_.name());
+  glBindTextureUnit(places_unit, maps_.place_texture());
+  program.set("heights", int(heights_unit));
+  program.set("map_colours", int(colours_unit));
+  program.set("map_glosses", int(glosses_unit));
+  program.set("map_distances", int(distances_unit));
+  program.set("map_choice", int(choice_unit));
+  program.set("map_places", int(places_unit));
+  program.set("height_grid", glm::vec4(origin_, cell_m_, float(top_level_)));
+  program.set("height_cells", glm::vec2(cells_));
+  program.set("choice_grid", choice_grid_);
+  program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
+}
+
+void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {
+  if (std::ranges::find(prepared_, program.name()) != prepared_.end()) return;
+  picture_.bind(program, methods::first_method_unit);
+  prepared_.push_back(program.name());
+}
+
+Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
+    const scene::Scene& scene, render::Renderer& renderer, std::unique_ptr<methods::Reflections>) {
+  Result<std::unique_ptr<MultipleEnvironmentMaps>> made = MultipleEnvironmentMaps::create(scene, renderer);
+  if (!made) return made.errors();
+  return std::unique_ptr<methods::Reflections>(*std::move(made));
+}
+
+}  // namespace parvis::environment_rays

@@ -1,0 +1,79 @@
+// Multiple environment maps, pixel by pixel: each reflecting pixel traces its own ray through the city's
+// heights and looks the point that it meets up in the reference maps that see it. No map is drawn for a
+// reflector, so that a hundred cars cost what their pixels cost, and a body shows the parallax that a map
+// with one centre lacks.
+#pragma once
+
+#include <array>
+
+#include "graphics/render/quality_budget.h"
+#include "reflections/environment_rays/mirrored_bodies.h"
+#include "reflections/methods/mirror_picture.h"
+#include "reflections/methods/reflections.h"
+#include "reflections/reference_maps/height_pyramid.h"
+#include "reflections/reference_maps/map_renewal.h"
+
+namespace parvis::environment_rays {
+using namespace reference_maps;
+
+/// Makes the method for a scene: bakes the reference maps, which takes some seconds.
+Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
+    const scene::Scene& scene, render::Renderer& renderer,
+    std::unique_ptr<methods::Reflections> below = nullptr);
+
+class MultipleEnvironmentMaps final : public methods::Reflections {
+ public:
+  static Result<std::unique_ptr<MultipleEnvironmentMaps>> create(const scene::Scene& scene,
+                                                                 render::Renderer& renderer);
+
+  render::SurfaceSource source() const override {
+    return {.fragment = "reflections/methods/mirror_picture.frag"};
+  }
+  void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
+  void bind(const gl::Program& program, int object) override;
+
+  const ReferenceMaps& maps() const { return maps_; }
+
+  enum Detail : int {  // as multiple_environment_maps.frag has it
+    nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
+    one_map,           ///< a ray among what stands still, looked up in the best map
+    all,
+    detail_count
+  };
+  /// With which an object was drawn last.
+  Detail detail_of(int object) const { return details_[std::size_t(object)]; }
+
+ private:
+  /// A shader for each detail: software runs both sides of a branch.
+  using Programs = std::array<gl::Program, detail_count>;
+
+  MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
+                          MapRenewal renewal, methods::MirrorPicture picture, Programs programs);
+  Detail best_detail_for(const methods::VisibleReflector& reflector) const;
+  void choose_details(const render::Renderer& renderer,
+                      const std::vector<methods::VisibleReflector>& reflectors);
+  void prepare(const gl::Program& program) const;
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
+  void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
+
+  bool uses_level_of_detail_;
+  std::vector<Detail> details_;  ///< of each object
+  render::QualityBudget budget_;
+  std::vector<std::array<render::QualityLevel, detail_count>> qualities_;  ///< of each reflector
+  std::vector<render::QualityWish> wishes_;
+  std::vector<GLuint> prepared_;  ///< programs of surfaces that have this frame's textures
+  methods::MirrorPicture picture_;
+  Programs programs_;
+  ReferenceMaps maps_;
+  MapRenewal renewal_;
+  MirroredBodies bodies_;
+  glm::vec2 origin_;
+  float cell_m_;
+  glm::ivec2 cells_;
+  int top_level_;
+  glm::vec3 choice_grid_;  ///< south-west corner and metres a cell
+  gl::Texture heights_, choice_;
+};
+
+}  // namespace parvis::environment_rays

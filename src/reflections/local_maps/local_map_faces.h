@@ -1,0 +1,9 @@
+// C++ face of local_map_faces.glsl.
+#pragma once
+
+#include "graphics/shading/glsl.h"
+
+namespace parvis::local_maps {
+using namespace shading;  // vec2, abs and the like, which shared files take for granted
+#include "reflections/local_maps/local_map_faces.glsl"
+}  // namespace parvis::local_maps

@@ -1,0 +1,41 @@
+#include "reflections/local_maps/room.h"
+
+#include "reflections/local_maps/local_environment_maps.h"
+#include "reflections/local_maps/local_map_settings.h"
+#include "reflections/methods/registry.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::local_maps {
+namespace {
+
+scene::AttributeSchema show_attribute() {
+  return {.name = "show",
+          .type = scene::AttributeType::choice,
+          .help =
+              "of local_environment_maps, to look into it: its mesh in red over the maps, or "
+              "the weights of the two reference maps in red and green, blue where neither "
+              "sees what is mirrored",
+          .fallback = local_map_view_names[0],
+          .choices = {local_map_view_names.begin(), local_map_view_names.end()},
+          .is_live = true};
+}
+
+void read_attributes(const scene::Node& node, methods::Settings& settings) {
+  read_maps(node, settings);
+  for (std::size_t i = 0; i < local_map_view_names.size(); ++i)
+    if (node.text("show") == local_map_view_names[i])
+      settings.own.get<LocalMapSettings>().shown = LocalMapView(i);
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  house.get<methods::Registry>().add(
+      {.name = "local_environment_maps",
+       .help = "an environment map for each reflector, made of the two nearest reference maps",
+       .make = make_local_environment_maps,
+       .attributes = {maps_attribute(), show_attribute()},
+       .read = read_attributes});
+}
+
+}  // namespace parvis::local_maps

@@ -1,0 +1,124 @@
+#include "reflections/methods/mirror_picture.h"
+
+#include "reflections/methods/bindings.h"
+
+namespace parvis::methods {
+namespace {
+
+constexpr GLuint starts_unit = 0, ways_unit = 1;  // of materials, which come later
+
+}  // namespace
+
+glm::ivec4 pixels_of(const render::View& view, const Bounds& bounds) {
+  const glm::vec2 size(float(view.width), float(view.height));
+  glm::vec2 low = size, high(0.0f);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 at((corner & 1) ? bounds.max.x : bounds.min.x, (corner & 2) ? bounds.max.y : bounds.min.y,
+                       (corner & 4) ? bounds.max.z : bounds.min.z);
+    const glm::vec4 clip = view.clip_from_world * glm::vec4(at, 1.0f);
+    if (clip.w <= 1e-3f) return {0, 0, view.width, view.height};  // beside or behind the eye
+    const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * size;
+    low = glm::min(low, pixel), high = glm::max(high, pixel);
+  }
+  const glm::ivec2 first =
+      glm::max(glm::ivec2(glm::floor(glm::clamp(low, glm::vec2(0.0f), size))) - 1, glm::ivec2(0));
+  const glm::ivec2 end = glm::min(glm::ivec2(glm::ceil(glm::min(high, size))) + 1, glm::ivec2(size));
+  return {first, glm::max(end - first, glm::ivec2(0))};
+}
+
+Result<MirrorPicture> MirrorPicture::create(const render::Renderer& renderer) {
+  Result<render::SurfacePrograms> rays = render::SurfacePrograms::create(
+      {.fragment = "reflections/methods/mirror_rays.frag"}, renderer.gpu().mirror_materials());
+  if (!rays) return rays.errors();
+  Result<gl::Program> spread = gl::Program::create("graphics/render/whole_screen.vert",
+                                                   "reflections/methods/mirror_picture_spread.frag");
+  if (!spread) return spread.errors();
+  return MirrorPicture(*std::move(rays), *std::move(spread));
+}
+
+MirrorPicture::MirrorPicture(render::SurfacePrograms ray_programs, gl::Program spread)
+    : ray_programs_(std::move(ray_programs)),
+      spread_(std::move(spread)),
+      no_attributes_(gl::VertexArray::create()) {}
+
+void MirrorPicture::resize(int width, int height) {
+  width_ = width, height_ = height;
+  if (width <= room_.x && height <= room_.y) return;
+  room_ = glm::max(room_, glm::ivec2(width, height));
+  starts_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
+  ways_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
+  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
+  base_light_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
+  coat_light_ = gl::texture_2d(GL_R11F_G11F_B10F, room_.x, room_.y);
+  const auto framebuffer_of = [&](const gl::Texture& first, const gl::Texture& second) {
+    gl::Framebuffer framebuffer = gl::Framebuffer::create();
+    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, first.name(), 0);
+    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT1, second.name(), 0);
+    glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+    constexpr GLenum both[]{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glNamedFramebufferDrawBuffers(framebuffer.name(), 2, both);
+    return framebuffer;
+  };
+  rays_ = framebuffer_of(starts_, ways_);
+  light_ = framebuffer_of(base_light_, coat_light_);
+}
+
+void MirrorPicture::draw_rays(render::Renderer& renderer) {
+  resize(renderer.width(), renderer.height());
+  constexpr GLfloat nothing[4]{};
+  glClearNamedFramebufferfv(rays_.name(), GL_COLOR, 1, nothing);
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrors;
+  view.surface_programs = &ray_programs_;
+  view.framebuffer = rays_.name();
+  renderer.draw_view(view);
+}
+
+void MirrorPicture::bind_rays(const gl::Program& program) const {
+  glBindTextureUnit(starts_unit, starts_.name());
+  glBindTextureUnit(ways_unit, ways_.name());
+  program.set("ray_starts", int(starts_unit));
+  program.set("ray_ways", int(ways_unit));
+}
+
+/// Depth tells pixels with a ray from others before any shader runs. Beside them, where a surface covers less
+/// than the pixel's middle, the light of neighbours stands in.
+void MirrorPicture::draw_light(
+    const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
+    const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glEnable(GL_SCISSOR_TEST);
+  const auto draw_over = [&](const gl::Program& program, const VisibleReflector& reflector) {
+    bind_rays(program);
+    program.set("screen_depth", -1.0f);  // farther than any ray, of which the nearest has depth 1
+    const glm::ivec4 pixels =
+        pixels_of(renderer.main_view(), renderer.gpu().object_bounds()[std::size_t(reflector.object)]);
+    glScissor(pixels.x, pixels.y, pixels.z, pixels.w);
+    glBindVertexArray(no_attributes_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  glDepthFunc(GL_LESS);
+  for (const VisibleReflector& reflector : reflectors) draw_over(use_program(reflector), reflector);
+
+  glTextureBarrier();  // what is read below has been written above
+  glDepthFunc(GL_EQUAL);
+  spread_.use();
+  bind(spread_, first_method_unit);
+  for (const VisibleReflector& reflector : reflectors) draw_over(spread_, reflector);
+  glDisable(GL_SCISSOR_TEST);
+  glDepthMask(GL_TRUE);
+}
+
+void MirrorPicture::bind(const gl::Program& program, GLuint first_unit) const {
+  glBindTextureUnit(first_unit, base_light_.name());
+  glBindTextureUnit(first_unit + 1, coat_light_.name());
+  program.set("base_light", int(first_unit));
+  program.set("coat_light", int(first_unit + 1));
+}
+
+}  // namespace parvis::methods

@@ -1,0 +1,50 @@
+// What mirror-like surfaces show in each pixel of the main view. The rays that leave them are drawn first;
+// then what comes along each ray is worked out once, however many small triangles share the pixel (deferred
+// shading, Saito and Takahashi 1990).
+#pragma once
+
+#include <functional>
+
+#include "graphics/gl/objects.h"
+#include "graphics/gl/program.h"
+#include "graphics/render/surface_programs.h"
+#include "reflections/methods/reflections.h"
+
+namespace parvis::methods {
+
+class MirrorPicture {
+ public:
+  /// For the scene of that renderer. Fails only if a shader does.
+  static Result<MirrorPicture> create(const render::Renderer& renderer);
+
+  /// The rays of all mirror-like surfaces that the prepared main view shows.
+  void draw_rays(render::Renderer& renderer);
+
+  /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
+  /// fragment shader that reads ray_starts and ray_ways, as mirror_rays.frag writes them, and writes
+  /// the light of base and coat.
+  void draw_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
+                  const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const;
+
+  /// For programs with mirror_picture.frag; takes two texture units.
+  void bind(const gl::Program& program, GLuint first_unit) const;
+
+ private:
+  MirrorPicture(render::SurfacePrograms ray_programs, gl::Program spread);
+  void resize(int width, int height);
+  void bind_rays(const gl::Program& program) const;
+
+  int width_ = 0, height_ = 0;
+  glm::ivec2 room_{0};  ///< of the textures, which never shrink
+  render::SurfacePrograms ray_programs_;
+  gl::Program spread_;
+  gl::Texture starts_, ways_, depth_;  ///< of rays; the nearest in each pixel
+  gl::Texture base_light_, coat_light_;
+  gl::Framebuffer rays_, light_;
+  gl::VertexArray no_attributes_;
+};
+
+/// The pixels that may show a box, with a margin of one: x, y, width, height; nothing has no width.
+glm::ivec4 pixels_of(const render::View& view, const Bounds& bounds);
+
+}  // namespace parvis::methods

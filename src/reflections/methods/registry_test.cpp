@@ -1,0 +1,205 @@
+// A room that nobody knows brings a method, an overlay and their attributes; scripts name them and they are
+// drawn.
+#include "reflections/methods/registry.h"
+
+#include <gtest/gtest.h>
+
+#include "base/house.h"
+#include "base/test_folder.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/render/test_room.h"
+#include "scene/scene_loader.h"
+
+namespace parvis::methods {
+namespace {
+
+/// What the room keeps in a scene.
+struct Paint {
+  static constexpr std::string_view name = "test.paint";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+  float green = 0.25f, red = 0.0f;
+  bool is_prepared = false;
+  void hash(ContentHash& hash) const {
+    for (const float value : {green, red}) hash.add(value);
+  }
+};
+
+/// Mirrors that shine green.
+class Green final : public Reflections {
+ public:
+  explicit Green(float radiance) : radiance_(radiance) {}
+  render::SurfaceSource source() const override {
+    return {.reflection = fmt::format("vec3(0.0f, {:.6f}f, 0.0f)", radiance_)};
+  }
+  void bind(const gl::Program&, int) override {}
+
+ private:
+  void update_maps(render::Renderer&, const scene::Scene&, const std::vector<VisibleReflector>&) override {}
+  float radiance_;
+};
+
+/// Adds red to whatever they show.
+class Red final : public Overlay {
+ public:
+  Red(float radiance, std::unique_ptr<Reflections> below) : Overlay(std::move(below)), radiance_(radiance) {}
+  render::SurfaceSource source() const override {
+    render::SurfaceSource surface = Overlay::source();
+    surface.reflection += fmt::format(" + vec3({:.6f}f, 0.0f, 0.0f)", radiance_);
+    return surface;
+  }
+
+ private:
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<VisibleReflector>& reflectors) override {
+    update_below(renderer, scene, reflectors);
+  }
+  float radiance_;
+};
+
+scene::AttributeSchema number(const char* name, const char* fallback) {
+  return {.name = name, .type = scene::AttributeType::number, .help = "radiance", .fallback = fallback};
+}
+
+void furnish(House& house) {
+  Registry& registry = house.get<Registry>();
+  registry.add(
+      {.name = "green",
+       .help = "mirrors shine green",
+       .make = [](const scene::Scene& scene, render::Renderer&,
+                  std::unique_ptr<Reflections>) -> Result<std::unique_ptr<Reflections>> {
+         return std::unique_ptr<Reflections>(std::make_unique<Green>(own_settings<Paint>(scene).green));
+       },
+       .is_default = true,
+       .attributes = {number("green", "0.25")},
+       .read = [](const scene::Node& node,
+                  Settings& settings) { settings.own.get<Paint>().green = float(node.number("green")); },
+       .prepare = [](scene::Scene& scene) { own_settings<Paint>(scene).is_prepared = true; }});
+  registry.add({.name = "green twice",
+                .help = "the same, and half as much over it",
+                .make = [](const scene::Scene&, render::Renderer&,
+                           std::unique_ptr<Reflections> below) -> Result<std::unique_ptr<Reflections>> {
+                  if (!below) return error("lies over nothing");
+                  return below;
+                },
+                .lies_over = "green",
+                .attributes = {number("green", "0.25")}});
+  registry.add(
+      {.name = "red shine",
+       .help = "red over any method",
+       .make = [](const scene::Scene& scene, render::Renderer&,
+                  std::unique_ptr<Reflections> below) -> Result<std::unique_ptr<Reflections>> {
+         return std::unique_ptr<Reflections>(
+             std::make_unique<Red>(own_settings<Paint>(scene).red, std::move(below)));
+       },
+       .is_overlay = true,
+       .is_wanted = [](const scene::Scene& scene) { return own_settings<Paint>(scene).red > 0.0f; },
+       .attributes = {number("red", "0")},
+       .read = [](const scene::Node& node,
+                  Settings& settings) { settings.own.get<Paint>().red = float(node.number("red")); }});
+  add_reflection_node(house.get<scene::NodeRegistry>(), registry);
+}
+
+class RegistryTest : public gl::ContextTest {
+ protected:
+  RegistryTest() { furnish(house_); }
+  const Registry& registry() const { return house_.get<Registry>(); }
+
+  /// The settings of a script.
+  Result<Settings> settings_of(const std::string& script) {
+    folder_.write("scene.xp", script);
+    Result<scene::LoadedScene> loaded =
+        scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+    if (!loaded) return loaded.errors();
+    return settings(loaded->scene);
+  }
+
+  /// The middle of a picture of a mirror in a room.
+  glm::vec3 mirror_with(const Settings& wanted) {
+    scene::Scene scene = render::room_scene(8.0f);
+    render::add_mirror(scene, glm::vec3(0.0f), 1.0f);
+    settings(scene) = wanted;
+    EXPECT_TRUE(registry().prepare(scene));
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    Result<std::unique_ptr<Reflections>> made = registry().make(scene, **renderer);
+    EXPECT_TRUE(made) << to_string(made.errors());
+    EXPECT_TRUE((*renderer)->set_reflection(made->get()));
+    Camera camera;
+    camera.world_from_camera = look_at({0, -5, 0}, glm::vec3(0.0f));
+    (*renderer)->begin_frame(scene, camera);
+    (*renderer)->prepare_main_view(camera, 32, 32);
+    (*made)->update(**renderer, scene, camera);
+    (*renderer)->draw_main_view();
+    const ImageF radiance = (*renderer)->read_radiance();
+    const float* pixel = radiance.at(16, 16);
+    return {pixel[0], pixel[1], pixel[2]};
+  }
+
+  House house_;
+  TestFolder folder_;
+};
+
+TEST_F(RegistryTest, AMethodOfATestRoomIsNamedByAScriptAndDrawn) {
+  const Result<Settings> wanted = settings_of("reflection(method=\"green\", green=0.5)");
+  ASSERT_TRUE(wanted) << to_string(wanted.errors());
+  EXPECT_LT(glm::distance(mirror_with(*wanted), glm::vec3(0, 0.5f, 0)), 0.01f);
+}
+
+TEST_F(RegistryTest, TheDefaultMethodIsDrawnWithItsDefaults) {
+  EXPECT_LT(glm::distance(mirror_with({}), glm::vec3(0, 0.25f, 0)), 0.01f);
+}
+
+TEST_F(RegistryTest, AnOverlayLiesOverAnyMethodThatWantsIt) {
+  for (const char* method : {"green", "green twice"}) {
+    const Result<Settings> wanted =
+        settings_of(fmt::format("reflection(method=\"{}\", green=0.5, red=0.75)", method));
+    ASSERT_TRUE(wanted) << to_string(wanted.errors());
+    EXPECT_LT(glm::distance(mirror_with(*wanted), glm::vec3(0.75f, 0.5f, 0)), 0.01f) << method;
+  }
+}
+
+TEST_F(RegistryTest, AnUnknownMethodIsAnErrorThatNamesThoseThereAre) {
+  const Result<Settings> in_script = settings_of("reflection(method=\"geren\")");
+  ASSERT_FALSE(in_script);
+  EXPECT_NE(to_string(in_script.errors()).find("did you mean \"green\"?"), std::string::npos);
+  EXPECT_FALSE(settings_of("reflection(method=\"red shine\")")) << "an overlay is no method";
+  scene::Scene scene;
+  settings(scene).method = "geren";
+  const Status status = registry().prepare(scene);
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find("expected one of green, green twice"), std::string::npos)
+      << to_string(status.errors());
+}
+
+TEST_F(RegistryTest, AttributesThatMethodsShareStandOnceInTheNode) {
+  const std::vector<scene::AttributeSchema> attributes = registry().attributes();
+  ASSERT_EQ(attributes.size(), 2u);
+  EXPECT_EQ(attributes[0].name, "green");
+  EXPECT_EQ(attributes[1].name, "red");
+}
+
+TEST_F(RegistryTest, TheSceneIsPreparedByItsMethodAlone) {
+  scene::Scene scene;
+  ASSERT_TRUE(registry().prepare(scene));
+  EXPECT_TRUE(own_settings<Paint>(scene).is_prepared);
+  scene::Scene other;
+  settings(other).method = "green twice";
+  ASSERT_TRUE(registry().prepare(other));
+  EXPECT_FALSE(own_settings<Paint>(other).is_prepared);
+}
+
+TEST(Settings, AreEqualByTheirContent) {
+  Settings a, b;
+  EXPECT_EQ(a, b);
+  a.own.get<Paint>();
+  EXPECT_EQ(a, b) << "read, not set";
+  a.own.get<Paint>().green = 0.5f;
+  EXPECT_FALSE(a == b);
+  b = a;
+  EXPECT_EQ(a, b);
+  b.bounces = 2;
+  EXPECT_FALSE(a == b);
+}
+
+}  // namespace
+}  // namespace parvis::methods

@@ -1,0 +1,45 @@
+// What a scene says about its reflections: the values of its node `reflection`.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace parvis::methods {
+
+/// What all methods have in common, and what each room's methods keep beside it.
+struct Settings {
+  static constexpr std::string_view name = "methods.settings";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  std::string method = {};           ///< as scripts name it; empty: the registry's default
+  int resolution = 128;              ///< pixels along the edge of a cube map's face
+  bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
+  float budget_ms = 0.0f;            ///< of a frame, held by choosing levels of detail; 0: none
+  int bounces = 1;                   ///< 2: mirrors show what mirrors show
+  scene::RoomDataSet own = {};       ///< settings of single rooms, by type
+
+  /// Adds all of it.
+  void hash(ContentHash& hash) const;
+};
+
+/// By content.
+bool operator==(const Settings& a, const Settings& b);
+
+/// What the scene says, to be changed.
+inline Settings& settings(scene::Scene& scene) { return scene.data<Settings>(); }
+/// What the scene says.
+inline const Settings& settings(const scene::Scene& scene) { return scene.data<Settings>(); }
+
+/// What a room's methods keep: a struct that scene::SceneData describes, of role `settings`.
+template <scene::SceneData T>
+T& own_settings(scene::Scene& scene) {
+  return settings(scene).own.get<T>();
+}
+/// The same to read.
+template <scene::SceneData T>
+const T& own_settings(const scene::Scene& scene) {
+  return settings(scene).own.get<T>();
+}
+
+}  // namespace parvis::methods

@@ -1,0 +1,21 @@
+#include "reflections/probes/cube_map_reflections.h"
+
+#include "reflections/methods/bindings.h"
+
+namespace parvis::probes {
+
+void CubeMapReflections::draw_whole(methods::CubeMap& map, render::Renderer& renderer,
+                                    const methods::VisibleReflector& reflector) {
+  for (int face = 0; face < 6; ++face)
+    map.draw_face(renderer, face, reflector.centre, reflector.object, render::Subjects::all, reflector.shown);
+  map.update_levels();
+  faces_drawn_ += 6;
+}
+
+void CubeMapReflections::bind_map(const gl::Program& program, const methods::CubeMap& map) {
+  glBindTextureUnit(methods::first_method_unit, map.texture());
+  program.set("reflection_map", int(methods::first_method_unit));
+  program.set("reflection_levels", std::log2(float(map.resolution())));
+}
+
+}  // namespace parvis::probes

@@ -1,0 +1,21 @@
+// Methods that look cube maps up.
+#pragma once
+
+#include "reflections/methods/cube_map.h"
+#include "reflections/methods/reflections.h"
+
+namespace parvis::probes {
+
+class CubeMapReflections : public methods::Reflections {
+ public:
+  render::SurfaceSource source() const override { return {.fragment = "reflections/probes/cube_map.frag"}; }
+
+ protected:
+  /// Renders all faces of a map about a reflector.
+  void draw_whole(methods::CubeMap& map, render::Renderer& renderer,
+                  const methods::VisibleReflector& reflector);
+  /// Binds the map to a program of cube_map.frag.
+  static void bind_map(const gl::Program& program, const methods::CubeMap& map);
+};
+
+}  // namespace parvis::probes

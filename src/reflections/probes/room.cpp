@@ -1,0 +1,52 @@
+#include "reflections/probes/room.h"
+
+#include "reflections/methods/registry.h"
+#include "reflections/methods/settings.h"
+#include "reflections/probes/methods.h"
+
+namespace parvis::probes {
+namespace {
+
+using Made = Result<std::unique_ptr<methods::Reflections>>;
+
+/// Makes a method that needs nothing but the scene.
+template <class Method>
+Made make(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods::Reflections>) {
+  return std::unique_ptr<methods::Reflections>(std::make_unique<Method>(scene));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  methods::Registry& registry = house.get<methods::Registry>();
+  registry.add({.name = "none",
+                .help = "lights alone: mirrors show the mean light of the sky",
+                .make = make<NoReflection>});
+  registry.add({.name = "rerendered_cube_map",
+                .help = "a cube map for each reflector, re-rendered every frame",
+                .make = make<RerenderedCubeMap>,
+                .is_default = true});
+  registry.add(
+      {.name = "time_sliced_cube_map",
+       .help = "the same maps, a face or a few per frame",
+       .make = make<TimeSlicedCubeMap>,
+       .attributes = {{.name = "faces_a_frame",
+                       .type = scene::AttributeType::integer,
+                       .help = "of time_sliced_cube_map: how many faces of maps a frame draws, over all "
+                               "reflectors; 0: one for each of them",
+                       .fallback = "0",
+                       .minimum = 0,
+                       .maximum = 1000,
+                       .is_live = true}},
+       .read = [](const scene::Node& node, methods::Settings& settings) {
+         settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_a_frame"));
+       }});
+  registry.add({.name = "shared_cube_map",
+                .help = "one cube map for all reflectors, drawn about the largest on the screen",
+                .make = make<SharedCubeMap>});
+  registry.add({.name = "box_projected_probe",
+                .help = "cube maps along the roads, looked up as the inside of a box fitted to the street",
+                .make = make<BoxProjectedProbe>});
+}
+
+}  // namespace parvis::probes

@@ -1,0 +1,88 @@
+#include "reflections/reference_maps/map_cache.h"
+
+#include <algorithm>
+
+#include "base/content_hash.h"
+#include "graphics/reference/scene_key.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::reference_maps {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int version = 2;  // of how maps are placed and drawn: raise it when old maps no longer serve
+constexpr std::string_view extension = ".map";
+constexpr std::size_t name_length = 16;  // of a state's folder
+
+/// All that the maps depend on.
+std::uint64_t maps_key(const scene::Scene& scene) {
+  ContentHash hash;
+  hash.add(version);
+  hash.add(reference::fixed_scene_key(scene));
+  const ReferenceMapPlan& plan = map_plan(scene);
+  hash.add(plan.places);
+  hash.add(plan.cell_m);
+  hash.add(max_maps(scene));
+  hash.add(map_resolution(scene));
+  for (const scene::Lane& lane : scene.roads.lanes) hash.add(lane.points);
+  hash.add(scene.traffic.centre);
+  hash.add(scene.traffic.radius_m);
+  return hash.value();
+}
+
+bool is_state(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name.size() == name_length && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
+MapCache::MapCache(const scene::Scene& scene) {
+  if (scene.file.empty()) return;
+  key_ = maps_key(scene);
+  folder_ = fs::path(scene.file).replace_extension(".baked") / fmt::format("{:016x}", key_);
+}
+
+fs::path MapCache::file(std::size_t number) const {
+  return folder_ / fmt::format("{:04}{}", number, extension);
+}
+
+std::optional<MapFile> MapCache::read(std::size_t number) const {
+  std::error_code code;
+  const fs::path path = file(number);
+  if (folder_.empty() || !fs::exists(path, code)) return std::nullopt;
+  Result<MapFile> map = read_map_file(path);
+  if (map && map->key == key_ && map->number == number && number < map->places.size()) return *std::move(map);
+  fmt::print(stderr, "warning: {}; the map is drawn anew\n",
+             map ? fmt::format("{}: is of another scene", path.string()) : map.errors().front().message);
+  return std::nullopt;
+}
+
+void MapCache::tell_what_is_old() const {
+  std::error_code code;
+  if (folder_.empty() || fs::exists(folder_, code) || !fs::exists(folder_.parent_path(), code)) return;
+  fmt::print(
+      stderr,
+      "warning: {}: has maps of another state of the scene (models, light, roads or options are others "
+      "now) or of another version of Parvis; they are drawn anew, and `parvis bake` keeps them\n",
+      folder_.parent_path().string());
+}
+
+Status MapCache::write(MapFile map) const {
+  map.key = key_;
+  return write_map_file(file(map.number), map);
+}
+
+void forget_other_states(const std::vector<MapCache>& kept) {
+  if (kept.empty() || kept.front().folder().empty()) return;
+  std::error_code code;
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kept.front().folder().parent_path(), code))
+    if (is_state(entry.path()) && std::ranges::none_of(kept, [&](const MapCache& cache) {
+          return cache.folder().filename() == entry.path().filename();
+        }))
+      others.push_back(entry.path());
+  for (const fs::path& other : others) fs::remove_all(other, code);
+}
+
+}  // namespace parvis::reference_maps

@@ -1,0 +1,36 @@
+// Baked reference maps beside their scene: folder NAME.baked, in it a folder for each state of the scene that
+// was baked (as scenarios are), in that a file for each map.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reflections/reference_maps/map_file.h"
+#include "scene/scene.h"
+
+namespace parvis::reference_maps {
+
+class MapCache {
+ public:
+  /// Of the scene as it is now; of a scene that was made in memory there is none.
+  explicit MapCache(const scene::Scene& scene);
+
+  /// Of this state of the scene; empty for a scene that was made in memory.
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path file(std::size_t number) const;
+
+  /// A map, if it is there, whole and of this state. Tells on standard error what is unfit.
+  std::optional<MapFile> read(std::size_t number) const;
+  /// Tells on standard error that maps of other states of the scene are there, but none of this.
+  void tell_what_is_old() const;
+  Status write(MapFile map) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::uint64_t key_ = 0;
+};
+
+/// Removes what is kept of states of the scene other than those of `kept`.
+void forget_other_states(const std::vector<MapCache>& kept);
+
+}  // namespace parvis::reference_maps

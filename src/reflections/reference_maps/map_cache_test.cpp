@@ -1,0 +1,181 @@
+#include "reflections/reference_maps/map_cache.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/test_folder.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/render/test_room.h"
+#include "reflections/reference_maps/scene_maps.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::reference_maps {
+namespace {
+namespace fs = std::filesystem;
+
+MapFile small_map() { return {7, {{1, 2, 3}, {4, 5, 6}}, 1, 2, {{1, 2, 3, 4}, {}, {9, 8}}}; }
+
+/// What stands in a file that is not a map that can be used.
+std::string complaint(const fs::path& file, const std::string& bytes) {
+  EXPECT_TRUE(write_file(file, bytes));
+  const Result<MapFile> map = read_map_file(file);
+  return map ? "" : to_string(map.errors());
+}
+
+TEST(MapFile, WhatIsWrittenIsRead) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_map_file(folder.path() / "a.map", small_map()));
+  const Result<MapFile> map = read_map_file(folder.path() / "a.map");
+  ASSERT_TRUE(map) << to_string(map.errors());
+  EXPECT_EQ(map->key, 7u);
+  EXPECT_EQ(map->places, small_map().places);
+  EXPECT_EQ(map->number, 1u);
+  EXPECT_EQ(map->resolution, 2u);
+  EXPECT_EQ(map->textures, small_map().textures);
+}
+
+TEST(MapFile, CutShortForeignOrOfAnotherVersionItIsRefusedWithTheReason) {
+  const TestFolder folder;
+  const fs::path file = folder.path() / "a.map";
+  ASSERT_TRUE(write_map_file(file, small_map()));
+  const std::string whole = *read_file(file);
+  for (std::size_t length = 8; length < whole.size(); ++length)
+    ASSERT_NE(complaint(file, whole.substr(0, length)).find("cut short or damaged"), std::string::npos);
+  for (std::size_t at = 8; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = char(damaged[at] ^ 0x40);
+    ASSERT_NE(complaint(file, damaged).find("cut short or damaged"), std::string::npos);
+  }
+  EXPECT_NE(complaint(file, "PNG").find("no reference map"), std::string::npos);
+  EXPECT_NE(complaint(file, "").find("no reference map"), std::string::npos);
+  EXPECT_NE(complaint(file, "PARVISM9" + whole.substr(8)).find("another version"), std::string::npos);
+  EXPECT_FALSE(read_map_file(folder.path() / "absent.map"));
+}
+
+class MapCacheTest : public gl::ContextTest {
+ protected:
+  MapCacheTest() {
+    scene_.file = folder_.path() / "room.xp";
+    map_plan(scene_).places = {{4, 2.5f, -3.5f}, {-3.5f, -4.5f, 2}, {0, 1, 0}};
+    methods::settings(scene_).resolution = 16;
+  }
+
+  /// Every byte of the scene's maps.
+  std::vector<std::vector<std::uint8_t>> bake(Keep keep) {
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    EXPECT_TRUE(renderer);
+    const Result<ReferenceMaps> maps = bake_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer, keep);
+    EXPECT_TRUE(maps) << (maps ? "" : to_string(maps.errors()));
+    std::vector<std::vector<std::uint8_t>> all;
+    for (std::size_t i = 0; i < maps->places().size(); ++i)
+      for (std::vector<std::uint8_t>& texture : maps->read(i)) all.push_back(std::move(texture));
+    return all;
+  }
+  fs::path map_file(std::size_t number) const { return MapCache(scene_).file(number); }
+
+  TestFolder folder_;
+  scene::Scene scene_ = render::room_scene(8.0f);
+};
+
+TEST_F(MapCacheTest, BakedMapsAreReadAndNotDrawn) {
+  const auto drawn = bake(Keep::yes);
+  ASSERT_TRUE(fs::exists(map_file(2)));
+  EXPECT_FALSE(fs::exists(map_file(3)));
+  EXPECT_EQ(bake(Keep::no), drawn);
+
+  MapFile forged = *MapCache(scene_).read(1);  // to see that it is read
+  forged.textures[0].assign(forged.textures[0].size(), 0);
+  ASSERT_TRUE(MapCache(scene_).write(forged));
+  EXPECT_NE(bake(Keep::no), drawn);
+}
+
+TEST_F(MapCacheTest, InterruptedBakingGoesOnWithTheMapsThatAreMissing) {
+  const auto drawn = bake(Keep::yes);
+  fs::remove(map_file(0));
+  fs::remove(map_file(2));
+  const fs::file_time_type kept = fs::last_write_time(map_file(1));
+  EXPECT_EQ(bake(Keep::yes), drawn);
+  EXPECT_EQ(fs::last_write_time(map_file(1)), kept);
+  EXPECT_TRUE(fs::exists(map_file(0)) && fs::exists(map_file(2)));
+}
+
+TEST_F(MapCacheTest, DamagedMapsAreDrawnAnewAndToldNeverShown) {
+  const auto drawn = bake(Keep::yes);
+  for (std::size_t number = 0; number < 3; ++number) {
+    fs::resize_file(map_file(number), 100);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(bake(Keep::no), drawn);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_NE(told.find("cut short or damaged; the map is drawn anew"), std::string::npos) << told;
+    EXPECT_EQ(bake(Keep::yes), drawn) << "and kept again";
+  }
+}
+
+TEST_F(MapCacheTest, MapsOfAnotherSceneLightOrPlaceDoNotCount) {
+  bake(Keep::yes);
+  const fs::path before = MapCache(scene_).folder();
+  const auto is_other = [&](auto&& change) {
+    const scene::Scene kept = scene_;
+    change(scene_);
+    const bool result = MapCache(scene_).folder() != before;
+    scene_ = kept;
+    return result;
+  };
+  EXPECT_TRUE(is_other([](scene::Scene& s) { s.sun.direction_to_sun = {0, 0, 1}; }));
+  EXPECT_TRUE(is_other([](scene::Scene& s) { s.sky.intensity = 2.0f; }));
+  EXPECT_TRUE(is_other([](scene::Scene& s) { s.objects[0].world_from_model[3].x = 1.0f; }));
+  EXPECT_TRUE(is_other([](scene::Scene& s) { s.objects[0].is_visible = false; }));
+  EXPECT_TRUE(is_other([](scene::Scene& s) { map_plan(s).places[0].x = 3.0f; }));
+  EXPECT_TRUE(is_other([](scene::Scene& s) { methods::settings(s).resolution = 32; }));
+  EXPECT_FALSE(is_other([](scene::Scene& s) { s.exposure = 3.0f; }));
+  EXPECT_FALSE(is_other([](scene::Scene& s) { render::add_mirror(s, {0, 0, 0}, 1.0f); })) << "it moves";
+
+  scene_.sky.intensity = 2.0f;
+  testing::internal::CaptureStderr();
+  bake(Keep::no);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("another state of the scene"), std::string::npos);
+}
+
+TEST_F(MapCacheTest, StatesThatAreNotAskedForAreForgottenAndOtherFilesStay) {
+  bake(Keep::yes);
+  const MapCache old(scene_);
+  ASSERT_TRUE(write_file(old.folder().parent_path() / "notes.txt", "mine"));
+  fs::create_directories(old.folder().parent_path() / "mine");
+  scene_.sky.intensity = 2.0f;
+  bake(Keep::yes);
+  forget_other_states({MapCache(scene_)});
+  EXPECT_FALSE(fs::exists(old.folder()));
+  EXPECT_TRUE(fs::exists(MapCache(scene_).file(2)));
+  EXPECT_TRUE(fs::exists(old.folder().parent_path() / "notes.txt"));
+  EXPECT_TRUE(fs::exists(old.folder().parent_path() / "mine"));
+}
+
+TEST_F(MapCacheTest, ASceneMadeInMemoryKeepsNothing) {
+  scene_.file.clear();
+  EXPECT_TRUE(MapCache(scene_).folder().empty());
+  EXPECT_FALSE(bake(Keep::no).empty());
+}
+
+TEST_F(MapCacheTest, CompressedMapsShowNearlyTheSameInAQuarterOfTheMemory) {
+  methods::settings(scene_).resolution = 64;
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  ASSERT_TRUE(renderer);
+  const HeightPyramid heights(heights_of(scene_));
+  const Result<ReferenceMaps> plain = bake_maps(scene_, heights, **renderer);
+  map_plan(scene_).is_compressed = true;
+  const Result<ReferenceMaps> small = bake_maps(scene_, heights, **renderer);
+  ASSERT_TRUE(plain && small);
+  EXPECT_NEAR(4.0 * double(small->colour_bytes()) / double(plain->colour_bytes()), 1.0,
+              0.02);  // whole blocks
+  const std::size_t side = std::size_t(plain->resolution());
+  std::vector<glm::vec3> a(3 * side * side), b(3 * side * side);
+  glGetTextureImage(plain->colours(), 0, GL_RGB, GL_FLOAT, GLsizei(a.size() * sizeof(glm::vec3)), a.data());
+  glGetTextureImage(small->colours(), 0, GL_RGB, GL_FLOAT, GLsizei(b.size() * sizeof(glm::vec3)), b.data());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) squares += double(glm::dot(a[i] - b[i], a[i] - b[i]));
+  // Walls of one colour each: only blocks across their edges, which hold three colours at most, are wrong.
+  EXPECT_LT(std::sqrt(squares / double(3 * a.size())), 0.06);
+}
+
+}  // namespace
+}  // namespace parvis::reference_maps

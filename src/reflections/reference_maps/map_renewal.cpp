@@ -1,0 +1,30 @@
+#include "reflections/reference_maps/map_renewal.h"
+
+#include <algorithm>
+
+namespace parvis::reference_maps {
+
+Result<MapRenewal> MapRenewal::create(int face_resolution) {
+  Result<MapPainter> painter = MapPainter::create(face_resolution);
+  if (!painter) return painter.errors();
+  return MapRenewal(*std::move(painter));
+}
+
+bool MapRenewal::is_done() const { return std::ranges::find(is_old_, true) == is_old_.end(); }
+
+std::optional<std::size_t> MapRenewal::renew_one(render::Renderer& renderer, ReferenceMaps& maps,
+                                                 glm::vec3 looked_from) {
+  std::optional<std::size_t> nearest;
+  const auto off_m = [&](std::size_t map) { return glm::distance(maps.places()[map], looked_from); };
+  for (std::size_t map = 0; map < is_old_.size(); ++map)
+    if (is_old_[map] && (!nearest || off_m(map) < off_m(*nearest))) nearest = map;
+  if (!nearest) return nearest;
+  ReferenceMaps fresh({maps.places()[*nearest]}, maps.resolution());
+  painter_.paint(renderer, fresh, 0);
+  fresh.update_levels();
+  maps.copy(*nearest, fresh, 0);
+  is_old_[*nearest] = false;
+  return nearest;
+}
+
+}  // namespace parvis::reference_maps

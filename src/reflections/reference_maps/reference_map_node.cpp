@@ -1,0 +1,95 @@
+#include "reflections/reference_maps/reference_map_node.h"
+
+#include "reflections/reference_maps/settings.h"
+#include "scene/path.h"
+#include "scene/scene_builder.h"
+
+namespace parvis::reference_maps {
+namespace {
+
+using scene::AttributeType;
+
+constexpr std::size_t most_places = 2000;
+
+scene::NodeSchema reference_maps_schema() {
+  return {.type = "referenceMaps",
+          .help =
+              "The maps that reflection(method=\"multiple_environment_maps\") looks into. Without places "
+              "they stand along the streets, where they show most of what vehicles mirror.",
+          .attributes = {{.name = "position",
+                          .type = AttributeType::points,
+                          .help = "where a map is taken, at the height of bodywork; may be repeated",
+                          .unit = "m",
+                          .minimum = -1e6,
+                          .maximum = 1e6,
+                          .is_repeatable = true},
+                         {.name = "path",
+                          .type = AttributeType::path,
+                          .help = "a line along which maps are taken, `spacing` apart",
+                          .unit = "m",
+                          .minimum = -1e6,
+                          .maximum = 1e6},
+                         {.name = "spacing",
+                          .type = AttributeType::number,
+                          .help = "of the maps along `path`",
+                          .fallback = "20",
+                          .unit = "m",
+                          .minimum = 0.5,
+                          .maximum = 1e5},
+                         {.name = "maps",
+                          .type = AttributeType::integer,
+                          .help = "how many place themselves, at most; absent: as reflection has it",
+                          .minimum = 1,
+                          .maximum = double(most_places)},
+                         {.name = "resolution",
+                          .type = AttributeType::integer,
+                          .help = "edge of a cube map's face that is as sharp; absent: as reflection has it",
+                          .unit = "pixels",
+                          .minimum = 8,
+                          .maximum = 2048},
+                         {.name = "cell",
+                          .type = AttributeType::number,
+                          .help = "of the heights in which mirrored rays are traced; places that would take "
+                                  "more than 256 MB get larger ones, which is told",
+                          .fallback = "1",
+                          .unit = "m",
+                          .minimum = 0.05,
+                          .maximum = 100},
+                         {.name = "compressed",
+                          .type = AttributeType::flag,
+                          .help = "colours take a quarter of the graphics memory, a little less true",
+                          .fallback = "0"}},
+          .example = "referenceMaps(position=\"0 -20 1.2\", position=\"0 20 1.2\", compressed=yes)",
+          .is_unique = true,
+          .is_laid_out_once = true};
+}
+
+void build_reference_maps(const scene::Node& node, scene::SceneBuilder& builder) {
+  ReferenceMapPlan& plan = map_plan(builder.scene);
+  std::vector<glm::vec3> places = node.points("position");
+  if (node.gives("path")) {
+    const scene::MeasuredPath path(node.points("path"));
+    const float spacing_m = float(node.number("spacing"));
+    const std::size_t count = std::size_t(path.length() / spacing_m) + 1;
+    for (std::size_t i = 0; i < std::min(count, most_places + 1); ++i)
+      places.push_back(path.at(float(i) * spacing_m));
+  }
+  if (places.size() > most_places) {
+    builder.fail(error_at(node.where, "more than {} reference maps; take a wider spacing", most_places));
+    return;
+  }
+  for (const glm::vec3& place : places)
+    plan.places.emplace_back(builder.world_from_parent() * glm::vec4(place, 1.0f));
+  if (node.gives("maps")) plan.max_maps = int(node.integer("maps"));
+  if (node.gives("resolution")) plan.resolution = int(node.integer("resolution"));
+  plan.cell_m = float(node.number("cell"));
+  plan.is_compressed = node.flag("compressed");
+}
+
+}  // namespace
+
+void add_reference_map_node(scene::NodeRegistry& registry) {
+  registry.add(reference_maps_schema(), build_reference_maps);
+}
+
+}  // namespace parvis::reference_maps

@@ -1,0 +1,120 @@
+#include "reflections/reference_maps/scene_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/progress.h"
+#include "graphics/render/fixed_parts.h"
+#include "reflections/reference_maps/map_cache.h"
+#include "reflections/reference_maps/map_painter.h"
+#include "reflections/reference_maps/placement.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::reference_maps {
+namespace {
+
+constexpr double most_heights = double(1 << 26);  // cells: 256 MB, and a third more for the levels above
+constexpr double most_heights_a_side = 16384;     // what OpenGL 4.5 promises of textures
+
+/// Of the finest level, whose sides are powers of two.
+glm::dvec2 cells_a_side(glm::vec2 size_m, float cell_m) {
+  const glm::dvec2 cells = glm::floor(glm::dvec2(size_m) / double(cell_m)) + 1.0;
+  return glm::exp2(glm::ceil(glm::log2(cells)));
+}
+
+void tell_if_coarse(glm::vec2 size_m, float cell_m, float wanted_m) {
+  if (cell_m <= wanted_m) return;
+  const auto megabytes = [&](float cell) {
+    const glm::dvec2 cells = cells_a_side(size_m, cell);
+    return 4e-6 * cells.x * cells.y;
+  };
+  fmt::print(stderr,
+             "warning: the place is {:.1f} x {:.1f} km: its heights in cells of {} m would take {:.0f} MB of "
+             "memory; reflections know them in cells of {:.3g} m ({:.0f} MB). Leave out far models for finer "
+             "ones, or ask for these: referenceMaps(cell={:.3g})\n",
+             1e-3f * size_m.x, 1e-3f * size_m.y, wanted_m, megabytes(wanted_m), cell_m, megabytes(cell_m),
+             cell_m);
+}
+
+/// Where shadows are to be sharp.
+Camera camera_at(glm::vec3 place) {
+  Camera camera;
+  camera.world_from_camera = look_at(place, place - glm::vec3(0, 0, 1), {0, 1, 0});
+  return camera;
+}
+
+ReferenceMaps compressed(const ReferenceMaps& maps) {
+  ReferenceMaps small(maps.places(), maps.resolution(), true);
+  for (std::size_t i = 0; i < maps.places().size(); ++i) small.copy(i, maps, i);
+  return small;
+}
+
+}  // namespace
+
+float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
+  constexpr float step = 1.01f;
+  const auto fits = [&](float cell_m) {
+    const glm::dvec2 cells = cells_a_side(size_m, cell_m);
+    return std::max(cells.x, cells.y) <= most_heights_a_side && cells.x * cells.y <= most_heights;
+  };
+  float cell_m = wanted_m;
+  while (!fits(cell_m) && std::isfinite(cell_m)) cell_m *= step;
+  return cell_m;
+}
+
+shading::Heightfield heights_of(const scene::Scene& scene) {
+  Bounds bounds;
+  const auto each_part = [&](auto&& visit) {
+    render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
+      if (part.is_visible) visit(part.mesh, part.world_from_mesh);
+    });
+  };
+  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+    bounds.add(transformed(world_from_mesh, mesh.bounds()));
+  });
+  const glm::vec2 size_m = bounds.empty() ? glm::vec2(0.0f) : glm::vec2(bounds.size());
+  const float wanted_m = map_plan(scene).cell_m, cell_m = fitting_cell_m(size_m, wanted_m);
+  tell_if_coarse(size_m, cell_m, wanted_m);
+  shading::Heightfield heights(bounds, cell_m, int(most_heights_a_side));
+  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
+  return heights;
+}
+
+std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights) {
+  const ReferenceMapPlan& plan = map_plan(scene);
+  if (!plan.places.empty()) return plan.places;
+  std::vector<glm::vec3> places = place_for_pictures(scene, heights, max_maps(scene)).places;
+  if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
+  return places;
+}
+
+Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
+                                render::Renderer& renderer, Keep keep) {
+  const int face_resolution = map_resolution(scene);
+  Result<MapPainter> painter = MapPainter::create(face_resolution);
+  if (!painter) return painter.errors();
+  const MapCache cache(scene);
+  if (keep == Keep::no) cache.tell_what_is_old();
+  const std::optional<MapFile> first = cache.read(0);
+  ReferenceMaps maps(first ? first->places : map_places(scene, heights),
+                     ReferenceMaps::layer_side(face_resolution));
+
+  Progress progress("reference maps", maps.places().size());
+  for (std::size_t i = 0; i < maps.places().size(); ++i) {
+    const std::optional<MapFile> kept = i == 0 ? first : cache.read(i);
+    if (!kept || kept->places != maps.places() || !maps.write(i, kept->textures)) {
+      renderer.begin_still_frame(scene, camera_at(maps.places()[i]));
+      painter->paint(renderer, maps, i);
+      if (keep == Keep::yes) {
+        const MapFile file{0, maps.places(), std::uint32_t(i), std::uint32_t(maps.resolution()),
+                           maps.read(i)};
+        if (Status status = cache.write(file); !status) return status.errors();
+      }
+    }
+    progress.advance();
+  }
+  maps.update_levels();
+  return map_plan(scene).is_compressed ? compressed(maps) : std::move(maps);
+}
+
+}  // namespace parvis::reference_maps

@@ -1,0 +1,31 @@
+// What every method of this room starts from: a scene's heights, and its reference maps.
+#pragma once
+
+#include "reflections/reference_maps/height_pyramid.h"
+#include "reflections/reference_maps/reference_maps.h"
+#include "reflections/reference_maps/settings.h"
+#include "scene/scene.h"
+
+namespace parvis::reference_maps {
+
+/// The highest point over each cell of the ground of what stands still, is visible and lets no light through.
+/// Cells are as wide as the scene wants them, and wider (which is told) where these would take more memory
+/// than heights may have.
+shading::Heightfield heights_of(const scene::Scene& scene);
+
+/// Width of the cells that a place of so many metres gets where `wanted_m` are wanted.
+float fitting_cell_m(glm::vec2 size_m, float wanted_m);
+
+/// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
+/// least.
+std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights);
+
+/// Maps that are drawn are kept beside the scene, too.
+enum class Keep : bool { no, yes };
+
+/// The scene's reference maps: those that are baked are read, the others drawn; begins a frame for the light.
+/// Tells on standard error which baked ones are unfit. Fails if a shader does, or if a map cannot be kept.
+Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
+                                render::Renderer& renderer, Keep keep = Keep::no);
+
+}  // namespace parvis::reference_maps

@@ -1,0 +1,35 @@
+// Simple blending (Meyer and Loscos 2003, sections 3 and 5; figure 9a): two reference maps looked up by the
+// direction alone and mixed half and half. What local maps fall back on far away, and what they are judged
+// by.
+#pragma once
+
+#include "reflections/methods/reflections.h"
+#include "reflections/reference_maps/map_pair.h"
+#include "reflections/reference_maps/reference_maps.h"
+
+namespace parvis::reference_maps {
+
+/// Makes the method for a scene: bakes the reference maps.
+Result<std::unique_ptr<methods::Reflections>> make_simple_blend(
+    const scene::Scene& scene, render::Renderer& renderer,
+    std::unique_ptr<methods::Reflections> below = nullptr);
+
+class SimpleBlend final : public methods::Reflections {
+ public:
+  SimpleBlend(ReferenceMaps maps, MapChoice choice) : maps_(std::move(maps)), choice_(std::move(choice)) {}
+
+  render::SurfaceSource source() const override {
+    return {.fragment = "reflections/reference_maps/simple_blend.frag"};
+  }
+  void bind(const gl::Program& program, int object) override;
+
+ private:
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
+
+  ReferenceMaps maps_;
+  MapChoice choice_;
+  std::vector<MapPair> pair_of_object_;
+};
+
+}  // namespace parvis::reference_maps

@@ -1,0 +1,17 @@
+// The texture units of curved reflectors, mirrors and glass.
+#pragma once
+
+#include "reflections/methods/bindings.h"
+
+namespace parvis::reflector_maps {
+
+enum TextureUnit : GLuint {
+  reflector_unit = methods::first_overlay_unit,  ///< the map of the reflector that is drawn
+  second_reflector_unit,                         ///< of a mirror that the first shows
+  near_picture_unit,
+  glass_picture_unit,
+  grid_table_unit,
+  grid_results_unit
+};
+
+}  // namespace parvis::reflector_maps

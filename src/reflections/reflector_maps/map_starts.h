@@ -1,0 +1,44 @@
+// Where searches over a reflector map may begin: places spread over its patch, and how the surface bends
+// about each.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+#include "reflections/reflector_maps/reflector_patches.h"
+
+namespace parvis::reflector_maps {
+
+struct ReflectorMap;
+
+inline constexpr std::size_t layer_start_count = 16, starts_beside = 8,
+                             start_count =
+                                 layer_start_count * (1 + starts_beside);  ///< as in patch_search.glsl
+
+/// A place, and how the surface bends about it, in the tangent plane of `normal` and `u` (patch_search.glsl).
+struct MapStart {
+  glm::vec3 position, normal, u, bend;
+};
+
+/// All of a map, number by number, so that processors weigh several at once. The first 16 are spread over the
+/// patch, the first of all near its middle; then eight that lie beside the first, eight beside the second,
+/// and so on.
+class MapStarts {
+ public:
+  MapStart operator[](std::size_t i) const {
+    const auto vector = [&](std::size_t first) {
+      return glm::vec3(numbers_[first][i], numbers_[first + 1][i], numbers_[first + 2][i]);
+    };
+    return {vector(0), vector(3), vector(6), vector(9)};
+  }
+  void set(std::size_t i, const MapStart& start);
+  bool operator==(const MapStarts&) const = default;
+
+ private:
+  std::array<std::array<float, start_count>, 12> numbers_{};
+};
+
+/// The map has all but its starts.
+MapStarts spread_starts(const ReflectorMap& map, const ReflectorMesh& mesh, const ReflectorPatch& patch);
+
+}  // namespace parvis::reflector_maps

@@ -1,0 +1,46 @@
+// Baked reflectors beside their scene: folder NAME.baked/reflectors, in it a file for each, named by what it
+// depends on, so that baking can be interrupted between two of them and go on.
+#pragma once
+
+#include <set>
+
+#include "reflections/reflector_maps/reflector_map.h"
+#include "reflections/reflector_maps/reflector_sources.h"
+
+namespace parvis::reflector_maps {
+
+class ReflectorCache {
+ public:
+  /// Nothing is kept of a scene that was made in memory.
+  explicit ReflectorCache(const scene::Scene& scene);
+
+  /// As it was kept, or made now. Tells on standard error what cannot be used of what was kept. Errors as
+  /// make_reflector's.
+  Result<Reflector> reflector(const ReflectorSource& source) const;
+  /// Is it kept, and fit?
+  bool has(const ReflectorSource& source) const;
+  Status keep(const ReflectorSource& source, const Reflector& reflector) const;
+
+  /// Empty for a scene that was made in memory.
+  const std::filesystem::path& folder() const { return folder_; }
+  /// Where a reflector is kept; empty: nowhere.
+  std::filesystem::path file(const ReflectorSource& source) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// What is kept of a scene, or of several of its states.
+struct BakedReflectors {
+  std::filesystem::path folder;
+  std::set<std::filesystem::path> files;
+};
+
+/// Makes and keeps all reflectors that the scene's method looks up and that are not kept yet, with progress:
+/// curved mirrors where virtual objects are wanted, solid glass by every method. What cannot be a reflector
+/// is told on standard error.
+Result<BakedReflectors> bake_reflectors(const scene::Scene& scene);
+/// Removes what is kept of others.
+void forget_other_reflectors(const BakedReflectors& kept);
+
+}  // namespace parvis::reflector_maps

@@ -1,0 +1,88 @@
+// What bodies of solid glass let through, over any method of reflection: a picture, as large as the main
+// view, that their pixels look up. Behind the glass lies the cube map of its surroundings, if the method has
+// one, else the sky; before it, where virtual objects are wanted (reflection(method="virtual_objects") or
+// virtual_within), the scene drawn once more with every vertex where the glass shows it
+// (refraction_search.glsl). What light cannot be followed through is a pane: the scene straight through it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "reflections/methods/reflections.h"
+#include "reflections/reflector_maps/near_objects.h"
+#include "reflections/reflector_maps/reflector_cache.h"
+#include "reflections/reflector_maps/settings.h"
+#include "reflections/reflector_maps/shown_patch.h"
+#include "reflections/reflector_maps/virtual_picture.h"
+#include "reflections/refraction/refraction_search.h"
+
+namespace parvis::refraction {
+using namespace reflection_search;
+using namespace reflector_maps;
+
+class RefractedObjects final : public methods::Overlay, public render::VirtualVertices {
+ public:
+  /// Makes the maps of all bodies of glass; tells on standard error which are none that light can be followed
+  /// through (open, not convex): they are drawn as panes. `reflections` is what all surfaces mirror by.
+  static Result<std::unique_ptr<RefractedObjects>> create(const scene::Scene& scene,
+                                                          const render::Renderer& renderer,
+                                                          std::unique_ptr<methods::Reflections> reflections);
+
+  render::SurfaceSource source() const override;
+  void bind(const gl::Program& program, int object) override;
+  void bind(const gl::Program& program) override;
+  bool may_show(const Bounds& bounds) const override;
+
+ private:
+  struct Glass {
+    GpuReflector gpu;                 ///< all of its surface as one patch
+    std::optional<ReflectorMap> map;  ///< none: light can not be followed through it
+    float ior;
+    glm::vec3 absorption_per_m;
+    std::vector<std::size_t> parts;  ///< of its model
+    float thickness = 0.0f;          ///< in its model's unit, as a pane
+  };
+  /// What a frame knows of one beside its patch.
+  struct ViewThrough {
+    const Glass* glass = nullptr;
+    bool shows_objects = false;                        ///< before the light of its surroundings
+    std::array<glm::mat4, refraction_ray_count> rays;  ///< if it shows objects
+  };
+  enum class Share { behind_glass, let_through, from_inside, all_light };  ///< as in glass_light.frag
+
+  RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
+                   gl::Program glass_light, VirtualPicture picture,
+                   std::unique_ptr<methods::Reflections> reflections);
+  static std::optional<Glass> glass_of(const ReflectorCache& cache, const GlassSource& source);
+  void update_maps(render::Renderer& renderer, const scene::Scene& scene,
+                   const std::vector<methods::VisibleReflector>& reflectors) override;
+  void find_glass(const render::Renderer& renderer, const std::vector<methods::VisibleReflector>& reflectors);
+  void find_bodies(const render::Renderer& renderer, int object, const std::vector<Glass>& bodies);
+  void draw_through(render::Renderer& renderer, std::size_t i, render::View view);
+  void draw_panes(render::Renderer& renderer, render::View view);
+  void draw_light(const render::View& view, std::size_t i, Share share) const;
+
+  std::unordered_map<const scene::Model*, std::vector<Glass>> glass_;
+  std::vector<const scene::Model*> model_of_object_;
+  gl::Program patch_pixels_, glass_light_;
+  VirtualPicture picture_;
+  bool shows_all_;
+  float within_m_;
+  std::vector<ShownPatch> shown_;     ///< in the order of their numbers in the stencil
+  std::vector<ViewThrough> through_;  ///< of each of them
+  std::vector<ShownPatch> panes_;     ///< bodies that light is not followed through
+  std::vector<const Glass*> glass_of_panes_;
+  NearObjects near_;
+  std::vector<std::uint32_t> own_items_;  ///< of the body whose mirrored view is drawn
+  std::size_t current_ = 0;               ///< of them, while its mirrored view is drawn
+  int foci_ = 0;                          ///< that the light of its layer has passed
+};
+
+/// See RefractedObjects::create; scene and renderer outlive it.
+Result<std::unique_ptr<methods::Reflections>> make_refracted_objects(
+    const scene::Scene& scene, render::Renderer& renderer, std::unique_ptr<methods::Reflections> reflections);
+
+}  // namespace parvis::refraction

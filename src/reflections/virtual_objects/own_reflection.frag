@@ -1,0 +1,45 @@
+// A hollow that mirrors itself: the mirror ray of each pixel walks through the hollow's own map, and where it meets the surface
+// that mirrors the sky, as all that is mirrored does.
+#include "graphics/render/sky_lookup.glsl"
+#include "reflections/reflector_maps/patch_uniforms.glsl"
+
+uniform vec3 viewer_in_reflector;
+uniform vec3 mirror_colour;  // what the surface gives back of what it mirrors
+
+in vec3 at_reflector;
+out vec4 radiance;
+
+const int walk_steps = 48;
+const int halvings = 6;
+const float mirror_roughness = 0.05f;
+
+// How far a point lies beyond what the centre sees that way; below 0: within the hollow.
+float beyond(vec3 point) {
+  vec3 from_centre = point - map_centre;
+  return length(from_centre) - map_sample(map_window(), normalize(from_centre)).distance;
+}
+
+void main() {
+  SurfacePoint at = surface_at(at_reflector - map_centre);
+  vec3 direction = reflect(normalize(at.position - viewer_in_reflector), at.normal);
+  float step_m = 2.0f * map_size.z / float(walk_steps);
+  float inside = 0.0f, outside = 0.0f;
+  for (int i = 1; i <= walk_steps && outside == 0.0f; ++i) {
+    float way = step_m * float(i);
+    if (beyond(at.position + way * direction) < 0.0f) inside = way;
+    else outside = way;
+  }
+  if (inside == 0.0f || outside == 0.0f) discard;  // it leaves at once, or meets nothing
+  for (int i = 0; i < halvings; ++i) {
+    float way = 0.5f * (inside + outside);
+    if (beyond(at.position + way * direction) < 0.0f) inside = way;
+    else outside = way;
+  }
+  vec3 from_centre = at.position + outside * direction - map_centre;
+  if (surface_kind(from_centre) == kind_closed) discard;  // out through the opening
+  SurfacePoint met = surface_at(from_centre);
+  vec3 normal = normalize(mat3(world_from_reflector) * met.normal);
+  vec3 mirrored = reflect(normalize(mat3(world_from_reflector) * direction), normal);
+  vec4 cell = sky_visibility_cell(moved(world_from_reflector, met.position), normal);
+  radiance = vec4(mirror_colour * sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, mirror_roughness), 1.0f);
+}

@@ -1,0 +1,81 @@
+#include "reflections/virtual_objects/room.h"
+
+#include "reflections/methods/registry.h"
+#include "reflections/reflector_maps/settings.h"
+#include "reflections/virtual_objects/long_edges.h"
+#include "reflections/virtual_objects/virtual_objects.h"
+
+namespace parvis::virtual_objects {
+using namespace reflection_search;
+using namespace reflector_maps;
+namespace {
+
+using scene::AttributeSchema, scene::AttributeType;
+
+std::vector<AttributeSchema> virtual_object_attributes() {
+  const VirtualObjectSettings defaults;
+  return {{.name = "virtual_within",
+           .type = AttributeType::number,
+           .help = "people, trees, cars that stand wholly within this distance of a mirror are drawn as "
+                   "virtual objects, where ray tracing has them, over what the method shows beyond; 0: "
+                   "none. (virtual_objects draws everything so, whatever its distance.)",
+           .fallback = fmt::format("{}", defaults.within_m),
+           .unit = "m",
+           .minimum = 0,
+           .maximum = 1000,
+           .is_live = true},
+          {.name = "virtual_grid",
+           .type = AttributeType::number,
+           .help = "of virtual objects: reflection points are searched for the corners of a grid about "
+                   "each mesh, at most this share of as many as it has vertices, and its vertices are "
+                   "interpolated between them; 1: for each vertex itself. With level_of_detail fewer "
+                   "where that is not seen",
+           .fallback = fmt::format("{}", defaults.grid_share),
+           .minimum = 0,
+           .maximum = 1,
+           .is_live = true},
+          {.name = "search",
+           .type = AttributeType::choice,
+           .help = "of virtual objects: how reflection points are searched for; midpoint is the method "
+                   "of Estalella and others 2005, drawn however far it has come (mirrors in mirrors are "
+                   "searched for by newton)",
+           .fallback = search_method_names[0],
+           .choices = {search_method_names.begin(), search_method_names.end()},
+           .is_live = true},
+          {.name = "iterations",
+           .type = AttributeType::integer,
+           .help = "of search=midpoint",
+           .fallback = fmt::format("{}", defaults.iterations),
+           .minimum = 1,
+           .maximum = 100,
+           .is_live = true}};
+}
+
+void read_virtual_objects(const scene::Node& node, methods::Settings& settings) {
+  VirtualObjectSettings& own = settings.own.get<VirtualObjectSettings>();
+  own.within_m = float(node.number("virtual_within"));
+  own.grid_share = float(node.number("virtual_grid"));
+  for (std::size_t i = 0; i < search_method_names.size(); ++i)
+    if (node.text("search") == search_method_names[i]) own.search = SearchMethod(i);
+  own.iterations = int(node.integer("iterations"));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  methods::Registry& registry = house.get<methods::Registry>();
+  registry.add({.name = virtual_objects_method,
+                .help = "every object by its virtual image: each vertex at its reflection point",
+                .make = make_virtual_objects,
+                .lies_over = "time_sliced_cube_map",
+                .attributes = virtual_object_attributes(),
+                .read = read_virtual_objects,
+                .prepare = divide_long_edges});
+  registry.add({.name = "near virtual objects",
+                .help = "what stands near a mirror by its virtual image, over what another method shows",
+                .make = make_virtual_objects,
+                .is_overlay = true,
+                .is_wanted = shows_near_objects});
+}
+
+}  // namespace parvis::virtual_objects
