@@ -1,8 +1,8 @@
-# parvis_room(NAME FLOOR n [USES room...] [LIBRARIES target...] [PRIVATE_LIBRARIES target...])
+# parvis_room(NAME FLOOR n [USES room...] [LIBRARIES target...] [PRIVATE_LIBRARIES target...] [TEST_USES room...])
 # Makes the library parvis_NAME of the *.cpp of this folder and, where *_test.cpp lie beside them, the
 # test program NAME_test. USES names the rooms whose headers may be included: script/check_floors holds
 # the room to it. LIBRARIES are seen by the rooms above, too, because headers of the room name them; PRIVATE_LIBRARIES
-# by its sources and tests alone.
+# by its sources and tests alone. TEST_USES: rooms of any floor that its tests, fuzzers and test_*.h use beside USES.
 # GLSL files need no mention: the room gl embeds those of every room.
 set(PARVIS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wunused -Werror)
 
@@ -28,13 +28,13 @@ target_compile_options(parvis_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # A fuzzer for each file fuzz/NAME.cpp of the room, ROOM_NAME_fuzz; script/fuzz runs them. In other builds the same
 # program only reads the inputs once found, fuzz/found/NAME-*, as a test.
-function(parvis_fuzzers room)
+function(parvis_fuzzers room)  # further arguments: libraries
   file(GLOB fuzzers CONFIGURE_DEPENDS fuzz/*.cpp)
   foreach(source ${fuzzers})
     get_filename_component(reader ${source} NAME_WE)
     set(program ${room}_${reader}_fuzz)
     add_executable(${program} ${source})
-    target_link_libraries(${program} PRIVATE parvis_${room})
+    target_link_libraries(${program} PRIVATE parvis_${room} ${ARGN})
     if(PARVIS_FUZZ)
       target_link_options(${program} PRIVATE -fsanitize=fuzzer)
     else()
@@ -63,11 +63,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 function(parvis_room name)
-  cmake_parse_arguments(ROOM "" "FLOOR" "USES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "FLOOR" "USES;LIBRARIES;PRIVATE_LIBRARIES;TEST_USES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(TRANSFORM ROOM_USES PREPEND parvis_)
+  list(TRANSFORM ROOM_TEST_USES PREPEND parvis_)
 
   if(NOT sources)
     add_library(parvis_${name} INTERFACE)
@@ -81,12 +82,12 @@ function(parvis_room name)
 
   if(tests)
     add_executable(${name}_test ${tests})
-    target_link_libraries(${name}_test PRIVATE parvis_${name} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} GTest::gtest_main)
+    target_link_libraries(${name}_test PRIVATE parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} GTest::gtest_main)
     if(PARVIS_USES_PCH)
       target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
     endif()
     target_compile_definitions(${name}_test PRIVATE PARVIS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     add_test(NAME ${name} COMMAND ${name}_test)
   endif()
-  parvis_fuzzers(${name})
+  parvis_fuzzers(${name} ${ROOM_TEST_USES} ${ROOM_PRIVATE_LIBRARIES})
 endfunction()

@@ -1,5 +1,6 @@
 // parvis check: is a scene right? And the reference of all nodes.
 #include "commands.h"
+#include "life/traffic/demand.h"
 #include "scene/scene_reference.h"
 #include "scene/schema_json.h"
 #include "scene_arguments.h"
@@ -41,7 +42,7 @@ Status check(const Arguments& arguments) {
   if (Status status = live.prepare_scenarios(scene); !status) return status;
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
-             scene.roads.lanes.size(), scene.traffic.vehicles, scene.cameras.size());
+             scene.roads.lanes.size(), scene.data<traffic::TrafficDemand>().vehicles, scene.cameras.size());
   print_states(live);
   return Done{};
 }

@@ -64,7 +64,7 @@ Result<std::vector<JudgedBody>> make_bodies(bool is_quick, Report& report) {
       continue;
     }
     Errors warnings;
-    const Result<scene::Model> model = scene::model_from_file(*file, {}, warnings);
+    const Result<scene::Model> model = scene::read_with_assimp(*file, formats::UpAxis::file, warnings);
     if (!model) return model.errors();
     Mesh mesh;
     for (const scene::Part& part : model->parts) append(mesh, part.mesh);

@@ -5,6 +5,7 @@
 
 #include "bench/near_views.h"
 #include "bench/reflection_cost.h"
+#include "life/traffic/demand.h"
 #include "places/paper_city/mirror_bodies.h"
 #include "reflections/reference_maps/map_cache.h"
 #include "reflections/reference_maps/scene_maps.h"
@@ -24,7 +25,7 @@ constexpr int tiles_east = 5, tiles_north = 2, middle_tile = tiles_east / 2;
 /// The scene without its traffic: what drives is put into it where it is wanted.
 scene::Scene without_traffic(const scene::Scene& city) {
   scene::Scene scene = city;  // models are shared
-  scene.traffic.vehicles = 0;
+  scene.data<traffic::TrafficDemand>().vehicles = 0;
   return scene;
 }
 

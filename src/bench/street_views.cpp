@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "graphics/render/frustum.h"
+#include "life/traffic/demand.h"
 
 namespace parvis::bench {
 namespace {
@@ -37,7 +38,7 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
     const std::size_t i = std::size_t(random.index(int(lane.points.size()) - 1));
     const glm::vec3 along = lane.points[i + 1] - lane.points[i];
     const glm::vec3 eye = lane.points[i] + random.uniform() * along + glm::vec3(0, 0, eye_height_m);
-    if (glm::distance(glm::vec2(eye), scene.traffic.centre) > scene.traffic.radius_m) continue;
+    if (!scene.data<scene::DrivingArea>().contains(glm::vec2(eye))) continue;
     cameras.push_back(at(eye, std::atan2(along.y, along.x), pitch_rad, float(width) / float(height)));
   }
   return cameras;
@@ -45,7 +46,7 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
 
 house::Play play_with(const scene::Scene& scene, int vehicles) {
   scene::Scene copy = scene;  // models are shared
-  copy.traffic.vehicles = vehicles;
+  copy.data<traffic::TrafficDemand>().vehicles = vehicles;
   return house::make_play(std::move(copy));
 }
 

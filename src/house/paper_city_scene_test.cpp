@@ -27,8 +27,8 @@ TEST(PaperCity, IsASceneOfThePapersFigures) {
   const scene::Scene& scene = loaded->scene;
   EXPECT_EQ(scene.static_triangle_count(), city_triangles);
   EXPECT_EQ(scene.objects.size(), 9u);  // the city and eight trees
-  EXPECT_EQ(scene.traffic.vehicles, 30);
-  EXPECT_GE(scene.traffic.models.size(), 4u);
+  EXPECT_EQ(scene.data<traffic::TrafficDemand>().vehicles, 30);
+  EXPECT_GE(scene.data<traffic::TrafficDemand>().models.size(), 4u);
   EXPECT_FALSE(scene.roads.empty());
   EXPECT_NE(scene.find_camera("street"), nullptr);
   EXPECT_NE(scene.find_camera("balcony"), nullptr);

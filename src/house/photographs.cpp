@@ -8,6 +8,7 @@
 #include "base/image_io.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/colmap_writer.h"
 #include "scene/gltf_cameras.h"
 
 namespace parvis::house {

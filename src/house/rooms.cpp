@@ -1,30 +1,44 @@
 #include "house/rooms.h"
 
+#include <array>
+
+#include "life/traffic/traffic_nodes.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
+#include "reflections/methods/registry.h"
 #include "reflections/probes/room.h"
 #include "reflections/reference_maps/room.h"
 #include "reflections/refraction/room.h"
 #include "reflections/virtual_objects/room.h"
 #include "scene/action/action_nodes.h"
+#include "scene/city_formats.h"
+#include "scene/gltf_formats.h"
+#include "scene/light_nodes.h"
+#include "scene/mesh_nodes.h"
+#include "scene/road_nodes.h"
+#include "scene/script_nodes.h"
+#include "scene/terrain_formats.h"
 
 namespace parvis::house {
+namespace {
+
+/// One line per room. The scene reference lists node types, and --help methods, in this order.
+constexpr std::array rooms{
+    scene::furnish_script, scene::furnish_gltf,   scene::furnish_city_models, scene::furnish_terrain,
+    scene::furnish_meshes, scene::furnish_roads,  traffic::furnish,           scene::furnish_light,
+    city::furnish,         action::furnish,       probes::furnish,            environment_rays::furnish,
+    local_maps::furnish,   reference_maps::furnish, virtual_objects::furnish, refraction::furnish,
+};
+
+}  // namespace
 
 const House& all_rooms() {
   static const House house = [] {
     House all;
-    scene::NodeRegistry& nodes = all.get<scene::NodeRegistry>();
-    nodes = scene::core_nodes();
-    city::add_city_nodes(nodes);
-    action::add_action_nodes(nodes);
-    probes::furnish(all);
-    environment_rays::furnish(all);
-    local_maps::furnish(all);
-    reference_maps::furnish(all);
-    virtual_objects::furnish(all);
-    refraction::furnish(all);
-    methods::add_reflection_node(nodes, all.get<methods::Registry>());
+    for (const auto furnish : rooms) furnish(all);
+    // The node's attributes are those of every method, so it comes last.
+    methods::add_reflection_node(all.get<scene::NodeRegistry>(), all.get<methods::Registry>());
     return all;
   }();
   return house;

@@ -137,12 +137,12 @@ class Converter {
 
 }  // namespace
 
-Result<Model> read_with_assimp(const fs::path& file, UpAxis up, Errors& warnings) {
+Result<Model> read_with_assimp(const fs::path& file, formats::UpAxis up, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
   const std::string extension = file.extension().string();
   const bool is_z_up_format =
       extension == ".ply" || extension == ".stl" || extension == ".PLY" || extension == ".STL";
-  const bool is_y_up = up == UpAxis::y || (up == UpAxis::file && !is_z_up_format);
+  const bool is_y_up = up == formats::UpAxis::y || (up == formats::UpAxis::file && !is_z_up_format);
   try {
     Assimp::Importer importer;
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);

@@ -17,7 +17,7 @@ TEST(Assimp, AnObjIsTurnedToZUpAndKeepsItsNames) {
   const TestFolder folder;
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\nmap_Kd missing.png\n");
   Errors warnings;
-  const Result<Model> model = read_with_assimp(folder.write("q.obj", quad), UpAxis::file, warnings);
+  const Result<Model> model = read_with_assimp(folder.write("q.obj", quad), formats::UpAxis::file, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
   ASSERT_EQ(model->parts.size(), 1u);
   EXPECT_EQ(model->parts[0].object, "plate");
@@ -31,9 +31,10 @@ TEST(Assimp, AnObjIsTurnedToZUpAndKeepsItsNames) {
 TEST(Assimp, FilesWithoutTrianglesAndGarbageAreErrors) {
   const TestFolder folder;
   Errors warnings;
-  EXPECT_FALSE(read_with_assimp(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), UpAxis::file, warnings));
-  EXPECT_FALSE(read_with_assimp(folder.write("x.fbx", "no model"), UpAxis::file, warnings));
-  EXPECT_FALSE(read_with_assimp(folder.path() / "absent.obj", UpAxis::file, warnings));
+  EXPECT_FALSE(
+      read_with_assimp(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), formats::UpAxis::file, warnings));
+  EXPECT_FALSE(read_with_assimp(folder.write("x.fbx", "no model"), formats::UpAxis::file, warnings));
+  EXPECT_FALSE(read_with_assimp(folder.path() / "absent.obj", formats::UpAxis::file, warnings));
 }
 
 TEST(Assimp, DamagedTextNeverCrashes) {
@@ -45,7 +46,7 @@ TEST(Assimp, DamagedTextNeverCrashes) {
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = char(random.next());
     Errors warnings;
-    static_cast<void>(read_with_assimp(folder.write("bad.obj", text), UpAxis::file, warnings));
+    static_cast<void>(read_with_assimp(folder.write("bad.obj", text), formats::UpAxis::file, warnings));
   }
 }
 
@@ -53,7 +54,7 @@ TEST(Assimp, ReadsTheRealCar) {
   const auto file = shared_data("cars/p406/p406.obj", PARVIS_SOURCE_DIR);
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   Errors warnings;
-  const Result<Model> model = read_with_assimp(*file, UpAxis::file, warnings);
+  const Result<Model> model = read_with_assimp(*file, formats::UpAxis::file, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
   EXPECT_TRUE(warnings.empty()) << to_string(warnings);
   const Bounds box = bounds(*model);

@@ -8,10 +8,6 @@
 namespace parvis::scene {
 namespace {
 
-double focal_length_px(const TakenPicture& picture) {
-  return 0.5 * double(picture.height) / std::tan(0.5 * double(picture.camera.vertical_fov));
-}
-
 bool share_a_camera(const TakenPicture& a, const TakenPicture& b) {
   return a.width == b.width && a.height == b.height && a.camera.vertical_fov == b.camera.vertical_fov;
 }
@@ -82,12 +78,6 @@ std::string points_text(const std::vector<SeenPoint>& points) {
 }
 
 }  // namespace
-
-glm::vec2 projected(const TakenPicture& picture, glm::vec3 position) {
-  const glm::dvec4 p = colmap_from_world(picture.camera) * glm::dvec4(position, 1.0);
-  const double focal = focal_length_px(picture);
-  return {float(0.5 * picture.width + focal * p.x / p.z), float(0.5 * picture.height + focal * p.y / p.z)};
-}
 
 Status write_colmap(const std::filesystem::path& folder, const std::vector<TakenPicture>& pictures,
                     const std::vector<SeenPoint>& points) {

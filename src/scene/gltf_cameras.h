@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/colmap_writer.h"
+#include "base/result.h"
+#include "scene/taken_picture.h"
 
 namespace parvis::scene {
 

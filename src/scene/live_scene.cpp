@@ -26,7 +26,7 @@ void for_each_from(const Node& node, const Visit& visit) {
 bool is_scenario(const Node& node) { return node.schema->type == "scenario"; }
 
 /// Of a node that is to be seen, or not.
-void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible, is_visible ? "1" : "0"); }
+void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible); }
 
 }  // namespace
 
@@ -89,13 +89,13 @@ Node& LiveScene::change(const Node& node) {
   return writable(node);
 }
 
-void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value, std::string text) {
+void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value) {
   Node& changing = change(node);
   const std::vector<std::string>& replaced = node.schema->find(attribute)->in_place_of;
   std::erase_if(changing.attributes, [&](const NodeAttribute& each) {
     return std::find(replaced.begin(), replaced.end(), each.schema->name) != replaced.end();
   });
-  changing.set(attribute, std::move(value), std::move(text));
+  changing.set(attribute, std::move(value));
 }
 
 bool LiveScene::receive(const Node& node, const Message& message) {
@@ -114,7 +114,7 @@ bool LiveScene::receive(const Node& node, const Message& message) {
       if (child.schema->find("visible")) show(child, holds_chosen);
     }
   } else if (const AttributeSchema* attribute = node.schema->find(name); attribute && attribute->is_live) {
-    set(node, attribute->name, message.arguments.front(), message.text.substr(message.text.find(' ') + 1));
+    set(node, attribute->name, message.arguments.front());
   } else {
     return false;
   }
@@ -134,7 +134,7 @@ void LiveScene::change_by(const Node& scenario) {
   if (scenario.gives("extends")) change_by(*find(scenario.text("extends")));
   Node& chosen = change(scenario);
   as_written_.try_emplace(&chosen, chosen.attributes);
-  chosen.set("chosen", true, "1");
+  chosen.set("chosen", true);
   for (const Node& child : scenario.children) {
     if (child.schema->takes_attributes_of.empty()) continue;
     Node& target = change(*find(child.text("of")));
@@ -182,7 +182,7 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
   }
   if (!errors.empty()) return errors;
   const std::string begins = first ? first->text("name") : "";
-  if (first) set(*first, "chosen", false, "0");
+  if (first) set(*first, "chosen", false);
   for (const Node* scenario : scenarios())
     if (Status status = choose(scene, scenario->text("name")); !status)
       errors.insert(errors.end(), status.errors().begin(), status.errors().end());
@@ -190,13 +190,13 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
   return errors;
 }
 
-/// The node that is built again where this one changes: itself, or the model that a material is of. Null for
-/// what stays as it was when the scene was loaded.
+/// The node that is built again where this one changes: itself, or the one around it that it is a part of.
+/// Null for what stays as it was when the scene was loaded.
 const Node* LiveScene::builder_of(const Node& node) const {
   if (is_built(node)) return &node;
   const Node* parent = parent_of(node);
-  const bool changes_model = script_.registry->find(node.schema->type)->change != nullptr;
-  return changes_model && parent && is_built(*parent) ? parent : nullptr;
+  const bool is_of_parent = script_.registry->find(node.schema->type)->is_of_parent();
+  return is_of_parent && parent ? builder_of(*parent) : nullptr;
 }
 
 Errors LiveScene::refresh(Scene& scene) {
@@ -221,14 +221,24 @@ Errors LiveScene::refresh(Scene& scene) {
   return errors;
 }
 
-/// Only light and cameras are written in place; objects and cameras are built aside and then take their
-/// places.
+/// Numbers of the node and of those inside it that were built.
+NodeRange LiveScene::range_of(const Node& node) const {
+  NodeRange range{frame_of(node).number, frame_of(node).number};
+  for_each_from(node,
+                [&](const Node& inside) { range.last = std::max(range.last, frame_of(inside).number); });
+  return range;
+}
+
+/// What stands once is written in place; objects, cameras and items are built aside, and then replace those
+/// that the node had made.
 Errors LiveScene::build_again(Scene& scene, const Node& node) {
+  const NodeRange range = range_of(node);
   SceneBuilder builder(*script_.registry, std::move(script_.models));
   std::vector<Object> objects = std::exchange(scene.objects, {});
   std::vector<NamedCamera> cameras = std::exchange(scene.cameras, {});
+  RoomDataSet items = scene.room_data.take_made_by(range);
   builder.scene = std::move(scene);
-  builder.build_again(node, frame_of(node));
+  builder.build_again(node, script_.frames);
   scene = std::move(builder.scene);
   std::vector<Object> built_objects = std::exchange(scene.objects, std::move(objects));
   const std::vector<NamedCamera> built_cameras = std::exchange(scene.cameras, std::move(cameras));
@@ -236,7 +246,11 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
   Errors errors = builder.errors();
   Script built = std::move(builder).take_script();
   script_.models = std::move(built.models);
-  if (!errors.empty()) return errors;
+  if (!errors.empty()) {
+    scene.room_data.take_made_by(range);
+    scene.room_data.put_back(std::move(items));
+    return errors;
+  }
   for (auto& [inside, frame] : built.frames) script_.frames[inside] = frame;
   put_objects(scene, std::move(built_objects), built.object_makers, node);
   put_cameras(scene, built_cameras, built.camera_makers);

@@ -36,9 +36,9 @@ class LiveScene {
   /// as it was when the scene was loaded; but scenarios change the materials of models.
   bool is_built(const Node& node) const { return script_.frames.count(&node) != 0; }
 
-  /// Gives an attribute of the node another value, in place of those that it replaces; seen after the next
-  /// `refresh`.
-  void set(const Node& node, const std::string& attribute, AttributeValue value, std::string text);
+  /// Gives an attribute of the node another value of its type, in place of those that it replaces; seen after
+  /// the next `refresh`.
+  void set(const Node& node, const std::string& attribute, AttributeValue value);
   /// Does what a message that every node type of its kind takes says: sets a live attribute, shows or hides.
   /// False where the message is none of these.
   bool receive(const Node& node, const Message& message);
@@ -66,6 +66,7 @@ class LiveScene {
                    const Node& node);
   void put_cameras(Scene& scene, const std::vector<NamedCamera>& built,
                    const std::vector<const Node*>& makers);
+  NodeRange range_of(const Node& node) const;
   Errors build_again(Scene& scene, const Node& node);
   void change_by(const Node& scenario);
 

@@ -4,8 +4,10 @@
 
 #include "base/image_io.h"
 #include "base/test_folder.h"
+#include "life/traffic/demand.h"
 #include "scene/gltf_writer.h"
 #include "scene/scene_loader.h"
+#include "scene/test_house.h"
 #include "scene/test_scene.h"
 
 namespace parvis::scene {
@@ -56,7 +58,8 @@ class LiveSceneTest : public ::testing::Test {
   }
 
   TestFolder folder_;
-  NodeRegistry registry_ = core_nodes();
+  House house_ = test_house();
+  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
   Scene scene_;
   LiveScene live_;
 };
@@ -130,7 +133,7 @@ TEST_F(LiveSceneTest, ASceneMayBeginWithAScenario) {
 TEST_F(LiveSceneTest, WhatWasTiedToMessagesStaysThroughAScenario) {
   load(std::string(square) + "model(name=kiosk, file=\"small.glb\")");
   const Node& kiosk = *live_.find("kiosk");
-  live_.set(kiosk, "position", glm::vec3(7, 7, 7), "7 7 7");
+  live_.set(kiosk, "position", glm::vec3(7, 7, 7));
   EXPECT_TRUE(live_.refresh(scene_).empty());
   choose("oaks");
   choose("");
@@ -143,11 +146,11 @@ TEST_F(LiveSceneTest, TrafficIsHiddenAndRoadsStay) {
       "scenario(name=calm) { override(of=\"%traffic\", visible=0) }");
   const std::size_t lanes = scene_.roads.lanes.size();
   choose("calm");
-  EXPECT_FALSE(scene_.traffic.is_visible);
-  EXPECT_EQ(scene_.traffic.models.size(), 1u);
+  EXPECT_FALSE(scene_.data<traffic::TrafficDemand>().is_visible);
+  EXPECT_EQ(scene_.data<traffic::TrafficDemand>().models.size(), 1u);
   EXPECT_EQ(scene_.roads.lanes.size(), lanes);
   choose("");
-  EXPECT_TRUE(scene_.traffic.is_visible);
+  EXPECT_TRUE(scene_.data<traffic::TrafficDemand>().is_visible);
 }
 
 TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
@@ -213,7 +216,7 @@ TEST_F(LiveSceneTest, AScenarioPaintsAModelAnew) {
 TEST_F(LiveSceneTest, AKindOfVehicleStaysAsItIs) {
   load("road(path=\"0 0, 100 0\")\ntraffic(vehicles=0) { model(file=\"small.glb\") }\n");
   const Node& kind = live_.find("%traffic")->children[0];
-  live_.set(kind, "scale", 2.0, "2");
+  live_.set(kind, "scale", 2.0);
   const Errors errors = live_.refresh(scene_);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_TRUE(holds(errors[0].message, "part of the node around it"));

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "scene/name_pattern.h"
 #include "scene/part_division.h"
 
 namespace parvis::scene {
@@ -152,17 +151,6 @@ MaterialChange merged(const MaterialChange& under, const MaterialChange& over) {
           either(over.ior, under.ior),
           either(over.absorption_per_m, under.absorption_per_m),
           either(over.is_mirror_like, under.is_mirror_like)};
-}
-
-std::vector<std::size_t> matching_parts(const Model& model, std::string_view target) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    const Part& part = model.parts[i];
-    if (matches(target, part.object) || matches(target, model.nodes[std::size_t(part.node)].name) ||
-        matches(target, model.materials[std::size_t(part.material)].name))
-      found.push_back(i);
-  }
-  return found;
 }
 
 std::size_t change_material(Model& model, std::span<const std::size_t> parts,

@@ -33,10 +33,6 @@ std::span<const MaterialPreset> material_presets();
 /// `over` where it says something, else `under`.
 MaterialChange merged(const MaterialChange& under, const MaterialChange& over);
 
-/// The parts whose object, node or material has a name that matches the pattern `target`
-/// (scene/name_pattern.h).
-std::vector<std::size_t> matching_parts(const Model& model, std::string_view target);
-
 /// Changes the material of the triangles of `parts` that lie in one of `masks` (of all, if there is none). A
 /// part of which only some triangles do is split in two. Returns the number of triangles changed. Triangles
 /// rarely end where a colour does. So that no spikes of glass stand in the paint, a colour that is given with

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/model_parts.h"
 #include "scene/name_pattern.h"
 
 namespace parvis::scene {

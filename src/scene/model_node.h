@@ -5,6 +5,7 @@
 
 #include "scene/model.h"
 #include "scene/node.h"
+#include "scene/readers.h"
 
 namespace parvis::scene {
 
@@ -12,6 +13,7 @@ class SceneBuilder;
 
 /// Nodes that say the same share one model. Null, with the errors in `builder`, where the file cannot be
 /// used.
-std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder);
+std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder,
+                                      const formats::Readers& readers);
 
 }  // namespace parvis::scene

@@ -11,11 +11,11 @@ const NodeAttribute* Node::find(const std::string& name) const {
   return nullptr;
 }
 
-void Node::set(const std::string& name, AttributeValue new_value, std::string text) {
+void Node::set(const std::string& name, AttributeValue new_value) {
   const AttributeSchema* attribute = schema->find(name);
   assert(attribute && "the node's schema has no such attribute");
   std::erase_if(attributes, [&](const NodeAttribute& each) { return each.schema == attribute; });
-  attributes.push_back({attribute, std::move(new_value), std::move(text), where});
+  attributes.push_back({attribute, std::move(new_value), {}, where});
 }
 
 const FileLocation& Node::where_of(const std::string& name) const {
@@ -63,6 +63,10 @@ std::filesystem::path Node::file(const std::string& name) const {
   return value<std::filesystem::path>(name).value_or(std::filesystem::path());
 }
 
+std::string written(const NodeAttribute& attribute) {
+  return attribute.text.empty() ? written_value(*attribute.schema, attribute.value) : attribute.text;
+}
+
 const Node* find_node(const std::vector<Node>& nodes, const std::string& name) {
   for (const Node& node : nodes) {
     const bool is_named = node.schema->find("name") && node.gives("name") && node.text("name") == name;
@@ -77,7 +81,7 @@ std::string signature(const Node& node) {
   for (const NodeAttribute& attribute : node.attributes) {
     const auto* file = std::get_if<std::filesystem::path>(&attribute.value);
     if (attribute.schema->name != "name")
-      text += fmt::format("{}={:?},", attribute.schema->name, file ? file->string() : attribute.text);
+      text += fmt::format("{}={:?},", attribute.schema->name, file ? file->string() : written(attribute));
   }
   text += "){";
   for (const Node& child : node.children) text += signature(child);

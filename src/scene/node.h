@@ -16,7 +16,7 @@ namespace parvis::scene {
 struct NodeAttribute {
   const AttributeSchema* schema = nullptr;
   AttributeValue value;
-  std::string text;  ///< as written
+  std::string text;  ///< as the script writes it; empty: the value was set while the scene runs
   FileLocation where;
 };
 
@@ -29,8 +29,8 @@ struct Node {
   std::vector<Node> children;             ///< included files put their nodes in place
   std::vector<NodeAttribute> overrides;   ///< of the node that `schema->takes_attributes_of` names
 
-  /// Changes the attribute from now on; `text` is what a script would write.
-  void set(const std::string& name, AttributeValue new_value, std::string text);
+  /// Changes the attribute from now on. The value must be of the attribute's type.
+  void set(const std::string& name, AttributeValue new_value);
 
   /// The script gives the attribute.
   bool gives(const std::string& name) const { return find(name) != nullptr; }
@@ -55,6 +55,9 @@ struct Node {
   template <class T>
   std::optional<T> value(const std::string& name) const;
 };
+
+/// The attribute's value as a script writes it.
+std::string written(const NodeAttribute& attribute);
 
 /// The node called `name` among `nodes` and those inside them, or null. "%TYPE" is the one node of a unique
 /// type.

@@ -3,19 +3,29 @@
 #include <algorithm>
 #include <cassert>
 
-#include "scene/nodes.h"
-
 namespace parvis::scene {
 
 void NodeRegistry::add(NodeSchema schema, BuildNode build) {
   assert(!find(schema.type) && "a node type is added twice");
   schema.complete_messages();
-  types_.push_back({std::move(schema), std::move(build), {}});
+  types_.push_back({std::move(schema), std::move(build), {}, false});
 }
 
 void NodeRegistry::add_change(NodeSchema schema, ChangeModel change) {
   assert(!find(schema.type) && "a node type is added twice");
-  types_.push_back({std::move(schema), {}, std::move(change)});
+  types_.push_back({std::move(schema), {}, std::move(change), false});
+}
+
+void NodeRegistry::add_part(NodeSchema schema) {
+  assert(!find(schema.type) && "a node type is added twice");
+  types_.push_back({std::move(schema), {}, {}, true});
+}
+
+void NodeRegistry::allow(const std::string& child, const std::string& parent) {
+  const auto found = std::find_if(types_.begin(), types_.end(),
+                                  [&](const NodeType& type) { return type.schema.type == child; });
+  assert(found != types_.end() && "the node type that is to stand in another has not been added");
+  found->schema.stands_in.push_back(parent);
 }
 
 const NodeType* NodeRegistry::find(const std::string& type) const {
@@ -38,19 +48,6 @@ std::vector<std::string> NodeRegistry::children_of(const std::string& parent) co
     if (std::find(parents.begin(), parents.end(), parent) != parents.end()) names.push_back(type.schema.type);
   }
   return names;
-}
-
-NodeRegistry core_nodes() {
-  NodeRegistry registry;
-  add_grouping_nodes(registry);
-  add_model_nodes(registry);
-  add_material_nodes(registry);
-  add_wheel_nodes(registry);
-  add_road_nodes(registry);
-  add_light_nodes(registry);
-  add_camera_nodes(registry);
-  add_scenario_nodes(registry);
-  return registry;
 }
 
 }  // namespace parvis::scene

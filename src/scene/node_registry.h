@@ -1,4 +1,4 @@
-// The node types that scripts may use. Each room adds its own; those of the scene room are in core_nodes().
+// The node types that scripts may use, and what is done when all nodes are built. Each room adds its own.
 #pragma once
 
 #include <deque>
@@ -20,11 +20,19 @@ using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
 /// Changes the model that the node's parent has read.
 using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuilder& builder)>;
 
-/// Either builds something, or stands in a `model` and changes it; include does neither.
+/// What is left to do when all nodes of a scene are built: lanes out of roads, ... Bad data goes to
+/// builder.fail().
+using FinishStep = std::function<void(SceneBuilder& builder)>;
+
+/// Builds something, or stands in a `model` and changes it, or is a part that the node around it reads.
 struct NodeType {
   NodeSchema schema;
   BuildNode build;
   ChangeModel change;
+  bool is_part = false;
+
+  /// A change of such a node is a change of what the node around it makes.
+  bool is_of_parent() const { return change != nullptr || is_part; }
 };
 
 /// The checker puts the nodes of a file in the place of this node.
@@ -36,6 +44,13 @@ class NodeRegistry {
   /// Types are added once, with defaults that are values of their attribute's type.
   void add(NodeSchema schema, BuildNode build);
   void add_change(NodeSchema schema, ChangeModel change);
+  /// A node type that the build function of its parent reads.
+  void add_part(NodeSchema schema);
+  /// Lets nodes of the type `child`, which is added already, stand in those of another room's type.
+  void allow(const std::string& child, const std::string& parent);
+  /// Steps are done in the order added, once, when a scene is loaded.
+  void add_finish_step(FinishStep step) { finish_steps_.push_back(std::move(step)); }
+  const std::vector<FinishStep>& finish_steps() const { return finish_steps_; }
 
   const NodeType* find(const std::string& type) const;
   /// In the order added: those of a family stand together.
@@ -46,9 +61,7 @@ class NodeRegistry {
 
  private:
   std::deque<NodeType> types_;
+  std::vector<FinishStep> finish_steps_;
 };
-
-/// The node types of this room.
-NodeRegistry core_nodes();
 
 }  // namespace parvis::scene

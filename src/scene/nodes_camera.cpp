@@ -2,9 +2,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/placement.h"
 #include "scene/scene_builder.h"
+#include "scene/script_nodes.h"
 
 namespace parvis::scene {
 namespace {
@@ -102,7 +102,7 @@ void build_camera(const Node& node, SceneBuilder& builder) {
   camera.camera.vertical_fov = vertical_fov(node.angle("fov_deg"), nominal_aspect);
   camera.follows = node.text("follows");
   if (!camera.follows.empty()) camera.offset_m = node.vec3("offset");
-  builder.scene.cameras.push_back(std::move(camera));
+  builder.add(std::move(camera));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // include, group: nodes that hold others.
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/placement.h"
 #include "scene/scene_builder.h"
+#include "scene/script_nodes.h"
 
 namespace parvis::scene {
 namespace {
@@ -12,7 +12,7 @@ NodeSchema include_schema() {
           .help = "The nodes of another script, as if they were written here.",
           .attributes =
               {{.name = "file", .type = AttributeType::file, .help = "a scene script", .is_required = true}},
-          .stands_in = {top_level, "group", "scenario", "traffic", "model"},
+          .stands_in = {top_level, "group", "scenario"},
           .example = "include(file=\"evening_light.xp\")"};
 }
 

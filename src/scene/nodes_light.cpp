@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "base/image_io.h"
+#include "scene/light_nodes.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/scene_builder.h"
 
 namespace parvis::scene {
@@ -92,7 +92,7 @@ void build_sky(const Node& node, SceneBuilder& builder) {
   sky.intensity = float(node.number("intensity"));
   sky.heading = node.angle("heading_deg");
   const std::filesystem::path file = node.file("file");
-  if (file == sky.file) return;  // built again
+  if (file == sky.file) return;  // it is there already
   Result<ImageF> picture = file.empty() ? ImageF() : read_image_float(file);
   if (!picture) return builder.fail(picture.errors(), node.where_of("file"));
   sky.picture = std::move(*picture);
@@ -130,7 +130,8 @@ NodeSchema exposure_schema() {
 
 }  // namespace
 
-void add_light_nodes(NodeRegistry& registry) {
+void furnish_light(House& house) {
+  NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(sun_schema(), build_sun);
   registry.add(sky_schema(), build_sky);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {

@@ -2,8 +2,9 @@
 #include <set>
 
 #include "scene/material_change.h"
+#include "scene/mesh_nodes.h"
+#include "scene/model_parts.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/scene_builder.h"
 #include "scene/spelling.h"
 
@@ -115,7 +116,7 @@ void change_material_of(const Node& node, Model& model, SceneBuilder& builder) {
   std::vector<MaterialMask> masks;
   for (const NodeAttribute& attribute : node.attributes) {
     if (attribute.schema->name != "mask") continue;
-    Result<MaterialMask> mask = parse_mask(attribute.text, attribute.where);
+    Result<MaterialMask> mask = parse_mask(std::get<std::string>(attribute.value), attribute.where);
     if (!mask) return builder.fail(mask.errors().front());
     masks.push_back(*mask);
   }

@@ -2,12 +2,12 @@
 #include <algorithm>
 
 #include "scene/glass_pane.h"
+#include "scene/mesh_nodes.h"
 #include "scene/model_node.h"
-#include "scene/model_source.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/object_animation.h"
 #include "scene/placement.h"
+#include "scene/readers.h"
 #include "scene/scene_builder.h"
 #include "scene/spelling.h"
 #include "scene/terrain_heights.h"
@@ -75,7 +75,7 @@ NodeSchema model_schema() {
             .help = "many copies, one at each point (relative to position=)",
             .unit = "m",
             .is_repeatable = true}},
-      .stands_in = {top_level, "group", "scenario", "traffic"},
+      .stands_in = {top_level, "group", "scenario"},
       .example =
           "model(name=\"taxi\", file=\"cars/van.glb\", position=\"3 4 0\", heading_deg=90, dynamic=1, "
           "reflective=1) {\n"
@@ -137,9 +137,11 @@ glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& bu
   return glm::vec3(0.0f);
 }
 
-std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder) {
+std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder,
+                                             const formats::Readers& readers) {
   const std::filesystem::path file = node.file("file");
-  ModelReading reading;
+  using formats::UpAxis;
+  formats::ModelReading reading;
   reading.up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
   if (node.gives("lod")) reading.most_detail = node.number("lod");
   if (node.gives("cell")) reading.cell_m = node.number("cell");
@@ -150,7 +152,7 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
       reading.ground = ground_below(node, builder, places_beyond);
       if (!reading.ground) return nullptr;
     }
-    Result<Model> model = model_from_file(file, reading, warnings);
+    Result<Model> model = readers.read(file, reading, warnings);
     for (const Error& warning : warnings) builder.warn(warning);
     if (places_beyond > 0)
       builder.warn(error_at(node.where_of("ground"),
@@ -191,9 +193,9 @@ PlayedAnimation of_copy(PlayedAnimation played, const Model& model, std::size_t 
   return played;
 }
 
-void build_model(const Node& node, SceneBuilder& builder) {
+void build_model(const Node& node, SceneBuilder& builder, const formats::Readers& readers) {
   Object object;
-  object.model = model_of(node, builder);
+  object.model = model_of(node, builder, readers);
   if (!object.model) return;
   object.is_dynamic = node.flag("dynamic");
   object.takes_reflection = node.flag("reflective");
@@ -209,15 +211,17 @@ void build_model(const Node& node, SceneBuilder& builder) {
     glm::mat4 moved(1.0f);
     moved[3] = glm::vec4(positions[i], 1.0f);
     object.world_from_model = builder.world_from_parent() * moved * placement(node) * placed_from_model;
-    builder.scene.objects.push_back(object);
-    if (played.animation != no_index) play(builder.scene.objects.back(), of_copy(played, *object.model, i));
+    Object copy = object;
+    if (played.animation != no_index) play(copy, of_copy(played, *object.model, i));
+    builder.add(std::move(copy));
   }
 }
 
 }  // namespace
 
-std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
-  std::shared_ptr<const Model> as_read = read_model_file(node, builder);
+std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder,
+                                      const formats::Readers& readers) {
+  std::shared_ptr<const Model> as_read = read_model_file(node, builder, readers);
   const auto refracts = [](const Material& material) { return material.refracts(); };
   if (!as_read || (node.children.empty() && std::ranges::none_of(as_read->materials, refracts)))
     return as_read;
@@ -235,6 +239,9 @@ std::shared_ptr<const Model> model_of(const Node& node, SceneBuilder& builder) {
   });
 }
 
-void add_model_nodes(NodeRegistry& registry) { registry.add(model_schema(), build_model); }
+void add_model_node(NodeRegistry& registry, const formats::Readers& readers) {
+  registry.add(model_schema(),
+               [&readers](const Node& node, SceneBuilder& builder) { build_model(node, builder, readers); });
+}
 
 }  // namespace parvis::scene

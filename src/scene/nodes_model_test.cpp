@@ -2,8 +2,10 @@
 
 #include "base/test_data.h"
 #include "base/test_folder.h"
+#include "life/traffic/demand.h"
 #include "scene/gltf_writer.h"
 #include "scene/scene_loader.h"
+#include "scene/test_house.h"
 
 namespace parvis::scene {
 namespace {
@@ -46,7 +48,8 @@ class ModelNodes : public ::testing::Test {
   }
 
   TestFolder folder_;
-  NodeRegistry registry_ = core_nodes();
+  House house_ = test_house();
+  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
 };
 
 bool holds(const std::string& text, const std::string& piece) {
@@ -188,9 +191,9 @@ TEST_F(ModelNodes, TrafficTakesItsKindsFromItsChildren) {
   folder_.write("car.xp", "model(file=two.glb, heading_deg=-90)");
   const Scene scene = scene_of("traffic(vehicles=2) { include(file=car.xp) model(file=two.glb, scale=3) }");
   EXPECT_TRUE(scene.objects.empty());
-  ASSERT_EQ(scene.traffic.models.size(), 2u);
-  EXPECT_NEAR(bounds(*scene.traffic.models[0]).max.y, 2.0f, 1e-5f);
-  EXPECT_NEAR(bounds(*scene.traffic.models[1]).max.x, 6.0f, 1e-5f);
+  ASSERT_EQ(scene.data<traffic::TrafficDemand>().models.size(), 2u);
+  EXPECT_NEAR(bounds(*scene.data<traffic::TrafficDemand>().models[0]).max.y, 2.0f, 1e-5f);
+  EXPECT_NEAR(bounds(*scene.data<traffic::TrafficDemand>().models[1]).max.x, 6.0f, 1e-5f);
 }
 
 TEST_F(ModelNodes, RealCarsGetGlassByTheColourOfTheirPalette) {

@@ -1,13 +1,15 @@
-// road, streets, paving, traffic: where vehicles drive, and which.
+// road, streets, paving: where vehicles drive; and the step that makes lanes of all roads when the script is
+// built.
 #include <algorithm>
 
-#include "scene/material_change.h"
-#include "scene/model_assembly.h"
-#include "scene/model_node.h"
+#include "base/house.h"
+#include "scene/model_parts.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
+#include "scene/paving.h"
 #include "scene/placement.h"
+#include "scene/road_builder.h"
 #include "scene/road_from_polygons.h"
+#include "scene/road_nodes.h"
 #include "scene/scene_builder.h"
 
 namespace parvis::scene {
@@ -67,75 +69,7 @@ void build_road(const Node& node, SceneBuilder& builder) {
   road.speed_limit = float(node.number("speed_km_h")) * m_s_per_km_h;
   road.where = node.where_of("path");
   road.name = node.text("name");
-  builder.roads.push_back(std::move(road));
-}
-
-/// As the room `traffic` calls its objects.
-std::vector<std::string> names_of_vehicles(const Node& node) {
-  std::vector<std::string> names;
-  for (long i = 1; i <= node.integer("vehicles"); ++i) names.push_back(fmt::format("vehicle {}", i));
-  return names;
-}
-
-NodeSchema traffic_schema() {
-  return {
-      .type = "traffic",
-      .help =
-          "Vehicles on the roads of the scene. Its models are the kinds of vehicles: x forward, y left, "
-          "the road "
-          "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
-          "vehicles are "
-          "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
-      .attributes = {{.name = "name", .help = "by which other nodes refer to it; %traffic does, too"},
-                     {.name = "vehicles",
-                      .type = AttributeType::integer,
-                      .help = "how many",
-                      .minimum = 0,
-                      .maximum = 10'000,
-                      .is_required = true},
-                     {.name = "seed",
-                      .type = AttributeType::integer,
-                      .help = "the same seed gives the same traffic",
-                      .fallback = "1",
-                      .minimum = 0},
-                     {.name = "centre",
-                      .type = AttributeType::vec3,
-                      .help = "of the part of the town that they keep to",
-                      .fallback = "0 0 0",
-                      .unit = "m"},
-                     {.name = "radius",
-                      .type = AttributeType::number,
-                      .help =
-                          "of that part: they start in it, and turn back at its rim where streets let them",
-                      .fallback = "1000000",
-                      .unit = "m",
-                      .minimum = 10,
-                      .maximum = 1e6},
-                     visible_attribute()},
-      .example =
-          "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
-          "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
-          "}",
-      .is_unique = true,
-      .is_laid_out_once = true,
-      .names_made = names_of_vehicles};
-}
-
-void build_traffic(const Node& node, SceneBuilder& builder) {
-  TrafficDemand& traffic = builder.scene.traffic;
-  traffic.is_visible = builder.is_visible() && node.flag("visible");
-  if (!traffic.models.empty()) return;  // built again
-  traffic.vehicles = int(node.integer("vehicles"));
-  traffic.seed = std::uint64_t(node.integer("seed"));
-  traffic.centre = glm::vec2(node.vec3("centre"));
-  traffic.radius_m = float(node.number("radius"));
-  for (const Node& kind : node.children) {
-    const std::shared_ptr<const Model> model = model_of(kind, builder);
-    if (!model) continue;
-    const glm::quat turn = glm::angleAxis(-kind.angle("heading_deg"), glm::vec3(0.0f, 0.0f, 1.0f));
-    traffic.models.push_back(std::make_shared<const Model>(
-        placed(*model, kind.vec3("position"), turn, float(kind.number("scale")))));
-  }
+  builder.add(PlannedRoad{std::move(road)});
 }
 
 NodeSchema streets_schema() {
@@ -186,7 +120,7 @@ void add_road_polygons(const Object& object, const std::string& target, std::vec
 void add_given_roads(const Object& object, SceneBuilder& builder) {
   for (Road road : object.model->roads) {
     for (glm::vec3& point : road.path) point = glm::vec3(object.world_from_model * glm::vec4(point, 1.0f));
-    builder.roads.push_back(std::move(road));
+    builder.add(PlannedRoad{std::move(road)});
   }
 }
 
@@ -201,14 +135,15 @@ void build_streets(const Node& node, SceneBuilder& builder) {
   std::vector<RoadPolygon> polygons;
   if (!node.gives("target")) add_road_polygons(*object, node.text("target"), polygons);
   for (const NodeAttribute& attribute : node.attributes)
-    if (attribute.schema->name == "target") add_road_polygons(*object, attribute.text, polygons);
+    if (attribute.schema->name == "target")
+      add_road_polygons(*object, std::get<std::string>(attribute.value), polygons);
   const std::vector<Road> roads = roads_from_polygons(polygons);
   if (roads.empty())
     builder.warn(error_at(node.where_of("of"), "streets: \"{}\" has no road surfaces that match", name));
   for (Road road : roads) {
     road.speed_limit = float(node.number("speed_km_h")) * m_s_per_km_h;
     road.where = node.where_of("of");
-    builder.roads.push_back(std::move(road));
+    builder.add(PlannedRoad{std::move(road)});
   }
 }
 
@@ -224,15 +159,26 @@ NodeSchema paving_schema() {
           .is_laid_out_once = true};
 }
 
-void build_paving(const Node&, SceneBuilder& builder) { builder.has_paving = true; }
+void build_paving(const Node&, SceneBuilder& builder) { builder.scene.data<Paving>().is_laid = true; }
+
+/// Makes lanes of the roads, and carriageways of the lanes where the script asks for them.
+void finish_roads(SceneBuilder& builder) {
+  std::vector<Road> roads;
+  for (const PlannedRoad& planned : builder.scene.items<PlannedRoad>()) roads.push_back(planned.road);
+  Result<RoadGraph> graph = build_road_graph(roads);
+  if (!graph) return builder.fail(graph.errors());
+  builder.scene.roads = *std::move(graph);
+  if (builder.errors().empty() && builder.scene.data<Paving>().is_laid) pave(builder.scene);
+}
 
 }  // namespace
 
-void add_road_nodes(NodeRegistry& registry) {
+void furnish_roads(House& house) {
+  NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(road_schema(), build_road);
   registry.add(streets_schema(), build_streets);
   registry.add(paving_schema(), build_paving);
-  registry.add(traffic_schema(), build_traffic);
+  registry.add_finish_step(finish_roads);
 }
 
 }  // namespace parvis::scene

@@ -1,7 +1,7 @@
 // scenario, override: named states of a scene.
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/scene_builder.h"
+#include "scene/script_nodes.h"
 
 namespace parvis::scene {
 namespace {

@@ -1,7 +1,7 @@
 // wheels: for car bodies that come without.
+#include "scene/mesh_nodes.h"
 #include "scene/model_assembly.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/scene_builder.h"
 #include "scene/wheel.h"
 

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
+
+#include "scene/room_data.h"
 
 namespace parvis::scene {
 
@@ -20,6 +23,23 @@ struct RoadGraph {
   std::vector<Lane> lanes;
 
   bool empty() const { return lanes.empty(); }
+};
+
+/// The part of the town in which vehicles drive: they keep to the streets within `radius_m` of `centre`,
+/// where these lead on.
+struct DrivingArea {
+  static constexpr std::string_view name = "roads.driving_area";
+  static constexpr DataRole role = DataRole::settings;
+  glm::vec2 centre{0.0f};
+  float radius_m = std::numeric_limits<float>::max();
+
+  bool contains(glm::vec2 point, float beyond_rim_m = 0.0f) const {
+    return glm::distance(point, centre) < radius_m + beyond_rim_m;
+  }
+  void hash(ContentHash& hash) const {
+    hash.add(centre);
+    hash.add(radius_m);
+  }
 };
 
 }  // namespace parvis::scene

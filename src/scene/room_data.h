@@ -2,11 +2,13 @@
 // scene declares a struct of its own and touches no other file.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <concepts>
 #include <map>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "base/content_hash.h"
 
@@ -29,6 +31,12 @@ concept SceneData = std::copyable<T> && std::default_initializable<T> &&
   value.hash(hash);
 };
 
+/// The nodes numbered from `first` to `last`: those of a node and of all nodes inside it
+/// (`NodeFrame::number`).
+struct NodeRange {
+  int first = 0, last = -1;
+};
+
 /// A room's value without its type.
 struct RoomData {
   virtual ~RoomData() = default;
@@ -37,7 +45,52 @@ struct RoomData {
   /// Equal content to a value that nobody has set.
   virtual bool is_default() const = 0;
   virtual DataRole role() const = 0;
+  /// Of items that nodes made: moves those of these nodes into a value of their own. Null: nothing was moved.
+  virtual std::unique_ptr<RoomData> take_made_by(const NodeRange& nodes) = 0;
+  /// Puts back what `take_made_by` of the same type of value returned.
+  virtual void put_back(RoomData& taken) = 0;
 };
+
+/// A type of which nodes make any number of items in a scene: as SceneData, whose hash is of one item.
+template <class T>
+concept SceneItem = SceneData<T>;
+
+/// The items of one type, in the order of the nodes that made them.
+template <SceneItem T>
+struct ItemsOf {
+  static constexpr std::string_view name = T::name;
+  static constexpr DataRole role = T::role;
+  std::vector<T> items;
+  std::vector<int> makers;  ///< of each item: the number of its node; ascending
+
+  void hash(ContentHash& hash) const {
+    for (const T& item : items) item.hash(hash);
+  }
+
+  /// Behind the items of the same node and of those before it.
+  void add(T item, int maker) {
+    const auto place = std::upper_bound(makers.begin(), makers.end(), maker) - makers.begin();
+    items.insert(items.begin() + place, std::move(item));
+    makers.insert(makers.begin() + place, maker);
+  }
+
+  /// Moves what these nodes made out of the others.
+  ItemsOf take(const NodeRange& nodes) {
+    const auto first = std::lower_bound(makers.begin(), makers.end(), nodes.first) - makers.begin();
+    const auto last = std::upper_bound(makers.begin(), makers.end(), nodes.last) - makers.begin();
+    ItemsOf taken;
+    std::move(items.begin() + first, items.begin() + last, std::back_inserter(taken.items));
+    taken.makers.assign(makers.begin() + first, makers.begin() + last);
+    items.erase(items.begin() + first, items.begin() + last);
+    makers.erase(makers.begin() + first, makers.begin() + last);
+    return taken;
+  }
+};
+
+template <class T>
+inline constexpr bool is_items = false;
+template <class T>
+inline constexpr bool is_items<ItemsOf<T>> = true;
 
 template <SceneData T>
 struct RoomDataOf final : RoomData {
@@ -51,6 +104,21 @@ struct RoomDataOf final : RoomData {
     return mine.value() == unset.value();
   }
   DataRole role() const override { return T::role; }
+  std::unique_ptr<RoomData> take_made_by([[maybe_unused]] const NodeRange& nodes) override {
+    if constexpr (is_items<T>) {
+      auto taken = std::make_unique<RoomDataOf>();
+      taken->value = value.take(nodes);
+      if (!taken->value.items.empty()) return taken;
+    }
+    return nullptr;
+  }
+  void put_back([[maybe_unused]] RoomData& taken) override {
+    if constexpr (is_items<T>) {
+      T& others = static_cast<RoomDataOf&>(taken).value;
+      for (std::size_t i = 0; i < others.items.size(); ++i)
+        value.add(std::move(others.items[i]), others.makers[i]);
+    }
+  }
 };
 
 /// The values of all rooms; copies are deep. References stay valid until the set is assigned to or destroyed.
@@ -94,6 +162,19 @@ class RoomDataSet {
       hash.add_text(name);
       value->hash(hash);
     }
+  }
+
+  /// Moves the items that these nodes made into a set of their own: they are about to be built again.
+  RoomDataSet take_made_by(const NodeRange& nodes) {
+    RoomDataSet taken;
+    for (auto& [name, value] : values_)
+      if (std::unique_ptr<RoomData> items = value->take_made_by(nodes))
+        taken.values_.emplace(name, std::move(items));
+    return taken;
+  }
+  /// Puts them back: they could not be built again.
+  void put_back(RoomDataSet taken) {
+    for (auto& [name, items] : taken.values_) values_.at(name)->put_back(*items);
   }
 
  private:

@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,81 +67,6 @@ struct NamedCamera {
   glm::vec3 offset_m{0.0f};  ///< from the followed object: forward, left, up
 };
 
-/// How mirror-like parts of moving objects see their surroundings. Each name is a method; `script_name`
-/// spells it.
-enum class ReflectionMethod : std::uint8_t {
-  none,
-  rerendered_cube_map,
-  time_sliced_cube_map,
-  shared_cube_map,
-  box_projected_probe,
-  multiple_environment_maps,
-  local_environment_maps,
-  simple_blend,
-  virtual_objects
-};
-inline constexpr std::array reflection_method_names{"none",
-                                                    "rerendered_cube_map",
-                                                    "time_sliced_cube_map",
-                                                    "shared_cube_map",
-                                                    "box_projected_probe",
-                                                    "multiple_environment_maps",
-                                                    "local_environment_maps",
-                                                    "simple_blend",
-                                                    "virtual_objects"};
-
-/// What of a method is shown in place of its reflections, to look into it.
-enum class ReflectionView : std::uint8_t {
-  radiance,  ///< nothing else
-  mesh,      ///< of local maps, in red
-  weights    ///< of the two reference maps, red and green; blue where neither sees what is mirrored
-};
-inline constexpr std::array reflection_view_names{"radiance", "mesh", "weights"};
-
-/// How the reflection point of a vertex is searched for.
-enum class ReflectionSearch : std::uint8_t { newton, midpoint };
-inline constexpr std::array reflection_search_names{"newton", "midpoint"};
-
-struct Reflection {
-  ReflectionMethod method = ReflectionMethod::rerendered_cube_map;
-  int resolution = 128;              ///< pixels along a face's edge
-  bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
-  int most_maps = 240;               ///< reference maps, of the methods that have any
-  ReflectionView shown = ReflectionView::radiance;
-  float budget_ms = 0.0f;         ///< of a frame, held by choosing levels of detail; 0: none
-  int faces_a_frame = 0;          ///< of time-sliced maps, over all reflectors; 0: one for each of them
-  float virtual_within_m = 0.0f;  ///< what stands wholly so near to a mirror is drawn as virtual objects
-  float virtual_grid = 1.0f;  ///< of a mesh's vertices, the greatest share of corners; 1: each vertex itself
-  ReflectionSearch search = ReflectionSearch::newton;
-  int iterations = 9;  ///< of the midpoint search
-  int bounces = 1;     ///< of the ray tracer and virtual objects: 2, mirrors show what mirrors show
-
-  /// All, or what stands near?
-  bool has_virtual_objects() const {
-    return method == ReflectionMethod::virtual_objects || virtual_within_m > 0.0f;
-  }
-
-  bool operator==(const Reflection&) const = default;
-};
-
-/// Where and how reference maps are taken, as far as the script says.
-struct ReferenceMapPlan {
-  std::vector<glm::vec3> places;  ///< in the world; empty: they place themselves
-  int most = 0, resolution = 0;   ///< 0: as Reflection has them
-  float cell_m = 1.0f;            ///< of the heights that mirrored rays walk through
-  bool is_compressed = false;
-};
-
-/// Traffic to be put on the road graph.
-struct TrafficDemand {
-  int vehicles = 0;
-  std::uint64_t seed = 1;
-  std::vector<std::shared_ptr<const Model>> models;  ///< x forward, wheels as nodes whose names hold "wheel"
-  bool is_visible = true;                            ///< hidden vehicles drive on
-  glm::vec2 centre{0.0f};  ///< vehicles keep to the streets within `radius_m` of it, where these lead on
-  float radius_m = std::numeric_limits<float>::max();
-};
-
 struct Scene {
   std::vector<Object> objects;
   std::vector<NamedCamera> cameras;
@@ -150,10 +74,7 @@ struct Scene {
   Sky sky;
   float exposure = 1.0f;    ///< multiplies radiance before the tone curve
   float haze_per_m = 0.0f;  ///< extinction of the air
-  Reflection reflection;
-  ReferenceMapPlan reference_maps;
   RoadGraph roads;
-  TrafficDemand traffic;
   glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
   std::filesystem::path file;  ///< the script; empty: the scene was made in memory
   /// What rooms draw by themselves, beside the objects; of those rooms that the program has.
@@ -168,6 +89,12 @@ struct Scene {
   template <SceneData T>
   const T& data() const {
     return room_data.get<T>();
+  }
+
+  /// What nodes made of this type, in the order of the script: `SceneBuilder::add` adds to it.
+  template <SceneItem T>
+  const std::vector<T>& items() const {
+    return data<ItemsOf<T>>().items;
   }
 
   const NamedCamera* find_camera(const std::string& name) const;

@@ -1,16 +1,26 @@
 #include "scene/scene_builder.h"
 
-#include "scene/paving.h"
-
 namespace parvis::scene {
 
+void SceneBuilder::add(Object object) {
+  scene.objects.push_back(std::move(object));
+  object_makers_.resize(scene.objects.size(), node_);
+}
+
+void SceneBuilder::add(NamedCamera camera) {
+  scene.cameras.push_back(std::move(camera));
+  camera_makers_.resize(scene.cameras.size(), node_);
+}
+
 void SceneBuilder::build_one(const Node& node) {
-  if (builds_again_ && node.schema->is_laid_out_once && !node.schema->find("visible")) return;
-  frames_[&node] = frame_;
+  if (known_frames_ && !node.schema->can_be_built_again()) return;
+  const int number = known_frames_ ? known_frames_->at(&node).number : next_number_++;
+  const Node* outer = std::exchange(node_, &node);
+  const int outer_number = std::exchange(node_number_, number);
+  NodeFrame& frame = frames_[&node] = frame_;
+  frame.number = number;
   registry_.find(node.schema->type)->build(node, *this);
-  // Nodes inside have noted theirs already.
-  object_makers_.resize(scene.objects.size(), &node);
-  camera_makers_.resize(scene.cameras.size(), &node);
+  node_ = outer, node_number_ = outer_number;
 }
 
 void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes,
@@ -22,9 +32,9 @@ void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent
   frame_ = outer;
 }
 
-void SceneBuilder::build_again(const Node& node, const NodeFrame& frame) {
-  builds_again_ = true;
-  frame_ = frame;
+void SceneBuilder::build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames) {
+  known_frames_ = &frames;
+  frame_ = frames.at(&node);
   build_one(node);
 }
 
@@ -48,13 +58,8 @@ void SceneBuilder::fail(const Errors& errors, const FileLocation& where) {
 }
 
 Result<LoadedScene> SceneBuilder::finish() && {
-  Result<RoadGraph> graph = build_road_graph(roads);
-  if (graph)
-    scene.roads = std::move(*graph);
-  else
-    errors_.insert(errors_.end(), graph.errors().begin(), graph.errors().end());
+  for (const FinishStep& step : registry_.finish_steps()) step(*this);
   if (!errors_.empty()) return std::move(errors_);
-  if (has_paving) pave(scene);
   Script script = std::move(*this).take_script();
   return LoadedScene{std::move(scene), std::move(warnings_), std::move(script)};
 }

@@ -11,7 +11,6 @@
 #include "base/result.h"
 #include "scene/node.h"
 #include "scene/node_registry.h"
-#include "scene/road_builder.h"
 #include "scene/scene.h"
 
 namespace parvis::scene {
@@ -20,6 +19,7 @@ namespace parvis::scene {
 struct NodeFrame {
   glm::mat4 world_from_nodes{1.0f};
   bool is_visible = true;
+  int number = -1;  ///< of a node that was built: in the order of the script, a node before those inside it
 };
 
 /// Models by what they were made of: objects that look alike share one.
@@ -47,15 +47,25 @@ class SceneBuilder {
   explicit SceneBuilder(const NodeRegistry& registry, SharedModels models = {})
       : registry_(registry), models_(std::move(models)) {}
 
+  /// What stands in it once (light, rooms' data) is written here; what nodes make any number of is added
+  /// below.
   Scene scene;
-  std::vector<Road> roads;  ///< in the world; finish() makes lanes of them
-  bool has_paving = false;  ///< finish() lays carriageways on the ground
+
+  /// Adds what the node that is being built makes. It is recorded with the node: when the node is built
+  /// again, this and nothing else is replaced.
+  void add(Object object);
+  void add(NamedCamera camera);
+  template <SceneItem T>
+  void add(T item) {
+    scene.data<ItemsOf<T>>().add(std::move(item), node_number_);
+  }
 
   /// Builds nodes that stand in a frame inside the present one; hidden ones are built, too.
   void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
              bool is_visible = true);
-  /// Builds one node again, in the frame in which it stood. What is laid out once is left out.
-  void build_again(const Node& node, const NodeFrame& frame);
+  /// Builds one node again, in the frame in which it stood. What is laid out once is left out. `frames`: in
+  /// which each node stood, for those inside it.
+  void build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames);
 
   /// Lets a node that stands in a `model` change it.
   void change(Model& model, const Node& node) {
@@ -73,11 +83,12 @@ class SceneBuilder {
                                             const std::function<std::shared_ptr<const Model>()>& make);
 
   void fail(Error error) { errors_.push_back(std::move(error)); }
+  void fail(const Errors& errors) { errors_.insert(errors_.end(), errors.begin(), errors.end()); }
   /// Errors of a file that the node at `where` asked for.
   void fail(const Errors& errors, const FileLocation& where);
   void warn(Error warning) { warnings_.push_back(std::move(warning)); }
 
-  /// The scene, when everything is built; or all that went wrong.
+  /// The scene, when everything is built and the registry's finish steps are done; or all that went wrong.
   Result<LoadedScene> finish() &&;
 
   const Errors& errors() const { return errors_; }
@@ -85,14 +96,17 @@ class SceneBuilder {
   Script take_script() &&;
 
  private:
-  const NodeRegistry& registry_;
   void build_one(const Node& node);
 
+  const NodeRegistry& registry_;
   NodeFrame frame_;
+  const Node* node_ = nullptr;  ///< that is being built
+  int node_number_ = -1, next_number_ = 0;
   std::unordered_map<const Node*, NodeFrame> frames_;
   std::vector<const Node*> object_makers_, camera_makers_;
   SharedModels models_;
-  bool builds_again_ = false;
+  const std::unordered_map<const Node*, NodeFrame>* known_frames_ =
+      nullptr;  ///< of a scene that is built again
   Errors errors_, warnings_;
 };
 

@@ -4,8 +4,10 @@
 
 #include "base/random.h"
 #include "base/test_folder.h"
+#include "life/traffic/demand.h"
 #include "scene/scene_builder.h"
 #include "scene/script_checker.h"
+#include "scene/test_house.h"
 #include "scene/thesis_examples.h"
 
 namespace parvis::scene {
@@ -34,13 +36,15 @@ class SceneLoader : public ::testing::Test {
   }
 
   TestFolder folder_;
-  NodeRegistry registry_ = nodes();
+  House house_ = house_with_print();
+  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
   std::vector<std::filesystem::path> data_folders_;
 
  private:
-  /// Those of this room, and one with attributes of further types.
-  static NodeRegistry nodes() {
-    NodeRegistry registry = core_nodes();
+  /// Those of a scene, and a node with attributes of further types.
+  static House house_with_print() {
+    House house = test_house();
+    NodeRegistry& registry = house.get<NodeRegistry>();
     registry.add(
         {.type = "print",
          .attributes = {{.name = "paper", .type = AttributeType::choice, .choices = {"plain", "glossy"}},
@@ -50,7 +54,7 @@ class SceneLoader : public ::testing::Test {
                          .minimum = 8,
                          .maximum = 4096}}},
         [](const Node&, SceneBuilder&) {});
-    return registry;
+    return house;
   }
 };
 
@@ -179,8 +183,8 @@ TEST_F(SceneLoader, RoadsBecomeLanes) {
     EXPECT_FLOAT_EQ(lane.speed_limit, 10.0f);
     for (const glm::vec3& point : lane.points) EXPECT_GT(point.x, 80.0f);
   }
-  EXPECT_EQ(scene.traffic.vehicles, 3);
-  EXPECT_EQ(scene.traffic.seed, 9u);
+  EXPECT_EQ(scene.data<traffic::TrafficDemand>().vehicles, 3);
+  EXPECT_EQ(scene.data<traffic::TrafficDemand>().seed, 9u);
   EXPECT_EQ(scene.find_camera("chase")->follows, "vehicle 3");
   EXPECT_TRUE(holds(errors_of("traffic(vehicles=3)\ncamera(name=chase, follows=\"vehicle 4\")"),
                     "did you mean \"vehicle"));

@@ -288,4 +288,39 @@ Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::str
   return AttributeValue(text);
 }
 
+namespace {
+
+std::string written_number(double number) { return fmt::format("{:.7g}", number); }
+
+std::string written_vec3(const glm::vec3& v) { return fmt::format("{:.7g} {:.7g} {:.7g}", v.x, v.y, v.z); }
+
+/// Writes the alternative of an attribute's value as the schema's type is written.
+struct Writer {
+  const AttributeSchema& schema;
+
+  std::string operator()(const std::string& text) const { return text; }
+  std::string operator()(double number) const {
+    return written_number(schema.type == AttributeType::angle ? glm::degrees(number) : number);
+  }
+  std::string operator()(long number) const { return fmt::format("{}", number); }
+  std::string operator()(bool flag) const { return flag ? "1" : "0"; }
+  std::string operator()(const glm::vec3& v) const { return written_vec3(v); }
+  std::string operator()(const std::vector<glm::vec3>& points) const {
+    std::string text;
+    for (const glm::vec3& point : points) text += (text.empty() ? "" : ", ") + written_vec3(point);
+    return text;
+  }
+  std::string operator()(const std::filesystem::path& file) const { return file.string(); }
+  std::string operator()(const Event& event) const {
+    return fmt::format("{}, {}, {}, {}", event.source, event.target, event.message,
+                       written_number(event.delay_s));
+  }
+};
+
+}  // namespace
+
+std::string written_value(const AttributeSchema& schema, const AttributeValue& value) {
+  return std::visit(Writer{schema}, value);
+}
+
 }  // namespace parvis::scene

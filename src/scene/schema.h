@@ -73,7 +73,7 @@ struct NodeSchema {
   std::string example = {};                                ///< a script that uses it
   std::vector<MessageSchema> messages = {};                ///< beside those that its live attributes give it
   bool is_unique = false;                                  ///< stands at most once in a scene
-  bool is_laid_out_once = false;  ///< when the scene is loaded: later only its live attributes change
+  bool is_laid_out_once = false;  ///< when the scene is loaded: later it can only be shown or hidden
   /// Name of the attribute that names a node whose attributes this one takes, too; empty: takes none.
   std::string takes_attributes_of = {};
   /// Names of the things that the node makes when the scene runs: others may refer to them.
@@ -82,6 +82,8 @@ struct NodeSchema {
   /// By its name or another spelling.
   const AttributeSchema* find(const std::string& name) const;
   const MessageSchema* find_message(const std::string& name) const;  ///< without regard to case
+  /// What it makes may be replaced while the scene runs.
+  bool can_be_built_again() const { return !is_laid_out_once || find("visible") != nullptr; }
   /// Adds what every node type takes: a message for each live attribute; show, hide and toggle where there is
   /// `visible`.
   void complete_messages();
@@ -101,6 +103,10 @@ using AttributeValue = std::variant<std::string, double, long, bool, glm::vec3, 
 /// The value that `text` writes. Errors at `where` say what the attribute expects.
 Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
                                    const FileLocation& where);
+
+/// What a script writes for the value: `parse_value` reads it back as the same value, as far as seven digits
+/// go.
+std::string written_value(const AttributeSchema& schema, const AttributeValue& value);
 
 /// What the attribute expects, in words: `a number in m from 0 to 10`.
 std::string expectation(const AttributeSchema& schema);

@@ -87,5 +87,22 @@ TEST(Spelling, SuggestsOnlyWhatIsNear) {
   EXPECT_EQ(did_you_mean(std::string(100'000, 'm'), known), "");
 }
 
+TEST(Schema, AValueIsWrittenAsItIsRead) {
+  const auto written_again = [](AttributeType type, const std::string& text) {
+    AttributeSchema schema{.name = "it", .type = type, .choices = {"when"}};
+    const Result<AttributeValue> value = parse_value(schema, text, Roots(""), {});
+    EXPECT_TRUE(value) << text;
+    return written_value(schema, *value);
+  };
+  EXPECT_EQ(written_again(AttributeType::number, "1.25"), "1.25");
+  EXPECT_EQ(written_again(AttributeType::angle, "-30"), "-30");
+  EXPECT_EQ(written_again(AttributeType::integer, "7"), "7");
+  EXPECT_EQ(written_again(AttributeType::flag, "yes"), "1");
+  EXPECT_EQ(written_again(AttributeType::vec3, "1 2.5 -3"), "1 2.5 -3");
+  EXPECT_EQ(written_again(AttributeType::path, "0 0, 1 2 3"), "0 0 0, 1 2 3");
+  EXPECT_EQ(written_again(AttributeType::choice, "when"), "when");
+  EXPECT_EQ(written_again(AttributeType::event, "when,  tree, show oaks, 0.5"), "when, tree, show oaks, 0.5");
+}
+
 }  // namespace
 }  // namespace parvis::scene

@@ -40,7 +40,7 @@ struct Rows {
       NodeRow row;
       row.node = &node, row.depth = depth, row.has_children = !node.children.empty();
       row.kind = node.schema->type, row.name = name_of(node);
-      if (!node.attributes.empty()) row.says = shortened(node.attributes.front().text);
+      if (!node.attributes.empty()) row.says = shortened(scene::written(node.attributes.front()));
       row.can_hide = node.schema->find("visible") != nullptr;
       row.is_visible = !row.can_hide || node.flag("visible");
       row.is_in_sight = is_in_sight && row.is_visible;
@@ -99,7 +99,7 @@ std::string why_fixed(const scene::LiveScene& live, const Node& node, const Attr
 std::string text_of(const Node& node, const AttributeSchema& schema) {
   std::vector<std::string> given;
   for (const scene::NodeAttribute& attribute : node.attributes)
-    if (attribute.schema == &schema) given.push_back(attribute.text);
+    if (attribute.schema == &schema) given.push_back(scene::written(attribute));
   if (given.empty()) return schema.fallback;
   if (given.size() == 1) return given.front();
   return fmt::format("{} values: {}", given.size(), shortened(given.front()));

@@ -4,7 +4,7 @@
 
 #include "base/image.h"
 #include "graphics/reference/ray_scene.h"
-#include "scene/colmap_writer.h"
+#include "scene/taken_picture.h"
 
 namespace parvis::reference {
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int warm_up_steps = 12 * 60;  // all start at rest: nobody wants to see that
 
-std::vector<VehicleShape> shapes_of(const scene::TrafficDemand& demand) {
+std::vector<VehicleShape> shapes_of(const TrafficDemand& demand) {
   std::vector<VehicleShape> shapes;
   for (const auto& model : demand.models)
     if (model != nullptr && !scene::bounds(*model).empty()) shapes.push_back(vehicle_shape(model));
@@ -19,11 +19,12 @@ std::vector<VehicleShape> shapes_of(const scene::TrafficDemand& demand) {
 }  // namespace
 
 Traffic::Traffic(const scene::Scene& scene) {
-  const scene::TrafficDemand& demand = scene.traffic;
+  const TrafficDemand& demand = scene.data<TrafficDemand>();
+  const scene::DrivingArea& area = scene.data<scene::DrivingArea>();
   std::vector<VehicleShape> shapes = shapes_of(demand);
   const bool has_models = !shapes.empty();
   simulation_ =
-      std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{demand.centre, demand.radius_m});
+      std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{area.centre, area.radius_m});
   if (demand.vehicles <= 0) return;
   if (scene.roads.empty()) {
     warnings_.push_back("traffic: the scene has no roads, so no vehicle drives; add road(path=...) nodes");
@@ -45,7 +46,7 @@ void Traffic::add_vehicles(scene::Scene& scene) {
   first_object_ = scene.objects.size();
   for (const Vehicle& vehicle : simulation_->vehicles()) {
     scene::Object object;
-    object.name = fmt::format("vehicle {}", scene.objects.size() - first_object_ + 1);
+    object.name = vehicle_name(scene.objects.size() - first_object_);
     object.model = vehicle.shape->model;
     object.pose = vehicle.shape->rest_pose;
     object.is_dynamic = true;
@@ -67,12 +68,13 @@ void Traffic::place(scene::Scene& scene) const {
   const std::vector<Vehicle>& vehicles = simulation_->vehicles();
   const std::vector<DrivingLane>& lanes = simulation_->lanes();
   assert(scene.objects.size() >= first_object_ + vehicles.size());
+  const bool is_visible = std::as_const(scene).data<TrafficDemand>().is_visible;
   const float missing = 1.0f - std::min(float(due_s_ / double(step_s)), 1.0f);
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Vehicle& vehicle = vehicles[i];
     scene::Object& object = scene.objects[first_object_ + i];
     const float back_m = missing * vehicle.last_move_m;
-    object.is_visible = scene.traffic.is_visible;
+    object.is_visible = is_visible;
     object.world_from_model =
         vehicle.shape->world_from_model(vehicle.rear_axle(back_m, lanes), vehicle.front_axle(back_m, lanes));
     vehicle.shape->set_pose(vehicle.travelled_m - double(back_m), vehicle.steering(back_m, lanes),

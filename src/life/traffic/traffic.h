@@ -7,10 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "life/traffic/demand.h"
 #include "life/traffic/simulation.h"
 #include "scene/scene.h"
 
 namespace parvis::traffic {
+
+/// "vehicle 1" of the vehicle 0, and so on: cameras follow vehicles by these names.
+inline std::string vehicle_name(std::size_t vehicle) { return fmt::format("vehicle {}", vehicle + 1); }
 
 class Traffic {
  public:

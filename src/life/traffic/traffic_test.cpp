@@ -48,7 +48,7 @@ scene::Scene scene_of(const std::vector<scene::Road>& roads, int vehicles) {
   Result<scene::RoadGraph> graph = scene::build_road_graph(roads);
   EXPECT_TRUE(graph.ok());
   scene.roads = std::move(*graph);
-  scene.traffic = {vehicles, 7, {car_model(4.4f, 1.8f), car_model(5.4f, 2.0f)}};
+  scene.data<TrafficDemand>() = {vehicles, 7, {car_model(4.4f, 1.8f), car_model(5.4f, 2.0f)}};
   return scene;
 }
 
@@ -130,8 +130,8 @@ TEST(Traffic, BusesHoldNobodyUp) {
   std::vector<scene::Road> roads = grid(4, 150.0f);
   for (scene::Road& road : roads) road.lane_width_m = 3.4f;
   scene::Scene scene = scene_of(roads, 30);
-  scene.traffic.models.push_back(car_model(12.0f, 2.5f));
-  scene.traffic.centre = {375.0f, 375.0f}, scene.traffic.radius_m = 250.0f;
+  scene.data<TrafficDemand>().models.push_back(car_model(12.0f, 2.5f));
+  scene.data<scene::DrivingArea>() = {{375.0f, 375.0f}, 250.0f};
   Traffic traffic(scene);
   ASSERT_EQ(traffic.vehicle_count(), 30u);
   std::vector<float> standing_s(traffic.vehicle_count(), 0.0f);
@@ -237,7 +237,7 @@ TEST(Traffic, WithoutRoadsNobodyDrives) {
 
 TEST(Traffic, WithoutModelsNobodyDrives) {
   scene::Scene scene = scene_of(grid(2, 60.0f), 10);
-  scene.traffic.models.clear();
+  scene.data<TrafficDemand>().models.clear();
   const Traffic traffic(scene);
   EXPECT_EQ(traffic.vehicle_count(), 0u);
   EXPECT_EQ(traffic.warnings().size(), 1u);
@@ -268,7 +268,7 @@ TEST(Traffic, VehiclesKeepToTheirPartOfTheTown) {
     return farthest;
   };
   EXPECT_GT(farthest_m(), 400.0f) << "without an area they go everywhere";
-  scene.traffic.centre = centre, scene.traffic.radius_m = radius_m;
+  scene.data<scene::DrivingArea>() = {centre, radius_m};
   EXPECT_LT(farthest_m(), radius_m + 5.0f) << "but for the width of a crossing at its rim";
 }
 

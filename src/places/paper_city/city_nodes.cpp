@@ -97,7 +97,8 @@ void build_greenery(const scene::Node& node, scene::Model& model, scene::SceneBu
 
 }  // namespace
 
-void add_city_nodes(scene::NodeRegistry& registry) {
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   registry.add_change(facades_schema(), build_facades);
   registry.add_change(roofs_schema(), build_roofs);
   registry.add_change(ground_schema(), build_ground);

@@ -1,10 +1,10 @@
 // The node types of this room: facades, roofs, ground, greenery.
 #pragma once
 
-#include "scene/node_registry.h"
+#include "base/house.h"
 
 namespace parvis::city {
 
-void add_city_nodes(scene::NodeRegistry& registry);
+void furnish(House& house);
 
 }  // namespace parvis::city

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/material_change.h"
+#include "scene/model_parts.h"
 
 namespace parvis::city {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "life/traffic/demand.h"
 #include "places/paper_city/facade_texture.h"
 #include "places/paper_city/paper_script.h"
 #include "places/paper_city/sky_picture.h"

@@ -14,9 +14,8 @@ constexpr float kerb_m = 1.0f;         // what is higher above the ground is no 
 /// Vehicles start within the area, on streets that end there, and keep to such streets
 /// (traffic/simulation.h); where there are none, they leave it.
 std::vector<glm::vec3> street_places(const scene::Scene& scene, float apart_m) {
-  const auto is_within = [&](glm::vec3 at) {
-    return glm::distance(glm::vec2(at), scene.traffic.centre) < scene.traffic.radius_m + beyond_rim_m;
-  };
+  const scene::DrivingArea& area = scene.data<scene::DrivingArea>();
+  const auto is_within = [&](glm::vec3 at) { return area.contains(glm::vec2(at), beyond_rim_m); };
   const auto ends_within = [&](const scene::Lane& lane) { return is_within(lane.points.back()); };
   const bool keeps_within = std::ranges::any_of(scene.roads.lanes, ends_within);
   std::vector<glm::vec3> places;

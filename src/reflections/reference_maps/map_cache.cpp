@@ -25,8 +25,7 @@ std::uint64_t maps_key(const scene::Scene& scene) {
   hash.add(max_maps(scene));
   hash.add(map_resolution(scene));
   for (const scene::Lane& lane : scene.roads.lanes) hash.add(lane.points);
-  hash.add(scene.traffic.centre);
-  hash.add(scene.traffic.radius_m);
+  scene.data<scene::DrivingArea>().hash(hash);
   return hash.value();
 }
 

@@ -6,20 +6,22 @@
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
 #include "scene/scene_loader.h"
+#include "scene/test_house.h"
 
 namespace parvis::reference_maps {
 namespace {
 
 class ReferenceMapNodeTest : public testing::Test {
  protected:
-  ReferenceMapNodeTest() { add_reference_map_node(registry_); }
+  ReferenceMapNodeTest() { furnish(house_); }
 
   Result<scene::LoadedScene> load(const std::string& text) {
     return scene::load_scene(folder_.write("scene.xp", text), registry_);
   }
 
   TestFolder folder_;
-  scene::NodeRegistry registry_ = scene::core_nodes();
+  House house_ = scene::test_house();
+  scene::NodeRegistry& registry_ = house_.get<scene::NodeRegistry>();
 };
 
 TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {

@@ -231,7 +231,7 @@ TEST(ReflectorMap, RealBodiesReflectRightOrTell) {
     const std::optional<std::filesystem::path> file = shared_data(name, PARVIS_SOURCE_DIR);
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     Errors warnings;
-    const Result<scene::Model> model = scene::model_from_file(*file, {}, warnings);
+    const Result<scene::Model> model = scene::read_with_assimp(*file, formats::UpAxis::file, warnings);
     ASSERT_TRUE(model) << to_string(model.errors());
     const Judged judged = judge(model->parts[0].mesh, 1.5f);
     EXPECT_EQ(judged.silently_wrong, 0) << name;

@@ -250,7 +250,8 @@ const std::vector<std::string>& key_names() {
   return names;
 }
 
-void add_action_nodes(scene::NodeRegistry& registry) {
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   registry.add(keys_schema(), build_nothing);
   registry.add(timer_schema(), build_nothing);
   registry.add(proximity_schema(), build_nothing);

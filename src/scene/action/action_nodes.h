@@ -1,11 +1,14 @@
 // The node types of this room: keys, timer, proximity; path and tour with their keyframes.
 #pragma once
 
-#include "scene/node_registry.h"
+#include <string>
+#include <vector>
+
+#include "base/house.h"
 
 namespace parvis::action {
 
-void add_action_nodes(scene::NodeRegistry& registry);
+void furnish(House& house);
 
 /// What `keys` may name: letters, digits, named keys, mouse1.. and button1.. of a game controller.
 const std::vector<std::string>& key_names();

@@ -157,7 +157,7 @@ bool Actions::run(Things& things, const Delivery& delivery) {
     if (thing.node != delivery.target) continue;
     const std::string& name = delivery.message.schema->name;
     if (name != "start" && name != "stop" && name != "resume") return false;
-    live_.set(*thing.node, "running", name != "stop", name != "stop" ? "1" : "0");
+    live_.set(*thing.node, "running", name != "stop");
     if (name == "start") {
       thing.clock.start();
       fire_marks(thing, delivery.chain + 1);
@@ -216,8 +216,7 @@ void Actions::move(double ahead_s) {
     const double time_s = motion.clock.time_s(ahead_s);
     const Keyframe key = between(motion.keys, time_s, motion.is_smooth);
     const bool is_camera = motion.target->schema->type == "camera";
-    live_.set(*motion.target, "position", key.position,
-              fmt::format("{} {} {}", key.position.x, key.position.y, key.position.z));
+    live_.set(*motion.target, "position", key.position);
     if (is_camera && motion.target->gives("target")) continue;  // it keeps its eye on that
     float heading = key.heading, pitch = key.pitch;
     if (motion.looks_along) {
@@ -226,7 +225,7 @@ void Actions::move(double ahead_s) {
       pitch = std::asin(std::clamp(way.z, -1.0f, 1.0f));
     }
     const auto set_angle = [&](const char* name, float angle) {
-      live_.set(*motion.target, name, double(angle), fmt::format("{}", glm::degrees(angle)));
+      live_.set(*motion.target, name, double(angle));
     };
     if (motion.looks_along || motion.has_heading) set_angle("heading_deg", heading);
     if (is_camera && (motion.looks_along || motion.has_pitch)) set_angle("pitch_deg", pitch);
@@ -305,7 +304,7 @@ std::optional<Camera> Actions::camera(const Scene& scene) const {
 
 void Actions::stop_tours() {
   for (const Tour& tour : tours_)
-    if (is_running(*tour.node)) live_.set(*tour.node, "running", false, "0");
+    if (is_running(*tour.node)) live_.set(*tour.node, "running", false);
 }
 
 void Actions::release_view() {
@@ -319,7 +318,7 @@ Result<double> Actions::start_tour(const std::string& name) {
     known.push_back(tour.node->text("name"));
     if (known.back() != name) continue;
     stop_tours();
-    live_.set(*tour.node, "running", true, "1");
+    live_.set(*tour.node, "running", true);
     tour.clock.start();
     return length_of(*tour.node);
   }

@@ -6,6 +6,7 @@
 #include "scene/action/action_nodes.h"
 #include "scene/gltf_writer.h"
 #include "scene/scene_loader.h"
+#include "scene/test_house.h"
 #include "scene/test_scene.h"
 
 namespace parvis::action {
@@ -15,7 +16,6 @@ namespace {
 class ActionsTest : public ::testing::Test {
  protected:
   ActionsTest() {
-    add_action_nodes(registry_);
     const auto box = scene::model_of(scene::box(glm::vec3(-0.5f), glm::vec3(0.5f)), {});
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb", *box));
   }
@@ -53,7 +53,8 @@ class ActionsTest : public ::testing::Test {
   }
 
   TestFolder folder_;
-  scene::NodeRegistry registry_ = scene::core_nodes();
+  House house_ = scene::test_house();
+  scene::NodeRegistry& registry_ = house_.get<scene::NodeRegistry>();
   scene::Scene scene_;
   Actions actions_;
   std::optional<glm::vec3> visitor_;

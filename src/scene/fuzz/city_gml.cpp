@@ -1,10 +1,11 @@
 // Any bytes as a CityGML file: a model or errors.
+#include "scene/city_gml.h"
+
 #include "base/fuzz_file.h"
-#include "scene/model_source.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static parvis::FuzzFile file(".gml");
   parvis::Errors warnings;
-  (void)parvis::scene::model_from_file(file.with(data, size), {}, warnings);
+  (void)parvis::scene::read_city_gml(file.with(data, size), warnings);
   return 0;
 }

@@ -1,7 +1,7 @@
 // Any bytes as a mesh that KHR_draco_mesh_compression packed: a model or errors.
 #include "base/fuzz_file.h"
 #include "scene/fuzz/packed_gltf.h"
-#include "scene/model_source.h"
+#include "scene/gltf_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static parvis::FuzzFile file(".glb");
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       {"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
   const std::string bytes = parvis::scene::glb(json, std::string(reinterpret_cast<const char*>(data), size));
   parvis::Errors warnings;
-  (void)parvis::scene::model_from_file(
-      file.with(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), {}, warnings);
+  (void)parvis::scene::read_gltf(file.with(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()),
+                                 warnings);
   return 0;
 }

@@ -5,7 +5,7 @@
 
 #include "base/fuzz_file.h"
 #include "scene/fuzz/packed_gltf.h"
-#include "scene/model_source.h"
+#include "scene/gltf_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t header = 5;
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string bytes =
       parvis::scene::glb(json, std::string(reinterpret_cast<const char*>(data) + header, stream));
   parvis::Errors warnings;
-  (void)parvis::scene::model_from_file(
-      file.with(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), {}, warnings);
+  (void)parvis::scene::read_gltf(file.with(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()),
+                                 warnings);
   return 0;
 }

@@ -1,10 +1,10 @@
 // Any bytes as an OpenStreetMap file: a model or errors.
 #include "base/fuzz_file.h"
-#include "scene/model_source.h"
+#include "scene/osm_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static parvis::FuzzFile file(".osm");
   parvis::Errors warnings;
-  (void)parvis::scene::model_from_file(file.with(data, size), {}, warnings);
+  (void)parvis::scene::read_osm(file.with(data, size), warnings);
   return 0;
 }

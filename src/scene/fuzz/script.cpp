@@ -3,13 +3,14 @@
 
 #include "scene/message.h"
 #include "scene/node_registry.h"
-#include "scene/nodes.h"
 #include "scene/script_format.h"
 #include "scene/script_reader.h"
+#include "scene/test_house.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace parvis::scene;
-  static const NodeRegistry registry = core_nodes();
+  static const parvis::House house = test_house();
+  const NodeRegistry& registry = house.get<NodeRegistry>();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto tree = parse_script_file(text, "fuzz.xp");
   if (!tree) return 0;

@@ -1,0 +1,101 @@
+#include "life/traffic/traffic_nodes.h"
+
+#include "life/traffic/demand.h"
+#include "life/traffic/traffic.h"
+#include "scene/model_assembly.h"
+#include "scene/model_node.h"
+#include "scene/placement.h"
+#include "scene/scene_builder.h"
+
+namespace parvis::traffic {
+namespace {
+
+using scene::AttributeType, scene::Node, scene::SceneBuilder;
+
+std::vector<std::string> vehicle_names(const Node& node) {
+  std::vector<std::string> names;
+  for (long i = 1; i <= node.integer("vehicles"); ++i) names.push_back(vehicle_name(std::size_t(i - 1)));
+  return names;
+}
+
+scene::NodeSchema traffic_schema() {
+  return {
+      .type = "traffic",
+      .help =
+          "Vehicles on the roads of the scene. Its models are the kinds of vehicles: x forward, y left, "
+          "the road "
+          "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
+          "vehicles are "
+          "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
+      .attributes = {{.name = "name", .help = "by which other nodes refer to it; %traffic does, too"},
+                     {.name = "vehicles",
+                      .type = AttributeType::integer,
+                      .help = "how many",
+                      .minimum = 0,
+                      .maximum = 10'000,
+                      .is_required = true},
+                     {.name = "seed",
+                      .type = AttributeType::integer,
+                      .help = "the same seed gives the same traffic",
+                      .fallback = "1",
+                      .minimum = 0},
+                     {.name = "centre",
+                      .type = AttributeType::vec3,
+                      .help = "of the part of the town that they keep to",
+                      .fallback = "0 0 0",
+                      .unit = "m"},
+                     {.name = "radius",
+                      .type = AttributeType::number,
+                      .help =
+                          "of that part: they start in it, and turn back at its rim where streets let them",
+                      .fallback = "1000000",
+                      .unit = "m",
+                      .minimum = 10,
+                      .maximum = 1e6},
+                     scene::visible_attribute()},
+      .example =
+          "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"
+          "  model(file=\"cars/van.glb\", heading_deg=-90)\n"
+          "}",
+      .is_unique = true,
+      .is_laid_out_once = true,
+      .names_made = vehicle_names};
+}
+
+/// The model of a `model` node inside the traffic, turned as the node says; null, with the errors in
+/// `builder`, where its file cannot be used.
+std::shared_ptr<const scene::Model> vehicle_model(const Node& kind, SceneBuilder& builder,
+                                                  const formats::Readers& readers) {
+  const std::shared_ptr<const scene::Model> model = scene::model_of(kind, builder, readers);
+  if (!model) return nullptr;
+  return builder.shared_model("vehicle " + signature(kind), [&] {
+    const glm::quat turn = glm::angleAxis(-kind.angle("heading_deg"), glm::vec3(0.0f, 0.0f, 1.0f));
+    return std::make_shared<const scene::Model>(
+        scene::placed(*model, kind.vec3("position"), turn, float(kind.number("scale"))));
+  });
+}
+
+void build_traffic(const Node& node, SceneBuilder& builder, const formats::Readers& readers) {
+  TrafficDemand demand;
+  demand.vehicles = int(node.integer("vehicles"));
+  demand.seed = std::uint64_t(node.integer("seed"));
+  demand.is_visible = builder.is_visible() && node.flag("visible");
+  for (const Node& kind : node.children)
+    if (auto model = vehicle_model(kind, builder, readers)) demand.models.push_back(std::move(model));
+  builder.scene.data<TrafficDemand>() = std::move(demand);
+  builder.scene.data<scene::DrivingArea>() = {glm::vec2(node.vec3("centre")), float(node.number("radius"))};
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+  const formats::Readers& readers = house.get<formats::Readers>();
+  registry.add(traffic_schema(), [&readers](const Node& node, SceneBuilder& builder) {
+    build_traffic(node, builder, readers);
+  });
+  registry.allow("model", "traffic");
+  registry.allow(scene::include_type, "traffic");
+}
+
+}  // namespace parvis::traffic

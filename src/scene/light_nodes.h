@@ -1,0 +1,10 @@
+// What this room brings to the house: sun, sky, air, exposure, reflection.
+#pragma once
+
+#include "base/house.h"
+
+namespace parvis::scene {
+
+void furnish_light(House& house);
+
+}  // namespace parvis::scene
