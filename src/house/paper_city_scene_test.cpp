@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "house/stage.h"
+#include "life/traffic/demand.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/paper_script.h"
 
