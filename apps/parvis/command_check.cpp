@@ -1,8 +1,8 @@
 // parvis check: is a scene right? And the reference of all nodes.
 #include "commands.h"
 #include "life/traffic/demand.h"
-#include "scene/scene_reference.h"
-#include "scene/schema_json.h"
+#include "scene/script/scene_reference.h"
+#include "scene/script/schema_json.h"
 #include "scene_arguments.h"
 
 namespace parvis {

@@ -1,7 +1,7 @@
 // parvis export: a scene, or parts of it, as glTF for other programs.
 #include "commands.h"
-#include "scene/gltf_writer.h"
-#include "scene/spelling.h"
+#include "formats/gltf/gltf_writer.h"
+#include "scene/script/spelling.h"
 #include "scene_arguments.h"
 
 namespace parvis {

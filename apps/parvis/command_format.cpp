@@ -1,8 +1,8 @@
 // parvis format: scene scripts in one style.
 #include "base/files.h"
 #include "commands.h"
-#include "scene/script_format.h"
-#include "scene/script_reader.h"
+#include "scene/script/script_format.h"
+#include "scene/script/script_reader.h"
 
 namespace parvis {
 namespace {

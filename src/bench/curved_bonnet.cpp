@@ -14,7 +14,7 @@
 #include "places/paper_city/walker.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reflector_maps/settings.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/virtual_objects/long_edges.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::bench {
 namespace {

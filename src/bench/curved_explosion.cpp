@@ -10,7 +10,7 @@
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/reflector_map.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::bench {
 namespace {

@@ -7,10 +7,10 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "bench/judged_body.h"
+#include "formats/readers/model_source.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/exact_reflection.h"
-#include "scene/model_source.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include "places/paper_city/mirror_bodies.h"
 #include "places/paper_city/walker.h"
 #include "reflections/methods/settings.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::bench {
 namespace {

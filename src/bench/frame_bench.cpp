@@ -9,11 +9,11 @@
 #include "bench/mirror_check.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
+#include "formats/city_models/city_json.h"
 #include "graphics/render/culling_check.h"
 #include "house/stage.h"
 #include "places/paper_city/paper_city.h"
 #include "reflections/methods/settings.h"
-#include "scene/city_json.h"
 
 namespace parvis::bench {
 namespace {

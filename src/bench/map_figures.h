@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/report.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::bench {
 

@@ -3,7 +3,7 @@
 
 #include "bench/report.h"
 #include "reflections/methods/settings.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::bench {
 

@@ -3,8 +3,8 @@
 #include "base/files.h"
 #include "base/test_data.h"
 #include "bench/scratch_folder.h"
+#include "formats/city_models/city_json.h"
 #include "house/stage.h"
-#include "scene/city_json.h"
 
 namespace parvis::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "graphics/reference/ray_scene.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/reflector_maps/surface_rays.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::bench {
 

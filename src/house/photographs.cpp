@@ -6,10 +6,10 @@
 #include <set>
 
 #include "base/image_io.h"
+#include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
-#include "scene/colmap_writer.h"
-#include "scene/gltf_cameras.h"
+#include "house/colmap_writer.h"
 
 namespace parvis::house {
 namespace {

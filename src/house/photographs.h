@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "graphics/reference/photograph.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::house {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/test_data.h"
+#include "formats/terrain/ground_raster.h"
 #include "house/stage.h"
 #include "life/traffic/traffic.h"
-#include "scene/ground_raster.h"
-#include "scene/scene_loader.h"
+#include "scene/script/scene_loader.h"
 
 namespace parvis::house {
 namespace {

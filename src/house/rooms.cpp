@@ -2,6 +2,11 @@
 
 #include <array>
 
+#include "formats/city_models/city_formats.h"
+#include "formats/gltf/gltf_formats.h"
+#include "formats/meshes/mesh_nodes.h"
+#include "formats/terrain/terrain_formats.h"
+#include "graphics/light/light_nodes.h"
 #include "life/traffic/traffic_nodes.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/room.h"
@@ -12,23 +17,20 @@
 #include "reflections/refraction/room.h"
 #include "reflections/virtual_objects/room.h"
 #include "scene/action/action_nodes.h"
-#include "scene/city_formats.h"
-#include "scene/gltf_formats.h"
-#include "scene/light_nodes.h"
-#include "scene/mesh_nodes.h"
-#include "scene/road_nodes.h"
-#include "scene/script_nodes.h"
-#include "scene/terrain_formats.h"
+#include "scene/roads/road_nodes.h"
+#include "scene/script/script_nodes.h"
 
 namespace parvis::house {
 namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
 constexpr std::array rooms{
-    scene::furnish_script, scene::furnish_gltf,   scene::furnish_city_models, scene::furnish_terrain,
-    scene::furnish_meshes, scene::furnish_roads,  traffic::furnish,           scene::furnish_light,
-    city::furnish,         action::furnish,       probes::furnish,            environment_rays::furnish,
-    local_maps::furnish,   reference_maps::furnish, virtual_objects::furnish, refraction::furnish,
+    scene::furnish_script,  scene::furnish_gltf,     scene::furnish_city_models,
+    scene::furnish_terrain, scene::furnish_meshes,   scene::furnish_roads,
+    traffic::furnish,       scene::furnish_light,    city::furnish,
+    action::furnish,        probes::furnish,         environment_rays::furnish,
+    local_maps::furnish,    reference_maps::furnish, virtual_objects::furnish,
+    refraction::furnish,
 };
 
 }  // namespace

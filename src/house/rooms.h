@@ -3,7 +3,7 @@
 
 #include "base/house.h"
 #include "reflections/methods/registry.h"
-#include "scene/node_registry.h"
+#include "scene/script/node_registry.h"
 
 namespace parvis::house {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::house {
 

@@ -1,4 +1,4 @@
-#include "scene/scene_reference.h"
+#include "scene/script/scene_reference.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "base/files.h"
 #include "house/stage.h"
-#include "scene/schema_json.h"
-#include "scene/script_reader.h"
+#include "scene/script/schema_json.h"
+#include "scene/script/script_reader.h"
 
 namespace parvis::house {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "graphics/render/frame_views.h"
 #include "reflections/methods/settings.h"
-#include "scene/object_animation.h"
+#include "scene/data/object_animation.h"
 
 namespace parvis::house {
 

@@ -16,7 +16,7 @@
 #include "life/traffic/traffic.h"
 #include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
-#include "scene/scene_loader.h"
+#include "scene/script/scene_loader.h"
 
 namespace parvis::house {
 

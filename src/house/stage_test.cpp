@@ -9,8 +9,8 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "reflections/methods/settings.h"
-#include "scene/object_animation.h"
-#include "scene/test_scene.h"
+#include "scene/data/object_animation.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::house {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/live_scene.h"
+#include "scene/script/live_scene.h"
 
 namespace parvis::viewer {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "base/test_folder.h"
+#include "formats/gltf/gltf_writer.h"
 #include "house/stage.h"
 #include "scene/action/actions.h"
-#include "scene/gltf_writer.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::viewer {
 namespace {

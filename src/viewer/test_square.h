@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "base/test_folder.h"
+#include "formats/gltf/gltf_writer.h"
 #include "graphics/gl/test_context.h"
-#include "scene/gltf_writer.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 #include "viewer/visit.h"
 
 namespace parvis::viewer {

@@ -3,7 +3,7 @@
 
 #include "base/result.h"
 #include "capture/trees/tree_view.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::trees {
 

@@ -8,8 +8,8 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
-#include "scene/gltf_writer.h"
 
 namespace parvis::light {
 namespace {

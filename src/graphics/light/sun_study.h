@@ -9,7 +9,7 @@
 #include "base/image.h"
 #include "base/mesh.h"
 #include "graphics/light/sun_hours.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::light {
 

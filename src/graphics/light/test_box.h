@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::light {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/mip_levels.h"
+#include "scene/data/mip_levels.h"
 
 namespace parvis::reference {
 

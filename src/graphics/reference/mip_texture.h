@@ -4,13 +4,13 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::reference {
 
 class MipTexture {
  public:
-  /// The same levels as the renderer's (scene/mip_levels.h).
+  /// The same levels as the renderer's (scene/data/mip_levels.h).
   MipTexture(const scene::Texture& texture, bool is_cutout);
 
   /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in

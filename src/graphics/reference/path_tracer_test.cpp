@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "graphics/shading/lighting.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference {
 namespace {

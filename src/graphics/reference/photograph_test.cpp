@@ -5,7 +5,7 @@
 
 #include "base/test_folder.h"
 #include "graphics/reference/seen_points.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference {
 namespace {

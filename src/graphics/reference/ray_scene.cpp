@@ -5,7 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "graphics/reference/traced_hit.h"
-#include "scene/mip_levels.h"
+#include "scene/data/mip_levels.h"
 
 namespace parvis::reference {
 namespace {

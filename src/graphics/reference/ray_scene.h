@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "graphics/reference/mip_texture.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference {
 

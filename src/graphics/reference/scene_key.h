@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference {
 

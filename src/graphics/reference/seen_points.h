@@ -4,7 +4,7 @@
 
 #include "base/image.h"
 #include "graphics/reference/ray_scene.h"
-#include "scene/taken_picture.h"
+#include "scene/data/taken_picture.h"
 
 namespace parvis::reference {
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "graphics/reference/frame.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference {
 

@@ -3,7 +3,7 @@
 
 #include "graphics/reference/path_tracer.h"
 #include "graphics/reference/tracer.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference {
 namespace {

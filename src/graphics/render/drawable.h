@@ -11,7 +11,7 @@
 #include "graphics/render/quality_budget.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/body_shade.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::render {
 

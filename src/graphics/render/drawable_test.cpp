@@ -8,7 +8,7 @@
 #include "graphics/render/cube_map.h"
 #include "graphics/render/renderer.h"
 #include "graphics/render/test_quads.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::render {
 namespace {

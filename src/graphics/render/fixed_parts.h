@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::render {
 

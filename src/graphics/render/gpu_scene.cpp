@@ -10,7 +10,7 @@
 #include "graphics/render/bindings.h"
 #include "graphics/render/mesh_levels.h"
 #include "graphics/shading/glsl.h"
-#include "scene/mip_levels.h"
+#include "scene/data/mip_levels.h"
 
 namespace parvis::render {
 namespace {

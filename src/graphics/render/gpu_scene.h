@@ -13,7 +13,7 @@
 #include "graphics/render/gpu_geometry.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/body_shade.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::render {
 

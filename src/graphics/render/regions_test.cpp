@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/shading/heightfield.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::render {
 namespace {

@@ -8,7 +8,7 @@
 #include "graphics/render/culling_check.h"
 #include "graphics/render/golden.h"
 #include "graphics/render/picture_reader.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::render {
 namespace {

@@ -7,7 +7,7 @@
 #include "graphics/render/view.h"
 #include "graphics/shading/sky.h"
 #include "graphics/shading/sky_visibility.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::render {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::render {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "scene/model.h"
-#include "scene/room_data.h"
+#include "scene/data/model.h"
+#include "scene/data/room_data.h"
 
 namespace parvis::traffic {
 

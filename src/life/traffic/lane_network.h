@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "life/traffic/vehicle_shape.h"
-#include "scene/path.h"
-#include "scene/road_graph.h"
+#include "scene/data/path.h"
+#include "scene/data/road_graph.h"
 
 namespace parvis::traffic {
 

@@ -1,6 +1,6 @@
 #include "life/traffic/street_ends.h"
 
-#include "scene/path.h"
+#include "scene/data/path.h"
 
 namespace parvis::traffic {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/road_graph.h"
+#include "scene/data/road_graph.h"
 
 namespace parvis::traffic {
 

@@ -9,7 +9,7 @@
 
 #include "life/traffic/demand.h"
 #include "life/traffic/simulation.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::traffic {
 

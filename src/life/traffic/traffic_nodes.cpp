@@ -1,11 +1,11 @@
 #include "life/traffic/traffic_nodes.h"
 
+#include "formats/meshes/model_assembly.h"
+#include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
 #include "life/traffic/traffic.h"
-#include "scene/model_assembly.h"
-#include "scene/model_node.h"
-#include "scene/placement.h"
-#include "scene/scene_builder.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_builder.h"
 
 namespace parvis::traffic {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "life/traffic/street_ends.h"
-#include "scene/path.h"
-#include "scene/road_builder.h"
+#include "scene/data/path.h"
+#include "scene/roads/road_builder.h"
 
 namespace parvis::traffic {
 namespace {

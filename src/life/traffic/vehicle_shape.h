@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "life/traffic/footprint.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::traffic {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/colour.h"
+#include "formats/meshes/wheel.h"
 #include "places/paper_city/car_body.h"
 #include "places/paper_city/lettering.h"
 #include "places/paper_city/window_texture.h"
-#include "scene/wheel.h"
 
 namespace parvis::city {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "places/paper_city/car_shape.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "places/paper_city/facade_texture.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

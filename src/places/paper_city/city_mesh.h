@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "places/paper_city/city_material.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

@@ -4,7 +4,7 @@
 #include "places/paper_city/facades.h"
 #include "places/paper_city/ground_cover.h"
 #include "places/paper_city/roofs.h"
-#include "scene/scene_builder.h"
+#include "scene/script/scene_builder.h"
 
 namespace parvis::city {
 namespace {

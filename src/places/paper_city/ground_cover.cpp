@@ -10,7 +10,7 @@
 #include "places/paper_city/ground_texture.h"
 #include "places/paper_city/model_triangles.h"
 #include "places/paper_city/tree.h"
-#include "scene/model_parts.h"
+#include "scene/data/model_parts.h"
 
 namespace parvis::city {
 namespace {

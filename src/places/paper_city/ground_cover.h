@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

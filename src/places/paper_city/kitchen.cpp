@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "formats/gltf/gltf_writer.h"
 #include "places/paper_city/kitchen_glass.h"
 #include "places/paper_city/kitchen_light.h"
 #include "places/paper_city/kitchen_materials.h"
@@ -10,7 +11,6 @@
 #include "places/paper_city/kitchen_script.h"
 #include "places/paper_city/kitchen_things.h"
 #include "places/paper_city/writing_jobs.h"
-#include "scene/gltf_writer.h"
 
 namespace parvis::city {
 namespace {

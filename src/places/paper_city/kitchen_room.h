@@ -1,7 +1,7 @@
 // The kitchen's walls, window, cupboards, worktop and hob.
 #pragma once
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

@@ -1,7 +1,7 @@
 // What stands about in the kitchen and does not mirror: fruit in a bowl, crockery, jars, a board, a cloth.
 #pragma once
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

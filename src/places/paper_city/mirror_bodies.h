@@ -2,7 +2,7 @@
 // the ball of figure 9, the whale of figure 10.
 #pragma once
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/model_parts.h"
+#include "scene/data/model_parts.h"
 
 namespace parvis::city {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "formats/gltf/gltf_writer.h"
 #include "places/paper_city/car.h"
 #include "places/paper_city/city_buildings.h"
 #include "places/paper_city/figure_script.h"
@@ -17,7 +18,6 @@
 #include "places/paper_city/tree.h"
 #include "places/paper_city/walker.h"
 #include "places/paper_city/writing_jobs.h"
-#include "scene/gltf_writer.h"
 
 namespace parvis::city {
 namespace {

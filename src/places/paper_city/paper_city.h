@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/result.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/result.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

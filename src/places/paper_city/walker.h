@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::city {
 

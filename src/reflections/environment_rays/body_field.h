@@ -6,7 +6,7 @@
 
 #include "base/bounds.h"
 #include "graphics/shading/glsl.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::environment_rays {
 

@@ -8,7 +8,7 @@
 #include "graphics/gl/program.h"
 #include "reflections/environment_rays/body_field.h"
 #include "reflections/methods/reflections.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::environment_rays {
 

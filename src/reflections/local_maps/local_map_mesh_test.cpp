@@ -9,7 +9,7 @@
 #include "reflections/local_maps/local_map_faces.h"
 #include "reflections/local_maps/local_map_weights.h"
 #include "reflections/methods/cube_map.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::local_maps {
 namespace {

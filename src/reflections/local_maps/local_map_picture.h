@@ -10,7 +10,7 @@
 #include "reflections/local_maps/local_map_mesh.h"
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/reference_maps/reference_maps.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::local_maps {
 using namespace reference_maps;

@@ -1,6 +1,6 @@
 // The node `reflection`: the attributes that all methods have in common, then those of each.
 #include "reflections/methods/registry.h"
-#include "scene/scene_builder.h"
+#include "scene/script/scene_builder.h"
 
 namespace parvis::methods {
 namespace {

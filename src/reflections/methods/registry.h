@@ -8,7 +8,7 @@
 
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
-#include "scene/node_registry.h"
+#include "scene/script/node_registry.h"
 
 namespace parvis::methods {
 

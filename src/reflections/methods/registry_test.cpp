@@ -8,7 +8,7 @@
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
-#include "scene/scene_loader.h"
+#include "scene/script/scene_loader.h"
 
 namespace parvis::methods {
 namespace {

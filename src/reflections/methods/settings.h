@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::methods {
 

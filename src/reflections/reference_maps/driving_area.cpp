@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/path.h"
+#include "scene/data/path.h"
 
 namespace parvis::reference_maps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "graphics/reference/ray_scene.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference_maps {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reflections/reference_maps/map_file.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference_maps {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reflections/reference_maps/height_pyramid.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference_maps {
 

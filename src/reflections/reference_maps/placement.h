@@ -7,7 +7,7 @@
 
 #include "reflections/reference_maps/height_pyramid.h"
 #include "reflections/reference_maps/mirrored_points.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference_maps {
 

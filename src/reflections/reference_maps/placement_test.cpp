@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reflections/reference_maps/scene_maps.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference_maps {
 namespace {

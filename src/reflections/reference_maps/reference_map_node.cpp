@@ -1,8 +1,8 @@
 #include "reflections/reference_maps/reference_map_node.h"
 
 #include "reflections/reference_maps/settings.h"
-#include "scene/path.h"
-#include "scene/scene_builder.h"
+#include "scene/data/path.h"
+#include "scene/script/scene_builder.h"
 
 namespace parvis::reference_maps {
 namespace {

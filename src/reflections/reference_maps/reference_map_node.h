@@ -1,7 +1,7 @@
 // The node type of this room: where a scene's reference maps are taken.
 #pragma once
 
-#include "scene/node_registry.h"
+#include "scene/script/node_registry.h"
 
 namespace parvis::reference_maps {
 

@@ -5,8 +5,8 @@
 #include "base/test_folder.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
-#include "scene/scene_loader.h"
-#include "scene/test_house.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/test_house.h"
 
 namespace parvis::reference_maps {
 namespace {

@@ -4,7 +4,7 @@
 #include "reflections/reference_maps/height_pyramid.h"
 #include "reflections/reference_maps/reference_maps.h"
 #include "reflections/reference_maps/settings.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reference_maps {
 

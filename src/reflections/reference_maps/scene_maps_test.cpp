@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reflections/reference_maps/settings.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reference_maps {
 namespace {

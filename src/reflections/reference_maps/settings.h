@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reflections/methods/settings.h"
-#include "scene/node.h"
+#include "scene/script/node.h"
 
 namespace parvis::reference_maps {
 

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "reflections/reflector_maps/reflector_map.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reflector_maps {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/test_folder.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reflector_maps/reflector_file.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reflector_maps {
 namespace {

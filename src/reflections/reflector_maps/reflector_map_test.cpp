@@ -9,12 +9,12 @@
 
 #include "base/random.h"
 #include "base/test_data.h"
+#include "formats/readers/model_source.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/surface_rays.h"
 #include "reflections/reflector_maps/test_reflectors.h"
-#include "scene/model_source.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reflector_maps {
 using namespace reflection_search;

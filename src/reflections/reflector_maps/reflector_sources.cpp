@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reflections/methods/settings.h"
-#include "scene/glass_pieces.h"
+#include "scene/data/glass_pieces.h"
 
 namespace parvis::reflector_maps {
 namespace {

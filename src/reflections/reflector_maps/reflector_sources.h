@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/mesh.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::reflector_maps {
 

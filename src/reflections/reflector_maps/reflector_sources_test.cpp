@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::reflector_maps {
 namespace {

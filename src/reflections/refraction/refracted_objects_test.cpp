@@ -7,7 +7,7 @@
 #include "reflections/methods/settings.h"
 #include "reflections/reflector_maps/test_boxes.h"
 #include "reflections/virtual_objects/virtual_objects.h"
-#include "scene/glass_pieces.h"
+#include "scene/data/glass_pieces.h"
 
 namespace parvis::refraction {
 using namespace reflection_search;

@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflector_maps/reflector_map.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::refraction {
 using namespace reflection_search;

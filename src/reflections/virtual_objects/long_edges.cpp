@@ -5,7 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "scene/glass_pieces.h"
+#include "scene/data/glass_pieces.h"
 
 namespace parvis::virtual_objects {
 namespace {

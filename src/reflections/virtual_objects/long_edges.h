@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::virtual_objects {
 

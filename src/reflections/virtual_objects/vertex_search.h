@@ -13,7 +13,7 @@
 #include "graphics/gl/program.h"
 #include "graphics/render/gpu_scene.h"
 #include "graphics/render/stream_buffer.h"
-#include "scene/scene.h"
+#include "scene/data/scene.h"
 
 namespace parvis::virtual_objects {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::virtual_objects {
 namespace {

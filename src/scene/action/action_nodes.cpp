@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/scene_builder.h"
+#include "scene/script/scene_builder.h"
 
 namespace parvis::action {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "scene/spelling.h"
+#include "scene/script/spelling.h"
 
 namespace parvis::action {
 namespace {

@@ -10,7 +10,7 @@
 #include "scene/action/clock.h"
 #include "scene/action/event_queue.h"
 #include "scene/action/keyframes.h"
-#include "scene/live_scene.h"
+#include "scene/script/live_scene.h"
 
 namespace parvis::action {
 

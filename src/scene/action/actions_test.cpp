@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
+#include "formats/gltf/gltf_writer.h"
 #include "scene/action/action_nodes.h"
-#include "scene/gltf_writer.h"
-#include "scene/scene_loader.h"
-#include "scene/test_house.h"
-#include "scene/test_scene.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/test_house.h"
 
 namespace parvis::action {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "scene/live_scene.h"
+#include "scene/script/live_scene.h"
 
 namespace parvis::action {
 

@@ -1,0 +1,175 @@
+#include "formats/city_models/city_gml.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/random.h"
+#include "base/test_data.h"
+#include "base/test_folder.h"
+#include "formats/city_models/city_json.h"
+#include "scene/data/test_scene.h"
+
+namespace parvis::scene {
+namespace {
+
+/// A building of one wall of 4 x 3 m with a hole of 1 m2, far from the origin.
+std::string wall() {
+  return R"(<?xml version="1.0"?>
+<CityModel xmlns="http://www.opengis.net/citygml/2.0" xmlns:bldg="http://www.opengis.net/citygml/building/2.0"
+  xmlns:gml="http://www.opengis.net/gml">
+<cityObjectMember><bldg:Building gml:id="house"><bldg:boundedBy><bldg:WallSurface gml:id="w"><bldg:lod2MultiSurface>
+<gml:MultiSurface><gml:surfaceMember><gml:Polygon gml:id="p"><gml:exterior><gml:LinearRing gml:id="r">
+<gml:posList>80000 450000 0 80004 450000 0 80004 450000 3 80000 450000 3 80000 450000 0</gml:posList>
+</gml:LinearRing></gml:exterior><gml:interior><gml:LinearRing gml:id="h">
+<gml:posList>80001 450000 1 80001 450000 2 80002 450000 2 80002 450000 1 80001 450000 1</gml:posList>
+</gml:LinearRing></gml:interior></gml:Polygon></gml:surfaceMember></gml:MultiSurface>
+</bldg:lod2MultiSurface></bldg:WallSurface></bldg:boundedBy></bldg:Building></cityObjectMember></CityModel>)";
+}
+
+Result<Model> read(const std::string& text) {
+  const TestFolder folder;
+  Errors warnings;
+  return read_city_gml(folder.write("city.gml", text), warnings);
+}
+
+/// A building of 10 x 8 x 6 m as a closed shell of six named surfaces, which a solid lists once more.
+std::string box_building(const std::string& version) {
+  const auto polygon = [](const std::string& kind, const std::string& corners) {
+    return fmt::format(R"(<bldg:boundedBy><bldg:{0}Surface><bldg:lod2MultiSurface><gml:MultiSurface>
+<gml:surfaceMember><gml:Polygon gml:id="p{2}"><gml:exterior><gml:LinearRing><gml:posList>{1}</gml:posList>
+</gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface></bldg:lod2MultiSurface>
+</bldg:{0}Surface></bldg:boundedBy>
+)",
+                       kind, corners, std::hash<std::string>()(corners));
+  };
+  return fmt::format(R"(<?xml version="1.0"?>
+<CityModel xmlns="http://www.opengis.net/citygml/{0}" xmlns:bldg="http://www.opengis.net/citygml/building/{0}"
+  xmlns:gml="http://www.opengis.net/gml" xmlns:xlink="http://www.w3.org/1999/xlink">
+<cityObjectMember><bldg:Building gml:id="house">
+)",
+                     version) +
+         polygon("Ground", "0 0 0 0 8 0 10 8 0 10 0 0 0 0 0") +
+         polygon("Roof", "0 0 6 10 0 6 10 8 6 0 8 6 0 0 6") +
+         polygon("Wall", "0 0 0 10 0 0 10 0 6 0 0 6 0 0 0") +
+         polygon("Wall", "10 0 0 10 8 0 10 8 6 10 0 6 10 0 0") +
+         polygon("Wall", "10 8 0 0 8 0 0 8 6 10 8 6 10 8 0") +
+         polygon("Wall", "0 8 0 0 0 0 0 0 6 0 8 6 0 8 0") + "</bldg:Building></cityObjectMember></CityModel>";
+}
+
+void expect_refused(const std::string& text, const std::string& reason, int line) {
+  const Result<Model> city = read(text);
+  ASSERT_FALSE(city) << reason;
+  EXPECT_NE(to_string(city.errors()).find(reason), std::string::npos) << to_string(city.errors());
+  EXPECT_EQ(city.errors().front().where.line, line);
+}
+
+TEST(CityGml, AWallKeepsItsSizeItsHoleAndItsPlace) {
+  const Result<Model> city = read(wall());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 11.0, 1e-3);
+  EXPECT_EQ(city->origin, glm::dvec3(80002.0, 450000.0, 0.0));
+  EXPECT_NEAR(bounds(*city).min.x, -2.0f, 1e-4f);
+}
+
+TEST(CityGml, Versions1And2ReadTheSame) {
+  for (const char* version : {"1.0", "2.0"}) {
+    const Result<Model> city = read(box_building(version));
+    ASSERT_TRUE(city) << version << to_string(city.errors());
+    EXPECT_NEAR(area_m2(*city, "RoofSurface"), 80.0, 1e-3) << version;
+    EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3) << version;
+    EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3) << version;
+  }
+}
+
+TEST(CityGml, TheBackOfAClosedBodyIsNotShownButThatOfAnOpenOneIs) {
+  const Result<Model> closed = read(box_building("2.0"));
+  ASSERT_TRUE(closed) << to_string(closed.errors());
+  for (const Part& part : closed->parts) {
+    EXPECT_FALSE(closed->materials[std::size_t(part.material)].is_double_sided) << part.object;
+    const glm::vec3 middle(0.0f, 0.0f, 3.0f);
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0) - middle), 0.0f) << part.object;
+    }
+  }
+  std::string without_roof = box_building("2.0");
+  const std::size_t roof = without_roof.find("0 0 6 10 0 6 10 8 6");
+  without_roof.replace(roof, 5, "0 0 7");  // one corner off: a gap
+  const Result<Model> open = read(without_roof);
+  ASSERT_TRUE(open) << to_string(open.errors());
+  for (const Part& part : open->parts)
+    if (part.object == "WallSurface") {
+      EXPECT_TRUE(open->materials[std::size_t(part.material)].is_double_sided);
+    }
+}
+
+TEST(CityGml, WallsAndRoofsAreWhatCityJsonMakesThem) {
+  const TestFolder folder;
+  Errors warnings;
+  Result<Model> json = read_city_model(folder.write("city.json", R"({"type":"CityJSON","version":"1.1",
+    "CityObjects":{"house":{"type":"Building","geometry":[{"type":"Solid","lod":"2","boundaries":[[
+      [[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}},
+    "vertices":[[0,0,0],[10,0,0],[10,8,0],[0,8,0],[0,0,6],[10,0,6],[10,8,6],[0,8,6]]})"),
+                                       warnings);
+  Result<Model> gml = read(box_building("2.0"));
+  ASSERT_TRUE(json && gml);
+  ASSERT_EQ(gml->parts.size(), json->parts.size());
+  for (const Part& part : json->parts)
+    EXPECT_NEAR(area_m2(*gml, part.object), area_m2(*json, part.object), 1e-3) << part.object;
+}
+
+TEST(CityGml, HostileXmlIsRefusedByItsLine) {
+  std::string entity = wall();
+  entity.insert(entity.find('\n') + 1, "<!DOCTYPE a [<!ENTITY b SYSTEM \"file:///etc/passwd\">]>\n");
+  expect_refused(entity, "DOCTYPE", 2);
+  expect_refused("<a>\n<b>\n</a>", "well-formed", 3);
+  expect_refused("", "well-formed", 1);
+  expect_refused("<a/>", "no CityGML", 0);
+  std::string deep;
+  for (int i = 0; i < 600; ++i) deep += "<a>\n";
+  expect_refused(deep, "deep", 501);
+  std::string empty = wall();
+  empty.erase(empty.find("<cityObjectMember>"),
+              empty.rfind("</CityModel>") - empty.find("<cityObjectMember>"));
+  expect_refused(empty, "has polygons", 0);
+}
+
+TEST(CityGml, DamagedBytesNeverCrash) {
+  Random random(5);
+  for (int round = 0; round < 200; ++round) {
+    std::string text = wall();
+    for (int change = 0; change <= round % 4; ++change)
+      text[std::size_t(random.index(int(text.size())))] = "0123456789<>/\" -e.x"[random.index(19)];
+    static_cast<void>(read(text));
+  }
+}
+
+TEST(CityGml, ReadsATexturedBuilding) {
+  const auto file = shared_data("cities/citygml/lod3_building_v2.gml", PARVIS_SOURCE_DIR);
+  if (!file) GTEST_SKIP() << "skipped: shared data absent";
+  Errors warnings;
+  const Result<Model> city = read_city_gml(*file, warnings);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_GT(area_m2(*city, "WallSurface"), 100.0);
+  EXPECT_GT(area_m2(*city, "RoofSurface"), 50.0);
+  EXPECT_GT(area_m2(*city, "Window"), 1.0);
+  EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+  const auto pictured = std::count_if(city->parts.begin(), city->parts.end(), [&](const Part& part) {
+    return city->materials[std::size_t(part.material)].base_colour_texture != no_index;
+  });
+  EXPECT_GT(pictured, 4);
+}
+
+TEST(CityGml, Version3IsRefusedByName) {
+  const auto file = shared_data("cities/citygml/lod2_buildings_v3.gml", PARVIS_SOURCE_DIR);
+  if (!file) GTEST_SKIP() << "skipped: shared data absent";
+  Errors warnings;
+  const Result<Model> city = read_city_gml(*file, warnings);
+  ASSERT_FALSE(city);
+  EXPECT_NE(to_string(city.errors()).find("CityGML 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace parvis::scene

@@ -1,0 +1,365 @@
+#include "formats/city_models/city_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "formats/city_models/city_assembly.h"
+#include "formats/city_models/city_json_sequence.h"
+#include "formats/city_models/city_lod.h"
+
+namespace parvis::scene {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::array versions{"0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0", "1.1", "2.0"};
+
+struct Problem {
+  std::string message;
+};
+
+template <class... Args>
+[[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
+  throw Problem{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+const Json& nothing() {
+  static const Json null;
+  return null;
+}
+
+const Json& member(const Json& object, const char* name) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return object.is_object() && found != object.end() ? *found : nothing();
+}
+
+const Json& element(const Json& list, std::size_t i) {
+  return list.is_array() && i < list.size() ? list[i] : nothing();
+}
+
+std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
+
+bool is_known(const std::string& version) {
+  return std::any_of(versions.begin(), versions.end(),
+                     [&](const char* known) { return version.starts_with(known); });
+}
+
+double level_of_detail(const Json& geometry) {
+  const Json& lod = member(geometry, "lod");
+  if (lod.is_number()) return lod.get<double>();
+  return lod.is_string() ? std::atof(lod.get_ref<const std::string&>().c_str()) : 0.0;
+}
+
+glm::dvec3 triple(const Json& value, const char* what) {
+  if (!value.is_array() || value.size() < 3)
+    fail("{} is {}; expected three numbers", what, value.dump().substr(0, 60));
+  const glm::dvec3 v(value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
+  if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) fail("{} is not finite", what);
+  return v;
+}
+
+std::vector<glm::dvec3> triples(const Json& list, const char* what) {
+  std::vector<glm::dvec3> points;
+  for (const Json& point : list) points.push_back(triple(point, what));
+  return points;
+}
+
+/// What a geometry says about each of its surfaces, in lists nested as its boundaries are. Up to version 0.3
+/// semantics were such a list themselves, and up to 0.2 there were no themes.
+struct Attached {
+  const Json* semantics;
+  const Json* material;
+  const Json* texture;
+
+  Attached at(std::size_t i) const {
+    // A material may be told once for all surfaces: then it is no list.
+    return {&element(*semantics, i), material->is_array() ? &element(*material, i) : material,
+            &element(*texture, i)};
+  }
+};
+
+/// The values of the theme that counts.
+const Json& themed(const Json& themes, const Json& default_theme) {
+  const Json* theme = &themes;
+  if (themes.is_array()) return *theme;
+  if (themes.is_object() && !themes.contains("values") && !themes.contains("value")) {
+    if (themes.empty()) return nothing();
+    const auto found = default_theme.is_string() ? themes.find(text(default_theme)) : themes.end();
+    theme = found != themes.end() ? &*found : &*themes.begin();
+  }
+  return theme->is_object() && theme->contains("value") ? member(*theme, "value") : member(*theme, "values");
+}
+
+/// Where a geometry's corners lie: among the file's vertices, or among a template's, placed.
+struct Corners {
+  const std::vector<glm::dvec3>* vertices;
+  glm::dmat4 file_from_vertices{1.0};
+
+  glm::dvec3 at(std::size_t i) const {
+    return glm::dvec3(file_from_vertices * glm::dvec4((*vertices)[i], 1.0));
+  }
+  bool is_mirrored() const { return glm::determinant(glm::dmat3(file_from_vertices)) < 0.0; }
+};
+
+class Reader {
+ public:
+  Reader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> most_detail)
+      : json_(json), most_detail_(most_detail), city_(file, read_vertices(), warnings) {}
+
+  Result<Model> read() {
+    read_templates();
+    read_appearance();
+    const Json& objects = member(json_, "CityObjects");
+    if (!objects.is_object()) fail("there are no \"CityObjects\"");
+    for (const auto& [name, object] : objects.items()) read_object(name, object);
+    return city_.finish(objects.size());
+  }
+
+ private:
+  // --- vertices and appearance
+
+  /// Fills `vertices_`; gives the middle of the place, in whole metres: heights stay as they are.
+  glm::dvec3 read_vertices() {
+    const std::string version = text(member(json_, "version"));
+    if (member(json_, "type") != "CityJSON" && !(version.starts_with("0.") && json_.contains("CityObjects")))
+      fail("this is no CityJSON: its \"type\" is {}", member(json_, "type").dump());
+    if (!is_known(version))
+      fail("CityJSON version \"{}\" is not known; versions 0.2 to 2.0 are read", version);
+    const Json& transform = member(json_, "transform");
+    glm::dvec3 scale(1.0), translate(0.0);
+    if (transform.is_object()) {
+      scale = triple(member(transform, "scale"), "the transform's scale");
+      translate = triple(member(transform, "translate"), "the transform's translation");
+    }
+    if (!member(json_, "vertices").is_array()) fail("there are no \"vertices\"");
+    vertices_ = triples(json_["vertices"], "a vertex");
+    glm::dvec3 low(1e300), high(-1e300);
+    for (glm::dvec3& vertex : vertices_) {
+      vertex = vertex * scale + translate;
+      low = glm::min(low, vertex), high = glm::max(high, vertex);
+    }
+    if (vertices_.empty()) return glm::dvec3(0.0);
+    return {std::round(0.5 * (low.x + high.x)), std::round(0.5 * (low.y + high.y)), 0.0};
+  }
+
+  void read_templates() {
+    template_vertices_ =
+        triples(member(member(json_, "geometry-templates"), "vertices-templates"), "a template's vertex");
+  }
+
+  static glm::vec3 colour(const Json& value, glm::vec3 otherwise) {
+    return value.is_array() ? glm::vec3(triple(value, "a material's colour")) : otherwise;
+  }
+
+  void read_appearance() {
+    const Json& appearance = member(json_, "appearance");
+    for (const Json& uv : member(appearance, "vertices-texture"))
+      texture_vertices_.emplace_back(uv.at(0).get<float>(),
+                                     1.0f - uv.at(1).get<float>());  // ours run downward
+    for (const Json& texture : member(appearance, "textures")) {
+      const std::string wrap = text(member(texture, "wrapMode"));
+      pictures_.push_back(city_.add_picture(text(member(texture, "image")),
+                                            wrap.empty() || wrap == "wrap" || wrap == "mirror"));
+    }
+    for (const Json& source : member(appearance, "materials")) {
+      CityMaterial material;
+      material.diffuse = colour(member(source, "diffuseColor"), material.diffuse);
+      material.emissive = colour(member(source, "emissiveColor"), material.emissive);
+      if (const Json& value = member(source, "transparency"); value.is_number())
+        material.transparency = value;
+      if (const Json& value = member(source, "shininess"); value.is_number()) material.shininess = value;
+      materials_.push_back(city_.add_material(material));
+    }
+  }
+
+  // --- objects
+
+  void read_object(const std::string& name, const Json& object) {
+    object_ = {name, text(member(object, "type")), text(member(member(object, "attributes"), "function"))};
+    std::vector<const Json*> geometries;
+    std::vector<double> levels;
+    for (const Json& geometry : member(object, "geometry"))
+      if (has_surfaces(geometry)) geometries.push_back(&geometry), levels.push_back(level_of(geometry));
+    const std::size_t before = city_.polygon_count();
+    if (const auto best = wanted_level(levels, most_detail_))
+      read_geometry(
+          *geometries[std::size_t(std::find(levels.begin(), levels.end(), *best) - levels.begin())]);
+    // Where the object's polygons are others' business; "Parts" and "Installations" up to version 0.6.
+    const bool has_parts = std::any_of(group_members.begin(), group_members.end(),
+                                       [&](const char* parts) { return !member(object, parts).empty(); });
+    if (city_.polygon_count() == before && !has_parts)
+      city_.warn(fmt::format("object \"{}\" has no polygons", name));
+  }
+
+  const Json& template_of(const Json& instance) const {
+    const Json& index = member(instance, "template");
+    return index.is_number_unsigned()
+               ? element(member(member(json_, "geometry-templates"), "templates"), index.get<std::size_t>())
+               : nothing();
+  }
+
+  double level_of(const Json& geometry) const {
+    return level_of_detail(text(member(geometry, "type")) == "GeometryInstance" ? template_of(geometry)
+                                                                                : geometry);
+  }
+
+  /// Points and lines have none.
+  static bool has_surfaces(const Json& geometry) {
+    const std::string type = text(member(geometry, "type"));
+    return type == "GeometryInstance" || type.ends_with("Surface") || type.ends_with("Solid");
+  }
+
+  void read_geometry(const Json& geometry) {
+    if (text(member(geometry, "type")) == "GeometryInstance")
+      read_instance(geometry);
+    else
+      read_boundaries(geometry, {&vertices_});
+  }
+
+  /// A template's shape, placed by a matrix and moved to a vertex of the file.
+  void read_instance(const Json& instance) {
+    const Json& shape = template_of(instance);
+    if (shape.is_null())
+      fail("object \"{}\": template {} is out of range; there are {}", object_.name,
+           member(instance, "template").dump(),
+           member(member(json_, "geometry-templates"), "templates").size());
+    if (text(member(shape, "type")) == "GeometryInstance")
+      fail("object \"{}\": a template that is itself an instance", object_.name);
+    const std::size_t place = index(element(member(instance, "boundaries"), 0), vertices_.size(), "vertex");
+    Corners corners{&template_vertices_};
+    if (const Json& matrix = member(instance, "transformationMatrix"); !matrix.is_null()) {
+      if (!matrix.is_array() || matrix.size() != 16)
+        fail("object \"{}\": a transformation matrix of {} numbers; expected 16", object_.name,
+             matrix.size());
+      for (int i = 0; i < 16; ++i)  // row after row
+        corners.file_from_vertices[i % 4][i / 4] = matrix[std::size_t(i)].get<double>();
+    }
+    corners.file_from_vertices[3] += glm::dvec4(vertices_[place], 0.0);
+    read_boundaries(shape, corners);
+  }
+
+  void read_boundaries(const Json& geometry, const Corners& corners) {
+    const std::string type = text(member(geometry, "type"));
+    const Json &boundaries = member(geometry, "boundaries"), &semantics = member(geometry, "semantics");
+    const Json& appearance = member(json_, "appearance");
+    const Attached attached{
+        semantics.is_array() ? &told(semantics) : &member(semantics, "values"),
+        &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
+        &themed(member(geometry, "texture"), member(appearance, "default-theme-texture"))};
+    surfaces_ = &member(semantics, "surfaces");
+    is_solid_ = type.find("Solid") != std::string::npos;
+    if (type == "MultiSurface" || type == "CompositeSurface")
+      read_surfaces(boundaries, attached, corners);
+    else if (type == "Solid")  // inner shells are cavities: nobody sees them
+      read_surfaces(element(boundaries, 0), attached.at(0), corners);
+    else if (type == "MultiSolid" || type == "CompositeSolid")
+      for (std::size_t i = 0; i < boundaries.size(); ++i)
+        read_surfaces(element(element(boundaries, i), 0), attached.at(i).at(0), corners);
+  }
+
+  /// Writers of versions 0.2 and 0.3 called every surface a wall, roofs too: one name for all tells nothing.
+  static const Json& told(const Json& semantics) {
+    const bool is_one_for_all = element(semantics, 0).is_object() &&
+                                std::all_of(semantics.begin(), semantics.end(),
+                                            [&](const Json& s) { return s == semantics.front(); });
+    return is_one_for_all ? nothing() : semantics;
+  }
+
+  void read_surfaces(const Json& surfaces, const Attached& attached, const Corners& corners) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      read_surface(element(surfaces, i), attached.at(i), corners);
+  }
+
+  // --- surfaces
+
+  std::string semantics_of(const Json& value) const {
+    if (value.is_object()) return text(member(value, "type"));
+    if (!value.is_number_unsigned()) return "";
+    return text(member(element(*surfaces_, value.get<std::size_t>()), "type"));
+  }
+
+  std::size_t index(const Json& value, std::size_t count, const char* what) const {
+    if (!value.is_number_unsigned() || value.get<std::size_t>() >= count)
+      fail("object \"{}\": {} {} is out of range; there are {}", object_.name, what, value.dump(), count);
+    return value.get<std::size_t>();
+  }
+
+  void read_surface(const Json& surface, const Attached& attached, const Corners& corners) {
+    if (!surface.is_array()) fail("object \"{}\": a surface is no list of rings", object_.name);
+    CitySurface polygon;
+    polygon.semantics = semantics_of(*attached.semantics);
+    polygon.is_of_solid = is_solid_;
+    if (attached.material->is_number())
+      polygon.material = materials_[index(*attached.material, materials_.size(), "material")];
+    const Json& pictured = element(element(*attached.texture, 0), 0);
+    if (pictured.is_number()) polygon.picture = pictures_[index(pictured, pictures_.size(), "texture")];
+    bool is_pictured = polygon.picture != no_index;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      is_pictured = read_ring(surface[i], element(*attached.texture, i), corners, polygon) && is_pictured;
+    if (!is_pictured) polygon.picture_uv.clear();
+    city_.add(object_, polygon);
+  }
+
+  /// Adds a ring without repeated points. False where its texture coordinates are not as many as its points.
+  bool read_ring(const Json& ring, const Json& texture, const Corners& corners, CitySurface& polygon) const {
+    if (!ring.is_array())
+      fail("object \"{}\": a ring is {}; expected a list of vertices", object_.name,
+           ring.dump().substr(0, 40));
+    const bool is_pictured = texture.is_array() && texture.size() == ring.size() + 1;
+    std::vector<glm::dvec3> points;
+    std::vector<glm::vec2> uvs;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t corner = index(ring[i], corners.vertices->size(), "vertex");
+      const bool repeats = ring.size() > 1 && ring[i] == ring[i + 1 < ring.size() ? i + 1 : 0];
+      const glm::vec2 uv =
+          is_pictured ? texture_vertices_[index(texture[i + 1], texture_vertices_.size(), "texture vertex")]
+                      : glm::vec2(0.0f);
+      if (repeats) continue;
+      points.push_back(corners.at(corner));
+      uvs.push_back(uv);
+    }
+    if (points.size() < 3) return is_pictured;
+    if (corners.is_mirrored())
+      std::reverse(points.begin(), points.end()), std::reverse(uvs.begin(), uvs.end());
+    polygon.rings.push_back(std::move(points));
+    polygon.picture_uv.insert(polygon.picture_uv.end(), uvs.begin(), uvs.end());
+    return is_pictured;
+  }
+
+  static constexpr std::array group_members{"children", "members", "Parts", "Installations"};
+
+  const Json& json_;
+  std::optional<double> most_detail_;
+  std::vector<glm::dvec3> vertices_, template_vertices_;
+  std::vector<glm::vec2> texture_vertices_;
+  CityAssembly city_;
+  std::vector<int> pictures_, materials_;  ///< of the assembly, by the file's indices
+
+  CityObject object_;  ///< that is being read
+  const Json* surfaces_ = nullptr;
+  bool is_solid_ = false;
+};
+
+}  // namespace
+
+Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> most_detail) {
+  const FileLocation where{file.string(), 0, 0};
+  const Result<std::string> bytes = read_file(file);
+  if (!bytes) return bytes.errors();
+  try {
+    const Result<Json> json = file.extension() == ".jsonl" ? city_json_of_sequence(file, *bytes)
+                                                           : Result<Json>(Json::parse(*bytes));
+    if (!json) return json.errors();
+    return Reader(file, *json, warnings, most_detail).read();
+  } catch (const Problem& problem) {
+    return Error{problem.message, where};
+  } catch (const Json::exception& problem) {
+    return error_at(where, "a value is not what CityJSON asks for ({})", problem.what());
+  }
+}
+
+}  // namespace parvis::scene

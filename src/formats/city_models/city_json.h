@@ -1,0 +1,23 @@
+// CityJSON 0.2 to 2.0: buildings, terrain, roads and the rest as one model, in metres about a local origin
+// that is kept; and its text sequences (.city.jsonl). What becomes of the polygons:
+// formats/city_models/city_assembly.h.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "base/result.h"
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+/// Takes each object's highest level of detail, or the highest not above `most_detail` (the lowest, where all
+/// are above). Of several themes of materials or pictures the file's default one counts, else the first.
+/// Surfaces without semantics are named after their object's type, those of buildings by their slope. Objects
+/// of extensions ("+Pavilion") are taken by their geometry. Objects without polygons and templates that are
+/// not there are named in `warnings`; a file without any polygon, an unknown version and an index out of
+/// range are errors.
+Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
+                              std::optional<double> most_detail = {});
+
+}  // namespace parvis::scene

@@ -1,0 +1,288 @@
+#include "formats/city_models/city_json.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/random.h"
+#include "base/test_data.h"
+#include "base/test_folder.h"
+#include "formats/city_models/polygon_triangles.h"
+#include "scene/data/test_scene.h"
+
+namespace parvis::scene {
+namespace {
+
+/// A house of 10 x 8 x 6 m, far from the origin, with a hole in its roof.
+std::string house() {
+  return R"({"type":"CityJSON","version":"1.1","transform":{"scale":[0.001,0.001,0.001],"translate":[80000,450000,2]},
+    "CityObjects":{"house":{"type":"Building","geometry":[{"type":"Solid","lod":"2.2","boundaries":[[
+      [[0,3,2,1]],[[4,5,6,7],[8,11,10,9]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}},
+    "vertices":[[0,0,0],[10000,0,0],[10000,8000,0],[0,8000,0],[0,0,6000],[10000,0,6000],[10000,8000,6000],[0,8000,6000],
+      [2000,2000,6000],[4000,2000,6000],[4000,4000,6000],[2000,4000,6000]]})";
+}
+
+Result<Model> read(const std::string& text) {
+  const TestFolder folder;
+  Errors warnings;
+  return read_city_model(folder.write("city.json", text), warnings);
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(CityJson, AHouseKeepsItsSizeAndItsHole) {
+  const Result<Model> city = read(house());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);  // 80 less the hole of 4
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
+}
+
+TEST(CityJson, TheOriginIsKeptAndTheModelStandsAroundIt) {
+  const Result<Model> city = read(house());
+  ASSERT_TRUE(city);
+  EXPECT_EQ(city->origin, glm::dvec3(80005.0, 450004.0, 0.0));
+  const Bounds box = bounds(*city);
+  EXPECT_NEAR(box.min.x, -5.0f, 1e-4f);
+  EXPECT_NEAR(box.min.z, 2.0f, 1e-4f);
+  EXPECT_NEAR(box.max.z, 8.0f, 1e-4f);
+}
+
+TEST(CityJson, FacesLookOutward) {
+  const Result<Model> city = read(house());
+  ASSERT_TRUE(city);
+  const glm::vec3 middle = bounds(*city).centre();
+  for (const Part& part : city->parts)
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0) - middle), 0.0f) << part.object;
+    }
+}
+
+TEST(CityJson, BadFilesAreRefusedByName) {
+  const auto expect = [](const std::string& text, const std::string& reason) {
+    const Result<Model> city = read(text);
+    ASSERT_FALSE(city) << reason;
+    EXPECT_NE(to_string(city.errors()).find(reason), std::string::npos) << to_string(city.errors());
+  };
+  expect(with(house(), "[3,0,4,7]", "[3,0,4,99]"), "object \"house\": vertex 99 is out of range");
+  expect(with(house(), "[3,0,4,7]", "[3,0,4,-1]"), "vertex -1 is out of range");
+  expect(with(house(), "\"1.1\"", "\"7.3\""), "version \"7.3\" is not known");
+  expect(with(house(), "\"CityJSON\"", "\"GeoJSON\""), "no CityJSON");
+  expect(with(house(), "\"Solid\"", "\"MultiPoint\""), "none of the 1 city objects has polygons");
+  expect(with(house(), "[2000,4000,6000]]", "[2000,4000]]"), "three numbers");
+  expect("{", "not what CityJSON asks for");
+  expect("[]", "no CityJSON");
+}
+
+TEST(CityJson, AnObjectWithoutPolygonsIsNamed) {
+  const TestFolder folder;
+  Errors warnings;
+  const auto file = folder.write(
+      "city.json", with(house(), "\"CityObjects\":{", "\"CityObjects\":{\"shed\":{\"type\":\"Building\"},"));
+  ASSERT_TRUE(read_city_model(file, warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find("shed"), std::string::npos);
+}
+
+/// The house with a geometry template of a mast of 1 x 1 x 4 m, placed twice as large on the house's
+/// corner 6.
+std::string house_with_mast() {
+  return with(house(), "\"CityObjects\":{",
+              R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2",
+    "boundaries":[[[0,1,2,3]]]}],"vertices-templates":[[0,0,0],[1,0,0],[1,0,4],[0,0,4]]},
+    "CityObjects":{"mast":{"type":"CityFurniture","geometry":[{"type":"GeometryInstance","template":0,"boundaries":[6],
+    "transformationMatrix":[2,0,0,0.5, 0,2,0,0, 0,0,2,0, 0,0,0,1]}]},)");
+}
+
+TEST(CityJson, TemplatesStandAtTheirPlaces) {
+  const Result<Model> city = read(house_with_mast());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "CityFurniture"), 16.0, 1e-3);
+  for (const Part& part : city->parts)
+    if (part.object == "CityFurniture") {
+      EXPECT_NEAR(part.mesh.bounds().min.x, 5.5f, 1e-4f);   // corner 6 lies at x 5 of the model
+      EXPECT_NEAR(part.mesh.bounds().max.z, 16.0f, 1e-4f);  // 8 m up, and 2 x 4 m
+    }
+  EXPECT_FALSE(read(with(house_with_mast(), "\"template\":0", "\"template\":3")));
+  EXPECT_FALSE(read(with(house_with_mast(), "[6]", "[66]")));
+}
+
+TEST(CityJson, MirroredTemplatesKeepTheirFaces) {
+  const Result<Model> city = read(with(house_with_mast(), "[2,0,0,0.5, 0,2", "[2,0,0,0.5, 0,-2"));
+  ASSERT_TRUE(city) << to_string(city.errors());
+  const auto mast = std::find_if(city->parts.begin(), city->parts.end(),
+                                 [](const Part& part) { return part.object == "CityFurniture"; });
+  ASSERT_NE(mast, city->parts.end());
+  EXPECT_GT(mast->mesh.normals.front().y, 0.9f);  // unmirrored it looks to -y
+}
+
+/// The house with two materials, of which the wall of the last face takes the second by the default theme.
+std::string house_with_materials() {
+  return with(with(house(), "\"CityObjects\":{", R"("appearance":{"default-theme-material":"day","materials":[
+    {"name":"a","diffuseColor":[1,0,0]},{"name":"b","diffuseColor":[0,1,0],"transparency":0.25,"shininess":0.5},
+    {"name":"c","diffuseColor":[1,0,0]}]},"CityObjects":{)"),
+              "\"lod\":\"2.2\"",
+              R"("lod":"2.2","material":{"autumn":{"value":0},"day":{"values":[[0,null,2,0,0,1]]}})");
+}
+
+TEST(CityJson, MaterialsOfTheDefaultTheme) {
+  const Result<Model> city = read(house_with_materials());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  std::size_t red = 0, green = 0;
+  for (const Material& material : city->materials) {
+    red += material.base_colour == glm::vec3(1, 0, 0) ? 1 : 0;
+    if (material.base_colour != glm::vec3(0, 1, 0)) continue;
+    ++green;
+    EXPECT_EQ(material.name, "WallSurface");
+    EXPECT_NEAR(material.alpha, 0.75f, 1e-6f);
+    EXPECT_EQ(material.alpha_mode, Alpha::blend);
+    EXPECT_LT(material.roughness, 0.5f);
+  }
+  EXPECT_EQ(red, 2u);  // of the ground and of the walls: materials that look alike are one
+  EXPECT_EQ(green, 1u);
+  EXPECT_FALSE(read(with(house_with_materials(), "0,1]]}}", "0,9]]}}")));
+}
+
+TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
+  const std::string old =
+      with(with(house(), "\"1.1\"", "\"0.2\""), "\"lod\":\"2.2\"",
+           R"("lod":2,"semantics":[[{"type":"GroundSurface"},{"type":"WallSurface"},null,{},
+                                  {"type":"RoofSurface"}]])");
+  const Result<Model> city = read(old);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 60.0, 1e-3);  // what the list calls a roof
+}
+
+TEST(CityJson, WithoutTransformVerticesAreMetres) {
+  std::string text =
+      with(house(), R"("transform":{"scale":[0.001,0.001,0.001],"translate":[80000,450000,2]},)", "");
+  const Result<Model> city = read(text);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(bounds(*city).size().x, 10000.0f, 1e-2f);
+}
+
+TEST(CityJson, TheLevelOfDetailAskedFor) {
+  const std::string text = with(house(), "\"geometry\":[", R"("geometry":[{"type":"MultiSurface","lod":"0",
+    "boundaries":[[[0,1,2,3]]]},{"type":"MultiLineString","lod":"3","boundaries":[[0,1]]},)");
+  const TestFolder folder;
+  Errors warnings;
+  const auto file = folder.write("city.json", text);
+  const auto triangles = [&](std::optional<double> level) {
+    const Result<Model> city = read_city_model(file, warnings, level);
+    return city ? city->triangle_count() : 0;
+  };
+  EXPECT_GT(triangles({}), 10u);
+  EXPECT_EQ(triangles(1.0), 2u);
+  EXPECT_GT(triangles(2.5), 10u);
+  EXPECT_EQ(triangles(-1.0), 2u);
+}
+
+TEST(CityJson, ExtensionsAreTakenByTheirGeometry) {
+  const Result<Model> tower = read(with(house(), "\"Building\"", "\"+NoiseBuilding\""));
+  ASSERT_TRUE(tower) << to_string(tower.errors());
+  EXPECT_NEAR(area_m2(*tower, "WallSurface"), 216.0, 1e-3);
+  const Result<Model> thing = read(with(house(), "\"Building\"", "\"+Pavilion\""));
+  ASSERT_TRUE(thing) << to_string(thing.errors());
+  EXPECT_NEAR(area_m2(*thing, "GenericCityObject"), 372.0, 1e-3);
+}
+
+TEST(CityJson, SolidsOfManySolids) {
+  std::string text = with(house(), "\"Solid\"", "\"MultiSolid\"");
+  text = with(text, "\"boundaries\":[[", "\"boundaries\":[[[");
+  text = with(text, "[[3,0,4,7]]]]", "[[3,0,4,7]]]]]");
+  const Result<Model> city = read(text);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+}
+
+TEST(CityJson, DamagedTextNeverCrashes) {
+  Random random(3);
+  for (int round = 0; round < 600; ++round) {
+    std::string text = house();
+    if (round % 3 == 1) text = house_with_mast();
+    if (round % 3 == 2) text = house_with_materials();
+    for (int change = 0; change <= round % 4; ++change)
+      text[std::size_t(random.index(int(text.size())))] = "0123456789[]{},:\"-e.x"[random.index(21)];
+    static_cast<void>(read(text));
+  }
+}
+
+TEST(PolygonTriangles, ACrossedRingGivesTrianglesAndANewPoint) {
+  std::vector<glm::dvec3> points;
+  const auto triangles = triangulated({{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}}}, {0, 0, 1}, points);
+  EXPECT_EQ(triangles.size() % 3, 0u);
+  EXPECT_GT(points.size(), 4u);
+  for (const std::uint32_t index : triangles) EXPECT_LT(index, points.size());
+}
+
+/// Every city among the shared data gives a sound model about its origin.
+TEST(CityJson, ReadsRealCities) {
+  for (const char* name : {"cities/DenHaag_01.city.json", "cities/delft_context.city.json",
+                           "cities/zurich_subset_lod2.city.json",
+                           "cities/rotterdam_two_buildings_textured/twobuildings_t.json"}) {
+    const auto file = shared_data(name, PARVIS_SOURCE_DIR);
+    if (!file) GTEST_SKIP() << "skipped: shared data absent";
+    Errors warnings;
+    const Result<Model> city = read_city_model(*file, warnings);
+    ASSERT_TRUE(city) << to_string(city.errors());
+    EXPECT_GT(city->triangle_count(), 50u) << name;
+    EXPECT_GT(area_m2(*city, "WallSurface"), 100.0) << name;
+    EXPECT_GT(area_m2(*city, "RoofSurface"), 100.0) << name;
+    EXPECT_NE(city->origin, glm::dvec3(0.0)) << name;
+  }
+}
+
+/// A roof of 10 x 8 m `at` metres east, whose own vertices, picture and material have index 0.
+std::string feature(int at, const std::string& red) {
+  return fmt::format(
+      R"({{"type":"CityJSONFeature","id":"f{0}","CityObjects":{{"f{0}":{{"type":"Building","geometry":[
+      {{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]],"material":{{"all":{{"values":[0]}}}},
+      "semantics":{{"surfaces":[{{"type":"RoofSurface"}}],"values":[0]}}}}]}}}},
+      "appearance":{{"materials":[{{"name":"m","diffuseColor":[{1},0,0]}}]}},
+      "vertices":[[{0},0,3],[{2},0,3],[{2},8,3],[{0},8,3]]}})",
+      at, red, at + 10);
+}
+
+std::string one_line(std::string text) {
+  std::erase(text, '\n');
+  return text + "\n";
+}
+
+Result<Model> read_sequence(const std::string& text) {
+  const TestFolder folder;
+  Errors warnings;
+  return read_city_model(folder.write("city.jsonl", text), warnings);
+}
+
+TEST(CityJson, ASequenceOfFeaturesIsOneCity) {
+  const std::string head =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[80000,450000,0]},)"
+      R"("CityObjects":{},"vertices":[]})";
+  const std::string both = one_line(head) + one_line(feature(0, "1")) + "\n" + one_line(feature(20, "0"));
+  const Result<Model> city = read_sequence(both);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 160.0, 1e-3);
+  EXPECT_NEAR(bounds(*city).size().x, 30.0f, 1e-3f);
+  ASSERT_EQ(city->materials.size(), 2u) << "each feature counts its own materials from 0";
+  EXPECT_NE(city->materials[0].base_colour, city->materials[1].base_colour);
+
+  const auto expect_error = [](const std::string& text, const std::string& words, int line) {
+    const Result<Model> bad = read_sequence(text);
+    ASSERT_FALSE(bad) << words;
+    EXPECT_NE(to_string(bad.errors()).find(words), std::string::npos) << to_string(bad.errors());
+    EXPECT_EQ(bad.errors().front().where.line, line);
+  };
+  expect_error("", "empty", 0);
+  expect_error(one_line(feature(0, "1")), "expected \"CityJSON\"", 1);
+  expect_error(one_line(head) + one_line(head), "expected \"CityJSONFeature\"", 2);
+  expect_error(one_line(head) + "{\n", "no JSON object", 2);
+  std::string outside = feature(0, "1");
+  expect_error(one_line(head) + one_line(with(outside, "[0,1,2,3]", "[0,1,2,9]")), "vertex 9", 0);
+}
+
+}  // namespace
+}  // namespace parvis::scene

@@ -1,0 +1,10 @@
+// Any bytes as a CityJSON text sequence: a model or errors.
+#include "base/fuzz_file.h"
+#include "formats/city_models/city_json.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static parvis::FuzzFile file(".city.jsonl");
+  parvis::Errors warnings;
+  (void)parvis::scene::read_city_model(file.with(data, size), warnings);
+  return 0;
+}

@@ -1,0 +1,62 @@
+#include "formats/city_models/osm_reader.h"
+
+#include <cmath>
+
+#include "formats/city_models/city_assembly.h"
+#include "formats/city_models/osm_buildings.h"
+#include "formats/city_models/osm_file.h"
+#include "formats/city_models/osm_roads.h"
+#include "formats/terrain/utm.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr double largest_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
+
+/// OpenStreetMap knows no heights of the ground: it is level, over the file's bounds.
+void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, CityAssembly& city) {
+  CitySurface ground;
+  std::vector<glm::dvec3>& ring = ground.rings.emplace_back();
+  for (const glm::dvec2 corner : {osm.least_deg, glm::dvec2(osm.most_deg.x, osm.least_deg.y), osm.most_deg,
+                                  glm::dvec2(osm.least_deg.x, osm.most_deg.y)})
+    ring.emplace_back(utm(corner), origin.z);
+  city.add({"ground", "LandUse", ""}, ground);
+}
+
+}  // namespace
+
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground) {
+  const FileLocation where{file.string(), 0, 0};
+  const Result<OsmFile> osm = read_osm_file(file, warnings);
+  if (!osm) return osm.errors();
+  const glm::dvec2 middle_deg = (osm->least_deg + osm->most_deg) / 2.0;
+  const Utm utm(middle_deg);
+  const glm::dvec2 size_m = utm(osm->most_deg) - utm(osm->least_deg);
+  if (!(glm::length(size_m) < largest_m))
+    return error_at(where,
+                    "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
+                    largest_m / 1000.0);
+  const glm::dvec3 origin(glm::floor(utm(middle_deg)), 0.0);
+  const auto on_map = [&](OsmId node) -> std::optional<glm::dvec2> {
+    const auto found = osm->nodes.find(node);
+    if (found == osm->nodes.end()) return std::nullopt;
+    const glm::dvec2 place = utm(found->second);
+    if (!(glm::distance(place, glm::dvec2(origin)) < largest_m)) return std::nullopt;
+    return place;
+  };
+  CityAssembly city(file, origin, warnings);
+  const std::size_t buildings = add_osm_buildings(*osm, on_map, ground, city);
+  const auto about_origin = [&](OsmId node) -> std::optional<glm::dvec2> {
+    const std::optional<glm::dvec2> place = on_map(node);
+    return place ? std::optional(*place - glm::dvec2(origin)) : std::nullopt;
+  };
+  GroundOnMap ground_about_origin;
+  if (ground) ground_about_origin = [&](glm::dvec2 point) { return ground(point + glm::dvec2(origin)); };
+  std::vector<Road> roads = osm_roads(*osm, about_origin, ground_about_origin, file, city);
+  if (!ground) add_ground(*osm, utm, origin, city);
+  Result<Model> model = city.finish(buildings);
+  if (model) model->roads = std::move(roads);
+  return model;
+}
+
+}  // namespace parvis::scene

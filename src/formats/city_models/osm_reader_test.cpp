@@ -1,0 +1,245 @@
+#include "formats/city_models/osm_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/random.h"
+#include "base/test_folder.h"
+#include "formats/terrain/utm.h"
+#include "scene/data/test_scene.h"
+#include "scene/roads/road_builder.h"
+
+namespace parvis::scene {
+namespace {
+
+/// About 71 m east and 111 m north a thousandth of a degree, at Leiden.
+std::string osm(const std::string& elements) {
+  return R"(<?xml version="1.0" encoding="UTF-8"?>
+<osm version="0.6"><bounds minlat="52.159" minlon="4.489" maxlat="52.161" maxlon="4.492"/>
+<node id="1" lat="52.1600" lon="4.4900"/><node id="2" lat="52.1600" lon="4.4902"/>
+<node id="3" lat="52.1601" lon="4.4902"/><node id="4" lat="52.1601" lon="4.4900"/>
+<node id="5" lat="52.16003" lon="4.49005"/><node id="6" lat="52.16003" lon="4.49015"/>
+<node id="7" lat="52.16007" lon="4.49015"/><node id="8" lat="52.16007" lon="4.49005"/>
+<node id="11" lat="52.1595" lon="4.4895"/><node id="12" lat="52.1595" lon="4.4905"/>
+<node id="13" lat="52.1595" lon="4.4915"/><node id="14" lat="52.1605" lon="4.4905"/>)" +
+         elements + "</osm>";
+}
+
+std::string way(int id, const std::string& nodes,
+                const std::vector<std::pair<std::string, std::string>>& tags) {
+  std::string text = fmt::format("<way id=\"{}\">", id);
+  std::stringstream list(nodes);
+  for (std::string node; list >> node;) text += fmt::format("<nd ref=\"{}\"/>", node);
+  for (const auto& [key, value] : tags) text += fmt::format("<tag k=\"{}\" v=\"{}\"/>", key, value);
+  return text + "</way>\n";
+}
+
+struct Read {
+  Result<Model> model;
+  std::string warnings;
+};
+
+Read read(const std::string& text) {
+  const TestFolder folder;
+  Errors warnings;
+  Result<Model> model = read_osm(folder.write("quarter.osm", text), warnings);
+  return {std::move(model), to_string(warnings)};
+}
+
+Bounds bounds_of(const Model& model, const std::string& name) {
+  Bounds all;
+  for (const Part& part : model.parts)
+    if (part.object == name) all.add(part.mesh.bounds());
+  return all;
+}
+
+// Of the footprint 1-2-3-4: 0.0002 by 0.0001 degrees at 52.16 north, on the ellipsoid and in UTM's scale.
+constexpr float wide_m = 13.69f, deep_m = 11.13f;
+
+TEST(Osm, ABuildingStandsOnItsFootprintAsHighAsItsTagsSay) {
+  const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9.5 m"}})));
+  ASSERT_TRUE(house.model) << to_string(house.model.errors());
+  EXPECT_EQ(house.warnings, "");
+  const Bounds walls = bounds_of(*house.model, "WallSurface");
+  EXPECT_NEAR(walls.size().z, 9.5f, 1e-4f);
+  EXPECT_NEAR(walls.size().x, wide_m, 0.3f);  // the map is turned against the meridian by 1.2 degrees
+  EXPECT_NEAR(walls.size().y, deep_m, 0.3f);
+  EXPECT_NEAR(area_m2(*house.model, "RoofSurface"), double(wide_m * deep_m), 0.3);
+  EXPECT_EQ(bounds_of(*house.model, "LandUse").max.z, 0.0f);
+  for (const Part& part : house.model->parts)
+    for (std::size_t i = 0; part.object == "WallSurface" && i < part.mesh.positions.size(); ++i) {
+      const glm::vec3 outward = part.mesh.positions[i] - walls.centre();
+      EXPECT_GT(glm::dot(glm::vec2(part.mesh.normals[i]), glm::vec2(outward)), 0.0f);
+    }
+}
+
+TEST(Osm, LevelsGiveTheHeightWhereNoHeightDoes) {
+  const auto top_m = [](const std::vector<std::pair<std::string, std::string>>& tags) {
+    const Read house = read(osm(way(100, "1 2 3 4 1", tags)));
+    return house.model ? bounds_of(*house.model, "RoofSurface").max.z : 0.0f;
+  };
+  EXPECT_NEAR(top_m({{"building", "yes"}, {"building:levels", "4"}}), 12.0f, 1e-4f);
+  EXPECT_NEAR(top_m({{"building", "yes"}}), 6.0f, 1e-4f);
+  EXPECT_NEAR(top_m({{"building", "yes"}, {"height", "30'"}}), 9.144f, 1e-4f);
+  EXPECT_NEAR(top_m({{"building", "yes"}, {"height", "tall"}, {"building:levels", "1"}}), 3.0f, 1e-4f);
+  EXPECT_NEAR(top_m({{"building", "yes"}, {"min_height", "20"}, {"height", "5"}}), 23.0f, 1e-4f);
+}
+
+TEST(Osm, RoofsHaveTheirShapes) {
+  for (const char* shape : {"gabled", "hipped", "pyramidal"}) {
+    const Read house =
+        read(osm(way(100, "1 2 3 4 1",
+                     {{"building", "yes"}, {"height", "10"}, {"roof:shape", shape}, {"roof:height", "4"}})));
+    ASSERT_TRUE(house.model) << shape;
+    const Bounds roof = bounds_of(*house.model, "RoofSurface");
+    EXPECT_NEAR(roof.min.z, 6.0f, 1e-4f) << shape;
+    EXPECT_NEAR(roof.max.z, 10.0f, 1e-4f) << shape;
+    EXPECT_GT(area_m2(*house.model, "RoofSurface"), double(wide_m * deep_m)) << shape;
+  }
+}
+
+TEST(Osm, BuildingsAndRoadsStandOnTheGroundThatIsGiven) {
+  const TestFolder folder;
+  const auto file = folder.write(
+      "hill.osm", osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9"}}) +
+                      way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "5"}}) +
+                      way(102, "11 12 13", {{"highway", "residential"}}) +
+                      way(103, "5 6 7 8 5", {{"building", "yes"}, {"height", "4"}, {"min_height", "1"}})));
+  const double middle_m = Utm({4.49, 52.16})({4.4905, 52.16}).x;
+  const auto ground = [&](glm::dvec2 on_map) {
+    return 100.0 + 0.1 * (on_map.x - middle_m);
+  };  // rises eastward
+  Errors warnings;
+  const Result<Model> model = read_osm(file, warnings, ground);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_EQ(bounds_of(*model, "LandUse").min.x, Bounds().min.x) << "no level ground of its own";
+  const Bounds walls = bounds_of(*model, "WallSurface");
+  const double west_m = 100.0 + 0.1 * (double(walls.min.x) + model->origin.x - middle_m);
+  EXPECT_NEAR(walls.min.z, west_m, 0.8) << "on the lowest ground below it";
+  ASSERT_EQ(model->roads.size(), 1u);
+  EXPECT_GT(model->roads[0].path.size(), 10u) << "with points between its own";
+  for (const glm::vec3& point : model->roads[0].path)
+    EXPECT_NEAR(point.z, ground(glm::dvec2(point) + glm::dvec2(model->origin)), 1e-3);
+}
+
+TEST(Osm, RelationsHaveCourtyards) {
+  const Read block = read(osm(way(100, "1 2 3", {}) + way(101, "1 4 3", {}) + way(102, "5 6 7 8 5", {}) +
+                              R"(<relation id="200"><member type="way" ref="100" role="outer"/>
+    <member type="way" ref="101" role="outer"/><member type="way" ref="102" role="inner"/>
+    <member type="way" ref="999" role="inner"/>
+    <tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation>)"));
+  ASSERT_TRUE(block.model) << to_string(block.model.errors());
+  EXPECT_NE(block.warnings.find("relation 200: its way 999 is not in the file"), std::string::npos)
+      << block.warnings;
+  const double courtyard = double(wide_m * deep_m) * 0.5 * 0.4;
+  EXPECT_NEAR(area_m2(*block.model, "RoofSurface"), double(wide_m * deep_m) - courtyard, 0.3);
+}
+
+TEST(Osm, PartsStandInPlaceOfTheirOutline) {
+  const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "30"}}) +
+                              way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "8"}})));
+  ASSERT_TRUE(house.model);
+  EXPECT_NEAR(bounds_of(*house.model, "RoofSurface").max.z, 8.0f, 1e-4f);
+}
+
+TEST(Osm, MissingNodesAreToldAndTheRestIsRead) {
+  const Read house = read(osm(way(100, "1 2 77 3 4 1", {{"building", "yes"}}) +
+                              way(101, "11 12 78 13", {{"highway", "residential"}})));
+  ASSERT_TRUE(house.model) << to_string(house.model.errors());
+  EXPECT_NE(house.warnings.find("way 100: its node 77"), std::string::npos) << house.warnings;
+  EXPECT_NE(house.warnings.find("way 101: its node 78"), std::string::npos) << house.warnings;
+  EXPECT_NEAR(area_m2(*house.model, "RoofSurface"), double(wide_m * deep_m), 0.3);
+  ASSERT_EQ(house.model->roads.size(), 1u);
+  EXPECT_EQ(house.model->roads[0].path.size(), 3u);
+}
+
+TEST(Osm, RoadsHaveLanesDirectionsAndLimits) {
+  const Read town =
+      read(osm(way(100, "11 12 13", {{"highway", "secondary"}, {"lanes", "4"}, {"maxspeed", "30 mph"}}) +
+               way(101, "12 14", {{"highway", "residential"}, {"oneway", "-1"}}) +
+               way(102, "1 2 3", {{"highway", "footway"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  const std::vector<Road>& roads = town.model->roads;
+  ASSERT_EQ(roads.size(), 2u);
+  EXPECT_EQ(roads[0].lanes_each_way, 2);
+  EXPECT_NEAR(roads[0].speed_limit, 13.41f, 0.01f);
+  EXPECT_FALSE(roads[0].is_one_way);
+  EXPECT_TRUE(roads[1].is_one_way);
+  EXPECT_GT(roads[1].path.front().y, roads[1].path.back().y) << "against the way's own direction";
+  const Result<RoadGraph> graph = build_road_graph(roads);
+  ASSERT_TRUE(graph) << to_string(graph.errors());
+  EXPECT_TRUE(std::ranges::any_of(graph->lanes, [](const Lane& lane) { return lane.crossing >= 0; }));
+}
+
+TEST(Osm, BridgesPassAbove) {
+  const Read town =
+      read(osm(way(100, "11 12 13", {{"highway", "primary"}}) +
+               way(101, "1 12 3", {{"highway", "primary"}, {"bridge", "yes"}, {"layer", "2"}})));
+  ASSERT_TRUE(town.model);
+  ASSERT_EQ(town.model->roads.size(), 2u);
+  EXPECT_EQ(town.model->roads[1].path[0].z, 10.0f);
+  EXPECT_EQ(town.model->roads[1].path[1].z, 0.0f) << "where it meets the road below";
+}
+
+TEST(Osm, ARoadAlongAnotherIsLeftOutByItsName) {
+  const Read town = read(
+      osm(way(100, "11 12 13", {{"highway", "primary"}}) + way(101, "11 12 13", {{"highway", "primary"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_EQ(town.model->roads.size(), 1u);
+  EXPECT_NE(town.warnings.find("way 101"), std::string::npos) << town.warnings;
+}
+
+TEST(Osm, TheOriginIsOnTheMap) {
+  const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}})));
+  ASSERT_TRUE(house.model);
+  const Utm utm({4.4905, 52.16});
+  EXPECT_EQ(utm.epsg(), 32631);
+  const glm::dvec2 corner = utm({4.49, 52.16}) - glm::dvec2(house.model->origin);
+  const Bounds walls = bounds_of(*house.model, "WallSurface");
+  EXPECT_NEAR(walls.min.x, float(corner.x), 0.3f);
+  EXPECT_NEAR(walls.min.y, float(corner.y), 0.3f);
+}
+
+TEST(Utm, KnowsTheMapOfTheWorld) {
+  // on a central meridian easting is 500 km; the equator's northing is 0, or 10,000 km for the south
+  EXPECT_NEAR(Utm({3.0, 0.0})({3.0, 0.0}).x, 500'000.0, 1e-6);
+  EXPECT_NEAR(Utm({3.0, 0.0})({3.0, 0.0}).y, 0.0, 1e-6);
+  EXPECT_NEAR(Utm({3.0, -1e-9})({3.0, -1e-9}).y, 10'000'000.0, 1e-3);
+  // the Eiffel tower: 31N 448252 5411933
+  const glm::dvec2 eiffel = Utm({2.2945, 48.8582})({2.2945, 48.8582});
+  EXPECT_NEAR(eiffel.x, 448'252.0, 10.0);
+  EXPECT_NEAR(eiffel.y, 5'411'933.0, 30.0);
+}
+
+void expect_refused(const std::string& text, const std::string& expected) {
+  const Read bad = read(text);
+  ASSERT_FALSE(bad.model) << expected;
+  EXPECT_NE(to_string(bad.model.errors()).find(expected), std::string::npos) << to_string(bad.model.errors());
+}
+
+TEST(Osm, HostileFilesAreRefusedByName) {
+  expect_refused("", "no well-formed XML");
+  expect_refused("<osm><node id='1' lat='1' lon='1'></osm>", "no well-formed XML");
+  expect_refused("<!DOCTYPE osm [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><osm>&a;</osm>", "DOCTYPE");
+  expect_refused("<gpx/>", "<gpx>; expected <osm>");
+  expect_refused("<osm/>", "has no nodes");
+  expect_refused("<osm><node id='1' lat='91' lon='0'/></osm>", "has no nodes");
+  expect_refused("<osm><node id='1' lat='0' lon='0'/><node id='2' lat='40' lon='5'/></osm>", "cut out");
+}
+
+TEST(Osm, DamagedFilesNeverCrash) {
+  const std::string good = osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"roof:shape", "hipped"}}) +
+                               way(101, "11 12 13", {{"highway", "primary"}, {"lanes", "2"}}));
+  Random random(11);
+  for (int round = 0; round < 300; ++round) {
+    std::string bytes = good;
+    for (int change = 0; change <= round % 4; ++change)
+      bytes[std::size_t(random.index(int(bytes.size())))] = "0123456789.-<>\"/ax"[random.index(18)];
+    (void)read(bytes);
+  }
+}
+
+}  // namespace
+}  // namespace parvis::scene

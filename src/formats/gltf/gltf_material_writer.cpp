@@ -1,0 +1,185 @@
+#include "formats/gltf/gltf_material_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+
+#include "base/image_io.h"
+#include "base/parallel.h"
+
+namespace parvis::scene {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+
+Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+bool uses_alpha(const Image8& image) {
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4)
+    if (image.pixels[i] != 255) return true;
+  return false;
+}
+
+/// Colour without alpha is stored as JPEG; data and alpha as PNG, which loses nothing.
+const char* extension_of(const Texture& texture) {
+  return texture.is_srgb && !uses_alpha(texture.image) ? ".jpg" : ".png";
+}
+
+/// Letters that a URI, a file system and a shell take as they are.
+std::string plain_name(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return name;
+}
+
+bool is_same_picture(const Texture& a, const Texture& b) {
+  return a.is_srgb == b.is_srgb && a.repeats == b.repeats && a.image.width == b.image.width &&
+         a.image.height == b.image.height && a.image.pixels == b.image.pixels;
+}
+
+std::string file_name(const fs::path& file, const std::string& name) {
+  return plain_name(file.stem().string()) + "_" + name;
+}
+
+/// Solid glass. Its thickness is what panes of it have, and a hint for viewers that do not follow rays
+/// through bodies; without any, readers would take it for a surface alone.
+Json volume_json(const Material& glass) {
+  constexpr float usual_thickness_m = 0.1f;
+  const glm::vec3 absorption_per_m = glass.absorption_per_m;
+  Json volume{{"thicknessFactor", glass.thickness_m > 0.0f ? glass.thickness_m : usual_thickness_m}};
+  const float most = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
+  if (most > 0.0f) {
+    volume["attenuationDistance"] = 1.0f / most;
+    volume["attenuationColor"] = array_of(glm::exp(-absorption_per_m / most));
+  }
+  return volume;
+}
+
+Image8 without_alpha(const Image8& image) {
+  Image8 colour(image.width, image.height, 3);
+  for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c) colour.pixels[3 * i + c] = image.pixels[4 * i + c];
+  return colour;
+}
+
+}  // namespace
+
+int GltfMaterialWriter::add(const Texture& texture) {
+  for (std::size_t i = 0; i < textures_.size(); ++i)
+    if (is_same_picture(*textures_[i], texture)) return int(i);
+  const std::string stem = texture.name.empty() ? fmt::format("{}", textures_.size())
+                                                : plain_name(fs::path(texture.name).stem().string());
+  std::string name = stem + extension_of(texture);
+  for (int number = 2; std::find(names_.begin(), names_.end(), name) != names_.end(); ++number)
+    name = fmt::format("{}_{}{}", stem, number, extension_of(texture));
+  textures_.push_back(&texture);
+  names_.push_back(name);
+  return int(textures_.size()) - 1;
+}
+
+int GltfMaterialWriter::add(const Model& model) {
+  std::vector<int> written_textures;
+  written_textures.reserve(model.textures.size());
+  for (const Texture& texture : model.textures) written_textures.push_back(add(texture));
+  const int first = int(materials_.size());
+  for (const Material& material : model.materials)
+    materials_.push_back(material_json(material, written_textures));
+  return first;
+}
+
+void GltfMaterialWriter::use(const char* extension) {
+  if (std::find(extensions_.begin(), extensions_.end(), extension) == extensions_.end())
+    extensions_.push_back(extension);
+}
+
+Json GltfMaterialWriter::texture_info(int texture, const Material& material) {
+  Json info{{"index", texture}};
+  const glm::mat3& m = material.texture_from_mesh_uv;
+  if (m == glm::mat3(1.0f)) return info;
+  use("KHR_texture_transform");
+  const float scale_u = glm::length(glm::vec2(m[0])), scale_v = glm::length(glm::vec2(m[1]));
+  info["extensions"]["KHR_texture_transform"] = {
+      {"offset", {m[2].x, m[2].y}}, {"rotation", std::atan2(-m[0].y, m[0].x)}, {"scale", {scale_u, scale_v}}};
+  return info;
+}
+
+Json GltfMaterialWriter::material_json(const Material& material, const std::vector<int>& written_textures) {
+  const auto info = [&](int texture) {
+    return texture_info(written_textures[std::size_t(texture)], material);
+  };
+  Json json{{"name", material.name}};
+  Json& metal = json["pbrMetallicRoughness"];
+  const glm::vec3 base = glm::clamp(material.base_colour, glm::vec3(0.0f), glm::vec3(1.0f));
+  metal["baseColorFactor"] = {base.x, base.y, base.z, material.alpha};
+  metal["metallicFactor"] = material.metallic;
+  metal["roughnessFactor"] = material.roughness;
+  if (material.base_colour_texture != no_index)
+    metal["baseColorTexture"] = info(material.base_colour_texture);
+  if (material.surface_texture != no_index)
+    metal["metallicRoughnessTexture"] = info(material.surface_texture);
+  if (material.normal_texture != no_index) {
+    json["normalTexture"] = info(material.normal_texture);
+    json["normalTexture"]["scale"] = material.normal_scale;
+  }
+  if (material.emission_texture != no_index) json["emissiveTexture"] = info(material.emission_texture);
+  const float strength = std::max({material.emission.x, material.emission.y, material.emission.z, 1.0f});
+  if (material.emission != glm::vec3(0.0f)) {
+    json["emissiveFactor"] = array_of(material.emission / strength);
+    if (strength > 1.0f) {
+      use("KHR_materials_emissive_strength");
+      json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+    }
+  }
+  if (material.clear_coat > 0.0f) {
+    use("KHR_materials_clearcoat");
+    json["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", material.clear_coat},
+        {"clearcoatRoughnessFactor", material.clear_coat_roughness}};
+  }
+  if (material.refracts()) {
+    for (const char* extension : {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"})
+      use(extension);
+    json["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1.0f}};
+    json["extensions"]["KHR_materials_ior"] = {{"ior", material.ior}};
+    json["extensions"]["KHR_materials_volume"] = volume_json(material);
+  }
+  if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
+  if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";
+  if (material.is_double_sided) json["doubleSided"] = true;
+  if (material.is_mirror_like) json["extras"]["parvis"]["mirror_like"] = true;
+  if (material.translucency > 0.0f) json["extras"]["parvis"]["translucency"] = material.translucency;
+  if (material.relief_m > 0.0f) json["extras"]["parvis"]["relief_m"] = material.relief_m;
+  return json;
+}
+
+void GltfMaterialWriter::describe(Json& json, const fs::path& file) const {
+  if (!materials_.empty()) json["materials"] = materials_;
+  if (!extensions_.empty()) json["extensionsUsed"] = extensions_;
+  for (std::size_t i = 0; i < textures_.size(); ++i) {
+    json["images"].push_back({{"uri", file_name(file, names_[i])}});
+    json["textures"].push_back({{"source", i}, {"sampler", textures_[i]->repeats ? 0 : 1}});
+  }
+  constexpr int linear = 9729, trilinear = 9987, repeat = 10497, clamp = 33071;
+  if (!textures_.empty())
+    for (const int wrap : {repeat, clamp})
+      json["samplers"].push_back(
+          {{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+}
+
+Status GltfMaterialWriter::write_pictures(const fs::path& file) const {
+  Errors errors;
+  std::mutex mutex;
+  parallel_for(textures_.size(), [&](std::size_t i) {
+    const Image8& image = textures_[i]->image;
+    const Status status = write_image(file.parent_path() / file_name(file, names_[i]),
+                                      uses_alpha(image) ? image : without_alpha(image));
+    if (status) return;
+    const std::scoped_lock lock(mutex);
+    errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+  });
+  if (!errors.empty()) return errors;
+  return Done{};
+}
+
+}  // namespace parvis::scene

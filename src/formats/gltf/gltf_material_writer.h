@@ -1,0 +1,40 @@
+// Materials of models as glTF 2.0 (section 3.9), with KHR_texture_transform, _clearcoat and
+// _emissive_strength, and their pictures as files. What glTF cannot say (mirror-like, translucent) goes into
+// "extras".
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+class GltfMaterialWriter {
+ public:
+  using Json = nlohmann::json;
+
+  /// Adds the materials of `model`, which must outlive this, and returns the index of the first. Pictures
+  /// that several models have are one.
+  int add(const Model& model);
+
+  /// Writes materials, textures, pictures' names and used extensions into the JSON of the file.
+  void describe(Json& json, const std::filesystem::path& file) const;
+  /// Writes the pictures beside `file`, NAME_TEXTURE.jpg for colour without alpha, else .png.
+  Status write_pictures(const std::filesystem::path& file) const;
+
+ private:
+  int add(const Texture& texture);
+  Json texture_info(int texture, const Material& material);
+  Json material_json(const Material& material, const std::vector<int>& written_textures);
+  void use(const char* extension);
+
+  std::vector<const Texture*> textures_;
+  std::vector<std::string> names_;  ///< of each texture's picture, without the file's own
+  Json materials_ = Json::array(), extensions_ = Json::array();
+};
+
+}  // namespace parvis::scene

@@ -1,0 +1,135 @@
+#include "formats/gltf/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtx/matrix_decompose.hpp>
+
+#include "formats/gltf/gltf_values.h"
+
+namespace parvis::scene {
+namespace {
+
+using Json = GltfFile::Json;
+
+constexpr std::size_t most_warnings = 20;  // of a graph that is no tree: a hostile file has millions
+
+ModelNode read_node(const Json& source, int parent) {
+  ModelNode node;
+  node.name = source.value("name", "");
+  node.parent = parent;
+  if (source.contains("matrix")) {
+    glm::mat4 matrix(1.0f);
+    const Json& values = source["matrix"];
+    if (!values.is_array() || values.size() != 16)
+      gltf_fail("a node's matrix has {} numbers; expected 16", values.size());
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[std::size_t(i)].get<float>();
+    glm::vec3 skew;
+    glm::vec4 perspective;
+    if (!glm::decompose(matrix, node.scale, node.rotation, node.translation, skew, perspective))
+      gltf_fail("a node's matrix is singular: it flattens the model");
+  } else {
+    node.translation = gltf_vector<3>(source, "translation", glm::vec3(0.0f));
+    node.scale = gltf_vector<3>(source, "scale", glm::vec3(1.0f));
+    const glm::vec4 q = gltf_vector<4>(source, "rotation", glm::vec4(0, 0, 0, 1));
+    const float length = glm::length(q);
+    if (length > 0.0f) node.rotation = glm::quat(q.w, q.x, q.y, q.z) / length;
+  }
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) ||
+        !std::isfinite(node.rotation[i]))
+      gltf_fail("the transform of node \"{}\" is not finite", node.name);
+  return node;
+}
+
+class TreeReader {
+ public:
+  TreeReader(const GltfFile& file, Model& model, Errors& warnings)
+      : file_(file), model_(model), warnings_(warnings) {
+    nodes_.of_gltf.assign(file.list("nodes").size(), no_index);
+    nodes_.gltf_of.assign(model.nodes.size(), no_index);
+  }
+
+  GltfNodes read() {
+    const Json& scenes = file_.list("scenes");
+    if (scenes.empty()) {
+      read_all();
+    } else {
+      const int scene = std::max(file_.index(file_.json(), "scene", "scenes"), 0);
+      for (const Json& root : scenes[std::size_t(scene)].value("nodes", Json::array()))
+        if (const std::size_t node = node_index(root); !is_read(node)) read_tree(node);
+    }
+    return std::move(nodes_);
+  }
+
+ private:
+  bool is_read(std::size_t gltf_node) const { return nodes_.of_gltf[gltf_node] != no_index; }
+
+  std::size_t node_index(const Json& value) const {
+    if (!value.is_number_unsigned() || value.get<std::size_t>() >= nodes_.of_gltf.size())
+      gltf_fail("node {} is out of range; there are {}", value.dump(), nodes_.of_gltf.size());
+    return value.get<std::size_t>();
+  }
+
+  /// From the roots on; what no root leads to hangs together in circles.
+  void read_all() {
+    std::vector<std::uint8_t> is_child(nodes_.of_gltf.size(), 0);
+    for (const Json& node : file_.list("nodes"))
+      for (const Json& child : node.value("children", Json::array())) is_child[node_index(child)] = 1;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_child[i]) read_tree(i);
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_read(i)) read_tree(i);
+  }
+
+  /// A node and all below it, without recursion: a hostile tree may be deep.
+  void read_tree(std::size_t root) {
+    std::vector<std::pair<std::size_t, int>> open{{root, 0}};
+    while (!open.empty()) {
+      const auto [gltf_node, parent] = open.back();
+      open.pop_back();
+      if (is_read(gltf_node)) {
+        leave_out(gltf_node, parent);
+        continue;
+      }
+      const int node = int(model_.nodes.size());
+      nodes_.of_gltf[gltf_node] = node;
+      nodes_.gltf_of.push_back(int(gltf_node));
+      const Json& source = file_.list("nodes")[gltf_node];
+      model_.nodes.push_back(read_node(source, parent));
+      for (const Json& child : source.value("children", Json::array()))
+        open.emplace_back(node_index(child), node);
+    }
+  }
+
+  void leave_out(std::size_t gltf_node, int parent) {
+    if (++left_out_ > most_warnings) return;
+    const int present = nodes_.of_gltf[gltf_node];
+    int above = parent;
+    while (above > present) above = model_.nodes[std::size_t(above)].parent;
+    const auto gltf_of = [&](int node) { return nodes_.gltf_of[std::size_t(node)]; };
+    const std::string first_parent =
+        model_.nodes[std::size_t(present)].parent == 0
+            ? "the scene"
+            : fmt::format("node {}", gltf_of(model_.nodes[std::size_t(present)].parent));
+    const std::string reason = above == present ? fmt::format("node {} is its own ancestor through node {}",
+                                                              gltf_node, gltf_of(parent))
+                                                : fmt::format("node {} has two parents, {} and node {}",
+                                                              gltf_node, first_parent, gltf_of(parent));
+    warnings_.push_back(
+        {reason + "; glTF asks for a tree: the second link is left out", {file_.path().string(), 0, 0}});
+  }
+
+  const GltfFile& file_;
+  Model& model_;
+  Errors& warnings_;
+  GltfNodes nodes_;
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace
+
+GltfNodes read_nodes(const GltfFile& file, Model& model, Errors& warnings) {
+  return TreeReader(file, model, warnings).read();
+}
+
+}  // namespace parvis::scene

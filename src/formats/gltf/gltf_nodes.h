@@ -1,0 +1,22 @@
+// The tree of nodes of glTF 2.0 (section 3.5.2). A graph that is none is made one: links that would close a
+// circle or give a node a second parent are left out.
+#pragma once
+
+#include <vector>
+
+#include "formats/gltf/gltf_file.h"
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+struct GltfNodes {
+  std::vector<int> of_gltf;  ///< the model's node of each node of the file; no_index: not in the scene
+  std::vector<int> gltf_of;  ///< the file's node of each node of the model; node 0 is none
+};
+
+/// Appends the nodes of the file's scene, or of the whole file where it has no scene, below node 0 of
+/// `model`; parents first. Links that were left out are told in `warnings`, by the numbers of their nodes.
+/// Throws GltfProblem.
+GltfNodes read_nodes(const GltfFile& file, Model& model, Errors& warnings);
+
+}  // namespace parvis::scene

@@ -1,0 +1,17 @@
+// glTF 2.0 (.gltf, .glb) to a Model: meshes, nodes, materials with KHR_texture_transform, _clearcoat,
+// _emissive_strength and _transmission, EXT_meshopt_compression, KHR_draco_mesh_compression, animations,
+// skins and morph targets (these parts stand as they do at rest, and know how they bend).
+#pragma once
+
+#include <filesystem>
+
+#include "base/result.h"
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+/// Metres, turned from y up to z up by node 0. A picture that is missing or damaged is named in `warnings`
+/// and replaced by a visible checker. Everything else that is wrong is an error.
+Result<Model> read_gltf(const std::filesystem::path& file, Errors& warnings);
+
+}  // namespace parvis::scene

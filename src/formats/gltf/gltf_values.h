@@ -1,0 +1,49 @@
+// Values out of the JSON of a glTF file, with its defaults; what is of the wrong kind is refused.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "formats/gltf/gltf_file.h"
+
+namespace parvis::scene {
+
+/// Throws GltfProblem with the message.
+template <class... Args>
+[[noreturn]] void gltf_fail(fmt::format_string<Args...> format, Args&&... args) {
+  throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+inline float gltf_number(const GltfFile::Json& object, const char* name, float otherwise) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_number() ? found->get<float>() : otherwise;
+}
+
+template <int N>
+glm::vec<N, float> gltf_vector(const GltfFile::Json& object, const char* name, glm::vec<N, float> otherwise) {
+  const auto found = object.find(name);
+  if (found == object.end()) return otherwise;
+  if (!found->is_array() || found->size() != std::size_t(N))
+    gltf_fail("\"{}\" is {}; expected {} numbers", name, found->dump(), N);
+  for (int i = 0; i < N; ++i) otherwise[i] = (*found)[std::size_t(i)].get<float>();
+  return otherwise;
+}
+
+/// The morph targets of a primitive; an empty list where it has none.
+inline const GltfFile::Json& gltf_targets(const GltfFile::Json& primitive) {
+  static const GltfFile::Json nothing = GltfFile::Json::array();
+  const auto found = primitive.find("targets");
+  return found != primitive.end() && found->is_array() ? *found : nothing;
+}
+
+/// The object `name` inside `object`; an empty one where it is absent.
+inline const GltfFile::Json& gltf_member(const GltfFile::Json& object, const char* name) {
+  static const GltfFile::Json nothing = GltfFile::Json::object();
+  const auto found = object.find(name);
+  return found != object.end() && found->is_object() ? *found : nothing;
+}
+
+inline const GltfFile::Json& gltf_extension(const GltfFile::Json& object, const char* name) {
+  return gltf_member(gltf_member(object, "extensions"), name);
+}
+
+}  // namespace parvis::scene

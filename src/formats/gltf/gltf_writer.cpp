@@ -1,0 +1,189 @@
+#include "formats/gltf/gltf_writer.h"
+
+#include <glm/gtx/matrix_decompose.hpp>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "formats/gltf/gltf_animation_writer.h"
+#include "formats/gltf/gltf_cameras.h"
+#include "formats/gltf/gltf_chunk.h"
+#include "formats/gltf/gltf_material_writer.h"
+#include "formats/gltf/gltf_mesh_writer.h"
+
+namespace parvis::scene {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+
+Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+Json node_json(const ModelNode& node) {
+  Json json = Json::object();
+  if (!node.name.empty()) json["name"] = node.name;
+  if (node.translation != glm::vec3(0.0f)) json["translation"] = array_of(node.translation);
+  if (node.scale != glm::vec3(1.0f)) json["scale"] = array_of(node.scale);
+  if (node.rotation != glm::quat(1, 0, 0, 0))
+    json["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
+  return json;
+}
+
+/// A node that stands in its parent as the matrix says.
+ModelNode node_of(const std::string& name, int parent, const glm::mat4& parent_from_node) {
+  ModelNode node{.name = name, .parent = parent};
+  glm::vec3 skew;
+  glm::vec4 perspective;
+  glm::decompose(parent_from_node, node.scale, node.rotation, node.translation, skew, perspective);
+  return node;
+}
+
+/// The nodes of an object as it is posed; its own if it plays an animation, which then poses it.
+std::vector<ModelNode> nodes_now(const Object& object) {
+  std::vector<ModelNode> nodes = object.model->nodes;
+  if (object.pose.empty() || object.played.animation != no_index) return nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int parent = nodes[i].parent;
+    const glm::mat4 model_from_parent =
+        parent == no_index ? glm::mat4(1.0f) : object.pose[std::size_t(parent)];
+    nodes[i] = node_of(nodes[i].name, parent, glm::inverse(model_from_parent) * object.pose[i]);
+  }
+  return nodes;
+}
+
+class Writer {
+ public:
+  Writer() {
+    const float half = std::sqrt(0.5f);
+    nodes_.push_back({{"name", "z_up"}, {"rotation", {-half, 0.0f, 0.0f, half}}});
+  }
+
+  /// All of `model` on nodes of an object, below the file's node `parent`.
+  Status add(const Model& model, const std::vector<ModelNode>& nodes, const std::string& name, int parent) {
+    Result<const WrittenModel*> shared = written(model);
+    if (!shared) return shared.errors();
+    const WrittenModel& parts = **shared;
+    WrittenObject object{name, int(nodes_.size()), {}};
+    for (const ModelNode& node : nodes)
+      append(node_json(node), node.parent == no_index ? parent : object.first_node + node.parent);
+    for (const WrittenMesh& mesh : parts.meshes) object.node_of_mesh.push_back(hang(mesh, object.first_node));
+    for (const WrittenAnimation& animation : parts.animations) {
+      const Json json = animation_json(animation, object, parts.meshes);
+      if (!json["channels"].empty()) animations_.push_back(json);
+    }
+    return Done{};
+  }
+
+  Status add(const Object& object) {
+    const int node = append(node_json(node_of(object.name, 0, object.world_from_model)), 0);
+    return add(*object.model, nodes_now(object), object.name, node);
+  }
+
+  void add(const NamedCamera& camera) {
+    append(gltf_camera_node(camera.name, camera.camera, cameras_.size()), 0);
+    cameras_.push_back(gltf_camera(camera.name, camera.camera));
+  }
+
+  Status write(const fs::path& file) const {
+    if (Status status = materials_.write_pictures(file); !status) return status;
+    Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}},
+              {"scene", 0},
+              {"scenes", {{{"nodes", {0}}}}},
+              {"nodes", nodes_}};
+    for (const auto& [name, list] : {std::pair{"meshes", &meshes_}, std::pair{"skins", &skins_},
+                                     std::pair{"animations", &animations_}, std::pair{"cameras", &cameras_}})
+      if (!list->empty()) json[name] = *list;
+    materials_.describe(json, file);
+    chunk_.describe(json);
+    return write_container(file, json);
+  }
+
+ private:
+  /// What objects of one model share.
+  struct WrittenModel {
+    std::vector<WrittenMesh> meshes;
+    std::vector<WrittenAnimation> animations;
+  };
+
+  Result<const WrittenModel*> written(const Model& model) {
+    if (const auto found = models_.find(&model); found != models_.end()) return &found->second;
+    Result<std::vector<WrittenMesh>> meshes = write_meshes(model, materials_.add(model), chunk_, meshes_);
+    if (!meshes) return meshes.errors();
+    return &models_.emplace(&model, WrittenModel{*std::move(meshes), write_keyframes(model, chunk_)})
+                .first->second;
+  }
+
+  int append(Json node, int parent) {
+    nodes_.push_back(std::move(node));
+    nodes_[std::size_t(parent)]["children"].push_back(nodes_.size() - 1);
+    return int(nodes_.size()) - 1;
+  }
+
+  /// Hangs a mesh on its node, or below it where another hangs there: glTF has one mesh a node.
+  int hang(const WrittenMesh& mesh, int first_node) {
+    int node = first_node + mesh.node;
+    if (nodes_[std::size_t(node)].contains("mesh")) node = append(Json::object(), node);
+    nodes_[std::size_t(node)]["mesh"] = mesh.mesh;
+    if (mesh.inverse_bind == no_index) return node;
+    Json skin{{"inverseBindMatrices", mesh.inverse_bind}, {"joints", Json::array()}};
+    for (const int joint : mesh.deformation->skin.joints) skin["joints"].push_back(first_node + joint);
+    nodes_[std::size_t(node)]["skin"] = skins_.size();
+    skins_.push_back(skin);
+    return node;
+  }
+
+  Status write_container(const fs::path& file, const Json& json) const;
+
+  GltfMaterialWriter materials_;
+  GltfChunk chunk_;
+  std::map<const Model*, WrittenModel> models_;
+  Json nodes_ = Json::array(), meshes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array(),
+       cameras_ = Json::array();
+};
+
+void append_word(std::string& bytes, std::size_t value) {
+  const auto word = std::uint32_t(value);
+  bytes.append(reinterpret_cast<const char*>(&word), 4);
+}
+
+void append_chunk(std::string& bytes, const char* type, std::string_view data, char padding) {
+  const std::size_t padded = (data.size() + 3) / 4 * 4;
+  append_word(bytes, padded);
+  bytes.append(type, 4).append(data).append(padded - data.size(), padding);
+}
+
+Status Writer::write_container(const fs::path& file, const Json& json) const {
+  const std::string text = json.dump();
+  const std::string_view binary(reinterpret_cast<const char*>(chunk_.bytes().data()), chunk_.bytes().size());
+  std::string chunks;
+  append_chunk(chunks, "JSON", text, ' ');
+  if (!binary.empty()) append_chunk(chunks, "BIN\0", binary, '\0');
+  const std::size_t size = 12 + chunks.size();
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    return error("{}: a .glb holds 4 GB; this is {:.1f}: write it in parts", file.string(),
+                 double(size) * 1e-9);
+  std::string bytes = "glTF";
+  append_word(bytes, 2);
+  append_word(bytes, size);
+  return write_file(file, bytes + chunks);
+}
+
+}  // namespace
+
+Status write_gltf(const fs::path& file, const Model& model) {
+  Writer writer;
+  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  return writer.write(file);
+}
+
+Status write_gltf(const fs::path& file, std::span<const Object* const> objects,
+                  std::span<const NamedCamera> cameras) {
+  Writer writer;
+  for (const Object* object : objects)
+    if (Status status = writer.add(*object); !status) return status;
+  for (const NamedCamera& camera : cameras) writer.add(camera);
+  return writer.write(file);
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,137 @@
+// material: another surface for a part of a model.
+#include <set>
+
+#include "formats/meshes/material_change.h"
+#include "formats/meshes/mesh_nodes.h"
+#include "scene/data/model_parts.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/scene_builder.h"
+#include "scene/script/spelling.h"
+
+namespace parvis::scene {
+namespace {
+
+NodeSchema material_schema() {
+  AttributeSchema preset{.name = "preset", .type = AttributeType::choice, .help = ""};
+  for (const MaterialPreset& each : material_presets()) {
+    preset.choices.push_back(each.name);
+    preset.help += (preset.help.empty() ? "" : "; ") + each.name + ": " + each.help;
+  }
+  const auto fraction = [](const char* name, const char* help) {
+    return AttributeSchema{
+        .name = name, .type = AttributeType::number, .help = help, .minimum = 0, .maximum = 1};
+  };
+  return {
+      .type = "material",
+      .help =
+          "Another surface for a part of a model: of the objects that match target, the triangles that lie "
+          "in "
+          "a mask. Later nodes see what earlier ones have changed.",
+      .attributes =
+          {{.name = "name", .help = "by which scenarios refer to it"},
+           {.name = "target",
+            .help = "name of objects, nodes or materials of the file; * and ? stand for any text and any "
+                    "character",
+            .fallback = "*"},
+           {.name = "mask",
+            .help = "\"box u0 v0 u1 v1\" of the picture (0..1, v down from the top), \"colour #RRGGBB "
+                    "tolerance\" or \"grey "
+                    "tolerance\" (of the picture at the triangle's middle; 0..1), or several in one; "
+                    "repeated: any of them",
+            .fallback = "object",
+            .is_repeatable = true},
+           preset,
+           {.name = "colour",
+            .type = AttributeType::colour,
+            .help = "in place of the picture",
+            .minimum = 0,
+            .maximum = 1},
+           fraction("roughness", "0 mirrors, 1 is dull"),
+           fraction("metallic", "0 paint, 1 bare metal"),
+           fraction("clear_coat", "lacquer over it"),
+           fraction("alpha", "1 opaque, 0 invisible"),
+           {.name = "emission",
+            .type = AttributeType::colour,
+            .help = "radiance of its own",
+            .unit = "W/m2/sr",
+            .minimum = 0},
+           {.name = "ior",
+            .type = AttributeType::number,
+            .help = "index of refraction: makes it a closed body of solid glass, where it is open a pane "
+                    "(1.33 water, 1.5 glass, 2.42 "
+                    "diamond)",
+            .minimum = 1,
+            .maximum = 4},
+           {.name = "absorption",
+            .type = AttributeType::colour,
+            .help = "of red, green and blue light on its way through solid glass; 0 is clear",
+            .unit = "1/m",
+            .minimum = 0},
+           {.name = "mirror_like",
+            .type = AttributeType::flag,
+            .help = "takes the scene's reflection method on reflective models"}},
+      .stands_in = {"model"},
+      .example =
+          "model(file=\"car.obj\", reflective=1) {\n"
+          "  material(preset=\"paint\")\n"
+          "  material(mask=\"box 0.2 0.5 0.4 0.8\", mask=\"box 0.6 0.5 0.8 0.8 grey 0.05\", "
+          "preset=\"glass\")\n"
+          "}"};
+}
+
+std::vector<std::string> names_of_objects(const Model& model) {
+  std::set<std::string> names;
+  for (const Part& part : model.parts)
+    if (!part.object.empty()) names.insert(part.object);
+  return {names.begin(), names.end()};
+}
+
+Error no_such_object(const Node& node, const Model& model) {
+  constexpr std::size_t shown = 12;
+  std::vector<std::string> names = names_of_objects(model);
+  const std::string target = node.text("target"), meant = did_you_mean(target, names);
+  const bool has_more = names.size() > shown;
+  if (has_more) names.resize(shown);
+  return error_at(node.where_of("target"), "no object of the model is called \"{}\"{} It has {}{}", target,
+                  meant.empty() ? "." : meant, fmt::join(names, ", "), has_more ? ", ..." : "");
+}
+
+MaterialChange change_of(const Node& node) {
+  MaterialChange given;
+  const auto number = [&](const char* name) {
+    return node.gives(name) ? std::optional<float>(float(node.number(name))) : std::nullopt;
+  };
+  if (node.gives("colour")) given.colour = node.vec3("colour");
+  if (node.gives("emission")) given.emission = node.vec3("emission");
+  if (node.gives("absorption")) given.absorption_per_m = node.vec3("absorption");
+  if (node.gives("mirror_like")) given.is_mirror_like = node.flag("mirror_like");
+  given.roughness = number("roughness"), given.metallic = number("metallic");
+  given.clear_coat = number("clear_coat"), given.alpha = number("alpha"), given.ior = number("ior");
+  for (const MaterialPreset& preset : material_presets())
+    if (node.text("preset") == preset.name) return merged(preset.change, given);
+  return given;
+}
+
+void change_material_of(const Node& node, Model& model, SceneBuilder& builder) {
+  std::vector<MaterialMask> masks;
+  for (const NodeAttribute& attribute : node.attributes) {
+    if (attribute.schema->name != "mask") continue;
+    Result<MaterialMask> mask = parse_mask(std::get<std::string>(attribute.value), attribute.where);
+    if (!mask) return builder.fail(mask.errors().front());
+    masks.push_back(*mask);
+  }
+  const std::vector<std::size_t> parts = matching_parts(model, node.text("target"));
+  if (parts.empty()) return builder.fail(no_such_object(node, model));
+  const std::string name = node.gives("preset") ? node.text("preset") : "changed";
+  if (change_material(model, parts, masks, change_of(node), name) == 0)
+    builder.warn(
+        error_at(node.where_of("mask"), "no triangle lies in the mask: this material changes nothing"));
+}
+
+}  // namespace
+
+void add_material_nodes(NodeRegistry& registry) {
+  registry.add_change(material_schema(), change_material_of);
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,21 @@
+// What the surfaces of city models are made of: their names in CityJSON, and the colours of look and light.
+#pragma once
+
+#include <string>
+
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+/// The name that a surface's material gets: its own semantics ("RoofSurface"), its object's type ("Road"), or
+/// for buildings (extensions' too) without semantics the one that its slope tells. `up` is the z of its unit
+/// normal.
+std::string surface_name(const std::string& semantics, const std::string& object_type, float up);
+
+/// The plain material of a name.
+Material surface_material(const std::string& name);
+
+/// Does the ground of this name face up, whichever way its file winds it?
+bool is_ground(const std::string& name);
+
+}  // namespace parvis::scene

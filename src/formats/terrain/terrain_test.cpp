@@ -1,0 +1,140 @@
+#include "formats/terrain/terrain.h"
+
+#include <gdal.h>
+#include <gtest/gtest.h>
+#include <ogr_srs_api.h>
+
+#include <cmath>
+
+#include "base/test_folder.h"
+#include "formats/terrain/terrain_heights.h"
+#include "formats/terrain/utm.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr int width = 100, height = 80;
+constexpr double nothing = -9999.0;
+
+/// A slope that rises by half a metre from column to column, with one hole.
+std::vector<float> slope() {
+  std::vector<float> heights;
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) heights.push_back(10.0f + 0.5f * float(column));
+  heights[std::size_t(40 * width + 50)] = float(nothing);
+  return heights;
+}
+
+void write_grid(const std::filesystem::path& file, const double* transform, int epsg,
+                std::vector<float> heights = slope()) {
+  GDALAllRegister();
+  const GDALDatasetH grid =
+      GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), width, height, 1, GDT_Float32, nullptr);
+  if (transform) GDALSetGeoTransform(grid, const_cast<double*>(transform));
+  if (epsg) {
+    const OGRSpatialReferenceH map = OSRNewSpatialReference(nullptr);
+    OSRImportFromEPSG(map, epsg);
+    GDALSetSpatialRef(grid, map);
+    OSRDestroySpatialReference(map);
+  }
+  const GDALRasterBandH band = GDALGetRasterBand(grid, 1);
+  GDALSetRasterNoDataValue(band, nothing);
+  EXPECT_EQ(
+      GDALRasterIO(band, GF_Write, 0, 0, width, height, heights.data(), width, height, GDT_Float32, 0, 0),
+      CE_None);
+  GDALClose(grid);
+}
+
+TEST(Terrain, AMapInMetresStandsWhereItSays) {
+  const TestFolder folder;
+  const double transform[]{600'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
+  write_grid(folder.path() / "slope.tif", transform, 32631);
+  Errors warnings;
+  const Result<Model> model = read_terrain(folder.path() / "slope.tif", std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+  const Bounds box = bounds(*model);
+  EXPECT_NEAR(box.min.x + model->origin.x, 600'001.0, 1e-3) << "samples lie in the middle of their cells";
+  EXPECT_NEAR(box.max.y + model->origin.y, 5'699'999.0, 1e-3);
+  EXPECT_NEAR(box.size().x, 198.0f, 1e-3f);
+  EXPECT_NEAR(box.size().y, 158.0f, 1e-3f);
+  EXPECT_NEAR(box.min.z + model->origin.z, 10.0, 1e-5);
+  EXPECT_NEAR(box.size().z, 49.5f, 1e-4f);
+  // each of the four cells about the hole keeps half of itself
+  EXPECT_EQ(model->triangle_count(), std::size_t(2 * (width - 1) * (height - 1) - 4));
+  for (const Part& part : model->parts)
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      EXPECT_GT(glm::cross(at(1) - at(0), at(2) - at(0)).z, 0.0f);
+    }
+  const glm::vec3 normal = model->parts[0].mesh.normals[5];
+  EXPECT_LT(glm::distance(normal, glm::normalize(glm::vec3(-0.25f, 0.0f, 1.0f))), 1e-4f);
+}
+
+TEST(Terrain, DegreesBecomeMetres) {
+  const TestFolder folder;
+  const double transform[]{4.49, 1e-4, 0.0, 52.16, 0.0, -1e-4};
+  write_grid(folder.path() / "degrees.tif", transform, 4326);
+  Errors warnings;
+  const Result<Model> model = read_terrain(folder.path() / "degrees.tif", std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  const glm::dvec2 corner = Utm({4.495, 52.156})({4.49005, 52.15995});
+  const glm::vec3 first = model->parts[0].mesh.positions[0];
+  EXPECT_NEAR(first.x + model->origin.x, corner.x, 0.01);
+  EXPECT_NEAR(first.y + model->origin.y, corner.y, 0.01);
+  const glm::dvec2 opposite = Utm({4.495, 52.156})({4.49995, 52.15205});
+  const glm::vec3 last = model->parts.back().mesh.positions.back();
+  EXPECT_NEAR(last.x + model->origin.x, opposite.x, 0.01);
+  EXPECT_NEAR(last.y + model->origin.y, opposite.y, 0.01);
+}
+
+TEST(Terrain, AGridWithoutAPlaceNeedsItsCells) {
+  const TestFolder folder;
+  write_grid(folder.path() / "bare.tif", nullptr, 0);
+  Errors warnings;
+  const Result<Model> refused = read_terrain(folder.path() / "bare.tif", std::nullopt, warnings);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.errors()).find("give cell="), std::string::npos);
+  const Result<Model> model = read_terrain(folder.path() / "bare.tif", 3.0, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_NEAR(bounds(*model).size().x, 3.0f * float(width - 1), 1e-3f);
+  EXPECT_NEAR(bounds(*model).centre().x, 0.0f, 1e-3f);
+  EXPECT_EQ(model->origin, glm::dvec3(0.0));
+}
+
+TEST(Terrain, OtherFilesAndEmptyGridsAreRefused) {
+  const TestFolder folder;
+  Errors warnings;
+  const auto told = [&](const std::filesystem::path& file) {
+    const Result<Model> model = read_terrain(file, 1.0, warnings);
+    return model ? std::string() : to_string(model.errors());
+  };
+  EXPECT_NE(told(folder.write("text.tif", "heights")).find("no GeoTIFF"), std::string::npos);
+  EXPECT_NE(
+      told(folder.write("other.tif", "<VRTDataset rasterXSize=\"9\" rasterYSize=\"9\"/>")).find("no GeoTIFF"),
+      std::string::npos);
+  write_grid(folder.path() / "holes.tif", nullptr, 0,
+             std::vector<float>(std::size_t(width * height), float(nothing)));
+  EXPECT_NE(told(folder.path() / "holes.tif").find("all holes"), std::string::npos);
+}
+
+TEST(Terrain, TellsItsHeightAtPlacesOnTheMap) {
+  const TestFolder folder;
+  const double transform[]{600'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
+  write_grid(folder.path() / "slope.tif", transform, 32631);
+  Errors warnings;
+  const Result<Model> model = read_terrain(folder.path() / "slope.tif", std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  const TerrainHeights heights(*model);
+  EXPECT_NEAR(heights.lowest().value_or(0.0), 10.0, 0.2) << "half a cell of the raster";
+  for (const double east_m : {5.0, 33.3, 150.0}) {
+    const std::optional<double> height_m = heights.at({600'000.0 + east_m, 5'699'950.0});
+    ASSERT_TRUE(height_m) << east_m;
+    EXPECT_NEAR(*height_m, 10.0 + 0.25 * (east_m - 1.0), 1e-3);  // the first sample lies 1 m in
+  }
+  EXPECT_FALSE(heights.at({599'990.0, 5'699'950.0}));
+  EXPECT_FALSE(TerrainHeights(Model()).lowest());
+}
+
+}  // namespace
+}  // namespace parvis::scene

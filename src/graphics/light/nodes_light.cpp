@@ -1,0 +1,145 @@
+// sun, sky, air, exposure: light and how it is shown. Each stands once in a scene.
+#include <cmath>
+
+#include "base/image_io.h"
+#include "graphics/light/light_nodes.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::scene {
+namespace {
+
+NodeSchema sun_schema() {
+  return {.type = "sun",
+          .help = "Sunlight; where to find the sun is given as a direction or as azimuth and elevation.",
+          .attributes = {{.name = "direction",
+                          .type = AttributeType::vec3,
+                          .help = "points to the sun; any length",
+                          .fallback = "0.45 -0.55 0.70",
+                          .is_live = true,
+                          .in_place_of = {"azimuth_deg", "elevation_deg"}},
+                         {.name = "azimuth_deg",
+                          .type = AttributeType::angle,
+                          .help = "compass direction of the sun: 0 north, 90 east",
+                          .unit = "degrees",
+                          .is_live = true,
+                          .in_place_of = {"direction"}},
+                         {.name = "elevation_deg",
+                          .type = AttributeType::angle,
+                          .help = "height of the sun above the horizon",
+                          .fallback = "45",
+                          .unit = "degrees",
+                          .minimum = -90,
+                          .maximum = 90,
+                          .is_live = true,
+                          .in_place_of = {"direction"}},
+                         {.name = "irradiance",
+                          .type = AttributeType::colour,
+                          .help = "on a plane that faces the sun",
+                          .fallback = "3.0 2.75 2.35",
+                          .unit = "W/m2",
+                          .minimum = 0,
+                          .is_live = true}},
+          .example = "sun(azimuth_deg=140, elevation_deg=40, irradiance=\"3.0 2.75 2.35\")",
+          .is_unique = true};
+}
+
+glm::vec3 direction_of(float azimuth, float elevation) {
+  return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+          std::sin(elevation)};
+}
+
+void build_sun(const Node& node, SceneBuilder& builder) {
+  const bool by_angles = node.gives("azimuth_deg") || node.gives("elevation_deg");
+  if (by_angles && node.gives("direction"))
+    builder.fail(error_at(node.where_of("direction"),
+                          "a sun takes direction= or azimuth_deg= and elevation_deg=, "
+                          "not both"));
+  const glm::vec3 direction = by_angles ? direction_of(node.angle("azimuth_deg"), node.angle("elevation_deg"))
+                                        : node.vec3("direction");
+  if (glm::length(direction) < 1e-6f)
+    return builder.fail(error_at(node.where_of("direction"), "the sun's direction has no length"));
+  builder.scene.sun = {glm::normalize(direction), node.vec3("irradiance")};
+}
+
+NodeSchema sky_schema() {
+  return {
+      .type = "sky",
+      .help =
+          "A picture of the whole sky: background and ambient light. Without a file the sky is plain blue.",
+      .attributes = {{.name = "file",
+                      .type = AttributeType::file,
+                      .help = "equirectangular picture, twice as wide as high (.hdr, .exr)"},
+                     {.name = "intensity",
+                      .type = AttributeType::number,
+                      .help = "multiplies the picture",
+                      .fallback = "1",
+                      .minimum = 0,
+                      .maximum = 1e6,
+                      .is_live = true},
+                     {.name = "heading_deg",
+                      .type = AttributeType::angle,
+                      .help = "turns the picture, clockwise from above; at 0 its middle lies north",
+                      .fallback = "0",
+                      .unit = "degrees",
+                      .is_live = true}},
+      .example = "sky(file=\"hdri/park.hdr\", intensity=0.8, heading_deg=90)",
+      .is_unique = true};
+}
+
+void build_sky(const Node& node, SceneBuilder& builder) {
+  Sky& sky = builder.scene.sky;
+  sky.intensity = float(node.number("intensity"));
+  sky.heading = node.angle("heading_deg");
+  const std::filesystem::path file = node.file("file");
+  if (file == sky.file) return;  // it is there already
+  Result<ImageF> picture = file.empty() ? ImageF() : read_image_float(file);
+  if (!picture) return builder.fail(picture.errors(), node.where_of("file"));
+  sky.picture = std::move(*picture);
+  sky.file = file;
+}
+
+NodeSchema air_schema() {
+  return {.type = "air",
+          .help = "Haze that lightens what is far away.",
+          .attributes = {{.name = "haze_per_m",
+                          .type = AttributeType::number,
+                          .help = "extinction of the air",
+                          .fallback = "0",
+                          .unit = "1/m",
+                          .minimum = 0,
+                          .maximum = 1,
+                          .is_live = true}},
+          .example = "air(haze_per_m=0.0004)",
+          .is_unique = true};
+}
+
+NodeSchema exposure_schema() {
+  return {.type = "exposure",
+          .help = "How bright the picture is.",
+          .attributes = {{.name = "value",
+                          .type = AttributeType::number,
+                          .help = "multiplies radiance before the tone curve",
+                          .fallback = "1",
+                          .minimum = 1e-6,
+                          .maximum = 1e6,
+                          .is_live = true}},
+          .example = "exposure(value=1.2)",
+          .is_unique = true};
+}
+
+}  // namespace
+
+void furnish_light(House& house) {
+  NodeRegistry& registry = house.get<NodeRegistry>();
+  registry.add(sun_schema(), build_sun);
+  registry.add(sky_schema(), build_sky);
+  registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
+    builder.scene.haze_per_m = float(node.number("haze_per_m"));
+  });
+  registry.add(exposure_schema(), [](const Node& node, SceneBuilder& builder) {
+    builder.scene.exposure = float(node.number("value"));
+  });
+}
+
+}  // namespace parvis::scene

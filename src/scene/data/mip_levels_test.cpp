@@ -1,0 +1,77 @@
+#include "scene/data/mip_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+
+namespace parvis::scene {
+namespace {
+
+/// Thin leaves here and there: ellipses of random places and headings.
+Texture leaves(float wanted_coverage) {
+  Texture texture{"leaves", Image8(256, 256, 4, 0), true, true};
+  Random random(3);
+  double covered = 0.0;
+  while (covered < wanted_coverage) {
+    const glm::vec2 middle(random.uniform(0, 256), random.uniform(0, 256));
+    const float heading = random.uniform(0.0f, 3.14f);
+    const glm::vec2 along(std::cos(heading), std::sin(heading));
+    for (int y = 0; y < 256; ++y)
+      for (int x = 0; x < 256; ++x) {
+        const glm::vec2 p = glm::vec2(x, y) - middle;
+        const glm::vec2 in_leaf(glm::dot(p, along) / 14.0f, (p.x * along.y - p.y * along.x) / 2.5f);
+        std::uint8_t& alpha = texture.image.at(x, y)[3];
+        if (glm::length(in_leaf) < 1.0f && alpha == 0) alpha = 255, covered += 1.0 / 65536.0;
+      }
+  }
+  return texture;
+}
+
+double coverage(const Image8& image) {
+  double sum = 0.0;
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4) sum += image.pixels[i] >= 128;
+  return sum / double(image.pixels.size() / 4);
+}
+
+TEST(MipLevels, CutOutsKeepTheirCoverage) {
+  for (const float share : {0.15f, 0.4f, 0.8f}) {
+    const Texture texture = leaves(share);
+    const std::vector<Image8> levels = mip_levels(texture, true);
+    ASSERT_EQ(levels.size(), 9u);
+    // A mask's means take five values on the first level: steps of up to a tenth. A few texels show no share
+    // at all.
+    for (std::size_t i = 1; levels[i].width >= 8; ++i)
+      EXPECT_NEAR(coverage(levels[i]), coverage(levels[0]), 0.05) << share << ", level " << i;
+    EXPECT_LT(coverage(mip_levels(leaves(0.15f), false)[4]), 0.03);  // they would vanish
+  }
+}
+
+TEST(MipLevels, AverageInLinearLight) {
+  Texture texture{"black and white", Image8(2, 1, 4, 255), true, true};
+  for (int c = 0; c < 3; ++c) texture.image.at(0, 0)[c] = 0;
+  EXPECT_EQ(mip_levels(texture, false)[1].at(0, 0)[0], 188);  // sRGB of a half
+  texture.is_srgb = false;
+  EXPECT_EQ(mip_levels(texture, false)[1].at(0, 0)[0], 128);
+}
+
+TEST(MipLevels, OddSizesAndPlainAlphaStandAsTheyAre) {
+  Texture texture{"grey", Image8(5, 3, 4, 77), false, true};
+  for (const bool is_cutout : {false, true})
+    for (const Image8& level : mip_levels(texture, is_cutout))
+      for (const std::uint8_t value : level.pixels) EXPECT_EQ(value, 77);
+}
+
+TEST(MipLevels, TexturesOfCutOutMaterialsAreKnown) {
+  Model model;
+  model.textures.resize(3);
+  model.materials.resize(2);
+  model.materials[0].base_colour_texture = 0;
+  model.materials[1].base_colour_texture = 2;
+  model.materials[1].alpha_mode = Alpha::cutout;
+  EXPECT_EQ(cutout_textures(model), (std::vector<char>{0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace parvis::scene

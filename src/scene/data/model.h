@@ -1,0 +1,109 @@
+// What a model file gives: parts (a mesh and a material each) under a tree of nodes, with pictures and
+// animations. Plain data in flat arrays; the GPU scene and the ray tracer both read it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/mesh.h"
+#include "scene/data/animation.h"
+#include "scene/data/deformation.h"
+#include "scene/data/road.h"
+
+namespace parvis::scene {
+
+inline constexpr int no_index = -1;
+
+/// An RGBA picture with how it is sampled: always trilinear and anisotropic.
+struct Texture {
+  std::string name;     ///< as errors name it
+  Image8 image;         ///< 4 channels
+  bool is_srgb = true;  ///< colour, as against data (normals, roughness)
+  bool repeats = true;  ///< else clamped to its edge
+};
+
+enum class Alpha : std::uint8_t {
+  opaque,
+  cutout,  ///< leaves, railings: visible where alpha >= 0.5; alpha to coverage on the GPU
+  blend    ///< drawn after the opaque parts, from back to front: contact shadows, panes
+};
+
+/// The metallic-roughness surface of glTF 2.0, with a clear coat and translucent leaves. The index of a
+/// texture is into Model::textures, or `no_index`.
+struct Material {
+  std::string name;
+  glm::vec3 base_colour{0.8f};  ///< linear; multiplies the texture
+  float alpha = 1.0f;           ///< multiplies the texture's alpha
+  float metallic = 0.0f;
+  float roughness = 0.8f;
+  float clear_coat = 0.0f;  ///< 0..1: a layer with F0 0.04 over the base
+  float clear_coat_roughness = 0.03f;
+  float translucency = 0.0f;  ///< 0..1: diffuse light that comes through from the other side (leaves)
+  glm::vec3 emission{0.0f};   ///< radiance, multiplies the emission texture
+  int base_colour_texture = no_index;
+  int normal_texture = no_index;   ///< tangent space, +y toward -v (OpenGL convention of glTF); alpha: relief
+  int surface_texture = no_index;  ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
+  int emission_texture = no_index;
+  float normal_scale = 1.0f;
+  /// Of solid glass: how much slower light is in it. Above 1 the surface bounds a closed body that light
+  /// enters, bent; it has no colour of its own then.
+  float ior = 1.0f;
+  glm::vec3 absorption_per_m{0.0f};  ///< of that body
+  float thickness_m = 0.005f;        ///< of that glass where its surface bounds no body: a pane's
+  float relief_m = 0.0f;  ///< depth below the surface where the normal texture's alpha is 0; 0: it is flat
+  glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
+  Alpha alpha_mode = Alpha::opaque;
+  bool is_double_sided = false;
+  bool is_mirror_like =
+      false;  ///< paint, glass, chrome of movable things: takes the scene's reflection method
+
+  bool refracts() const { return ior > 1.0f; }
+};
+
+/// Triangles of one material that hang on one node.
+struct Part {
+  std::string object;  ///< name of the object or group in the file: what material(target=...) matches
+  Mesh mesh;           ///< in the node's frame, at rest
+  int material = 0;
+  int node = 0;
+  bool casts_shadow = true;
+  std::shared_ptr<const Deformation> deformation = nullptr;  ///< null: the mesh is rigid
+};
+
+struct ModelNode {
+  std::string name;
+  int parent = no_index;  ///< always less than the node's own index
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< w, x, y, z
+  glm::vec3 scale{1.0f};
+};
+
+/// In metres, z up. Node 0 always exists.
+struct Model {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<ModelNode> nodes{ModelNode{}};
+  std::vector<Part> parts;
+  std::vector<Animation> animations;
+  std::vector<Road> roads;  ///< that the file gives as centre lines, in the model's frame
+  glm::dvec3 origin{0.0};   ///< georeferenced coordinates of the local origin, zero where there are none
+
+  std::size_t triangle_count() const;
+};
+
+/// model_from_node of every node at rest.
+std::vector<glm::mat4> rest_pose(const Model& model);
+/// model_from_node of every node at `time_s` of an animation.
+std::vector<glm::mat4> pose_at(const Model& model, const Animation& animation, float time_s);
+
+/// Bounds of all parts at rest, in the model's frame.
+Bounds bounds(const Model& model);
+
+}  // namespace parvis::scene

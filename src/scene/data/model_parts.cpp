@@ -1,0 +1,18 @@
+#include "scene/data/model_parts.h"
+
+#include "scene/data/name_pattern.h"
+
+namespace parvis::scene {
+
+std::vector<std::size_t> matching_parts(const Model& model, std::string_view target) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    const Part& part = model.parts[i];
+    if (matches(target, part.object) || matches(target, model.nodes[std::size_t(part.node)].name) ||
+        matches(target, model.materials[std::size_t(part.material)].name))
+      found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace parvis::scene

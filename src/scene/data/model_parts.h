@@ -1,0 +1,15 @@
+// Parts of a model, chosen by name.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "scene/data/model.h"
+
+namespace parvis::scene {
+
+/// The parts whose object, node or material has a name that matches the pattern `target`
+/// (scene/data/name_pattern.h).
+std::vector<std::size_t> matching_parts(const Model& model, std::string_view target);
+
+}  // namespace parvis::scene

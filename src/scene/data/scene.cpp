@@ -1,0 +1,41 @@
+#include "scene/data/scene.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr float followed_height_m = 0.8f;  // where the eye rests on a vehicle
+
+Camera following(const NamedCamera& named, const glm::mat4& world_from_object) {
+  const glm::vec3 position(world_from_object[3]);
+  const glm::vec2 ahead = glm::normalize(glm::vec2(world_from_object[0]));
+  const glm::vec3 forward(ahead, 0.0f), left(-ahead.y, ahead.x, 0.0f), up(0.0f, 0.0f, 1.0f);
+  const glm::vec3 eye =
+      position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;
+  Camera camera = named.camera;
+  camera.world_from_camera = look_at(eye, position + followed_height_m * up);
+  return camera;
+}
+
+}  // namespace
+
+const NamedCamera* Scene::find_camera(const std::string& name) const {
+  for (const NamedCamera& camera : cameras)
+    if (camera.name == name) return &camera;
+  return nullptr;
+}
+
+Result<Camera> Scene::camera_now(const NamedCamera& named) const {
+  if (named.follows.empty()) return named.camera;
+  for (const Object& object : objects)
+    if (object.is_visible && object.name == named.follows) return following(named, object.world_from_model);
+  return error("camera \"{}\" follows \"{}\", which is not to be seen", named.name, named.follows);
+}
+
+std::size_t Scene::static_triangle_count() const {
+  std::size_t count = 0;
+  for (const Object& object : objects)
+    if (!object.is_dynamic) count += object.model->triangle_count();
+  return count;
+}
+
+}  // namespace parvis::scene

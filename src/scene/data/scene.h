@@ -1,0 +1,106 @@
+// The place as plain data: what the script reader builds, simulation moves, and both the GPU scene and the
+// ray tracer read. Rooms that do not know each other meet here.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/camera.h"
+#include "base/image.h"
+#include "base/result.h"
+#include "scene/data/model.h"
+#include "scene/data/road_graph.h"
+#include "scene/data/room_data.h"
+#include "scene/data/traced_scene.h"
+
+namespace parvis::scene {
+
+/// Which of its model's animations an object plays, over and over.
+struct PlayedAnimation {
+  int animation = no_index;  ///< of Model::animations; no_index: none
+  float speed = 1.0f;
+  double start_s = 0.0;  ///< how far the animation is when the scene begins
+};
+
+/// A placed model. Several objects may share one model: they are drawn together.
+struct Object {
+  std::string name;
+  std::shared_ptr<const Model> model;
+  glm::mat4 world_from_model{1.0f};
+  std::vector<glm::mat4> pose;    ///< model_from_node of each node; empty: the model's rest pose
+  bool is_dynamic = false;        ///< moves: has no part in baked things, throws its own shadow
+  bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
+  bool is_visible = true;         ///< is drawn, throws shadows, stands in reflections; may change at any time
+  PlayedAnimation played = {};    ///< `animate` writes the pose and bends the meshes
+  std::vector<Mesh> bent_meshes = {};  ///< of each part: as it is bent now; empty: the model's
+
+  /// Of one of the model's parts, as it is now.
+  const Mesh& mesh(std::size_t part) const {
+    const bool is_bent = !bent_meshes.empty() && model->parts[part].deformation;
+    return is_bent ? bent_meshes[part] : model->parts[part].mesh;
+  }
+};
+
+struct Sun {
+  glm::vec3 direction_to_sun{0.45f, -0.55f, 0.70f};  ///< unit length after loading
+  glm::vec3 irradiance{3.0f, 2.75f, 2.35f};          ///< on a plane that faces it, W/m2 in each channel
+
+  bool operator==(const Sun&) const = default;
+};
+
+struct Sky {
+  ImageF picture;  ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
+  float intensity = 1.0f;      ///< multiplies the picture
+  float heading = 0.0f;        ///< radians, turns the picture about the zenith, clockwise from above
+  std::filesystem::path file;  ///< the picture's; empty: it was made in memory
+  int version = 0;             ///< of a picture that is computed: counted up whenever it changes
+};
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+  std::string follows;       ///< name of an object to stay with, or empty
+  glm::vec3 offset_m{0.0f};  ///< from the followed object: forward, left, up
+};
+
+struct Scene {
+  std::vector<Object> objects;
+  std::vector<NamedCamera> cameras;
+  Sun sun;
+  Sky sky;
+  float exposure = 1.0f;    ///< multiplies radiance before the tone curve
+  float haze_per_m = 0.0f;  ///< extinction of the air
+  RoadGraph roads;
+  glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
+  std::filesystem::path file;  ///< the script; empty: the scene was made in memory
+  /// What rooms draw by themselves, beside the objects; of those rooms that the program has.
+  std::vector<TracedKind> traced_kinds;
+  RoomDataSet room_data;  ///< `data` finds what a room keeps here
+
+  /// What a room keeps in the scene; reading one that nobody has set gives the type's default.
+  template <SceneData T>
+  T& data() {
+    return room_data.get<T>();
+  }
+  template <SceneData T>
+  const T& data() const {
+    return room_data.get<T>();
+  }
+
+  /// What nodes made of this type, in the order of the script: `SceneBuilder::add` adds to it.
+  template <SceneItem T>
+  const std::vector<T>& items() const {
+    return data<ItemsOf<T>>().items;
+  }
+
+  const NamedCamera* find_camera(const std::string& name) const;
+  /// Where a camera is now: it may stay with an object, which must be there to be seen.
+  Result<Camera> camera_now(const NamedCamera& named) const;
+  std::size_t static_triangle_count() const;
+};
+
+}  // namespace parvis::scene

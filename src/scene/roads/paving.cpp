@@ -1,0 +1,202 @@
+#include "scene/roads/paving.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/terrain/ground_heights.h"
+#include "scene/data/path.h"
+#include "scene/roads/tiling_noise.h"
+
+namespace parvis::scene {
+
+namespace {
+
+constexpr float reach_m = 6.0f;     // beside a lane's middle, in which its ground is looked for
+constexpr float step_m = 1.0f;      // along lanes and across them
+constexpr float tile_m = 6.0f;      // of the pictures
+constexpr float margin_m = 0.25f;   // of asphalt beside a lane, so that neighbours leave no gap
+constexpr float kerb_m = 0.15f;     // beside the asphalt
+constexpr float pavement_m = 2.6f;  // beside the asphalt
+// Over the ground, whose mesh is coarse. What lies higher covers what is below: so all lanes together give
+// one carriageway with one kerb, however they cross.
+constexpr float pavement_lift_m = 0.03f, kerb_lift_m = 0.045f, asphalt_lift_m = 0.06f, paint_lift_m = 0.07f;
+constexpr float dash_m = 3.0f, dash_gap_m = 3.0f;
+constexpr float dash_half_width_m = 0.06f, line_half_width_m = 0.2f;
+constexpr int picture_side = 512;
+
+/// Parts, and materials, of the model.
+enum Layer : int { pavement, kerb, asphalt, paint };
+
+template <class LightAt>
+Texture grey_picture(const char* name, glm::vec3 tint, LightAt&& light_at) {
+  Texture texture{name, Image8(picture_side, picture_side, 4, 255)};
+  for (int y = 0; y < picture_side; ++y)
+    for (int x = 0; x < picture_side; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        texture.image.at(x, y)[channel] =
+            std::uint8_t(std::clamp(light_at(x, y) * tint[channel], 0.0f, 255.0f));
+  return texture;
+}
+
+/// Asphalt: patches, stains and grains; it tiles.
+Texture asphalt_picture() {
+  Random random(3);
+  const TilingNoise patches(3, random), stains(17, random), clouds(96, random), grains(picture_side, random);
+  return grey_picture("asphalt", glm::vec3(1.0f, 1.01f, 1.03f), [&](int x, int y) {
+    const glm::vec2 p = glm::vec2(x, y) / float(picture_side);
+    return 66.0f + 10.0f * patches.at(p) + 7.0f * stains.at(p) + 8.0f * clouds.at(p) + 18.0f * grains.at(p);
+  });
+}
+
+/// Slabs of 30 cm, each with its own tone, in broken bond.
+Texture pavement_picture() {
+  constexpr int slabs = 20;
+  constexpr float slab_pixels = float(picture_side) / slabs;
+  Random random(4);
+  const TilingNoise stains(9, random), grains(picture_side, random);
+  std::vector<float> tones(slabs * slabs);
+  for (float& tone : tones) tone = random.uniform(-9.0f, 9.0f);
+  return grey_picture("pavement", glm::vec3(1.0f, 0.985f, 0.95f), [&](int x, int y) {
+    const float row = float(y) / slab_pixels, column = float(x) / slab_pixels + (int(row) % 2 ? 0.5f : 0.0f);
+    const glm::vec2 p = glm::vec2(x, y) / float(picture_side);
+    const float soil = 22.0f * stains.at(p) + 14.0f * grains.at(p);
+    const bool is_joint = (row - std::floor(row)) < 0.06f || (column - std::floor(column)) < 0.06f;
+    return is_joint ? 92.0f + soil
+                    : 138.0f + soil + tones[std::size_t(int(row) * slabs + int(column) % slabs)];
+  });
+}
+
+Model empty_paving() {
+  Model model;
+  model.name = "paving";
+  model.textures = {pavement_picture(), asphalt_picture()};
+  const auto add = [&](const char* name, glm::vec3 colour, int texture, float roughness) {
+    Material material;
+    material.name = name;
+    material.base_colour = colour;
+    material.base_colour_texture = texture;
+    material.roughness = roughness;
+    Part part;
+    part.object = name;
+    part.material = int(model.materials.size());
+    part.casts_shadow = false;
+    model.materials.push_back(material);
+    model.parts.push_back(part);
+  };
+  add("pavement", glm::vec3(1.0f), 0, 0.9f);
+  add("kerb", glm::vec3(0.33f, 0.32f, 0.30f), no_index, 0.8f);
+  add("carriageway", glm::vec3(1.0f), 1, 0.9f);
+  add("markings", glm::vec3(0.55f), no_index, 0.6f);
+  return model;
+}
+
+/// A ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift` over the
+/// ground.
+void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const GroundHeights& ground,
+                float lift) {
+  const std::uint32_t first = std::uint32_t(mesh.positions.size());
+  const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / step_m)));
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
+    const glm::vec3 right = right_of(after - before);
+    for (std::uint32_t k = 0; k <= strips; ++k) {
+      glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
+      p.z = ground.at(glm::vec2(p), line[i].z) + lift;
+      mesh.positions.push_back(p);
+      mesh.uvs.push_back(glm::vec2(p) / tile_m);
+    }
+  }
+  const std::uint32_t row = strips + 1;
+  for (std::uint32_t i = 0; i + 1 < line.size(); ++i)
+    for (std::uint32_t k = 0; k < strips; ++k) {
+      const std::uint32_t near_left = first + i * row + k, far_left = near_left + row;
+      mesh.indices.insert(mesh.indices.end(),
+                          {near_left, near_left + 1, far_left, near_left + 1, far_left + 1, far_left});
+    }
+}
+
+/// The lane's points at every metre or nearer, on the ground.
+Path laid(const Path& points, const GroundHeights& ground) {
+  const MeasuredPath path(points);
+  const int count = std::max(1, int(std::ceil(path.length() / step_m)));
+  Path result;
+  for (int i = 0; i <= count; ++i) {
+    glm::vec3 p = path.at(path.length() * float(i) / float(count));
+    p.z = ground.at(glm::vec2(p), p.z);
+    result.push_back(p);
+  }
+  return result;
+}
+
+/// Dashes on the left edge of innermost lanes; of two opposite lanes the one that heads east draws them.
+void add_markings(Mesh& mesh, const Lane& lane, const Path& line, bool is_innermost,
+                  const GroundHeights& ground) {
+  const MeasuredPath path(line);
+  const float left_m = -0.5f * lane.width_m;
+  const float lift = paint_lift_m;
+  for (float from = 0.5f * dash_gap_m; is_innermost && from + dash_m < path.length();
+       from += dash_m + dash_gap_m) {
+    const glm::vec3 way = path.direction_at(from);
+    if (way.x > 0.0f || (way.x == 0.0f && way.y > 0.0f))
+      add_ribbon(mesh, path.part(from, from + dash_m), left_m - dash_half_width_m, left_m + dash_half_width_m,
+                 ground, lift);
+  }
+  const bool waits_at_end = lane.next.size() > 1 && path.length() > 6.0f;
+  const float stop_m = path.length() - 2.0f * line_half_width_m;
+  if (waits_at_end)
+    add_ribbon(mesh, path.part(stop_m, path.length()), left_m + 0.15f, 0.5f * lane.width_m, ground, lift);
+}
+
+/// Whether another street lane runs the other way, one lane's width to the left of this one's middle.
+bool has_opposite(const RoadGraph& roads, const Lane& lane) {
+  const MeasuredPath path(lane.points);
+  const float middle_m = 0.5f * path.length();
+  const glm::vec3 way = path.direction_at(middle_m);
+  const glm::vec3 expected = path.at(middle_m) - right_of(way) * lane.width_m;
+  return std::ranges::any_of(roads.lanes, [&](const Lane& other) {
+    if (other.crossing >= 0 || &other == &lane) return false;
+    for (std::size_t i = 0; i + 1 < other.points.size(); ++i) {
+      const glm::vec2 a(other.points[i]), along = glm::vec2(other.points[i + 1]) - a;
+      const float share =
+          std::clamp(glm::dot(glm::vec2(expected) - a, along) / glm::dot(along, along), 0.0f, 1.0f);
+      const bool is_near = glm::distance(a + share * along, glm::vec2(expected)) < 0.3f * lane.width_m;
+      if (is_near && glm::dot(along, glm::vec2(way)) < 0.0f) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace
+
+void pave(Scene& scene) {
+  if (scene.roads.empty()) return;
+  const GroundHeights ground(scene, reach_m);
+  auto model = std::make_shared<Model>(empty_paving());
+  std::vector<Path> lines;
+  for (const Lane& lane : scene.roads.lanes) {
+    lines.push_back(laid(lane.points, ground));
+    const float half_m = 0.5f * lane.width_m + margin_m;
+    const auto lay = [&](Layer layer, float beside_m, float lift_m) {
+      add_ribbon(model->parts[layer].mesh, lines.back(), -half_m - beside_m, half_m + beside_m, ground,
+                 lift_m);
+    };
+    lay(pavement, pavement_m, pavement_lift_m);
+    lay(kerb, kerb_m, kerb_lift_m);
+    lay(asphalt, 0.0f, asphalt_lift_m);
+    if (lane.crossing < 0)
+      add_markings(model->parts[paint].mesh, lane, lines.back(), has_opposite(scene.roads, lane), ground);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (glm::vec3& p : lines[i]) p.z += asphalt_lift_m;
+    scene.roads.lanes[i].points = std::move(lines[i]);
+  }
+  std::erase_if(model->parts, [](const Part& part) { return part.mesh.indices.empty(); });
+  for (Part& part : model->parts) fill_normals(part.mesh);
+
+  Object object;
+  object.name = "paving";
+  object.model = std::move(model);
+  scene.objects.push_back(std::move(object));
+}
+
+}  // namespace parvis::scene

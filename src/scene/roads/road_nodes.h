@@ -1,0 +1,36 @@
+// What this room brings to the house: road, streets, paving; and what they keep in a scene.
+#pragma once
+
+#include "base/content_hash.h"
+#include "base/house.h"
+#include "scene/data/road.h"
+#include "scene/data/room_data.h"
+
+namespace parvis::scene {
+
+/// Adds the node types, and the step that makes lanes of roads.
+void furnish_roads(House& house);
+
+/// A road of the script, in the world, of which lanes are made when all nodes are built.
+struct PlannedRoad {
+  static constexpr std::string_view name = "roads.planned_road";
+  static constexpr DataRole role = DataRole::settings;  // pictures show its paving, which is an object
+  Road road;
+
+  void hash(ContentHash& hash) const {
+    hash.add(road.path);
+    for (const float value : {road.lane_width_m, road.speed_limit}) hash.add(value);
+    for (const int value : {road.lanes_each_way, int(road.is_one_way)}) hash.add(value);
+  }
+};
+
+/// Whether carriageways are laid where lanes are.
+struct Paving {
+  static constexpr std::string_view name = "roads.paving";
+  static constexpr DataRole role = DataRole::settings;
+  bool is_laid = false;
+
+  void hash(ContentHash& hash) const { hash.add(is_laid); }
+};
+
+}  // namespace parvis::scene

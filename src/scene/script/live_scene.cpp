@@ -1,0 +1,304 @@
+#include "scene/script/live_scene.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "scene/script/spelling.h"
+
+namespace parvis::scene {
+namespace {
+
+template <class Nodes, class Visit>
+void for_each_inside(Nodes& nodes, const Visit& visit) {
+  for (auto& node : nodes) {
+    visit(node);
+    for_each_inside(node.children, visit);
+  }
+}
+
+template <class Visit>
+void for_each_from(const Node& node, const Visit& visit) {
+  visit(node);
+  for_each_inside(node.children, visit);
+}
+
+bool is_scenario(const Node& node) { return node.schema->type == "scenario"; }
+
+/// Of a node that is to be seen, or not.
+void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible); }
+
+}  // namespace
+
+LiveScene::LiveScene(Script script) : script_(std::move(script)) {
+  for_each_inside(script_.nodes, [this](Node& node) {
+    if (node.schema->is_unique) by_name_.emplace("%" + node.schema->type, &node);
+    if (node.schema->find("name") && node.gives("name")) by_name_.emplace(node.text("name"), &node);
+    for (const Node& child : node.children) parents_.emplace(&child, &node);
+  });
+  for (std::size_t i = 0; i < script_.object_makers.size(); ++i)
+    if (const Node* maker = script_.object_makers[i]) objects_[maker].push_back(int(i));
+  for (std::size_t i = 0; i < script_.camera_makers.size(); ++i)
+    if (const Node* maker = script_.camera_makers[i]) cameras_[maker].push_back(int(i));
+}
+
+const Node* LiveScene::find(const std::string& name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? nullptr : found->second;
+}
+
+std::vector<int> LiveScene::objects_of(const Node& node) const {
+  std::vector<int> all;
+  for_each_from(node, [&](const Node& each) {
+    if (const auto made = objects_.find(&each); made != objects_.end())
+      all.insert(all.end(), made->second.begin(), made->second.end());
+  });
+  return all;
+}
+
+const Node* LiveScene::maker_of(const Scene& scene, int object) const {
+  for (const auto& [node, made] : objects_)
+    if (std::find(made.begin(), made.end(), object) != made.end()) return node;
+  const std::string& name = scene.objects[std::size_t(object)].name;
+  const Node* maker = nullptr;
+  for_each_inside(script_.nodes, [&](const Node& node) {
+    if (!node.schema->names_made) return;
+    const std::vector<std::string> names = node.schema->names_made(node);
+    if (std::find(names.begin(), names.end(), name) != names.end()) maker = &node;
+  });
+  return maker;
+}
+
+const Node* LiveScene::parent_of(const Node& node) const {
+  const auto parent = parents_.find(&node);
+  return parent == parents_.end() ? nullptr : parent->second;
+}
+
+const NodeFrame& LiveScene::frame_of(const Node& node) const {
+  static const NodeFrame world;
+  const auto found = script_.frames.find(&node);
+  return found == script_.frames.end() ? world : found->second;
+}
+
+/// All nodes are ours to change; others only read them.
+Node& LiveScene::writable(const Node& node) { return const_cast<Node&>(node); }
+
+/// The node, to be changed now and built again at the next refresh.
+Node& LiveScene::change(const Node& node) {
+  changed_.try_emplace(&node, node.attributes);
+  return writable(node);
+}
+
+void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value) {
+  Node& changing = change(node);
+  const std::vector<std::string>& replaced = node.schema->find(attribute)->in_place_of;
+  std::erase_if(changing.attributes, [&](const NodeAttribute& each) {
+    return std::find(replaced.begin(), replaced.end(), each.schema->name) != replaced.end();
+  });
+  changing.set(attribute, std::move(value));
+}
+
+bool LiveScene::receive(const Node& node, const Message& message) {
+  const std::string& name = message.schema->name;
+  const auto show = [this](const Node& target, bool is_visible) { set_visible(change(target), is_visible); };
+  const bool can_hide = node.schema->find("visible") != nullptr;
+  if (can_hide && (name == "show" || name == "hide" || name == "toggle")) {
+    const Node* target =
+        message.arguments.empty() ? &node : find(std::get<std::string>(message.arguments.front()));
+    show(*target, name == "toggle" ? !target->flag("visible") : name == "show");
+  } else if (name == "only") {
+    const Node* chosen = find(std::get<std::string>(message.arguments.front()));
+    for (const Node& child : node.children) {
+      bool holds_chosen = false;
+      for_each_from(child, [&](const Node& inside) { holds_chosen |= &inside == chosen; });
+      if (child.schema->find("visible")) show(child, holds_chosen);
+    }
+  } else if (const AttributeSchema* attribute = node.schema->find(name); attribute && attribute->is_live) {
+    set(node, attribute->name, message.arguments.front());
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::vector<const Node*> LiveScene::scenarios() const {
+  std::vector<const Node*> all;
+  for_each_inside(script_.nodes, [&](const Node& node) {
+    if (is_scenario(node)) all.push_back(&node);
+  });
+  return all;
+}
+
+/// The scenario that it extends, then its own overrides and nodes.
+void LiveScene::change_by(const Node& scenario) {
+  if (scenario.gives("extends")) change_by(*find(scenario.text("extends")));
+  Node& chosen = change(scenario);
+  as_written_.try_emplace(&chosen, chosen.attributes);
+  chosen.set("chosen", true);
+  for (const Node& child : scenario.children) {
+    if (child.schema->takes_attributes_of.empty()) continue;
+    Node& target = change(*find(child.text("of")));
+    as_written_.try_emplace(&target, target.attributes);
+    for (const NodeAttribute& attribute : child.overrides)
+      std::erase_if(target.attributes, [&](const auto& each) { return each.schema == attribute.schema; });
+    target.attributes.insert(target.attributes.end(), child.overrides.begin(), child.overrides.end());
+  }
+}
+
+Status LiveScene::choose(Scene& scene, const std::string& wanted) {
+  const std::string name = wanted == base_scene && !find(wanted) ? "" : wanted;
+  const Node* chosen = name.empty() ? nullptr : find(name);
+  if (!name.empty() && (!chosen || !is_scenario(*chosen))) {
+    std::vector<std::string> known;
+    for (const Node* each : scenarios()) known.push_back(each->text("name"));
+    if (known.empty()) return error("the scene has no scenario \"{}\"; it has none at all", name);
+    return error("the scene has no scenario \"{}\"; it has {}{}", name, fmt::join(known, ", "),
+                 did_you_mean(name, known));
+  }
+  for (auto& [node, attributes] : as_written_) change(*node).attributes = std::move(attributes);
+  as_written_.clear();
+  scenario_ = name;
+  if (chosen) change_by(*chosen);
+  if (Errors errors = refresh(scene); !errors.empty()) return errors;
+  return Done{};
+}
+
+Status LiveScene::prepare_scenarios(Scene& scene) {
+  Errors errors;
+  const Node* first = nullptr;
+  for (const Node* scenario : scenarios()) {
+    if (scenario->flag("chosen")) {
+      if (first)
+        errors.push_back(error_at(scenario->where_of("chosen"),
+                                  "the scene begins with scenario \"{}\" already", first->text("name")));
+      first = scenario;
+    }
+    std::set<const Node*> chain{scenario};
+    const Node* base = scenario;
+    while (base->gives("extends") && chain.insert(find(base->text("extends"))).second)
+      base = find(base->text("extends"));
+    if (base->gives("extends"))
+      errors.push_back(error_at(scenario->where_of("extends"), "scenarios extend each other in a circle"));
+  }
+  if (!errors.empty()) return errors;
+  const std::string begins = first ? first->text("name") : "";
+  if (first) set(*first, "chosen", false);
+  for (const Node* scenario : scenarios())
+    if (Status status = choose(scene, scenario->text("name")); !status)
+      errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+  if (errors.empty()) return choose(scene, begins);
+  return errors;
+}
+
+/// The node that is built again where this one changes: itself, or the one around it that it is a part of.
+/// Null for what stays as it was when the scene was loaded.
+const Node* LiveScene::builder_of(const Node& node) const {
+  if (is_built(node)) return &node;
+  const Node* parent = parent_of(node);
+  const bool is_of_parent = script_.registry->find(node.schema->type)->is_of_parent();
+  return is_of_parent && parent ? builder_of(*parent) : nullptr;
+}
+
+Errors LiveScene::refresh(Scene& scene) {
+  Errors errors;
+  std::map<const Node*, std::vector<const Node*>> changed_by_builder;
+  auto before = std::exchange(changed_, {});
+  for (const auto& [node, attributes] : before) changed_by_builder[builder_of(*node)].push_back(node);
+  for (const auto& [builder, nodes] : changed_by_builder) {
+    Errors met;
+    if (builder) {
+      met = build_again(scene, *builder);
+    } else {
+      for (const Node* node : nodes)
+        met.push_back(error_at(node->where,
+                               "the {} is part of the node around it and stays as it is while the scene runs",
+                               node->schema->type));
+    }
+    if (!met.empty())
+      for (const Node* node : nodes) writable(*node).attributes = std::move(before[node]);
+    errors.insert(errors.end(), met.begin(), met.end());
+  }
+  return errors;
+}
+
+/// Numbers of the node and of those inside it that were built.
+NodeRange LiveScene::range_of(const Node& node) const {
+  NodeRange range{frame_of(node).number, frame_of(node).number};
+  for_each_from(node,
+                [&](const Node& inside) { range.last = std::max(range.last, frame_of(inside).number); });
+  return range;
+}
+
+/// What stands once is written in place; objects, cameras and items are built aside, and then replace those
+/// that the node had made.
+Errors LiveScene::build_again(Scene& scene, const Node& node) {
+  const NodeRange range = range_of(node);
+  SceneBuilder builder(*script_.registry, std::move(script_.models));
+  std::vector<Object> objects = std::exchange(scene.objects, {});
+  std::vector<NamedCamera> cameras = std::exchange(scene.cameras, {});
+  RoomDataSet items = scene.room_data.take_made_by(range);
+  builder.scene = std::move(scene);
+  builder.build_again(node, script_.frames);
+  scene = std::move(builder.scene);
+  std::vector<Object> built_objects = std::exchange(scene.objects, std::move(objects));
+  const std::vector<NamedCamera> built_cameras = std::exchange(scene.cameras, std::move(cameras));
+
+  Errors errors = builder.errors();
+  Script built = std::move(builder).take_script();
+  script_.models = std::move(built.models);
+  if (!errors.empty()) {
+    scene.room_data.take_made_by(range);
+    scene.room_data.put_back(std::move(items));
+    return errors;
+  }
+  for (auto& [inside, frame] : built.frames) script_.frames[inside] = frame;
+  put_objects(scene, std::move(built_objects), built.object_makers, node);
+  put_cameras(scene, built_cameras, built.camera_makers);
+  return {};
+}
+
+/// Each object takes the place of one that the same node made of the same model before, or a new one; places
+/// that are left over are hidden.
+void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
+                            const Node& node) {
+  std::set<int> free;
+  for (const int index : objects_of(node)) {
+    free.insert(index);
+    scene.objects[std::size_t(index)].is_visible = false;
+  }
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    std::vector<int>& places = objects_[makers[i]];
+    const auto place = std::find_if(places.begin(), places.end(), [&](int index) {
+      const Object& object = scene.objects[std::size_t(index)];
+      const bool both_play = (object.played.animation == no_index) == (built[i].played.animation == no_index);
+      return free.count(index) != 0 && object.model == built[i].model && both_play;
+    });
+    if (place == places.end()) {
+      places.push_back(int(scene.objects.size()));
+      scene.objects.push_back(std::move(built[i]));
+    } else {
+      Object& object = scene.objects[std::size_t(*place)];
+      object.name = std::move(built[i].name);
+      object.world_from_model = built[i].world_from_model;
+      object.played = built[i].played;
+      object.is_visible = built[i].is_visible;
+      free.erase(*place);
+    }
+  }
+}
+
+void LiveScene::put_cameras(Scene& scene, const std::vector<NamedCamera>& built,
+                            const std::vector<const Node*>& makers) {
+  std::map<const Node*, std::size_t> used;
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    std::vector<int>& places = cameras_[makers[i]];
+    if (const std::size_t nth = used[makers[i]]++; nth < places.size()) {
+      scene.cameras[std::size_t(places[nth])] = built[i];
+    } else {
+      places.push_back(int(scene.cameras.size()));
+      scene.cameras.push_back(built[i]);
+    }
+  }
+}
+
+}  // namespace parvis::scene

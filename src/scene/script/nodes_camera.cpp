@@ -1,0 +1,112 @@
+// camera: a named place to look from.
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/script/node_registry.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_builder.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::scene {
+namespace {
+
+/// The width over height at which fov_deg is the horizontal field of view.
+constexpr float nominal_aspect = 16.0f / 9.0f;
+
+NodeSchema camera_schema() {
+  return {
+      .type = "camera",
+      .help =
+          "A named place to look from, towards a target or by heading and pitch; or one that stays with a "
+          "moving object.",
+      .attributes = {{.name = "name", .help = "what parvis render --camera takes", .is_required = true},
+                     {.name = "position",
+                      .type = AttributeType::vec3,
+                      .help = "of the eye",
+                      .fallback = "0 0 1.6",
+                      .unit = "m",
+                      .is_live = true},
+                     {.name = "target",
+                      .type = AttributeType::vec3,
+                      .help = "the point to look at",
+                      .unit = "m",
+                      .is_live = true,
+                      .in_place_of = {"heading_deg", "pitch_deg"}},
+                     {.name = "heading_deg",
+                      .type = AttributeType::angle,
+                      .help = "compass direction: 0 north, 90 east",
+                      .fallback = "0",
+                      .unit = "degrees",
+                      .is_live = true,
+                      .in_place_of = {"target"}},
+                     {.name = "pitch_deg",
+                      .type = AttributeType::angle,
+                      .help = "upward from the horizon",
+                      .fallback = "0",
+                      .unit = "degrees",
+                      .minimum = -90,
+                      .maximum = 90,
+                      .is_live = true,
+                      .in_place_of = {"target"}},
+                     {.name = "fov_deg",
+                      .type = AttributeType::angle,
+                      .help = "horizontal field of view at 16:9",
+                      .fallback = "65",
+                      .unit = "degrees",
+                      .minimum = 1,
+                      .maximum = 170,
+                      .is_live = true},
+                     {.name = "follows",
+                      .type = AttributeType::reference,
+                      .help = "name of the object to stay with"},
+                     {.name = "offset",
+                      .type = AttributeType::vec3,
+                      .help = "of the eye from the followed object: forward, left, up",
+                      .fallback = "-7 2.5 1.8",
+                      .unit = "m",
+                      .is_live = true}},
+      .example = "camera(name=\"street\", position=\"12 -4 1.6\", target=\"40 10 4\", fov_deg=60)",
+      .messages = {{"look", "the visitor looks from it", {}}}};
+}
+
+glm::mat4 world_from_camera(const Node& node) {
+  const glm::vec3 eye = node.vec3("position");
+  if (node.gives("target")) {
+    const glm::vec3 view = node.vec3("target") - eye;
+    const bool is_vertical = glm::length(glm::vec2(view)) < 1e-4f * glm::length(view);
+    return look_at(eye, node.vec3("target"),
+                   is_vertical ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f));
+  }
+  // A camera looks along its -z: lying flat it looks down, so it is first raised to the horizon.
+  return glm::translate(glm::mat4(1.0f), eye) * turned(node.angle("heading_deg")) *
+         glm::rotate(glm::mat4(1.0f), glm::half_pi<float>() + node.angle("pitch_deg"),
+                     glm::vec3(1.0f, 0.0f, 0.0f));
+}
+
+/// Without the scale that groups may have: a camera stays rigid.
+glm::mat4 rigid(const glm::mat4& matrix) {
+  glm::mat4 result = matrix;
+  for (int axis = 0; axis < 3; ++axis) result[axis] = glm::normalize(matrix[axis]);
+  return result;
+}
+
+void build_camera(const Node& node, SceneBuilder& builder) {
+  if (node.gives("target") && (node.gives("heading_deg") || node.gives("pitch_deg")))
+    return builder.fail(error_at(node.where_of("target"),
+                                 "a camera takes target= or heading_deg= and pitch_deg=, "
+                                 "not both"));
+  if (node.gives("target") && glm::length(node.vec3("target") - node.vec3("position")) < 1e-4f)
+    return builder.fail(error_at(node.where_of("target"), "the target lies in the eye; move one of them"));
+  NamedCamera camera;
+  camera.name = node.text("name");
+  camera.camera.world_from_camera = rigid(builder.world_from_parent() * world_from_camera(node));
+  camera.camera.vertical_fov = vertical_fov(node.angle("fov_deg"), nominal_aspect);
+  camera.follows = node.text("follows");
+  if (!camera.follows.empty()) camera.offset_m = node.vec3("offset");
+  builder.add(std::move(camera));
+}
+
+}  // namespace
+
+void add_camera_nodes(NodeRegistry& registry) { registry.add(camera_schema(), build_camera); }
+
+}  // namespace parvis::scene

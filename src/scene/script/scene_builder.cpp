@@ -1,0 +1,67 @@
+#include "scene/script/scene_builder.h"
+
+namespace parvis::scene {
+
+void SceneBuilder::add(Object object) {
+  scene.objects.push_back(std::move(object));
+  object_makers_.resize(scene.objects.size(), node_);
+}
+
+void SceneBuilder::add(NamedCamera camera) {
+  scene.cameras.push_back(std::move(camera));
+  camera_makers_.resize(scene.cameras.size(), node_);
+}
+
+void SceneBuilder::build_one(const Node& node) {
+  if (known_frames_ && !node.schema->can_be_built_again()) return;
+  const int number = known_frames_ ? known_frames_->at(&node).number : next_number_++;
+  const Node* outer = std::exchange(node_, &node);
+  const int outer_number = std::exchange(node_number_, number);
+  NodeFrame& frame = frames_[&node] = frame_;
+  frame.number = number;
+  registry_.find(node.schema->type)->build(node, *this);
+  node_ = outer, node_number_ = outer_number;
+}
+
+void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes,
+                         bool is_visible) {
+  const NodeFrame outer = frame_;
+  frame_.world_from_nodes = outer.world_from_nodes * parent_from_nodes;
+  frame_.is_visible = outer.is_visible && is_visible;
+  for (const Node& node : nodes) build_one(node);
+  frame_ = outer;
+}
+
+void SceneBuilder::build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames) {
+  known_frames_ = &frames;
+  frame_ = frames.at(&node);
+  build_one(node);
+}
+
+Script SceneBuilder::take_script() && {
+  object_makers_.resize(scene.objects.size(), nullptr);
+  return {&registry_,        {}, std::move(frames_), std::move(object_makers_), std::move(camera_makers_),
+          std::move(models_)};
+}
+
+std::shared_ptr<const Model> SceneBuilder::shared_model(
+    const std::string& key, const std::function<std::shared_ptr<const Model>()>& make) {
+  const auto known = models_.find(key);
+  if (known != models_.end()) return known->second;
+  return models_[key] = make();
+}
+
+void SceneBuilder::fail(const Errors& errors, const FileLocation& where) {
+  for (const Error& error : errors)
+    errors_.push_back(error.where.file.empty() ? Error{error.message, where}
+                                               : error_at(where, "{}", to_string(error)));
+}
+
+Result<LoadedScene> SceneBuilder::finish() && {
+  for (const FinishStep& step : registry_.finish_steps()) step(*this);
+  if (!errors_.empty()) return std::move(errors_);
+  Script script = std::move(*this).take_script();
+  return LoadedScene{std::move(scene), std::move(warnings_), std::move(script)};
+}
+
+}  // namespace parvis::scene

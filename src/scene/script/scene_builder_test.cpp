@@ -1,0 +1,179 @@
+// What a room brings to scripts: here a test room with a fountain, which has jets as its parts, and a step
+// that finishes the scene. Nothing outside this file knows them.
+#include "scene/script/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include "base/test_folder.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/live_scene.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::scene {
+namespace {
+
+/// An item: one jet of a fountain, in the world.
+struct Jet {
+  static constexpr std::string_view name = "test.jet";
+  static constexpr DataRole role = DataRole::static_content;
+  glm::vec3 foot;
+  float height_m;
+
+  void hash(ContentHash& hash) const {
+    hash.add(foot);
+    hash.add(height_m);
+  }
+};
+
+/// A value: what the finish step has counted.
+struct WaterNeed {
+  static constexpr std::string_view name = "test.water_need";
+  static constexpr DataRole role = DataRole::settings;
+  float metres_of_jets = 0.0f;
+
+  void hash(ContentHash& hash) const { hash.add(metres_of_jets); }
+};
+
+NodeSchema jet_schema() {
+  return {.type = "jet",
+          .help = "One jet.",
+          .attributes = {{.name = "height",
+                          .type = AttributeType::number,
+                          .help = "of the water",
+                          .fallback = "2",
+                          .minimum = 0,
+                          .maximum = 9,
+                          .is_live = true}},
+          .stands_in = {"fountain"},
+          .example = "fountain() { jet(height=3) }"};
+}
+
+NodeSchema fountain_schema() {
+  NodeSchema schema{.type = "fountain",
+                    .help = "Water.",
+                    .attributes = placement_attributes(),
+                    .example = "fountain()",
+                    .messages = {{"rinse", "empties the basin", {}}}};
+  schema.attributes.insert(schema.attributes.begin(), {.name = "name", .help = "by which others call it"});
+  schema.attributes.push_back(visible_attribute());
+  return schema;
+}
+
+void build_fountain(const Node& node, SceneBuilder& builder) {
+  const glm::mat4 world_from_fountain = builder.world_from_parent() * placement(node);
+  Object basin;
+  basin.name = node.text("name");
+  basin.model = builder.shared_model("basin", [] { return model_of(ground(1.0f), {}); });
+  basin.world_from_model = world_from_fountain;
+  basin.is_visible = builder.is_visible() && node.flag("visible");
+  builder.add(std::move(basin));
+  for (const Node& jet : node.children) {
+    if (jet.number("height") == 0.0) return builder.fail(error_at(jet.where, "a jet without water"));
+    builder.add(Jet{glm::vec3(world_from_fountain[3]), float(jet.number("height"))});
+  }
+}
+
+void furnish(House& house) {
+  NodeRegistry& registry = house.get<NodeRegistry>();
+  registry.add(fountain_schema(), build_fountain);
+  registry.add_part(jet_schema());
+  registry.add_finish_step([](SceneBuilder& builder) {
+    for (const Jet& jet : builder.scene.items<Jet>())
+      builder.scene.data<WaterNeed>().metres_of_jets += jet.height_m;
+    if (builder.scene.data<WaterNeed>().metres_of_jets > 100.0f) builder.fail(error("not so much water"));
+  });
+}
+
+class SceneBuilderTest : public testing::Test {
+ protected:
+  SceneBuilderTest() { furnish_script(house_), furnish(house_); }
+
+  Result<LoadedScene> read(const std::string& script) {
+    return load_scene(folder_.write("scene.xp", script), house_.get<NodeRegistry>());
+  }
+  void load(const std::string& script) {
+    Result<LoadedScene> loaded = read(script);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    scene_ = std::move(loaded->scene);
+    live_ = LiveScene(std::move(loaded->script));
+  }
+  /// Heights of all jets, in the scene's order.
+  std::vector<float> heights() const {
+    std::vector<float> all;
+    for (const Jet& jet : scene_.items<Jet>()) all.push_back(jet.height_m);
+    return all;
+  }
+
+  TestFolder folder_;
+  House house_;
+  Scene scene_;
+  LiveScene live_;
+};
+
+const std::string three =
+    "fountain(name=a, position=\"1 0 0\") { jet(height=1) jet(height=2) }\n"
+    "group(name=g, position=\"10 0 0\") { fountain(name=b) { jet(height=3) } }\n"
+    "fountain(name=c) { jet(height=4) }\n";
+
+TEST_F(SceneBuilderTest, ItemsStandInTheOrderOfTheScript) {
+  load(three);
+  EXPECT_EQ(heights(), (std::vector{1.0f, 2.0f, 3.0f, 4.0f}));
+  EXPECT_EQ(scene_.objects.size(), 3u);
+  EXPECT_EQ(scene_.items<Jet>()[2].foot, glm::vec3(10, 0, 0));
+}
+
+TEST_F(SceneBuilderTest, AChangeReplacesExactlyWhatTheNodeMade) {
+  load(three);
+  live_.set(*live_.find("g"), "position", glm::vec3(20, 0, 0));
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(heights(), (std::vector{1.0f, 2.0f, 3.0f, 4.0f}));
+  EXPECT_EQ(scene_.items<Jet>()[2].foot, glm::vec3(20, 0, 0));
+  EXPECT_EQ(scene_.items<Jet>()[0].foot, glm::vec3(1, 0, 0));
+  ASSERT_EQ(scene_.objects.size(), 3u);
+  EXPECT_EQ(scene_.objects[1].world_from_model[3].x, 20.0f);
+}
+
+TEST_F(SceneBuilderTest, AChangedPartBuildsTheNodeAroundItAgain) {
+  load(three);
+  live_.set(live_.find("a")->children[1], "height", 7.0);
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(heights(), (std::vector{1.0f, 7.0f, 3.0f, 4.0f}));
+}
+
+TEST_F(SceneBuilderTest, WhatCannotBeBuiltAgainStaysAsItWas) {
+  load(three);
+  live_.set(live_.find("a")->children[1], "height", 0.0);
+  const Errors errors = live_.refresh(scene_);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].message.find("without water"), std::string::npos);
+  EXPECT_EQ(heights(), (std::vector{1.0f, 2.0f, 3.0f, 4.0f}));
+  EXPECT_EQ(live_.find("a")->children[1].number("height"), 2.0);
+}
+
+TEST_F(SceneBuilderTest, FinishStepsSeeTheWholeSceneOnce) {
+  load(three);
+  EXPECT_EQ(scene_.data<WaterNeed>().metres_of_jets, 10.0f);
+  live_.set(*live_.find("c"), "position", glm::vec3(1));
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(scene_.data<WaterNeed>().metres_of_jets, 10.0f);
+  std::string much = "fountain() {";
+  for (int i = 0; i < 12; ++i) much += " jet(height=9)";
+  const Result<LoadedScene> refused = read(much + " }");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.errors()).find("not so much water"), std::string::npos);
+}
+
+TEST_F(SceneBuilderTest, ANodeStandsInAnotherRoomsNodeWhereThatRoomAllowsIt) {
+  const std::string inside = "fountain() { camera(name=wet) }";
+  const Result<LoadedScene> refused = read(inside);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.errors()).find("camera does not stand in fountain, which takes jet"),
+            std::string::npos);
+  house_.get<NodeRegistry>().allow("camera", "fountain");
+  EXPECT_EQ(house_.get<NodeRegistry>().children_of("fountain"), (std::vector<std::string>{"camera", "jet"}));
+}
+
+}  // namespace
+}  // namespace parvis::scene

@@ -1,0 +1,26 @@
+// From files of script to checked nodes: reads a script and those it includes, and holds every node to its
+// schema.
+#pragma once
+
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/result.h"
+#include "scene/script/node.h"
+#include "scene/script/node_registry.h"
+
+namespace parvis::scene {
+
+/// Limits on a script with all that it includes: a few short files that include each other twice would else
+/// be endless.
+inline constexpr std::size_t max_scene_nodes = 500'000;
+inline constexpr std::size_t max_included_files = 10'000;  ///< a file that is included twice counts twice
+inline constexpr std::size_t max_include_depth = 16;
+
+/// The top-level nodes of `script`. Every error of every file is told: syntax, unknown types and attributes,
+/// values, files that are missing or lie outside `roots`, repeated names, references to nothing, cyclic
+/// includes.
+Result<std::vector<Node>> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
+                                       const Roots& roots);
+
+}  // namespace parvis::scene
