@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "bench/judged_body.h"
-#include "formats/readers/model_source.h"
+#include "formats/meshes/assimp_reader.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "scene/data/test_scene.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "capture/trees/tree_volume.h"
-#include "scene/model.h"
+#include "scene/data/model.h"
 
 namespace parvis::trees {
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
-#include "graphics/render/cube_map.h"
 #include "graphics/render/renderer.h"
 #include "graphics/render/test_quads.h"
+#include "reflections/methods/cube_map.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::render {

@@ -9,7 +9,7 @@
 
 #include "base/random.h"
 #include "base/test_data.h"
-#include "formats/readers/model_source.h"
+#include "formats/meshes/assimp_reader.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/surface_rays.h"
