@@ -20,7 +20,6 @@ namespace parvis::bench {
 namespace {
 
 using namespace reflection_search;
-using namespace reflector_maps;
 using namespace virtual_objects;
 using Search = ReflectionSearch<Ellipsoid>;
 

@@ -12,6 +12,7 @@ namespace parvis::bench {
 namespace {
 
 using namespace reflection_search;
+using namespace reflector_maps;
 
 constexpr int map_side = 512;
 constexpr std::size_t most_maps = 200;

@@ -59,6 +59,7 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
 
 Status Stage::set_reflection(const methods::Settings& reflection) {
   methods::settings(play_.scene) = shown_reflection_ = reflection;
+  renderer_->set_budget(double(reflection.budget_ms));
   Result<std::unique_ptr<methods::Reflections>> made = method_registry().make(play_.scene, *renderer_);
   if (!made) return made.errors();
   if (Status status = renderer_->set_reflection(made->get()); !status) return status;

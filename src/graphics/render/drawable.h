@@ -42,7 +42,7 @@ class Drawable {
   virtual Extents extents() const = 0;
 
   /// What it wants of the frame's time for the main view: levels of detail, each with its cost and its worth.
-  /// The renderer writes into `level` what each gets (the best where the scene has no budget), before
+  /// The renderer writes into `level` what each gets (the best where it has no budget), before
   /// `prepare`. The span stays valid until then.
   virtual std::span<QualityWish> quality_wishes(const View& /*main_view*/, const Culling&) { return {}; }
 

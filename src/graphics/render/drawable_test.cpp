@@ -257,11 +257,11 @@ TEST_F(DrawableTest, LevelsOfDetailShareOneBudget) {
   draw();
   EXPECT_EQ(large.prepared_with, 2) << "no budget: the best";
   EXPECT_EQ(small.prepared_with, 2);
-  scene_.reflection.budget_ms = 25.0f;
+  renderer_->set_budget(25.0);
   draw();
   EXPECT_EQ(large.prepared_with, 2);
   EXPECT_EQ(small.prepared_with, 1) << "what is left of 25 ms";
-  scene_.reflection.budget_ms = 6.0f;
+  renderer_->set_budget(6.0);
   draw();
   EXPECT_EQ(large.prepared_with, 1);
   EXPECT_EQ(small.prepared_with, 0);

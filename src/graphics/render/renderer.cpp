@@ -187,7 +187,6 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
   }
   if (light_->update(scene)) ++fixed_changes_;
   exposure_ = scene.exposure;
-  budget_ms_ = double(scene.reflection.budget_ms);
   body_shade_ = shading::make_body_shade(
       has_moving_shade ? std::span<const shading::Body>(bodies_) : std::span<const shading::Body>(),
       camera.position_in_world());

@@ -43,6 +43,9 @@ class Renderer {
   /// owned.
   Status set_reflection(SurfaceShader* shader) { return scene_.set_reflection(shader); }
 
+  /// Time of a frame (ms) that levels of detail of drawables must keep to; 0: each gets its best.
+  void set_budget(double budget_ms) { budget_ms_ = budget_ms; }
+
   /// Takes over what moved and the light, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
   /// The same for pictures of what stands still: what moves throws no shade.

@@ -8,7 +8,6 @@
 #include "reflections/virtual_objects/virtual_grid.h"
 
 namespace parvis::virtual_objects {
-using namespace reflection_search;
 using namespace reflector_maps;
 namespace {
 
