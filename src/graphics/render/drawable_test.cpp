@@ -199,7 +199,7 @@ TEST_F(DrawableTest, CubeFacesShowIt) {
   make_renderer();
   renderer_->begin_frame(scene_, camera_);
   constexpr int resolution = 32;
-  CubeMap map(resolution);
+  methods::CubeMap map(resolution);
   const glm::vec3 centre(0.3f, 0, 3);
   const auto middle_of = [&](int face, Subjects subjects, const std::vector<std::uint8_t>* shown = nullptr) {
     map.draw_face(*renderer_, face, centre, -1, subjects, shown);

@@ -56,7 +56,7 @@ TEST(Relief, LightComesInWhereTheOpeningLetsIt) {
 
 TEST(Relief, CoordinatesMoveAsTheTexturesEdgesSay) {
   // A texture of 4 by 2 metres on a wall that faces south; the view sinks at 45 degrees toward the east.
-  Groove::TextureFrame frame{vec3(4, 0, 0), vec3(0, 0, 2), vec2(1, 0), vec2(0, -1)};
+  TextureFrame frame{vec3(4, 0, 0), vec3(0, 0, 2), vec2(1, 0), vec2(0, -1)};
   const vec3 normal(0, -1, 0), direction = normalize(vec3(1, 1, 0));
   const vec2 moved = Groove().uv_through_relief(frame, normal, direction, 0.2f);
   EXPECT_NEAR(moved.x, 0.05f, 1e-5f);
