@@ -131,6 +131,7 @@ float visible_light(SeenPoint seen) {
 #endif
 }
 
+#ifndef WRITES_SURFACE  // a file that writes something else has no reflections to ask for: references would not link
 // Radiance toward the viewer, through the haze; `sun`: what the surface's own shape lets in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   SceneLight light = scene_light();
@@ -151,6 +152,7 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
                                 base_reflection, coat_reflection);
   return through_haze(light_out, seen.distance_m, light.haze_per_m, light.haze_radiance);
 }
+#endif
 
 void main() {
   SeenPoint seen = seen_point();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
+#include "reflections/reference_maps/room.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
 #include "scene/script/scene_loader.h"
@@ -42,7 +43,7 @@ TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {
 }
 
 TEST_F(ReferenceMapNodeTest, WithoutItMapsPlaceThemselves) {
-  const auto loaded = load("road(path=\"-50 0, 50 0\")\nreflection(maps=3)");
+  const auto loaded = load("road(path=\"-50 0, 50 0\")");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   EXPECT_TRUE(map_plan(loaded->scene).places.empty());
   EXPECT_FALSE(map_plan(loaded->scene).is_compressed);
