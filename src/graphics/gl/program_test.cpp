@@ -18,7 +18,7 @@ TEST(ShaderText, HoldsEachIncludedFileOnce) {
   const Result<std::string> text =
       shader_text("graphics/render/surface.frag", {}, Dialect::desktop_450, files);
   ASSERT_TRUE(text) << to_string(text.errors());
-  EXPECT_EQ(count(*text, "uniform Frame"), 1u);
+  EXPECT_EQ(count(*text, "UNIFORM_BLOCK(Frame)"), 1u);
   EXPECT_EQ(text->find("#include"), std::string::npos);
   EXPECT_TRUE(text->starts_with("#version 450 core"));
 }
