@@ -5,6 +5,7 @@
 #include "bench/reflection_cost.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/test_room.h"
+#include "house/rooms.h"
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 #include "reflections/reflector_maps/settings.h"
@@ -154,7 +155,7 @@ Status measure_cost(bool is_quick, Report& report) {
     return Done{};
   }
   scene::Scene scene = balls_round_a_mirror();
-  Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene, house::drawables());
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
   Result<std::unique_ptr<methods::Reflections>> reflections = make_virtual_objects(scene, renderer);

@@ -27,7 +27,8 @@ void make_maps(house::Stage& stage, const JudgedMethod& method, const Camera& ca
 
 Status keep_maps(scene::Scene scene, const methods::Settings& reflection) {
   methods::settings(scene) = reflection;
-  const Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  const Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, house::drawables());
   if (!renderer) return renderer.errors();
   const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
   const Result<reference_maps::ReferenceMaps> maps =

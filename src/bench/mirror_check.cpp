@@ -136,7 +136,7 @@ class SwappedFaces final : public probes::CubeMapReflections {
 };
 
 Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene, house::drawables());
   if (!renderer) return renderer.errors();
   std::unique_ptr<methods::Reflections> reflections;
   if (swaps_faces)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/house.h"
+#include "graphics/render/drawables.h"
 #include "reflections/methods/registry.h"
 #include "scene/script/node_registry.h"
 
@@ -12,6 +13,8 @@ const House& all_rooms();
 
 /// The types of nodes that scripts may use.
 inline const scene::NodeRegistry& node_registry() { return all_rooms().get<scene::NodeRegistry>(); }
+/// What rooms draw by themselves. Every scene that is to be drawn or traced is furnished with it first.
+inline const render::Drawables& drawables() { return all_rooms().get<render::Drawables>(); }
 /// The methods of reflection.
 inline const methods::Registry& method_registry() { return all_rooms().get<methods::Registry>(); }
 

@@ -24,6 +24,7 @@ Result<Camera> Play::camera(const std::string& name) const {
 }
 
 Play make_play(scene::Scene scene) {
+  drawables().furnish(scene);
   traffic::Traffic traffic(scene);
   Play play{std::move(scene), std::move(traffic), {}, false, 0.0};
   for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
@@ -49,7 +50,7 @@ Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
 
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   if (Status status = method_registry().prepare(play.scene); !status) return status.errors();
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(play.scene);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(play.scene, drawables());
   if (!renderer) return renderer.errors();
   std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
