@@ -6,6 +6,7 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
+#include "house/rooms.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
 
