@@ -64,7 +64,7 @@ std::filesystem::path named_after(const std::filesystem::path& output, std::stri
 Status render_one(house::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
                   int height) {
   if (!arguments.tour.empty()) {
-    const Result<double> length_s = stage.play().actions.start_tour(arguments.tour);
+    const Result<double> length_s = stage.play().actions().start_tour(arguments.tour);
     if (!length_s) return length_s.errors();
     if (arguments.seconds == 0.0) arguments.seconds = *length_s;
   }

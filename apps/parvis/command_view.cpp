@@ -22,7 +22,7 @@ Status view(Arguments& arguments) {
   Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   if (!arguments.tour.empty())
-    if (const Result<double> length = play->actions.start_tour(arguments.tour); !length)
+    if (const Result<double> length = play->actions().start_tour(arguments.tour); !length)
       return length.errors();
   return viewer::show(*std::move(play), window);
 }

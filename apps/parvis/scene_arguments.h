@@ -59,17 +59,13 @@ struct SceneArguments {
   Result<house::Play> open_play() const {
     Result<house::Play> play = house::open_play(scene, data);
     if (!play) return play.errors();
-    if (!method.empty()) {
-      const std::vector<std::string> names = house::method_registry().names();
-      if (std::find(names.begin(), names.end(), method) == names.end())
-        return error("--reflection {}: expected one of {}", method, fmt::join(names, ", "));
-      methods::settings(play->scene).method = method;
-    }
-    action::Actions& actions = play->actions;
+    scene::LiveScene& live = play->live();
+    if (!method.empty())
+      if (const Status status = live.hold(live.unique_node("reflection"), "method", method); !status)
+        return error("--reflection: {}", status.errors().front().message);
     if (!scenarios.empty())
-      if (Status status = actions.live().choose(play->scene, scenarios.front()); !status)
-        return status.errors();
-    if (Status status = plan_presses(actions); !status) return status.errors();
+      if (Status status = live.choose(play->scene, scenarios.front()); !status) return status.errors();
+    if (Status status = plan_presses(play->actions()); !status) return status.errors();
     play->advance(time_s);
     return play;
   }

@@ -2,7 +2,7 @@
 
 #include "base/random.h"
 #include "graphics/render/frustum.h"
-#include "life/traffic/demand.h"
+#include "life/traffic/traffic_process.h"
 
 namespace parvis::bench {
 namespace {
@@ -69,7 +69,8 @@ Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width,
         const int seen = reflectors_seen(stage, camera, width, height);
         if (seen < least || seen > most) continue;
         report.note(fmt::format("{} cars, {} seen, from {} m above a street, after {} s",
-                                stage.play().traffic.vehicle_count(), seen, height_m, second));
+                                stage.play().clock.find<traffic::TrafficProcess>()->traffic().vehicle_count(),
+                                seen, height_m, second));
         return camera;
       }
     stage.play().advance(1.0);

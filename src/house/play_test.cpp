@@ -87,5 +87,27 @@ TEST_F(PlayTest, CamerasStandOrFollow) {
   EXPECT_NE(to_string(absent.errors()).find("rider"), std::string::npos) << "tells which there are";
 }
 
+// What `--reflection` does (apps/parvis/scene_arguments.h).
+TEST_F(PlayTest, TheMethodOfTheCommandLineHoldsInAScenarioThatNamesAnother) {
+  for (const char* own : {"reflection(method=none)\n", ""}) {
+    const std::string names_another =
+        *own ? "override(of=\"%reflection\", method=box_projected_probe)" : "camera(name=inside)";
+    Result<Play> play =
+        open_play(folder_.write("scene.xp",
+                                own + ("camera(name=eye)\nscenario(name=other) { " + names_another + " }\n")),
+                  {});
+    ASSERT_TRUE(play) << to_string(play.errors());
+    scene::LiveScene& live = play->live();
+    const scene::Node& reflection = live.unique_node("reflection");
+    const Status unknown = live.hold(reflection, "method", "mirrors");
+    ASSERT_FALSE(unknown);
+    EXPECT_NE(to_string(unknown.errors()).find("shared_cube_map"), std::string::npos) << "names the methods";
+    ASSERT_TRUE(live.hold(reflection, "method", "shared_cube_map"));
+    ASSERT_TRUE(live.choose(play->scene, "other"));
+    EXPECT_EQ(reflection.text("method"), "shared_cube_map");
+    EXPECT_EQ(methods::settings(play->scene).method, "shared_cube_map");
+  }
+}
+
 }  // namespace
 }  // namespace parvis::house

@@ -2,47 +2,43 @@
 
 #include "graphics/render/frame_views.h"
 #include "reflections/methods/settings.h"
-#include "scene/data/object_animation.h"
 
 namespace parvis::house {
+namespace {
 
-Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
-  if (!traffic_is_paused) traffic.step(float(seconds));
-  traffic.place(scene);
-  actions.advance(scene, seconds, visitor);
-  time_s += seconds;
-  scene::animate(scene, time_s);
-  Errors warnings = actions.take_warnings();
+Errors reported(Errors warnings) {
   for (const Error& warning : warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
   return warnings;
 }
 
+}  // namespace
+
+Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
+  clock.advance(scene, seconds, {visitor});
+  return reported(clock.take_warnings());
+}
+
 Result<Camera> Play::camera(const std::string& name) const {
   if (name.empty())
-    if (const std::optional<Camera> camera = actions.camera(scene)) return *camera;
+    if (const std::optional<Camera> camera = actions().camera(scene)) return *camera;
   return scene_camera(scene, name);
 }
 
-Play make_play(scene::Scene scene) {
+Play make_play(scene::Scene scene, scene::LiveScene live) {
   drawables().furnish(scene);
-  traffic::Traffic traffic(scene);
-  Play play{std::move(scene), std::move(traffic), {}, false, 0.0};
-  for (const std::string& warning : play.traffic.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-  play.traffic.add_vehicles(play.scene);
-  scene::animate(play.scene, 0.0);
-  return play;
+  action::SceneClock clock(all_rooms().get<action::Processes>(), std::move(live), scene);
+  reported(clock.take_warnings());
+  return {std::move(scene), std::move(clock)};
 }
 
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders) {
   Result<scene::LoadedScene> loaded = scene::load_scene(script, node_registry(), data_folders);
   if (!loaded) return loaded.errors();
-  for (const Error& warning : loaded->warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
+  reported(loaded->warnings);
   scene::LiveScene live(std::move(loaded->script));
   if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
-  Play play = make_play(std::move(loaded->scene));
-  play.actions = action::Actions(std::move(live), play.scene);
-  return play;
+  return make_play(std::move(loaded->scene), std::move(live));
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)

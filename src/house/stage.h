@@ -13,20 +13,21 @@
 #include "graphics/render/picture_scale.h"
 #include "house/rooms.h"
 #include "house/scene_camera.h"
-#include "life/traffic/traffic.h"
 #include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
+#include "scene/action/scene_clock.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::house {
 
-/// A scene with its traffic and what its script lets happen.
+/// A scene that runs: with its processes, which the clock drives.
 struct Play {
   scene::Scene scene;
-  traffic::Traffic traffic;
-  action::Actions actions;
-  bool traffic_is_paused = false;  ///< vehicles stand still; all else goes on
-  double time_s = 0.0;             ///< since the scene began
+  action::SceneClock clock;
+
+  scene::LiveScene& live() { return clock.live(); }
+  const scene::LiveScene& live() const { return clock.live(); }
+  action::Actions& actions() const { return *clock.find<action::Actions>(); }
 
   /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Gives warnings, which it
   /// tells on standard error, too.
@@ -37,8 +38,9 @@ struct Play {
   /// Errors name the cameras that there are.
   Result<Camera> camera(const std::string& name) const;
 };
-/// Puts a scene's traffic on its roads; tells warnings on standard error.
-Play make_play(scene::Scene scene);
+/// Begins the processes of a scene; `live` holds the nodes of its script. Warnings are written to standard
+/// error.
+Play make_play(scene::Scene scene, scene::LiveScene live = scene::LiveScene(node_registry()));
 /// The same of a script.
 Result<Play> open_play(const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
@@ -57,7 +59,7 @@ class Stage {
   gl::PassTimes& pass_times() { return pass_times_; }
 
   /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
-  Status choose_scenario(const std::string& name) { return play_.actions.live().choose(play_.scene, name); }
+  Status choose_scenario(const std::string& name) { return play_.live().choose(play_.scene, name); }
   /// Changes the method of reflection.
   Status set_reflection(const methods::Settings& reflection);
 

@@ -32,7 +32,7 @@ class NodeRowsTest : public testing::Test {
     if (play) play_ = std::make_unique<house::Play>(*std::move(play));
   }
 
-  scene::LiveScene& live() { return play_->actions.live(); }
+  scene::LiveScene& live() { return play_->live(); }
   const scene::Node& node(const std::string& name) { return *live().find(name); }
 
   /// "group trees" for each row, a dash before it for each level.
@@ -113,7 +113,7 @@ TEST_F(NodeRowsTest, EditsAreMessagesThatTheNodeTakes) {
   const auto edited = [this](const char* of, const char* attribute, std::array<double, 3> numbers) {
     AttributeRow edit = row(of, attribute);
     edit.numbers = numbers;
-    const Status status = play_->actions.send(node(of), edit_message(edit));
+    const Status status = play_->clock.send(node(of), edit_message(edit));
     EXPECT_TRUE(status) << to_string(status.errors());
     return edit_message(edit);
   };

@@ -126,7 +126,7 @@ void Panel::draw_visit(Visit& visit) {
   ImGui::EndDisabled();
 
   names.clear();
-  add_tours(visit.actions().live().nodes(), names);
+  add_tours(visit.live().nodes(), names);
   ImGui::BeginDisabled(names.empty());
   if (const auto chosen = rows_.choice("Tour", names, names.empty() ? "the scene has none" : "start ..."))
     visit.start_tour(names[*chosen]);
@@ -134,10 +134,10 @@ void Panel::draw_visit(Visit& visit) {
 }
 
 void Panel::draw_scenarios(Visit& visit) {
-  const std::vector<const scene::Node*> scenarios = visit.actions().live().scenarios();
+  const std::vector<const scene::Node*> scenarios = visit.live().scenarios();
   rows_.heading("Scenarios");
   if (scenarios.empty()) return rows_.remark("The scene has none.");
-  const std::string now = visit.actions().live().scenario();
+  const std::string now = visit.live().scenario();
   if (ImGui::RadioButton("As it is", now.empty())) visit.show_scenario("");
   rows_.note_place("scenario base");
   for (const scene::Node* scenario : scenarios) {
@@ -172,11 +172,11 @@ void Panel::draw_light(Visit& visit) {
 }
 
 void Panel::draw_traffic(Visit& visit) {
-  const std::size_t count = visit.stage().play().traffic.vehicle_count();
   rows_.heading("Traffic");
-  if (count == 0) return rows_.remark("The scene has none.");
+  const std::string vehicles = visit.traffic() ? visit.traffic()->status() : "";
+  if (vehicles.empty()) return rows_.remark("The scene has none.");
   const bool is_paused = visit.traffic_is_paused();
-  rows_.remark(fmt::format("{} vehicles{}", count, is_paused ? ", halted" : ""));
+  rows_.remark(fmt::format("{}{}", vehicles, is_paused ? ", halted" : ""));
   const auto pressed = rows_.buttons({is_paused ? "Go on" : "Halt", "Step 0.1 s"}, is_paused ? 0 : 2);
   if (pressed == 0u) visit.pause_traffic(!is_paused);
   if (pressed == 1u) visit.step_traffic();

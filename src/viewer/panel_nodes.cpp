@@ -76,7 +76,7 @@ void PanelNodes::draw(Visit& visit, PanelRows& rows) {
 }
 
 void PanelNodes::draw_tree(Visit& visit, PanelRows& rows) {
-  const std::vector<NodeRow> nodes = node_rows(visit.actions().live(), open_, filter_);
+  const std::vector<NodeRow> nodes = node_rows(visit.live(), open_, filter_);
   if (nodes.empty())
     rows.remark(filter_.empty() ? "The scene has no nodes: it was not made by a script."
                                 : "No node has such a name or kind.");
@@ -142,7 +142,7 @@ void PanelNodes::draw_attributes(Visit& visit, PanelRows& rows) {
       (chosen_->schema->type + " " + (chosen_->schema->find("name") ? chosen_->text("name") : "")).c_str());
   rows.remark(chosen_->schema->help);
   std::map<std::string, std::vector<AttributeRow>> rows_by_reason;  // those without one come first
-  for (AttributeRow& row : attribute_rows(visit.actions().live(), *chosen_))
+  for (AttributeRow& row : attribute_rows(visit.live(), *chosen_))
     rows_by_reason[row.fixed_because].push_back(std::move(row));
   ImGui::PushID(chosen_);
   for (const auto& [fixed_because, some_rows] : rows_by_reason) {

@@ -158,12 +158,12 @@ TEST_F(PanelTest, ThePageOfTheVisitIsGolden) {
 
 TEST_F(PanelTest, AScenarioIsSwitchedByAClick) {
   click("scenario green");
-  EXPECT_EQ(visit_->actions().live().scenario(), "green");
+  EXPECT_EQ(visit_->live().scenario(), "green");
   EXPECT_TRUE(sees("plane"));
   visit_->pause_traffic(true);
   expect_golden("panel-scenario");
   click("scenario base");
-  EXPECT_EQ(visit_->actions().live().scenario(), "");
+  EXPECT_EQ(visit_->live().scenario(), "");
   EXPECT_FALSE(sees("plane"));
 }
 
@@ -300,12 +300,11 @@ TEST_F(PanelTest, WhatIsClickedInThePictureIsChosenInTheTree) {
   const auto& all = visit_->scene().objects;
   const auto vehicle =
       std::find_if(all.begin(), all.end(), [](const auto& each) { return each.name == "vehicle 1"; });
-  EXPECT_EQ(visit_->actions().live().maker_of(visit_->scene(), int(vehicle - all.begin())),
-            &node("%traffic"));
+  EXPECT_EQ(visit_->live().maker_of(visit_->scene(), int(vehicle - all.begin())), &node("%traffic"));
   EXPECT_EQ(visit_->node_at({160, 0}), nullptr) << "the sky";
   EXPECT_EQ(visit_->node_at({-1, 999}), nullptr);
 
-  panel_->choose(visit_->actions().live(), node("oak"));
+  panel_->choose(visit_->live(), node("oak"));
   for (int i = 0; i < 3; ++i) frame();
   EXPECT_EQ(panel_->chosen(), &node("oak"));
   EXPECT_TRUE(panel_->places().contains("node oak")) << "its group is open";

@@ -70,7 +70,7 @@ class SquareTest : public gl::ContextTest {
   /// Lets time pass in which nobody touches anything.
   void wait(float seconds = 1.0f / 30.0f) { visit_->step({}, seconds); }
 
-  const scene::Node& node(const std::string& name) { return *visit_->actions().live().find(name); }
+  const scene::Node& node(const std::string& name) { return *visit_->live().find(name); }
   bool sees(const std::string& name) const {
     for (const scene::Object& object : visit_->scene().objects)
       if (object.name == name) return object.is_visible;

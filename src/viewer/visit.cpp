@@ -71,8 +71,8 @@ void Visit::follow_next_vehicle() {
 }
 
 void Visit::look_from(const std::string& camera) {
-  if (const scene::Node* node = actions().live().find(camera); node && node->schema->type == "camera")
-    return report(actions().send(*node, "look"), "");
+  if (const scene::Node* node = live().find(camera); node && node->schema->type == "camera")
+    return report(stage_.play().clock.send(*node, "look"), "");
   const Result<Camera> found = stage_.camera(camera);
   if (!found) return notice_error(to_string(found.errors()));
   actions().release_view();
@@ -89,11 +89,11 @@ void Visit::show_scenario(const std::string& name) {
 }
 
 void Visit::show_next_scenario() {
-  const std::vector<const scene::Node*> scenarios = actions().live().scenarios();
+  const std::vector<const scene::Node*> scenarios = live().scenarios();
   if (scenarios.empty()) return notice("this scene has no scenarios");
   std::size_t next = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i)
-    if (scenarios[i]->text("name") == actions().live().scenario()) next = i + 1;
+    if (scenarios[i]->text("name") == live().scenario()) next = i + 1;
   show_scenario(next < scenarios.size() ? scenarios[next]->text("name") : "");
 }
 
@@ -102,41 +102,37 @@ const scene::Node* Visit::node_at(glm::ivec2 pixel) {
   const render::ObjectPicture objects =
       stage_.renderer().pick(camera(), stage_.width(), stage_.height(), false);
   const std::uint32_t object_and_one = *objects.at(pixel.x, pixel.y);
-  return object_and_one == 0 ? nullptr : actions().live().maker_of(scene(), int(object_and_one) - 1);
+  return object_and_one == 0 ? nullptr : live().maker_of(scene(), int(object_and_one) - 1);
 }
 
 Status Visit::tell(const scene::Node& node, const std::string& message) {
-  return actions().send(node, message);
+  return stage_.play().clock.send(node, message);
+}
+
+void Visit::set(const char* type, const char* attribute, scene::AttributeValue value) {
+  live().set(live().unique_node(type), attribute, std::move(value));
 }
 
 void Visit::set_sun(float azimuth_deg, float elevation_deg) {
-  if (const scene::Node* node = actions().live().find("%sun")) {
-    report(tell(*node, fmt::format("azimuth_deg {:.7g}", azimuth_deg)), "");
-    report(tell(*node, fmt::format("elevation_deg {:.7g}", elevation_deg)), "");
-    return;
-  }
-  const float azimuth = glm::radians(azimuth_deg), elevation = glm::radians(elevation_deg);
-  stage_.play().scene.sun.direction_to_sun = {std::sin(azimuth) * std::cos(elevation),
-                                              std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
+  set("sun", "azimuth_deg", double(glm::radians(azimuth_deg)));
+  set("sun", "elevation_deg", double(glm::radians(elevation_deg)));
 }
 
-void Visit::set_exposure(float exposure) {
-  if (const scene::Node* node = actions().live().find("%exposure"))
-    report(tell(*node, fmt::format("value {:.7g}", exposure)), "");
-  else
-    stage_.play().scene.exposure = exposure;
-}
+void Visit::set_exposure(float exposure) { set("exposure", "value", double(exposure)); }
 
-void Visit::set_reflection(const std::string& method) {
-  if (const scene::Node* node = actions().live().find("%reflection"))
-    report(tell(*node, fmt::format("method {}", method)), "");
-  else
-    methods::settings(stage_.play().scene).method = method;
+void Visit::set_reflection(const std::string& method) { set("reflection", "method", method); }
+
+action::Process* Visit::traffic() const { return stage_.play().clock.find("traffic"); }
+
+bool Visit::traffic_is_paused() const { return traffic() && stage_.play().clock.is_paused(*traffic()); }
+
+void Visit::pause_traffic(bool pauses) {
+  if (traffic()) stage_.play().clock.pause(*traffic(), pauses);
 }
 
 void Visit::step_traffic() {
   pause_traffic(true);
-  stage_.play().traffic.step(traffic_step_s);
+  if (traffic()) stage_.play().clock.step_alone(scene(), *traffic(), traffic_step_s);
 }
 
 void Visit::take_picture() {

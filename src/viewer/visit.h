@@ -57,13 +57,15 @@ class Visit {
   /// Tells a node; errors say what it expects, and nothing has changed then. What cannot be built is a
   /// notice, a step later.
   Status tell(const scene::Node& node, const std::string& message);
-  // Light and reflections; with or without a node of the script that stands for them.
+  // Light and reflections: attributes of the nodes that stand for them, seen with the next step.
   void set_sun(float azimuth_deg, float elevation_deg);
   void set_exposure(float exposure);
   void set_reflection(const std::string& method);
 
-  bool traffic_is_paused() const { return stage_.play().traffic_is_paused; }
-  void pause_traffic(bool pauses) { stage_.play().traffic_is_paused = pauses; }
+  /// The process that drives vehicles; null where no room brings one.
+  action::Process* traffic() const;
+  bool traffic_is_paused() const;
+  void pause_traffic(bool pauses);
   /// Moves paused traffic on by a tenth of a second.
   void step_traffic();
 
@@ -77,9 +79,11 @@ class Visit {
 
   house::Stage& stage() { return stage_; }
   const scene::Scene& scene() const { return stage_.scene(); }
-  action::Actions& actions() { return stage_.play().actions; }
+  action::Actions& actions() { return stage_.play().actions(); }
+  scene::LiveScene& live() { return stage_.play().live(); }
 
  private:
+  void set(const char* type, const char* attribute, scene::AttributeValue value);
   void follow_guidance(const Controls& controls);
   void report(const Status& status, const std::string& done);
   void add_notice(Notice notice);

@@ -19,10 +19,10 @@ TEST_F(VisitTest, ScenariosAreSwitchedLive) {
   EXPECT_TRUE(sees("oak") && sees("plane"));
   EXPECT_NEAR(azimuth_and_elevation_deg(visit_->scene().sun.direction_to_sun).y, 18.0f, 1e-3f);
   visit_->show_next_scenario();
-  EXPECT_EQ(visit_->actions().live().scenario(), "bare");
+  EXPECT_EQ(visit_->live().scenario(), "bare");
   EXPECT_FALSE(sees("oak"));
   visit_->show_next_scenario();
-  EXPECT_EQ(visit_->actions().live().scenario(), "") << "after the last: the base scene";
+  EXPECT_EQ(visit_->live().scenario(), "") << "after the last: the base scene";
   EXPECT_TRUE(sees("oak") && !sees("plane"));
   visit_->show_scenario("blue");
   EXPECT_TRUE(holds(told(), "no scenario \"blue\"")) << told();

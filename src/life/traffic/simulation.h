@@ -5,10 +5,11 @@
 
 #include "life/traffic/car_following.h"
 #include "life/traffic/vehicle.h"
+#include "scene/action/event_queue.h"
 
 namespace parvis::traffic {
 
-inline constexpr float step_s = 1.0f / 60.0f;
+inline constexpr float step_s = float(action::step_s);
 
 class Simulation {
  public:

@@ -53,23 +53,15 @@ void Traffic::add_vehicles(scene::Scene& scene) {
     object.takes_reflection = true;
     scene.objects.push_back(std::move(object));
   }
-  place(scene);
+  place(scene, 0.0);
 }
 
-void Traffic::step(float seconds) {
-  assert(seconds >= 0.0f);
-  due_s_ += double(seconds);
-  // A millionth of a step makes up for what adding frame times loses.
-  for (; due_s_ >= double(step_s) * (1.0 - 1e-6); due_s_ -= double(step_s)) simulation_->step();
-  due_s_ = std::max(due_s_, 0.0);
-}
-
-void Traffic::place(scene::Scene& scene) const {
+void Traffic::place(scene::Scene& scene, double ahead_s) const {
   const std::vector<Vehicle>& vehicles = simulation_->vehicles();
   const std::vector<DrivingLane>& lanes = simulation_->lanes();
   assert(scene.objects.size() >= first_object_ + vehicles.size());
   const bool is_visible = std::as_const(scene).data<TrafficDemand>().is_visible;
-  const float missing = 1.0f - std::min(float(due_s_ / double(step_s)), 1.0f);
+  const float missing = 1.0f - std::min(float(ahead_s / double(step_s)), 1.0f);
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Vehicle& vehicle = vehicles[i];
     scene::Object& object = scene.objects[first_object_ + i];

@@ -22,13 +22,13 @@ class Traffic {
   /// while.
   explicit Traffic(const scene::Scene& scene);
 
-  /// Appends one object a vehicle ("vehicle 1", "vehicle 2", ...) to the scene, where it stands; once.
+  /// Appends one object per vehicle ("vehicle 1", "vehicle 2", ...) to the scene, where it stands; once.
   void add_vehicles(scene::Scene& scene);
-  /// Lets `seconds` >= 0 pass: as many whole steps as have come due. Allocates nothing.
-  void step(float seconds);
-  /// Moves the objects that add_vehicles appended, to between the last two steps, as the time that has passed
-  /// asks.
-  void place(scene::Scene& scene) const;
+  /// Lets `step_s` pass. Allocates nothing.
+  void step() { simulation_->step(); }
+  /// Moves the objects that add_vehicles appended to where they were `ahead_s`, from 0 to `step_s`, after the
+  /// last step but one: between the last two.
+  void place(scene::Scene& scene, double ahead_s) const;
 
   /// What the demand asked for and did not get: no roads, no models, more vehicles than room.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -39,7 +39,6 @@ class Traffic {
  private:
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::string> warnings_;
-  double due_s_ = 0.0;  ///< time that has passed since the last step
   std::size_t first_object_ = 0;
 };
 

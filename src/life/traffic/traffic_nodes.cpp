@@ -3,7 +3,7 @@
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
-#include "life/traffic/traffic.h"
+#include "life/traffic/traffic_process.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
 
@@ -94,6 +94,7 @@ void furnish(House& house) {
   registry.add(traffic_schema(), [&readers](const Node& node, SceneBuilder& builder) {
     build_traffic(node, builder, readers);
   });
+  house.get<action::Processes>().add([] { return std::make_unique<TrafficProcess>(); });
   registry.allow("model", "traffic");
   registry.allow(scene::include_type, "traffic");
 }

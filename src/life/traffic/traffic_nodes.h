@@ -1,4 +1,4 @@
-// What this room brings to the house: the node `traffic`.
+// What this room brings to the house: the node `traffic` and the process that drives its vehicles.
 #pragma once
 
 #include "base/house.h"

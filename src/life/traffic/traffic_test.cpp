@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "life/traffic/street_ends.h"
+#include "life/traffic/traffic_process.h"
+#include "scene/action/scene_clock.h"
 #include "scene/data/path.h"
 #include "scene/roads/road_builder.h"
 
@@ -63,6 +65,11 @@ std::vector<scene::Road> grid(int count, float spacing_m, int lanes = 1) {
   return roads;
 }
 
+/// Lets so many seconds pass.
+void pass(Traffic& traffic, float seconds) {
+  for (long steps = std::lround(seconds / step_s); steps > 0; --steps) traffic.step();
+}
+
 /// Pairs of vehicles that overlap at this moment.
 int overlaps(const Simulation& simulation) {
   std::vector<Footprint> footprints;
@@ -82,7 +89,7 @@ void expect_orderly_traffic(const scene::Scene& scene) {
   std::vector<double> travelled_at_start;
   for (const Vehicle& v : simulation.vehicles()) travelled_at_start.push_back(v.travelled_m);
   for (int tenth = 0; tenth < 3000; ++tenth) {
-    traffic.step(0.1f);
+    pass(traffic, 0.1f);
     ASSERT_EQ(overlaps(simulation), 0) << "after " << 0.1f * float(tenth) << " s";
     for (const Vehicle& v : simulation.vehicles()) {
       const glm::vec2 middle(v.point_behind(0.5f * v.length_m(), simulation.lanes()));
@@ -114,7 +121,7 @@ TEST(Traffic, VehiclesFollowTheGraph) {
   std::vector<int> lanes;
   for (const Vehicle& v : traffic.simulation().vehicles()) lanes.push_back(v.lane());
   for (int i = 0; i < 60 * 60; ++i) {
-    traffic.step(step_s);
+    pass(traffic, step_s);
     for (std::size_t v = 0; v < lanes.size(); ++v) {
       const int lane = traffic.simulation().vehicles()[v].lane();
       if (lane == lanes[v]) continue;
@@ -137,7 +144,7 @@ TEST(Traffic, BusesHoldNobodyUp) {
   std::vector<float> standing_s(traffic.vehicle_count(), 0.0f);
   float longest_s = 0.0f;
   for (int tenth = 0; tenth < 6000; ++tenth) {
-    traffic.step(0.1f);
+    pass(traffic, 0.1f);
     for (std::size_t i = 0; i < standing_s.size(); ++i) {
       const bool stands = traffic.simulation().vehicles()[i].speed < 0.1f;
       standing_s[i] = stands ? standing_s[i] + 0.1f : 0.0f;
@@ -167,14 +174,41 @@ TEST(Traffic, StreetsAreCutBeforeTheirCrossings) {
 }
 
 TEST(Traffic, IsTheSameAtAnyFrameRate) {
+  action::Processes processes;
+  processes.add([] { return std::make_unique<TrafficProcess>(); });
   scene::Scene slow = scene_of(grid(3, 80.0f), 30), fast = slow;
-  Traffic at_ten(slow), at_sixty(fast);
-  at_ten.add_vehicles(slow), at_sixty.add_vehicles(fast);
-  for (int i = 0; i < 200; ++i) at_ten.step(0.1f);
-  for (int i = 0; i < 1200; ++i) at_sixty.step(step_s);
-  at_ten.place(slow), at_sixty.place(fast);
+  action::SceneClock at_ten(processes, {}, slow), at_sixty(processes, {}, fast);
+  for (int i = 0; i < 200; ++i) at_ten.advance(slow, 0.1);
+  for (int i = 0; i < 1200; ++i) at_sixty.advance(fast, action::step_s);
+  ASSERT_EQ(slow.objects.size(), 30u);
   for (std::size_t i = 0; i < slow.objects.size(); ++i)
     EXPECT_LT(glm::distance(slow.objects[i].world_from_model[3], fast.objects[i].world_from_model[3]), 0.01f);
+}
+
+TEST(Traffic, StandsWhileItIsPaused) {
+  action::Processes processes;
+  processes.add([] { return std::make_unique<TrafficProcess>(); });
+  scene::Scene scene = scene_of(grid(3, 80.0f), 10);
+  action::SceneClock clock(processes, {}, scene);
+  TrafficProcess& traffic = *clock.find<TrafficProcess>();
+  clock.advance(scene, 1.005);
+  const std::vector<scene::Object> before = scene.objects;
+  const auto farthest = [&] {
+    float moved_m = 0.0f;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      moved_m = std::max(moved_m,
+                         glm::distance(before[i].world_from_model[3], scene.objects[i].world_from_model[3]));
+    return moved_m;
+  };
+  clock.pause(traffic, true);
+  clock.advance(scene, 2.0);
+  EXPECT_EQ(farthest(), 0.0f);
+  clock.step_alone(scene, traffic, 0.5);
+  clock.advance(scene, 0.0);
+  EXPECT_GT(farthest(), 1.0f);
+  clock.pause(traffic, false);
+  EXPECT_FALSE(clock.is_paused(traffic));
+  EXPECT_EQ(traffic.status(), "10 vehicles");
 }
 
 TEST(Traffic, BodiesTurnSmoothly) {
@@ -184,8 +218,8 @@ TEST(Traffic, BodiesTurnSmoothly) {
   const std::vector<scene::Object> start = scene.objects;
   std::vector<scene::Object> before = start;
   for (int i = 0; i < 60 * 60; ++i) {
-    traffic.step(step_s);
-    traffic.place(scene);
+    pass(traffic, step_s);
+    traffic.place(scene, 0.0);
     for (std::size_t v = 0; v < before.size(); ++v) {
       const glm::vec3 old_forward(before[v].world_from_model[0]),
           forward(scene.objects[v].world_from_model[0]);
@@ -229,7 +263,7 @@ TEST(Traffic, WithoutRoadsNobodyDrives) {
   scene::Scene scene = scene_of({}, 10);
   Traffic traffic(scene);
   traffic.add_vehicles(scene);
-  traffic.step(1.0f);
+  pass(traffic, 1.0f);
   EXPECT_TRUE(scene.objects.empty());
   ASSERT_EQ(traffic.warnings().size(), 1u);
   EXPECT_NE(traffic.warnings()[0].find("no roads"), std::string::npos);
@@ -259,7 +293,7 @@ TEST(Traffic, VehiclesKeepToTheirPartOfTheTown) {
     Traffic traffic(scene);
     float farthest = 0.0f;
     for (int second = 0; second < 300; ++second) {
-      traffic.step(1.0f);
+      pass(traffic, 1.0f);
       for (const Vehicle& v : traffic.simulation().vehicles())
         farthest = std::max(
             farthest, glm::distance(glm::vec2(v.front_axle(0.0f, traffic.simulation().lanes())), centre));

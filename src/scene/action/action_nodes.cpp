@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/action/actions.h"
+#include "scene/action/animation_process.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::action {
@@ -259,6 +261,9 @@ void furnish(House& house) {
   registry.add(key_schema(), build_nothing);
   registry.add(tour_schema(), check_tour);
   registry.add(stop_schema(), build_nothing);
+  Processes& processes = house.get<Processes>();
+  processes.add([] { return std::make_unique<Actions>(); });
+  processes.add([] { return std::make_unique<AnimationProcess>(); });
 }
 
 }  // namespace parvis::action

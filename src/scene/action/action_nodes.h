@@ -1,4 +1,5 @@
-// The node types of this room: keys, timer, proximity; path and tour with their keyframes.
+// What this room brings to the house: the processes of actions and animations, and the node types keys,
+// timer, proximity; path and tour with their keyframes.
 #pragma once
 
 #include <string>

@@ -37,15 +37,16 @@ Camera camera_of(const Keyframe& key, const Camera& lens) {
 
 }  // namespace
 
-Actions::Actions(scene::LiveScene live, Scene& scene) : live_(std::move(live)) {
-  for (const Node& node : live_.nodes()) read(node);
+void Actions::begin(Scene& scene, SharedByProcesses& shared) {
+  shared_ = &shared;
+  for (const Node& node : live().nodes()) read(node);
   for (const Motion& motion : motions_)
-    for (const int object : live_.objects_of(*motion.target))
+    for (const int object : live().objects_of(*motion.target))
       scene.objects[std::size_t(object)].is_dynamic = true;
   for (const Timer& timer : timers_)
-    if (is_running(*timer.node)) fire_marks(timer, 0);
+    if (is_running(*timer.node)) fire_marks(timer);
   for (const Motion& motion : motions_)
-    if (is_running(*motion.node)) fire_marks(motion, 0);
+    if (is_running(*motion.node)) fire_marks(motion);
 }
 
 std::vector<Actions::Trigger> Actions::triggers(const Node& node, const std::string& name) const {
@@ -53,7 +54,7 @@ std::vector<Actions::Trigger> Actions::triggers(const Node& node, const std::str
   for (const scene::NodeAttribute& attribute : node.attributes) {
     if (attribute.schema->name != name) continue;
     const auto& event = std::get<scene::Event>(attribute.value);
-    const Node* target = live_.find(event.target);
+    const Node* target = live().find(event.target);
     Result<scene::Message> message = parse_message(*target->schema, event.message, attribute.where);
     assert(message && "the checker lets only messages through that nodes take");
     const double mark = attribute.schema->source == scene::AttributeType::number ||
@@ -88,7 +89,7 @@ void Actions::read(const Node& node) {
 }
 
 void Actions::read_motion(const Node& node) {
-  const Node& target = *live_.find(node.text("of"));
+  const Node& target = *live().find(node.text("of"));
   Motion motion{&node,
                 &target,
                 Clock(period_of(node)),
@@ -113,110 +114,86 @@ bool Actions::uses_key(const std::string& key) const {
          std::any_of(on_release_.begin(), on_release_.end(), is_of_key);
 }
 
-Status Actions::send(const std::string& target, const std::string& text) {
-  const Node* node = live_.find(target);
-  if (!node) return error("no node of the scene is called \"{}\"", target);
-  return send(*node, text);
-}
+void Actions::fire(const Trigger& trigger) { shared_->queue.post(trigger.delivery, trigger.delay_s); }
 
-Status Actions::send(const Node& target, const std::string& text) {
-  Result<scene::Message> message = parse_message(*target.schema, text, {});
-  if (!message) return message.errors();
-  for (std::size_t i = 0; i < message->arguments.size(); ++i)
-    if (message->schema->arguments[i].type == scene::AttributeType::child) {
-      const auto& name = std::get<std::string>(message->arguments[i]);
-      const Node* child = find_node(target.children, name);
-      if (!child || !child->schema->find("visible"))
-        return error("\"{}\": the {} holds nothing to be seen that is called \"{}\"", text,
-                     target.schema->type, name);
-    }
-  queue_.post(steps_, steps_, {&target, *std::move(message), {}, 0});
-  return Done{};
-}
-
-void Actions::fire(const Trigger& trigger, int chain) {
-  Delivery delivery = trigger.delivery;
-  delivery.chain = chain;
-  queue_.post(steps_, steps_ + std::lround(trigger.delay_s / step_s), std::move(delivery));
-}
-
-void Actions::fire_marks(const Timer& timer, int chain) {
+void Actions::fire_marks(const Timer& timer) {
   for (const Trigger& trigger : timer.on_time)
-    if (timer.clock.passed(trigger.mark)) fire(trigger, chain);
+    if (timer.clock.passed(trigger.mark)) fire(trigger);
 }
 
-void Actions::fire_marks(const Motion& motion, int chain) {
+void Actions::fire_marks(const Motion& motion) {
   for (const Trigger& trigger : motion.on_pass)
-    if (motion.clock.passed(motion.keys[std::size_t(trigger.mark) - 1].time_s)) fire(trigger, chain);
+    if (motion.clock.passed(motion.keys[std::size_t(trigger.mark) - 1].time_s)) fire(trigger);
 }
 
 /// Starts, halts or resumes the thing among `things` that the message is for; false where it is for none.
 template <class Things>
-bool Actions::run(Things& things, const Delivery& delivery) {
+bool Actions::run(Things& things, const Node& node, const scene::Message& message) {
   for (auto& thing : things) {
-    if (thing.node != delivery.target) continue;
-    const std::string& name = delivery.message.schema->name;
+    if (thing.node != &node) continue;
+    const std::string& name = message.schema->name;
     if (name != "start" && name != "stop" && name != "resume") return false;
-    live_.set(*thing.node, "running", name != "stop");
+    live().set(node, "running", name != "stop");
     if (name == "start") {
       thing.clock.start();
-      fire_marks(thing, delivery.chain + 1);
+      fire_marks(thing);
     }
     return true;
   }
   return false;
 }
 
-void Actions::deliver(Scene& scene, const Delivery& delivery) {
-  const std::string& type = delivery.target->schema->type;
-  const std::string& name = delivery.message.schema->name;
-  if (run(timers_, delivery) || run(motions_, delivery) || run(tours_, delivery)) return;
+bool Actions::receive(Scene& scene, const Node& node, const scene::Message& message) {
+  const std::string &type = node.schema->type, &name = message.schema->name;
+  if (run(timers_, node, message) || run(motions_, node, message) || run(tours_, node, message)) return true;
   if (type == "camera" && name == "look") {
     stop_tours();
-    camera_ = delivery.target->text("name");
-  } else if (type == "scenario" && name == "choose") {
-    if (Status status = live_.choose(scene, delivery.target->text("name")); !status)
-      warnings_.insert(warnings_.end(), status.errors().begin(), status.errors().end());
-  } else {
-    live_.receive(*delivery.target, delivery.message);
+    camera_ = node.text("name");
+    return true;
   }
+  if (type == "scenario" && name == "choose") {
+    if (Status status = live().choose(scene, node.text("name")); !status) warn(status.errors());
+    return true;
+  }
+  return false;
 }
 
 /// Where the visitor is, or a node, or an object that another room put into the scene.
 std::optional<glm::vec3> Actions::place_of(const std::string& source, const Scene& scene,
                                            const std::optional<glm::vec3>& visitor) const {
   if (source == "visitor") return visitor;
-  if (const Node* node = live_.find(source)) {
-    for (const int index : live_.objects_of(*node))
+  if (const Node* node = live().find(source)) {
+    for (const int index : live().objects_of(*node))
       if (const scene::Object& object = scene.objects[std::size_t(index)]; object.is_visible)
         return glm::vec3(object.world_from_model[3]);
     if (!node->schema->find("position")) return std::nullopt;
-    return glm::vec3(live_.frame_of(*node).world_from_nodes * glm::vec4(node->vec3("position"), 1.0f));
+    return glm::vec3(live().frame_of(*node).world_from_nodes * glm::vec4(node->vec3("position"), 1.0f));
   }
   for (const scene::Object& object : scene.objects)
     if (object.is_visible && object.name == source) return glm::vec3(object.world_from_model[3]);
   return std::nullopt;
 }
 
-void Actions::look_around(const Scene& scene, const std::optional<glm::vec3>& visitor) {
+void Actions::look(const Scene& scene, const Observer& observer) {
   for (Watch& watch : watches_) {
     const glm::vec3 centre =
-        live_.frame_of(*watch.node).world_from_nodes * glm::vec4(watch.node->vec3("position"), 1);
-    const std::optional<glm::vec3> place = place_of(watch.trigger.source, scene, visitor);
+        live().frame_of(*watch.node).world_from_nodes * glm::vec4(watch.node->vec3("position"), 1);
+    const std::optional<glm::vec3> place = place_of(watch.trigger.source, scene, observer.eye);
     const bool is_inside = place && glm::distance(*place, centre) <= float(watch.node->number("radius_m"));
     if (is_inside != watch.is_inside && is_inside == watch.is_entry) fire(watch.trigger);
     watch.is_inside = is_inside;
   }
 }
 
-/// Puts what paths move to where it is `ahead_s` after the last step.
-void Actions::move(double ahead_s) {
+/// Puts what paths move to where it is then.
+void Actions::present(Scene&, double ahead_s) {
+  ahead_s_ = ahead_s;
   for (const Motion& motion : motions_) {
     if (!is_running(*motion.node)) continue;
     const double time_s = motion.clock.time_s(ahead_s);
     const Keyframe key = between(motion.keys, time_s, motion.is_smooth);
     const bool is_camera = motion.target->schema->type == "camera";
-    live_.set(*motion.target, "position", key.position);
+    live().set(*motion.target, "position", key.position);
     if (is_camera && motion.target->gives("target")) continue;  // it keeps its eye on that
     float heading = key.heading, pitch = key.pitch;
     if (motion.looks_along) {
@@ -225,7 +202,7 @@ void Actions::move(double ahead_s) {
       pitch = std::asin(std::clamp(way.z, -1.0f, 1.0f));
     }
     const auto set_angle = [&](const char* name, float angle) {
-      live_.set(*motion.target, name, double(angle));
+      live().set(*motion.target, name, double(angle));
     };
     if (motion.looks_along || motion.has_heading) set_angle("heading_deg", heading);
     if (is_camera && (motion.looks_along || motion.has_pitch)) set_angle("pitch_deg", pitch);
@@ -233,13 +210,13 @@ void Actions::move(double ahead_s) {
 }
 
 void Actions::change_key(const std::string& key, double in_s, bool is_pressed) {
-  key_changes_.push_back({key, steps_ + std::lround(in_s / step_s), is_pressed});
+  key_changes_.push_back({key, shared_->queue.now() + std::lround(in_s / step_s), is_pressed});
 }
 
 void Actions::send_keys() {
   std::vector<KeyChange> later;
   for (const KeyChange& change : key_changes_) {
-    if (change.step >= steps_) {
+    if (change.step >= shared_->queue.now()) {
       later.push_back(change);
       continue;
     }
@@ -249,35 +226,16 @@ void Actions::send_keys() {
   key_changes_ = std::move(later);
 }
 
-void Actions::step(Scene& scene, const std::optional<glm::vec3>& visitor) {
-  ++steps_;
+void Actions::step(const Scene&) {
   send_keys();
   const auto advance_all = [this](auto& things) {
     for (auto& thing : things) {
       if (!is_running(*thing.node)) continue;
       thing.clock.advance(step_s);
-      fire_marks(thing, 0);
+      fire_marks(thing);
     }
   };
   advance_all(timers_), advance_all(motions_), advance_all(tours_);
-  if (!watches_.empty()) {
-    move(0.0);
-    const Errors errors = live_.refresh(scene);
-    warnings_.insert(warnings_.end(), errors.begin(), errors.end());
-    look_around(scene, visitor);
-  }
-  for (Delivery delivery; queue_.next(steps_, delivery);) deliver(scene, delivery);
-}
-
-void Actions::advance(Scene& scene, double seconds, const std::optional<glm::vec3>& visitor) {
-  assert(seconds >= 0.0);
-  due_s_ += seconds;
-  // A millionth of a step makes up for what adding frame times loses.
-  for (; due_s_ >= step_s * (1.0 - 1e-6); due_s_ -= step_s) step(scene, visitor);
-  due_s_ = std::max(due_s_, 0.0);
-  move(due_s_);
-  const Errors errors = live_.refresh(scene);
-  warnings_.insert(warnings_.end(), errors.begin(), errors.end());
 }
 
 std::optional<Camera> Actions::view_of(const Tour& tour, const Scene& scene) const {
@@ -291,7 +249,7 @@ std::optional<Camera> Actions::view_of(const Tour& tour, const Scene& scene) con
     keys.push_back(keyframe_of(*camera, stop.number("time_s")));
   }
   if (!lens) return std::nullopt;
-  return camera_of(between(keys, tour.clock.time_s(due_s_), tour.is_smooth), *lens);
+  return camera_of(between(keys, tour.clock.time_s(ahead_s_), tour.is_smooth), *lens);
 }
 
 std::optional<Camera> Actions::camera(const Scene& scene) const {
@@ -304,7 +262,7 @@ std::optional<Camera> Actions::camera(const Scene& scene) const {
 
 void Actions::stop_tours() {
   for (const Tour& tour : tours_)
-    if (is_running(*tour.node)) live_.set(*tour.node, "running", false);
+    if (is_running(*tour.node)) live().set(*tour.node, "running", false);
 }
 
 void Actions::release_view() {
@@ -318,20 +276,13 @@ Result<double> Actions::start_tour(const std::string& name) {
     known.push_back(tour.node->text("name"));
     if (known.back() != name) continue;
     stop_tours();
-    live_.set(*tour.node, "running", true);
+    live().set(*tour.node, "running", true);
     tour.clock.start();
     return length_of(*tour.node);
   }
   if (known.empty()) return error("the scene has no tour \"{}\"; it has none at all", name);
   return error("the scene has no tour \"{}\"; it has {}{}", name, fmt::join(known, ", "),
                scene::did_you_mean(name, known));
-}
-
-Errors Actions::take_warnings() {
-  Errors all = queue_.take_warnings();
-  const Errors others = std::exchange(warnings_, {});
-  all.insert(all.end(), others.begin(), others.end());
-  return all;
 }
 
 }  // namespace parvis::action

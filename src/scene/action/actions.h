@@ -1,6 +1,5 @@
 // What happens in a scene while it runs: keys, timers and things that come near send messages; nodes do what
-// they are told; paths move objects and cameras; tours lead the view. At a fixed step, so that the same
-// happenings at the same times give the same scene.
+// they are told; paths move objects and cameras; tours lead the view.
 #pragma once
 
 #include <optional>
@@ -8,36 +7,27 @@
 #include <vector>
 
 #include "scene/action/clock.h"
-#include "scene/action/event_queue.h"
 #include "scene/action/keyframes.h"
-#include "scene/script/live_scene.h"
+#include "scene/action/process.h"
 
 namespace parvis::action {
 
-inline constexpr double step_s = 1.0 / 60.0;
-
-/// Everything of one scene, which its functions take. A moved one goes on as it was.
-class Actions {
+class Actions final : public Process {
  public:
-  Actions() = default;  ///< of a scene without a script: nothing happens
-  /// Marks what paths move as dynamic: to be made before the scene is drawn, when all its objects are there.
-  Actions(scene::LiveScene live, scene::Scene& scene);
-
-  scene::LiveScene& live() { return live_; }
-  const scene::LiveScene& live() const { return live_; }
+  std::string name() const override { return "actions"; }
+  /// Marks what paths move as dynamic.
+  void begin(scene::Scene& scene, SharedByProcesses& shared) override;
+  void step(const scene::Scene& scene) override;
+  bool looks() const override { return !watches_.empty(); }
+  void look(const scene::Scene& scene, const Observer& observer) override;
+  void present(scene::Scene& scene, double ahead_s) override;
+  bool receive(scene::Scene& scene, const scene::Node& node, const scene::Message& message) override;
 
   /// A person presses or releases a key of `key_names`, some time from now; counts in the step after that.
   void press(const std::string& key, double in_s = 0.0) { change_key(key, in_s, true); }
   void release(const std::string& key, double in_s = 0.0) { change_key(key, in_s, false); }
   /// Does an event of the scene wait for this key?
   bool uses_key(const std::string& key) const;
-  /// A message from outside of the scene (a panel, the command line), delivered in the next step.
-  Status send(const std::string& target, const std::string& message);
-  /// The same to a node of `live().nodes()`, which needs no name.
-  Status send(const scene::Node& target, const std::string& message);
-
-  /// Lets `seconds` >= 0 pass. `visitor`: where the eye is, if anybody looks.
-  void advance(scene::Scene& scene, double seconds, const std::optional<glm::vec3>& visitor);
 
   /// The running tour's view of now, or the camera that a message told to look; nothing where there is
   /// neither.
@@ -46,9 +36,6 @@ class Actions {
   Result<double> start_tour(const std::string& name);
   /// From now on the visitor looks where they like: no tour runs, no message holds the view.
   void release_view();
-
-  /// What went wrong since the last call.
-  Errors take_warnings();
 
  private:
   struct Trigger {
@@ -90,35 +77,31 @@ class Actions {
   void read(const scene::Node& node);
   void read_motion(const scene::Node& node);
   std::vector<Trigger> triggers(const scene::Node& node, const std::string& event) const;
-  void fire(const Trigger& trigger, int chain = 0);
+  void fire(const Trigger& trigger);
   template <class Things>
-  bool run(Things& things, const Delivery& delivery);
-  void fire_marks(const Timer& timer, int chain);
-  void fire_marks(const Motion& motion, int chain);
-  void fire_marks(const Tour&, int) {}
+  bool run(Things& things, const scene::Node& node, const scene::Message& message);
+  void fire_marks(const Timer& timer);
+  void fire_marks(const Motion& motion);
+  void fire_marks(const Tour&) {}
 
-  void step(scene::Scene& scene, const std::optional<glm::vec3>& visitor);
-  void look_around(const scene::Scene& scene, const std::optional<glm::vec3>& visitor);
   std::optional<glm::vec3> place_of(const std::string& source, const scene::Scene& scene,
                                     const std::optional<glm::vec3>& visitor) const;
   void send_keys();
   void stop_tours();
-  void deliver(scene::Scene& scene, const Delivery& delivery);
-  void move(double ahead_s);
   std::optional<Camera> view_of(const Tour& tour, const scene::Scene& scene) const;
 
-  scene::LiveScene live_;
+  scene::LiveScene& live() { return shared_->live; }
+  const scene::LiveScene& live() const { return shared_->live; }
+
+  SharedByProcesses* shared_ = nullptr;
   std::vector<Trigger> on_press_, on_release_;
   std::vector<Timer> timers_;
   std::vector<Motion> motions_;
   std::vector<Tour> tours_;
   std::vector<Watch> watches_;
   std::vector<KeyChange> key_changes_;
-  EventQueue queue_;
-  std::string camera_;  ///< that a message told to look
-  long steps_ = 0;
-  double due_s_ = 0.0;  ///< time that has passed since the last step
-  Errors warnings_;
+  std::string camera_;    ///< that a message told to look
+  double ahead_s_ = 0.0;  ///< of what is shown after the last step
 };
 
 }  // namespace parvis::action

@@ -4,7 +4,7 @@
 
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
-#include "scene/action/action_nodes.h"
+#include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
@@ -27,7 +27,7 @@ class ActionsTest : public ::testing::Test {
     scene::LiveScene live(std::move(loaded->script));
     const Status status = live.prepare_scenarios(scene_);
     ASSERT_TRUE(status) << to_string(status.errors());
-    actions_ = Actions(std::move(live), scene_);
+    clock_.emplace(house_.get<Processes>(), std::move(live), scene_);
   }
   std::string errors_of(const std::string& script) {
     auto loaded = load_scene(folder_.write("scene.xp", script), registry_);
@@ -37,8 +37,9 @@ class ActionsTest : public ::testing::Test {
     for (std::size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
     return text;
   }
-  void advance(double seconds) { actions_.advance(scene_, seconds, visitor_); }
-  std::string warnings() { return to_string(actions_.take_warnings()); }
+  void advance(double seconds) { clock_->advance(scene_, seconds, {visitor_}); }
+  Actions& actions() { return *clock_->find<Actions>(); }
+  std::string warnings() { return to_string(clock_->take_warnings()); }
 
   bool sees(const std::string& name) const {
     for (const scene::Object& object : scene_.objects)
@@ -56,7 +57,7 @@ class ActionsTest : public ::testing::Test {
   House house_ = scene::test_house();
   scene::NodeRegistry& registry_ = house_.get<scene::NodeRegistry>();
   scene::Scene scene_;
-  Actions actions_;
+  std::optional<SceneClock> clock_;
   std::optional<glm::vec3> visitor_;
 };
 
@@ -78,20 +79,20 @@ TEST_F(ActionsTest, AButtonShowsTheOaksAfterItsDelay) {
   load(std::string(trees) + "keys(onPress=\"button2, trees, show oaks, 0.5\", onrelease=\"h, oaks, hide\")");
   EXPECT_TRUE(sees("orange"));
   EXPECT_FALSE(sees("oak"));
-  EXPECT_TRUE(actions_.uses_key("button2"));
-  EXPECT_FALSE(actions_.uses_key("button3"));
-  actions_.press("button2");
+  EXPECT_TRUE(actions().uses_key("button2"));
+  EXPECT_FALSE(actions().uses_key("button3"));
+  actions().press("button2");
   advance(0.49);
   EXPECT_FALSE(sees("oak"));
   advance(0.05);
   EXPECT_TRUE(sees("oak"));
-  actions_.press("h");
+  actions().press("h");
   advance(0.1);
   EXPECT_TRUE(sees("oak"));
-  actions_.release("h");
+  actions().release("h");
   advance(0.1);
   EXPECT_FALSE(sees("oak"));
-  actions_.press("button2", 2.0);
+  actions().press("button2", 2.0);
   advance(2.4);
   EXPECT_FALSE(sees("oak"));
   advance(0.2);
@@ -102,7 +103,7 @@ TEST_F(ActionsTest, AButtonShowsTheOaksAfterItsDelay) {
 TEST_F(ActionsTest, MessagesShowHideToggleAndChooseAmongBrothers) {
   load(trees);
   const auto send = [&](const char* target, const char* message) {
-    const Status status = actions_.send(target, message);
+    const Status status = clock_->send(target, message);
     EXPECT_TRUE(status) << message;
     advance(step_s);
   };
@@ -118,9 +119,9 @@ TEST_F(ActionsTest, MessagesShowHideToggleAndChooseAmongBrothers) {
   EXPECT_TRUE(sees("oak") && sees("orange"));
   send("oak", "hide");
   EXPECT_TRUE(!sees("oak") && sees("orange"));
-  EXPECT_FALSE(actions_.send("tree", "show"));
-  EXPECT_FALSE(actions_.send("trees", "shine"));
-  EXPECT_FALSE(actions_.send("trees", "show pines"));
+  EXPECT_FALSE(clock_->send("tree", "show"));
+  EXPECT_FALSE(clock_->send("trees", "shine"));
+  EXPECT_FALSE(clock_->send("trees", "show pines"));
 }
 
 TEST_F(ActionsTest, LiveAttributesAreMessages) {
@@ -128,17 +129,17 @@ TEST_F(ActionsTest, LiveAttributesAreMessages) {
       "group(name=square, position=\"10 0 0\", heading_deg=90) { model(name=bench, file=\"box.glb\", "
       "position=\"0 1 0\") }\nsun(elevation_deg=40)\nexposure(value=1)\ncamera(name=eye)");
   expect_near(place("bench"), {11, 0, 0});
-  EXPECT_TRUE(actions_.send("square", "position 0 5 0"));
-  EXPECT_TRUE(actions_.send("%sun", "elevation_deg 90"));
-  EXPECT_TRUE(actions_.send("%exposure", "value 2"));
-  EXPECT_TRUE(actions_.send("eye", "fov_deg 90"));
-  EXPECT_FALSE(actions_.send("%sun", "elevation_deg 91"));
+  EXPECT_TRUE(clock_->send("square", "position 0 5 0"));
+  EXPECT_TRUE(clock_->send("%sun", "elevation_deg 90"));
+  EXPECT_TRUE(clock_->send("%exposure", "value 2"));
+  EXPECT_TRUE(clock_->send("eye", "fov_deg 90"));
+  EXPECT_FALSE(clock_->send("%sun", "elevation_deg 91"));
   advance(step_s);
   expect_near(place("bench"), {1, 5, 0});
   expect_near(scene_.sun.direction_to_sun, {0, 0, 1});
   EXPECT_EQ(scene_.exposure, 2.0f);
   EXPECT_NEAR(std::tan(scene_.find_camera("eye")->camera.vertical_fov / 2), 9.0f / 16.0f, 1e-5f);
-  EXPECT_TRUE(actions_.send("bench", "heading_deg 30"));
+  EXPECT_TRUE(clock_->send("bench", "heading_deg 30"));
   advance(step_s);
   expect_near(place("bench"), {1, 5, 0});
 }
@@ -156,10 +157,10 @@ TEST_F(ActionsTest, ATimerSendsAtItsTimesAgainAndAgain) {
     EXPECT_FALSE(sees("lamp"));
     advance(0.9);
   }
-  EXPECT_TRUE(actions_.send("clock", "stop"));
+  EXPECT_TRUE(clock_->send("clock", "stop"));
   advance(2.0);
   EXPECT_FALSE(sees("lamp"));
-  EXPECT_TRUE(actions_.send("clock", "start"));
+  EXPECT_TRUE(clock_->send("clock", "start"));
   advance(1.5);
   EXPECT_TRUE(sees("lamp"));
 }
@@ -204,7 +205,7 @@ TEST_F(ActionsTest, PathsMoveObjectsGroupsAndCameras) {
               {0, std::cos(glm::radians(30.0f)), -std::sin(glm::radians(30.0f))});
   advance(1.5);
   expect_near(place("car"), {2, -2, 0});
-  EXPECT_TRUE(actions_.send("line", "stop"));
+  EXPECT_TRUE(clock_->send("line", "stop"));
   advance(step_s);
   const glm::vec3 halted = place("car");
   advance(1.0);
@@ -230,29 +231,29 @@ TEST_F(ActionsTest, AToursViewPassesThroughItsCameras) {
       "heading_deg=90, "
       "fov_deg=40)\ncamera(name=c, position=\"10 10 8\", target=\"0 0 0\")\n"
       "tour(name=walk) { stop(time_s=0, camera=a) stop(time_s=2, camera=b) stop(time_s=4, camera=c) }");
-  EXPECT_FALSE(actions_.camera(scene_));
-  EXPECT_TRUE(holds(to_string(actions_.start_tour("wlak").errors()), "did you mean \"walk\"?"));
-  const auto length = actions_.start_tour("walk");
+  EXPECT_FALSE(actions().camera(scene_));
+  EXPECT_TRUE(holds(to_string(actions().start_tour("wlak").errors()), "did you mean \"walk\"?"));
+  const auto length = actions().start_tour("walk");
   ASSERT_TRUE(length);
   EXPECT_EQ(*length, 4.0);
   for (const char* name : {"a", "b", "c"}) {
-    const Camera expected = scene_.find_camera(name)->camera, camera = actions_.camera(scene_).value();
+    const Camera expected = scene_.find_camera(name)->camera, camera = actions().camera(scene_).value();
     expect_near(camera.position_in_world(), expected.position_in_world());
     expect_near(camera.forward_in_world(), expected.forward_in_world());
     EXPECT_NEAR(camera.vertical_fov, expected.vertical_fov, 1e-4f);
     advance(1.0);
-    EXPECT_NEAR(actions_.camera(scene_)->world_from_camera[0].z, 0.0f, 1e-5f) << "no roll";
+    EXPECT_NEAR(actions().camera(scene_)->world_from_camera[0].z, 0.0f, 1e-5f) << "no roll";
     advance(1.0);
   }
-  actions_.release_view();
-  EXPECT_FALSE(actions_.camera(scene_));
+  actions().release_view();
+  EXPECT_FALSE(actions().camera(scene_));
 }
 
 TEST_F(ActionsTest, AMessageTellsWhereToLookFrom) {
   load("camera(name=a) camera(name=b, position=\"4 5 6\")\nkeys(onPress=\"f2, b, look\")");
-  actions_.press("f2");
+  actions().press("f2");
   advance(step_s);
-  expect_near(actions_.camera(scene_)->position_in_world(), {4, 5, 6});
+  expect_near(actions().camera(scene_)->position_in_world(), {4, 5, 6});
 }
 
 TEST_F(ActionsTest, ACircleOfMessagesIsCutAndNamed) {
@@ -269,14 +270,14 @@ TEST_F(ActionsTest, AStormSpreadsOverStepsAndIsTold) {
   std::string script = "model(name=lamp, file=\"box.glb\", visible=0)\nkeys(";
   for (int i = 0; i < 9'999; ++i) script += "onPress=\"a, lamp, toggle\",\n";
   load(script + "onPress=\"a, lamp, show\")");
-  actions_.press("a");
+  actions().press("a");
   advance(step_s);
   const std::string told = warnings();
   EXPECT_TRUE(holds(told, "more than 1000 messages in one step")) << told;
   EXPECT_TRUE(holds(told, "\"toggle\" to \"lamp\"")) << told;
   advance(0.2);
   EXPECT_TRUE(sees("lamp")) << "nothing is lost";
-  for (int i = 0; i < 12; ++i) actions_.press("a");
+  for (int i = 0; i < 12; ++i) actions().press("a");
   advance(step_s);
   EXPECT_TRUE(holds(warnings(), "was lost"));
 }
@@ -292,7 +293,7 @@ TEST_F(ActionsTest, TheSameHappeningsGiveTheSameSceneAtAnyFrameRate) {
   for (const int frames_a_second : {10, 60, 200}) {
     load(script);
     for (int i = 0; i < 2 * frames_a_second; ++i) {
-      if (i == frames_a_second) actions_.press("x");
+      if (i == frames_a_second) actions().press("x");
       advance(1.0 / frames_a_second);
     }
     results.push_back(scene_);

@@ -1,5 +1,7 @@
 #include "scene/action/event_queue.h"
 
+#include <cmath>
+
 namespace parvis::action {
 namespace {
 
@@ -14,9 +16,10 @@ void EventQueue::warn(const std::string& kind, Error warning) {
   if (told_.insert(kind).second) warnings_.push_back(std::move(warning));
 }
 
-void EventQueue::post(long now, long step, Delivery delivery) {
+void EventQueue::post(Delivery delivery, double delay_s) {
   const std::string& text = delivery.message.text;
-  if (step > now) delivery.chain = 0;
+  const long step = now_ + std::lround(delay_s / step_s);
+  delivery.chain = step > now_ ? 0 : next_chain_;
   if (delivery.chain > longest_chain) {
     const Error circle = error_at(delivery.where,
                                   "the message \"{}\" to \"{}\" causes itself without end: the circle was "
@@ -30,9 +33,10 @@ void EventQueue::post(long now, long step, Delivery delivery) {
   waiting_.emplace(std::pair(step, posted_++), std::move(delivery));
 }
 
-bool EventQueue::next(long now, Delivery& delivery) {
-  if (now != counted_step_) counted_step_ = now, delivered_ = 0;
-  if (waiting_.empty() || waiting_.begin()->first.first > now) return false;
+bool EventQueue::next(Delivery& delivery) {
+  next_chain_ = 0;
+  if (now_ != counted_step_) counted_step_ = now_, delivered_ = 0;
+  if (waiting_.empty() || waiting_.begin()->first.first > now_) return false;
   if (delivered_ == most_messages_a_step) {
     const Delivery& first = waiting_.begin()->second;
     warn("storm",
@@ -45,6 +49,7 @@ bool EventQueue::next(long now, Delivery& delivery) {
   ++delivered_;
   delivery = std::move(waiting_.begin()->second);
   waiting_.erase(waiting_.begin());
+  next_chain_ = delivery.chain + 1;
   return true;
 }
 

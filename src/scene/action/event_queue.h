@@ -12,6 +12,8 @@
 
 namespace parvis::action {
 
+/// Seconds between two steps of a scene that runs.
+inline constexpr double step_s = 1.0 / 60.0;
 /// Messages of one step are delivered up to this number; the others wait for the next.
 inline constexpr std::size_t most_messages_a_step = 1'000;
 /// More do not wait: those that come then are lost, and told.
@@ -24,16 +26,20 @@ struct Delivery {
   const scene::Node* target = nullptr;
   scene::Message message;
   FileLocation where;  ///< of the event that sent it
-  int chain = 0;       ///< how many messages of the same step led to it
+  int chain = 0;       ///< how many messages of the same step led to it; the queue counts
 };
 
 class EventQueue {
  public:
-  /// Takes a message that arrives at `step`; `now` is the present one.
-  void post(long now, long step, Delivery delivery);
-  /// The next message that is due at `now`, first sent first; false where there is none or the step has had
-  /// its share.
-  bool next(long now, Delivery& delivery);
+  /// The number of the present step; 0 before the first.
+  long now() const { return now_; }
+  void begin_step() { ++now_; }
+
+  /// Takes a message that arrives so many seconds from now.
+  void post(Delivery delivery, double delay_s = 0.0);
+  /// The next message that is due, first sent first; false where there is none or the step has had its share.
+  /// What is posted before the next call is an effect of this message.
+  bool next(Delivery& delivery);
 
   std::size_t size() const { return waiting_.size(); }
   /// What was cut, lost or postponed since the last call; each circle is told once, storms once in the
@@ -44,8 +50,9 @@ class EventQueue {
   void warn(const std::string& kind, Error warning);
 
   std::map<std::pair<long, long>, Delivery> waiting_;  ///< by step and number
-  long posted_ = 0;
+  long now_ = 0, posted_ = 0;
   long counted_step_ = -1;
+  int next_chain_ = 0;         ///< of messages that are posted now
   std::size_t delivered_ = 0;  ///< in the counted step
   Errors warnings_;
   std::set<std::string> told_;

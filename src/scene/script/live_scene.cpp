@@ -98,6 +98,29 @@ void LiveScene::set(const Node& node, const std::string& attribute, AttributeVal
   changing.set(attribute, std::move(value));
 }
 
+const Node& LiveScene::unique_node(const std::string& type) {
+  if (const Node* node = find("%" + type)) return *node;
+  const NodeSchema& schema = script_.registry->find(type)->schema;
+  assert(schema.is_unique);
+  Node& node = added_.emplace_back();
+  node.schema = &schema;
+  by_name_.emplace("%" + type, &node);
+  int last = -1;
+  for (const auto& [other, frame] : script_.frames) last = std::max(last, frame.number);
+  script_.frames[&node].number = last + 1;
+  return node;
+}
+
+Status LiveScene::hold(const Node& node, const std::string& attribute, const std::string& text) {
+  const AttributeSchema* schema = node.schema->find(attribute);
+  assert(schema && "the node's schema has no such attribute");
+  Result<AttributeValue> value = parse_value(*schema, text, Roots(""), {});
+  if (!value) return value.errors();
+  held_[&node][attribute] = *value;
+  set(node, attribute, *std::move(value));
+  return Done{};
+}
+
 bool LiveScene::receive(const Node& node, const Message& message) {
   const std::string& name = message.schema->name;
   const auto show = [this](const Node& target, bool is_visible) { set_visible(change(target), is_visible); };
@@ -159,6 +182,8 @@ Status LiveScene::choose(Scene& scene, const std::string& wanted) {
   as_written_.clear();
   scenario_ = name;
   if (chosen) change_by(*chosen);
+  for (const auto& [node, values] : held_)
+    for (const auto& [attribute, value] : values) set(*node, attribute, value);
   if (Errors errors = refresh(scene); !errors.empty()) return errors;
   return Done{};
 }

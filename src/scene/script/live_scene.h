@@ -2,6 +2,7 @@
 // nodes alone, from models that are there already.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <set>
 #include <string>
@@ -20,6 +21,8 @@ class LiveScene {
  public:
   LiveScene() = default;  ///< without nodes
   explicit LiveScene(Script script);
+  /// Of a scene without a script; `unique_node` makes its nodes. The registry must outlive it.
+  explicit LiveScene(const NodeRegistry& registry) { script_.registry = &registry; }
 
   const std::vector<Node>& nodes() const { return script_.nodes; }
   /// By its name, or as %TYPE; null where there is none.
@@ -39,6 +42,11 @@ class LiveScene {
   /// Gives an attribute of the node another value of its type, in place of those that it replaces; seen after
   /// the next `refresh`.
   void set(const Node& node, const std::string& attribute, AttributeValue value);
+  /// The node of a unique type: the script's, or one without attributes that stands for it from now on.
+  const Node& unique_node(const std::string& type);
+  /// Gives the attribute the value that `text` writes, in every scenario: what the command line says. Errors
+  /// say what is expected, and nothing has changed then.
+  Status hold(const Node& node, const std::string& attribute, const std::string& text);
   /// Does what a message that every node type of its kind takes says: sets a live attribute, shows or hides.
   /// False where the message is none of these.
   bool receive(const Node& node, const Message& message);
@@ -77,6 +85,8 @@ class LiveScene {
   std::map<const Node*, std::vector<NodeAttribute>> changed_;  ///< and what they were at the last refresh
   std::map<Node*, std::vector<NodeAttribute>> as_written_;  ///< attributes of nodes that the scenario changed
   std::string scenario_;
+  std::deque<Node> added_;  ///< beside the script's
+  std::map<const Node*, std::map<std::string, AttributeValue>> held_;
 };
 
 }  // namespace parvis::scene

@@ -153,6 +153,35 @@ TEST_F(LiveSceneTest, TrafficIsHiddenAndRoadsStay) {
   EXPECT_TRUE(scene_.data<traffic::TrafficDemand>().is_visible);
 }
 
+TEST_F(LiveSceneTest, WhatTheCommandLineSaysHoldsInEveryScenario) {
+  load(
+      "exposure(value=2)\nscenario(name=dark) { override(of=\"%exposure\", value=0.5) }\n"
+      "scenario(name=other) { model(name=kiosk, file=\"small.glb\") }");
+  const Node& exposure = live_.unique_node("exposure");
+  EXPECT_EQ(&exposure, live_.find("%exposure")) << "the script has one";
+  ASSERT_TRUE(live_.hold(exposure, "value", "3"));
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(scene_.exposure, 3.0f);
+  for (const char* scenario : {"dark", "other", ""}) {
+    choose(scenario);
+    EXPECT_EQ(scene_.exposure, 3.0f) << scenario;
+  }
+  const Status refused = live_.hold(exposure, "value", "bright");
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(holds(to_string(refused.errors()), "expected a number"));
+  choose("dark");
+  EXPECT_EQ(scene_.exposure, 3.0f);
+}
+
+TEST_F(LiveSceneTest, ANodeThatTheScriptLacksCanBeSet) {
+  load("camera(name=eye)");
+  EXPECT_EQ(live_.find("%air"), nullptr);
+  live_.set(live_.unique_node("air"), "haze_per_m", 0.25);
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(scene_.haze_per_m, 0.25f);
+  EXPECT_EQ(&live_.unique_node("air"), live_.find("%air")) << "it is made once";
+}
+
 TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
   const std::string errors = errors_of(std::string(square) +
                                        "road(name=street, path=\"0 0, 100 0\")\n"

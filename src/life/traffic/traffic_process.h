@@ -1,0 +1,34 @@
+// The traffic of a scene that runs.
+#pragma once
+
+#include <memory>
+
+#include "life/traffic/traffic.h"
+#include "scene/action/process.h"
+
+namespace parvis::traffic {
+
+class TrafficProcess final : public action::Process {
+ public:
+  std::string name() const override { return "traffic"; }
+  /// "30 vehicles"; empty where none drives.
+  std::string status() const override {
+    return traffic_->vehicle_count() == 0 ? "" : fmt::format("{} vehicles", traffic_->vehicle_count());
+  }
+  /// Puts vehicles on the scene's roads.
+  void begin(scene::Scene& scene, action::SharedByProcesses&) override {
+    traffic_ = std::make_unique<Traffic>(scene);
+    for (const std::string& warning : traffic_->warnings()) warn(error("{}", warning));
+    traffic_->add_vehicles(scene);
+  }
+  void step(const scene::Scene&) override { traffic_->step(); }
+  void present(scene::Scene& scene, double ahead_s) override { traffic_->place(scene, ahead_s); }
+
+  /// After `begin`.
+  const Traffic& traffic() const { return *traffic_; }
+
+ private:
+  std::unique_ptr<Traffic> traffic_;
+};
+
+}  // namespace parvis::traffic

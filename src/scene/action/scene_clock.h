@@ -1,0 +1,69 @@
+// The one clock of a scene that runs: fixed steps for every process, messages between them, and the moment
+// between two steps that is shown. The same happenings at the same times give the same scene at any frame
+// rate.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/action/process.h"
+
+namespace parvis::action {
+
+class SceneClock {
+ public:
+  /// Begins all processes. Without a script, `live` has no nodes.
+  SceneClock(const Processes& processes, scene::LiveScene live, scene::Scene& scene);
+
+  scene::LiveScene& live() { return shared_->live; }
+  const scene::LiveScene& live() const { return shared_->live; }
+  double time_s() const { return double(shared_->queue.now()) * step_s + due_s_; }
+
+  /// Lets `seconds` >= 0 pass: as many steps as have come due, then the moment after the last.
+  void advance(scene::Scene& scene, double seconds, const Observer& observer = {});
+
+  /// A message from outside of the scene (a panel, the command line), delivered in the next step.
+  Status send(const std::string& target, const std::string& message);
+  /// The same to a node of `live().nodes()`, which needs no name.
+  Status send(const scene::Node& target, const std::string& message);
+
+  /// The process of this type; null where no room brings one.
+  template <class P>
+  P* find() const {
+    for (const Entry& entry : entries_)
+      if (P* process = dynamic_cast<P*>(entry.process.get())) return process;
+    return nullptr;
+  }
+  /// By its name; null where there is none.
+  Process* find(const std::string& name) const;
+
+  /// A paused process stands still; all else goes on.
+  void pause(const Process& process, bool is_paused);
+  bool is_paused(const Process& process) const;
+  /// Moves one process on, also where it is paused.
+  void step_alone(const scene::Scene& scene, Process& process, double seconds);
+
+  /// What went wrong since the last call, in any process.
+  Errors take_warnings();
+
+ private:
+  struct Entry {
+    std::unique_ptr<Process> process;
+    bool is_paused = false;
+    double ahead_s = 0.0;  ///< that was shown last: a paused process stays there
+  };
+
+  void step(scene::Scene& scene, const Observer& observer);
+  void present(scene::Scene& scene, double ahead_s);
+  void deliver(scene::Scene& scene, const Delivery& delivery);
+  void warn(const Errors& warnings) { warnings_.insert(warnings_.end(), warnings.begin(), warnings.end()); }
+  const Entry& entry_of(const Process& process) const;
+
+  std::unique_ptr<SharedByProcesses> shared_;
+  std::vector<Entry> entries_;
+  double due_s_ = 0.0;  ///< time that has passed since the last step
+  Errors warnings_;
+};
+
+}  // namespace parvis::action
