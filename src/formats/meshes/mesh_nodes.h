@@ -11,6 +11,7 @@ namespace parvis::scene {
 void furnish_meshes(House& house);
 
 // The node types, each with a file nodes_FAMILY.cpp. `readers` must outlive the registry.
+/// model.
 void add_model_node(NodeRegistry& registry, const formats::Readers& readers);
 void add_material_nodes(NodeRegistry& registry);  ///< material
 void add_wheel_nodes(NodeRegistry& registry);     ///< wheels

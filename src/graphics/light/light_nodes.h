@@ -1,4 +1,4 @@
-// What this room brings to the house: sun, sky, air, exposure, reflection.
+// What this room brings to the house: sun, sky, air, exposure.
 #pragma once
 
 #include "base/house.h"

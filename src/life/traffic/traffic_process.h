@@ -8,6 +8,7 @@
 
 namespace parvis::traffic {
 
+/// Vehicles on the roads of the scene, as its TrafficDemand asks.
 class TrafficProcess final : public action::Process {
  public:
   std::string name() const override { return "traffic"; }

@@ -1,5 +1,5 @@
-// What happens in a scene while it runs: keys, timers and things that come near send messages; nodes do what
-// they are told; paths move objects and cameras; tours lead the view.
+// Interaction and motion of a running scene: keys, timers and things that come near send messages; paths move
+// objects and cameras; tours lead the view.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,8 @@
 
 namespace parvis::action {
 
+/// The process of the nodes keys, timer, proximity, path, tour; it also receives what cameras and scenarios
+/// take.
 class Actions final : public Process {
  public:
   std::string name() const override { return "actions"; }

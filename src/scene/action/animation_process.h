@@ -6,6 +6,7 @@
 
 namespace parvis::action {
 
+/// Poses and deforms every object that plays an animation.
 class AnimationProcess final : public Process {
  public:
   std::string name() const override { return "animations"; }

@@ -29,10 +29,12 @@ struct Delivery {
   int chain = 0;       ///< how many messages of the same step led to it; the queue counts
 };
 
+/// Messages that wait, by the step at which they arrive.
 class EventQueue {
  public:
   /// The number of the present step; 0 before the first.
   long now() const { return now_; }
+  /// Counts one step on.
   void begin_step() { ++now_; }
 
   /// Takes a message that arrives so many seconds from now.
@@ -41,8 +43,9 @@ class EventQueue {
   /// What is posted before the next call is an effect of this message.
   bool next(Delivery& delivery);
 
+  /// How many messages wait.
   std::size_t size() const { return waiting_.size(); }
-  /// What was cut, lost or postponed since the last call; each circle is told once, storms once in the
+  /// What was cut, lost or postponed since the last call; each circle is reported once, storms once in the
   /// queue's life.
   Errors take_warnings() { return std::exchange(warnings_, {}); }
 

@@ -44,10 +44,12 @@ class Process {
   virtual void step(const scene::Scene&) {}
   /// Looks at the scene as it is after a step; called where `looks` says so.
   virtual void look(const scene::Scene&, const Observer&) {}
+  /// True where `look` is to be called; the scene is then presented at every step.
   virtual bool looks() const { return false; }
   /// Puts into the scene what is to be seen `ahead_s`, less than a step, after the last step.
   virtual void present(scene::Scene&, double /*ahead_s*/) {}
-  /// Does what the node is told. False where the message is for another process, or for the node itself.
+  /// Does what the message to this node asks for. False where it is for another process, or for the node
+  /// itself.
   virtual bool receive(scene::Scene&, const scene::Node&, const scene::Message&) { return false; }
 
   /// What went wrong since the last call.
@@ -64,8 +66,11 @@ class Process {
 /// The kinds of processes that rooms bring: each scene gets one of each.
 class Processes {
  public:
+  /// Makes a process that has not begun.
   using Make = std::function<std::unique_ptr<Process>()>;
+  /// Processes step, look and present in the order in which their kinds were added.
   void add(Make make) { makers_.push_back(std::move(make)); }
+  /// In the order added.
   const std::vector<Make>& makers() const { return makers_; }
 
  private:

@@ -50,8 +50,8 @@ void SceneClock::deliver(scene::Scene& scene, const Delivery& delivery) {
   for (Entry& entry : entries_)
     if (entry.process->receive(scene, node, delivery.message)) return;
   if (shared_->live.receive(node, delivery.message)) return;
-  warn({error_at(delivery.where, "nothing in the scene does what \"{}\" tells the {}", delivery.message.text,
-                 node.schema->type)});
+  warn({error_at(delivery.where, "no process of the scene receives \"{}\", sent to a {}",
+                 delivery.message.text, node.schema->type)});
 }
 
 Status SceneClock::send(const std::string& target, const std::string& text) {

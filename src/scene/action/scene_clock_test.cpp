@@ -97,7 +97,7 @@ TEST_F(SceneClockTest, AMessageThatNobodyTakesIsReported) {
   const Errors warnings = clock_->take_warnings();
   ASSERT_EQ(warnings.size(), 1u);
   const std::string text = to_string(warnings[0]);
-  EXPECT_NE(text.find("nothing in the scene does what \"melt\" tells the belltower"), std::string::npos)
+  EXPECT_NE(text.find("no process of the scene receives \"melt\", sent to a belltower"), std::string::npos)
       << text;
   EXPECT_NE(text.find("scene.xp:2:"), std::string::npos) << text;
   EXPECT_TRUE(clock_->take_warnings().empty()) << "once";
