@@ -67,7 +67,7 @@ void expect_orderly_traffic(const std::string& script, const std::string& city) 
   double travelled_m = 0.0;
   for (const traffic::Vehicle& vehicle : simulation.vehicles()) travelled_m -= vehicle.travelled_m;
   for (int tenth = 0; tenth < 3000; ++tenth) {
-    traffic.step(0.1f);
+    for (int sixtieth = 0; sixtieth < 6; ++sixtieth) traffic.step();
     for (const traffic::Vehicle& vehicle : simulation.vehicles()) {
       const traffic::Footprint footprint = vehicle.footprint(0.0f, simulation.lanes());
       ASSERT_FALSE(touches(footprint, houses)) << "at " << footprint.centre.x << " " << footprint.centre.y;
