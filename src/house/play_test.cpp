@@ -91,7 +91,7 @@ TEST_F(PlayTest, CamerasStandOrFollow) {
 TEST_F(PlayTest, TheMethodOfTheCommandLineHoldsInAScenarioThatNamesAnother) {
   for (const char* own : {"reflection(method=none)\n", ""}) {
     const std::string names_another =
-        *own ? "override(of=\"%reflection\", method=box_projected_probe)" : "camera(name=inside)";
+        *own ? "override(of=\"%reflection\", method=box_projected_probe)" : "group() { camera(name=inside) }";
     Result<Play> play =
         open_play(folder_.write("scene.xp",
                                 own + ("camera(name=eye)\nscenario(name=other) { " + names_another + " }\n")),
