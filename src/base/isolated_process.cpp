@@ -99,18 +99,25 @@ bool receive_request(int socket, Request& request, Descriptors& descriptors) {
   return true;
 }
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool has_shadow_memory = true;  // of terabytes: the address space cannot be limited
+#elif defined(__has_feature)
+constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
+#else
+constexpr bool has_shadow_memory = false;
+#endif
+
 std::uint64_t address_space_bytes() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
-void limit_memory([[maybe_unused]] std::uint64_t bytes) {
-#if !defined(__SANITIZE_ADDRESS__)  // whose shadow memory takes terabytes of address space
+void limit_memory(std::uint64_t bytes) {
+  if (has_shadow_memory) return;
   const rlim_t all = address_space_bytes() + bytes;
   const rlimit limit{all, all};
   setrlimit(RLIMIT_AS, &limit);
-#endif
 }
 
 /// Lets the worker open files for reading below `paths` alone. Older kernels lack Landlock: then the limits
