@@ -2,6 +2,9 @@
 #include "capture/facades/balance.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 #include "base/colour.h"
 #include "base/parallel.h"

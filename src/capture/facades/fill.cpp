@@ -3,7 +3,9 @@
 #include "capture/facades/fill.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 
 #include "base/colour.h"
 #include "base/parallel.h"

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/colour.h"
 #include "capture/facades/plane_patch.h"
 #include "capture/facades/test_model.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "capture/facades/item_buffer.h"
 

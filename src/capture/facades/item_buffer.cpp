@@ -1,10 +1,14 @@
 #include "capture/facades/item_buffer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "base/parallel.h"
 

@@ -1,6 +1,7 @@
 // All layers of a photograph in one texture.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "base/image.h"

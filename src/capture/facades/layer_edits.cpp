@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <mutex>
+#include <span>
 #include <unordered_map>
 
 #include "base/sealed_file.h"

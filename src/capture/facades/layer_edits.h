@@ -2,6 +2,7 @@
 // cameras change, layers are rebuilt and the edits applied again where they still belong.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>

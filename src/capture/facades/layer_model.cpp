@@ -1,6 +1,8 @@
 #include "capture/facades/layer_model.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <unordered_map>

@@ -2,6 +2,7 @@
 // triangles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>

@@ -1,6 +1,7 @@
 #include "capture/facades/layered_photo.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/colour.h"
 #include "base/parallel.h"

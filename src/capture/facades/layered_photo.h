@@ -1,6 +1,7 @@
 // A photograph in layers as it is displayed: every surface looks up its own layer, hidden parts included.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 #include "capture/facades/newell_cut.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "capture/facades/item_buffer.h"

@@ -1,6 +1,7 @@
 #include "capture/facades/novel_view.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/parallel.h"
 #include "capture/facades/blend.h"

@@ -2,6 +2,7 @@
 // (blend.glsl), for measurements and as the ray-traced counterpart.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/colour.h"
 #include "base/parallel.h"
 #include "capture/facades/balance.h"

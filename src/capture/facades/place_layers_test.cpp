@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/colour.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"

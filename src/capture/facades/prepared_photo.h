@@ -1,6 +1,7 @@
 // A photograph ready to be projected onto the model.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 

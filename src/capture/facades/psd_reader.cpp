@@ -1,7 +1,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <limits>
+#include <span>
 
 #include "base/files.h"
 #include "capture/facades/psd.h"

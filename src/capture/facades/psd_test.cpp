@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <span>
+
 #include "base/files.h"
 #include "base/random.h"
 #include "base/test_folder.h"

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <filesystem>
+#include <span>
 
 #include "base/files.h"
 #include "capture/facades/psd.h"

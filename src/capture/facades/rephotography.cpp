@@ -1,5 +1,6 @@
 #include "capture/facades/rephotography.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <span>
 #include <unordered_set>
 
 #include "capture/facades/item_buffer.h"

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
+#include <string>
+#include <vector>
 
 #include "capture/facades/layer_model.h"
 #include "capture/facades/view.h"

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <span>
 
 #include "base/random.h"
 #include "capture/facades/item_buffer.h"

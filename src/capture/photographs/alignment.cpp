@@ -1,8 +1,10 @@
 #include "capture/photographs/alignment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
+#include <optional>
 
 namespace parvis::photographs {
 namespace {

@@ -1,6 +1,11 @@
 // Turning a set's world: z up, metres.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "base/result.h"
 #include "capture/photographs/oriented_points.h"
 

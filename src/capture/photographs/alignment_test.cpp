@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "capture/photographs/neighbours.h"
 #include "capture/photographs/test_place.h"
 

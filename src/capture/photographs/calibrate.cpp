@@ -1,6 +1,9 @@
 #include "capture/photographs/calibrate.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <set>
 
 #include "base/content_hash.h"

@@ -3,6 +3,10 @@
 // ImageModeler (section 3.3).
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+
 #include "capture/photographs/colmap_set.h"
 
 namespace parvis::photographs {

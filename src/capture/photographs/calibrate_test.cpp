@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "capture/photographs/program.h"

@@ -2,6 +2,11 @@
 // picture of its name is taken.
 #pragma once
 
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
 #include "capture/photographs/colmap_set.h"
 
 namespace parvis::photographs {

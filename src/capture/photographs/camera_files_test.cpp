@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+
 #include "base/image_io.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"

@@ -1,4 +1,5 @@
 // Cameras of benchmark data: Strecha's .camera files, and JSON with K, R and C or t.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,7 @@
 #include "capture/photographs/colmap_model.h"
 
+#include <filesystem>
+
 #include "base/files.h"
 
 namespace parvis::photographs {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 #include <set>
 #include <unordered_map>

@@ -1,6 +1,8 @@
 // COLMAP models as photograph sets and back.
 #pragma once
 
+#include <filesystem>
+
 #include "capture/photographs/colmap_model.h"
 #include "capture/photographs/photograph.h"
 

@@ -1,6 +1,9 @@
 // COLMAP's models: text and binary, into sets and back; hostile and damaged files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "capture/photographs/colmap_set.h"

@@ -1,7 +1,10 @@
 // COLMAP's text files. A line that starts with # is a comment; an image takes two lines, the second of which
 // may be empty.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "capture/photographs/colmap_model.h"
 

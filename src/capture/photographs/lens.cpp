@@ -2,6 +2,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <span>
 
 namespace parvis::photographs {
 namespace {

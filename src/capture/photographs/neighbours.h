@@ -1,6 +1,8 @@
 // Which photographs of a set do not belong with the others.
 #pragma once
 
+#include <vector>
+
 #include "base/result.h"
 #include "capture/photographs/photograph.h"
 

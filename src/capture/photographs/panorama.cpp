@@ -1,6 +1,8 @@
 #include "capture/photographs/panorama.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "base/image_io.h"

@@ -1,6 +1,11 @@
 // Panoramas as six calibrated photographs: the faces of a cube around the viewpoint (thesis, section 5.3.1).
 #pragma once
 
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
 #include "base/result.h"
 #include "capture/photographs/picture.h"
 

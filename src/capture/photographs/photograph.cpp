@@ -1,6 +1,7 @@
 #include "capture/photographs/photograph.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace parvis::photographs {
 namespace {

@@ -1,6 +1,10 @@
 // The pixels of photographs: read as their camera sees them, and freed from distortion.
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "base/image.h"
 #include "base/result.h"
 #include "capture/photographs/colmap_set.h"

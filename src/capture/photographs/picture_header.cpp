@@ -1,5 +1,6 @@
 #include "capture/photographs/picture_header.h"
 
+#include <filesystem>
 #include <fstream>
 #include <optional>
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "capture/photographs/picture_header.h"

@@ -1,5 +1,6 @@
 #include "capture/photographs/set_file.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"

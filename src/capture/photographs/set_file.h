@@ -2,6 +2,8 @@
 // beside it with what COLMAP has no place for: where the pictures are, gains, masks.
 #pragma once
 
+#include <filesystem>
+
 #include "capture/photographs/colmap_set.h"
 
 namespace parvis::photographs {

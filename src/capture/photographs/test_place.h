@@ -2,8 +2,11 @@
 // photographs of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <limits>
+#include <string>
 
 #include "base/image.h"
 #include "capture/photographs/photograph.h"

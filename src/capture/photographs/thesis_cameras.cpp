@@ -5,6 +5,8 @@
 // counter-clockwise seen from above, 0 looking along +y; pitch about x, upward; roll about y; then the
 // horizontal field of view in degrees and width over height. The appendix does not say which way the field of
 // view goes: Performer's frusta take it horizontally.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

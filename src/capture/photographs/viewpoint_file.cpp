@@ -1,8 +1,10 @@
 // Viewpoints of VRML 97 (ISO/IEC 14772-1, 6.53), and perspective cameras of VRML 1.0 and Inventor: a small
 // reader of exactly these nodes and the transforms around them. Everything else in the file is passed over.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
 
 #include "capture/photographs/camera_files.h"
 

@@ -6,8 +6,10 @@
 #include "capture/trees/billboard_textures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "base/parallel.h"
 #include "capture/trees/billboard_math.h"

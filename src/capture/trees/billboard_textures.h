@@ -1,6 +1,8 @@
 // Textures of a tree's billboards, one per cell and photograph (003_d5b01da2d2f805f6, section 4.5.3).
 #pragma once
 
+#include <span>
+
 #include "capture/trees/billboard_tree.h"
 
 namespace parvis::trees {

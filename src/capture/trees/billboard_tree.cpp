@@ -1,6 +1,7 @@
 #include "capture/trees/billboard_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 

@@ -2,7 +2,11 @@
 // (003_d5b01da2d2f805f6, sections 4.5.3 and 4.6).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <vector>
 
 #include "capture/trees/tree_volume.h"
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/judge.h"

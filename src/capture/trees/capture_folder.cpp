@@ -1,6 +1,8 @@
 #include "capture/trees/capture_folder.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <span>
 
 #include "base/image_io.h"
 #include "base/parallel.h"

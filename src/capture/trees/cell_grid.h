@@ -5,6 +5,7 @@
 // by the branching, which is all that levels of detail need.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>

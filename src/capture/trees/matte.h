@@ -2,6 +2,9 @@
 // Tomasi, Alpha Estimation in Natural Images, CVPR 2000).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "base/image.h"
 #include "base/result.h"
 

@@ -2,6 +2,8 @@
 // shape to judge them by.
 #pragma once
 
+#include <vector>
+
 #include "capture/trees/tree_volume.h"
 #include "scene/data/model.h"
 

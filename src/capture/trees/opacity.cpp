@@ -10,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
 

@@ -6,7 +6,10 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "capture/trees/cell_grid.h"
 #include "capture/trees/visual_hull.h"

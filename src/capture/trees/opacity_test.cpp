@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <span>
 
 #include "capture/trees/test_volume.h"
 

@@ -1,6 +1,8 @@
 #include "capture/trees/reconstruction.h"
 
+#include <algorithm>
 #include <chrono>
+#include <span>
 
 #include "base/progress.h"
 

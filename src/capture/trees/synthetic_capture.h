@@ -1,6 +1,10 @@
 // Captures with truth: path-traced views of a tree of known shape with exact alpha (reference/path_tracer.h).
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "base/result.h"
 #include "capture/trees/tree_view.h"
 #include "scene/data/scene.h"

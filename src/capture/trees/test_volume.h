@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
 
 #include "base/random.h"
 #include "capture/trees/opacity.h"

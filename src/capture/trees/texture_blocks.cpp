@@ -2,6 +2,7 @@
 #include "capture/trees/texture_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 

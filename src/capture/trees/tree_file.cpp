@@ -1,7 +1,9 @@
 #include "capture/trees/tree_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "base/sealed_file.h"

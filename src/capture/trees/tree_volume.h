@@ -6,6 +6,10 @@
 // the textures need to know.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
 #include "capture/trees/opacity.h"
 
 namespace parvis::trees {

@@ -2,6 +2,10 @@
 // shows no alpha in one photograph is empty, whatever the others show.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
 #include "base/result.h"
 #include "capture/trees/cell_grid.h"
 

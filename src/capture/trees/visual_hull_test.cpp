@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capture/trees/test_volume.h"
 
 namespace parvis::trees {

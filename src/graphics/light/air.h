@@ -3,6 +3,7 @@
 // by.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 
 #include "graphics/light/spectrum.h"

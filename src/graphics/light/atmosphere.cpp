@@ -1,6 +1,7 @@
 #include "graphics/light/atmosphere.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 

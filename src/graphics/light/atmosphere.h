@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "graphics/light/air.h"

@@ -2,6 +2,8 @@
 // cloud is at an hour.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "base/image.h"
 #include "graphics/light/sky_model.h"
 

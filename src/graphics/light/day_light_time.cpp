@@ -1,6 +1,8 @@
 #include "graphics/light/day_light_time.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace parvis::light {
 namespace {

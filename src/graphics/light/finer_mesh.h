@@ -1,6 +1,8 @@
 // Triangles divided until none is larger than asked for.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "base/mesh.h"
 
 namespace parvis::light {

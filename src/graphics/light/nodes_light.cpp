@@ -1,5 +1,6 @@
 // sun, sky, air, exposure: light and how it is shown. Each stands once in a scene.
 #include <cmath>
+#include <filesystem>
 
 #include "base/image_io.h"
 #include "graphics/light/light_nodes.h"

@@ -5,6 +5,9 @@
 // is judged is the method alone.
 #pragma once
 
+#include <array>
+#include <glm/glm.hpp>
+
 #include "graphics/light/shadow_fit.h"
 #include "graphics/reference/ray_scene.h"
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/random.h"
 #include "graphics/light/shadow_check.h"
 #include "graphics/light/test_box.h"

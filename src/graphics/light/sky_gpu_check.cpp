@@ -1,5 +1,6 @@
 #include "graphics/light/sky_gpu_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

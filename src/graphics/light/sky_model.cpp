@@ -1,6 +1,7 @@
 #include "graphics/light/sky_model.h"
 
 #include <cmath>
+#include <memory>
 #include <mutex>
 
 #include "graphics/light/preetham.h"

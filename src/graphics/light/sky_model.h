@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <glm/glm.hpp>
 #include <memory>
 
 #include "base/result.h"

@@ -1,5 +1,7 @@
 #include "graphics/light/sky_view.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "base/parallel.h"

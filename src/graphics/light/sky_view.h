@@ -1,6 +1,7 @@
 // The table of sky_view.glsl for one elevation of the sun, and its C++ side: the same lookup as in a shader.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "graphics/light/atmosphere.h"

@@ -1,6 +1,8 @@
 #include "graphics/light/spectrum.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace parvis::light {
 namespace {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "base/image.h"
 #include "base/mesh.h"

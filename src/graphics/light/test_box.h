@@ -1,6 +1,7 @@
 // For tests: a box on a plain.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
 
 #include "scene/data/scene.h"

@@ -1,4 +1,6 @@
 // Any text as a COLMAP model: a set or errors. A line of dashes separates the three files.
+#include <algorithm>
+
 #include "capture/photographs/colmap_set.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,7 @@
 // Any bytes as a captured tree, and as a volume: with the checksum that they lack, so that the checks behind
 // it are met.
+#include <filesystem>
+
 #include "base/fuzz_file.h"
 #include "base/sealed_file.h"
 #include "capture/trees/tree_file.h"
