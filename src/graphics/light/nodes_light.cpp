@@ -3,7 +3,9 @@
 #include <filesystem>
 
 #include "base/image_io.h"
+#include "graphics/light/day_light.h"
 #include "graphics/light/light_nodes.h"
+#include "graphics/light/nodes_day_light.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 
@@ -116,17 +118,18 @@ NodeSchema air_schema() {
 }
 
 NodeSchema exposure_schema() {
-  return {.type = "exposure",
-          .help = "How bright the picture is.",
-          .attributes = {{.name = "value",
-                          .type = AttributeType::number,
-                          .help = "multiplies radiance before the tone curve",
-                          .fallback = "1",
-                          .minimum = 1e-6,
-                          .maximum = 1e6,
-                          .is_live = true}},
-          .example = "exposure(value=1.2)",
-          .is_unique = true};
+  return {
+      .type = "exposure",
+      .help = "How bright the picture is.",
+      .attributes = {{.name = "value",
+                      .type = AttributeType::number,
+                      .help = "multiplies radiance before the tone curve; with dayLight: what that chooses",
+                      .fallback = "1",
+                      .minimum = 1e-6,
+                      .maximum = 1e6,
+                      .is_live = true}},
+      .example = "exposure(value=1.2)",
+      .is_unique = true};
 }
 
 }  // namespace
@@ -135,11 +138,14 @@ void furnish_light(House& house) {
   NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(sun_schema(), build_sun);
   registry.add(sky_schema(), build_sky);
+  light::add_day_light_nodes(registry);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.scene.haze_per_m = float(node.number("haze_per_m"));
   });
   registry.add(exposure_schema(), [](const Node& node, SceneBuilder& builder) {
-    builder.scene.exposure = float(node.number("value"));
+    light::DayLight& day = builder.scene.data<light::DayLight>();
+    day.chosen_exposure = float(node.number("value"));
+    builder.scene.exposure = day.chosen_exposure * day.adaptation;
   });
 }
 

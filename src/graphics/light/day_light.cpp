@@ -1,0 +1,85 @@
+#include "graphics/light/day_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/colour.h"
+#include "base/parallel.h"
+#include "graphics/light/atmosphere.h"
+#include "graphics/light/cloud_cover.h"
+
+namespace parvis::light {
+namespace {
+
+/// A clear sky is smooth; clouds keep the resolution of their photograph, within limits.
+int picture_width_px(const DayLight& day) { return day.dome ? std::clamp(day.dome->width, 512, 2048) : 512; }
+
+glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
+
+glm::vec3 direction_of(int x, int y, int width, int height) {
+  const float azimuth = ((float(x) + 0.5f) / float(width) - 0.5f) * 6.2831853f;
+  const float polar = (float(y) + 0.5f) / float(height) * 3.14159265f;
+  return {std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar)};
+}
+
+}  // namespace
+
+void DayLight::hash(ContentHash& hash) const {
+  for (const double value : {when.latitude_deg, when.longitude_deg, when.time_zone_h, when.time_of_day_h,
+                             air.turbidity, air.ground_albedo, double(dome_heading), double(chosen_exposure)})
+    hash.add(value);
+  for (const int value : {int(is_given), when.year, when.day_of_year, int(kind)}) hash.add(value);
+  hash.add_text(dome_file.string());
+}
+
+float exposure_for(float illuminance) {
+  constexpr float noon = 146.0f;  // 100,000 lux
+  constexpr float least = 3e-4f;  // 0.2 lux: eyes see no colour below
+  constexpr float displayed =
+      10.0f;  // illuminance times exposure at noon, as the house's other scenes have it
+  constexpr float unadapted = 0.2f;  // power of what adaptation leaves
+  const float light = std::max(illuminance, least);
+  return displayed / light * std::pow(light / noon, unadapted);
+}
+
+ImageF sky_picture(const SkyModel& sky, const DayLight& day, int width_px) {
+  ImageF picture(width_px, width_px / 2, 3);
+  std::optional<CloudLight> clouds;
+  if (day.dome) clouds.emplace(sky, day.air, *day.dome, day.dome_heading);
+  parallel_for(
+      std::size_t(picture.height),
+      [&](std::size_t row) {
+        for (int x = 0; x < picture.width; ++x) {
+          const glm::vec3 direction = direction_of(x, int(row), picture.width, picture.height);
+          glm::vec3 colour = displayable(sky.sky_radiance_xyz(direction));
+          if (clouds) colour = clouds->with_dome(colour, direction);
+          for (int c = 0; c < 3; ++c) picture.at(x, int(row))[c] = colour[c];
+        }
+      },
+      4);
+  return picture;
+}
+
+Status light_scene(scene::Scene& scene) {
+  DayLight& day = scene.data<DayLight>();
+  if (!day.is_given) return Done{};
+  if (Status status = check(day.when); !status) return status.errors();
+  Result<std::shared_ptr<const SkyModel>> made = make_sky(day.kind, day.air, sun_of(day.when));
+  if (!made) return made.errors();
+  const SkyModel& sky = **made;
+  scene.sun = {sky.to_sun(), displayable(sky.sun_irradiance_xyz())};
+  scene.sky.picture = sky_picture(sky, day, picture_width_px(day));
+  scene.sky.intensity = 1.0f, scene.sky.heading = 0.0f;
+  // No file, but a name for what the picture was made from: by it the renderer sees that the sky is another.
+  ContentHash content;
+  day.hash(content);
+  scene.sky.file = fmt::format("dayLight {:016x}", content.value());
+  day.adaptation = exposure_for(sky.irradiance_xyz({0, 0, 1}).y);
+  scene.exposure = day.chosen_exposure * day.adaptation;
+  return Done{};
+}
+
+}  // namespace parvis::light
