@@ -2,6 +2,7 @@
 #include "bench/curved_bench.h"
 #include "bench/doors_bench.h"
 #include "bench/frame_bench.h"
+#include "bench/light_bench.h"
 #include "bench/mem_bench.h"
 #include "commands.h"
 
@@ -18,6 +19,7 @@ Status measure(const Arguments& arguments) {
   const Result<bench::Report> report = arguments.name == "doors"    ? bench::doors_bench(arguments.is_quick)
                                        : arguments.name == "mem"    ? bench::mem_bench(arguments.is_quick)
                                        : arguments.name == "curved" ? bench::curved_bench(arguments.is_quick)
+                                       : arguments.name == "light"  ? bench::light_bench(arguments.is_quick)
                                                                     : bench::frame_bench(arguments.is_quick);
   if (!report) return report.errors();
   return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
@@ -33,9 +35,9 @@ void add_bench(CLI::App& app, Chosen& chosen) {
           "name", arguments->name,
           "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
           "and leaves; mem: multiple environment maps, their cost and truth; curved: reflections on curved "
-          "objects against the fine mesh")
+          "objects against the fine mesh; light: sun, sky and hours of sun against their truths")
       ->required()
-      ->check(CLI::IsMember({"frame", "doors", "mem", "curved"}));
+      ->check(CLI::IsMember({"frame", "doors", "mem", "curved", "light"}));
   command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: minutes in place of an hour");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");

@@ -60,6 +60,7 @@ std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
   jobs.push_back(
       [=](const fs::path& folder) { return write_file(folder / "people.xp", people_script(walker_files)); });
   jobs.push_back([](const fs::path& folder) { return write_file(folder / "figures.xp", figure_script()); });
+  jobs.push_back([](const fs::path& folder) { return write_file(folder / "paper_day.xp", day_script()); });
   jobs.push_back([=](const fs::path& folder) {
     return write_file(folder / "paper.xp", paper_script(vehicle_files, seed));
   });

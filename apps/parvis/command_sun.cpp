@@ -1,0 +1,170 @@
+// parvis sun: hours of direct sun over a scene.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "graphics/light/day_light.h"
+#include "base/progress.h"
+#include "graphics/gl/context.h"
+#include "graphics/light/sun_study.h"
+#include "house/film.h"
+#include "scene_arguments.h"
+
+namespace parvis {
+namespace {
+
+struct Arguments {
+  SceneArguments scene;
+  std::string from, to;
+  std::vector<double> place, area;
+  double cell_m = 2.0, time_zone_h = 0.0;
+  int every = 1;
+  bool is_ground_only = false;
+  std::filesystem::path output, film;
+  double film_step_min = 5.0;
+};
+
+/// The year and the day of it.
+Result<std::pair<int, int>> read_date(const std::string& text) {
+  int year = 0, month = 0, day = 0;
+  char rest = 0;
+  const bool is_date = std::sscanf(text.c_str(), "%4d-%2d-%2d%c", &year, &month, &day, &rest) == 3;
+  constexpr int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool is_month = is_date && month >= 1 && month <= 12;
+  const int last = is_month ? days[month - 1] + (month == 2 && light::is_leap_year(year) ? 1 : 0) : 0;
+  if (!is_month || day < 1 || day > last || year < light::min_year || year > light::max_year)
+    return error("{} is not a date from {} to {} as 2026-03-21", text, light::min_year, light::max_year);
+  return std::pair{year, light::day_of_year(year, month, day)};
+}
+
+/// The place of the scene's dayLight, or --place.
+Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Scene& scene) {
+  const light::DayLight& day = scene.data<light::DayLight>();
+  light::SunPeriod period{.place = day.when, .day_step = arguments.every};
+  if (!arguments.place.empty()) {
+    period.place.latitude_deg = arguments.place[0], period.place.longitude_deg = arguments.place[1];
+  } else if (!day.is_given) {
+    return error(
+        "the scene has no place on the earth: add dayLight(latitude=, longitude=) to it or give --place "
+        "LATITUDE LONGITUDE");
+  }
+  const Result<std::pair<int, int>> from = read_date(arguments.from);
+  const Result<std::pair<int, int>> to = read_date(arguments.to.empty() ? arguments.from : arguments.to);
+  if (!from) return from.errors();
+  if (!to) return to.errors();
+  if (from->first != to->first || from->second > to->second)
+    return error("--from {} --to {}: expected two dates of one year, the earlier first", arguments.from,
+                 arguments.to);
+  period.place.year = from->first, period.first_day = from->second, period.last_day = to->second;
+  period.place.day_of_year = from->second, period.place.time_of_day_h = 12.0;
+  if (Status status = check(period.place); !status) return status.errors();
+  return period;
+}
+
+Status study(const Arguments& arguments) {
+  const Result<house::Play> play = arguments.scene.open_play();
+  if (!play) return play.errors();
+  const Result<light::SunPeriod> period = read_period(arguments, play->scene);
+  if (!period) return period.errors();
+  light::SunStudyOptions options{
+      .period = *period, .cell_m = arguments.cell_m, .area = {}, .has_facades = !arguments.is_ground_only};
+  if (!arguments.area.empty())
+    options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
+  const Result<light::SunStudy> result = light::study_sun(play->scene, options);
+  if (!result) return result.errors();
+  if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
+
+  fmt::print("hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
+             arguments.output.string(), arguments.is_ground_only ? "" : ", .glb");
+  const light::OpenSpaceRule rule = light::open_space_rule(*result);
+  const bool is_equinox = period->first_day == light::day_of_year(period->place.year, 3, 21) &&
+                          period->last_day == period->first_day;
+  fmt::print("open ground: {:.0f} m2, {:.1f} % of it with two hours or more{}\n", rule.area_m2,
+             100.0 * rule.share,
+             !is_equinox      ? " (BRE 209 asks for 21 March: --from 2026-03-21)"
+             : rule.is_kept() ? ": BRE 209 is kept (half of it)"
+                              : ": BRE 209 is NOT kept (it asks for half of it)");
+  return Done{};
+}
+
+/// The day's shadows as a film: the hours while the sun is up, a frame every few minutes.
+Status film_day(const Arguments& arguments) {
+  int width = 0, height = 0;
+  if (Status status = arguments.scene.read_size(width, height); !status) return status;
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  Result<std::unique_ptr<house::Stage>> stage = arguments.scene.open_stage();
+  if (!stage) return stage.errors();
+  house::Play& play = (*stage)->play();
+  scene::LiveScene& live = play.actions.live();
+  const scene::Node* node = live.find("%dayLight");
+  if (!node) return error("a film of the day's shadows needs a scene with dayLight(...)");
+  const Result<std::pair<int, int>> date = read_date(arguments.from);
+  if (!date) return date.errors();
+  light::PlaceAndTime day = play.scene.data<light::DayLight>().when;
+  day.year = date->first, day.day_of_year = date->second;
+  const light::DaylightHours hours = light::daylight_hours(day);
+  if (hours.is_polar_night()) return error("the sun does not rise on {}", arguments.from);
+  const double from = std::max(hours.rise_h.value_or(0.0), 0.0), to = std::min(hours.set_h.value_or(24.0), 23.99);
+
+  Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
+  if (!film) return film.errors();
+  live.set(*node, "year", long(day.year), std::to_string(day.year));
+  live.set(*node, "julianDay", long(day.day_of_year), std::to_string(day.day_of_year));
+  const int frames = int((to - from) * 60.0 / arguments.film_step_min) + 1;
+  Progress progress("film of the day", std::size_t(frames));
+  for (int i = 0; i < frames; ++i, progress.advance()) {
+    const double time = from + i * arguments.film_step_min / 60.0;
+    live.set(*node, "timeOfDay", time, fmt::format("{:.4f}", time));
+    if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
+    const Result<Camera> camera = (*stage)->camera(arguments.scene.camera);
+    if (!camera) return camera.errors();
+    (*stage)->draw(*camera, width, height);
+    if (Status status = film->add((*stage)->picture()); !status) return status;
+  }
+  return film->finish();
+}
+
+Status run(const Arguments& arguments) {
+  if (arguments.film.empty() == arguments.output.empty())
+    return error("give either -o PREFIX for hours of sun, or --film FILE for the shadows of the day");
+  return arguments.film.empty() ? study(arguments) : film_day(arguments);
+}
+
+}  // namespace
+
+void add_sun(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "sun", "Hours of direct sun over ground and facades, as a plan, a table and a model");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->scene.add_scene(*command);
+  arguments->scene.add_state(*command);
+  command->add_option("--from", arguments->from, "First day, as 2026-03-21")->required();
+  command->add_option("--to", arguments->to, "Last day (default: the first)");
+  command->add_option("--every", arguments->every, "One day stands for so many")
+      ->check(CLI::Range(1, 366))
+      ->capture_default_str();
+  command
+      ->add_option("--place", arguments->place,
+                   "Latitude and longitude (east positive) in place of the scene's")
+      ->expected(2);
+  command
+      ->add_option("--area", arguments->area, "x and y of two corners in metres (default: the whole scene)")
+      ->expected(4);
+  command->add_option("--cell", arguments->cell_m, "Size of a cell in metres")
+      ->check(CLI::Range(0.05, 1000.0))
+      ->capture_default_str();
+  command->add_flag("--ground-only", arguments->is_ground_only, "No facades: no model");
+  command->add_option("-o,--output", arguments->output, "Prefix of the files to write");
+  command->add_option("--film", arguments->film, "In their place: a film of the shadows of the first day (.mp4)");
+  command->add_option("--step", arguments->film_step_min, "Of the film: minutes between frames")
+      ->check(CLI::Range(0.1, 120.0))
+      ->capture_default_str();
+  arguments->scene.add_camera(*command);
+  command->add_option("--size", arguments->scene.size, "Of the film: width x height in pixels")->capture_default_str();
+  command->footer(
+      "Example: parvis sun out/paper/paper_day.xp --from 2026-03-21 --area -120 -120 120 120 -o out/sun\n"
+                  "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace parvis
