@@ -1,0 +1,354 @@
+// parvis tree: a real tree from photographs.
+#include <algorithm>
+#include <cstdio>
+
+#include "base/image_io.h"
+#include "base/progress.h"
+#include "capture/trees/billboard_textures.h"
+#include "capture/trees/capture_folder.h"
+#include "capture/trees/judge.h"
+#include "capture/trees/matte.h"
+#include "capture/trees/measure.h"
+#include "capture/trees/reconstruction.h"
+#include "capture/trees/sample_trees.h"
+#include "capture/trees/synthetic_capture.h"
+#include "capture/trees/tree_file.h"
+#include "commands.h"
+
+namespace parvis {
+namespace {
+
+struct SynthesizeArguments {
+  std::string name;
+  std::filesystem::path folder;
+  int views = 22, held_out = 0;
+  std::string size = "800x800";
+  trees::CaptureOptions capture;
+  trees::CaptureLight light;
+  std::uint64_t seed = 1;
+};
+
+struct ReconstructArguments {
+  std::filesystem::path capture, output;
+  trees::ReconstructionOptions options;
+  bool is_octree = false;
+};
+
+struct TextureArguments {
+  std::filesystem::path capture, volume, output;
+  trees::TextureOptions options;
+};
+
+struct FileArguments {
+  std::filesystem::path file, capture, pictures;
+};
+
+struct MatteArguments {
+  std::filesystem::path photographs, zones, output;
+};
+
+const std::map<std::string, trees::OpacityMethod> opacity_methods{
+    {"projection", trees::OpacityMethod::projection},
+    {"sirt", trees::OpacityMethod::sirt},
+    {"multiplicative", trees::OpacityMethod::multiplicative}};
+const std::map<std::string, trees::TextureMethod> texture_methods{
+    {"optimised", trees::TextureMethod::optimised},
+    {"age_importance", trees::TextureMethod::age_importance},
+    {"naive", trees::TextureMethod::naive},
+    {"random_texels", trees::TextureMethod::random_texels}};
+
+Status synthesize(SynthesizeArguments arguments) {
+  if (std::sscanf(arguments.size.c_str(), "%dx%d", &arguments.capture.width, &arguments.capture.height) !=
+          2 ||
+      arguments.capture.width < 16 || arguments.capture.height < 16 || arguments.capture.width > 8192 ||
+      arguments.capture.height > 8192)
+    return error("--size {}: expected WIDTHxHEIGHT from 16x16 to 8192x8192", arguments.size);
+  const Result<scene::Model> model = trees::make_sample_tree(arguments.name, arguments.seed);
+  if (!model) return model.errors();
+  const scene::Scene scene = trees::capture_scene(*model, arguments.light);
+  const Bounds bounds = scene::bounds(*model);
+  const auto write = [&](const std::filesystem::path& folder, const std::vector<Camera>& cameras,
+                         const std::string& name) {
+    return trees::write_capture(folder, trees::photograph_tree(scene, cameras, name, arguments.capture));
+  };
+  if (Status status =
+          write(arguments.folder, trees::capture_cameras(bounds, arguments.views), arguments.name);
+      !status)
+    return status;
+  if (arguments.held_out == 0) return Done{};
+  arguments.capture.seed += 76;
+  return write(arguments.folder / "held_out",
+               trees::held_out_cameras(bounds, arguments.held_out, arguments.seed + 4),
+               arguments.name + "_held_out");
+}
+
+/// The pictures of a folder, by name.
+std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".JPG")
+      files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+Status make_matte(const MatteArguments& arguments, const std::filesystem::path& file,
+                  const std::filesystem::path& output) {
+  const Result<Image8> photograph = read_image8(file);
+  if (!photograph) return photograph.errors();
+  const std::string name = file.filename().string();
+  const std::filesystem::path painted = arguments.zones / (file.stem().string() + ".png");
+  Result<trees::Zones> zones = trees::Zones();
+  if (!arguments.zones.empty() && std::filesystem::exists(painted)) {
+    const Result<Image8> scribbles = read_image8(painted);
+    if (!scribbles) return scribbles.errors();
+    zones = trees::zones_of_scribbles(*scribbles, photograph->width, photograph->height, name);
+  } else {
+    zones = trees::zones_of_plain_background(*photograph, name);
+  }
+  if (!zones) return zones.errors();
+  const Result<Image8> rgba = trees::matte(*photograph, *zones, name);
+  if (!rgba) return rgba.errors();
+  return write_image(output, *rgba);
+}
+
+/// Every photograph; those that have their matte already are passed over, so that the command can be
+/// repeated.
+Status mattes(const MatteArguments& arguments) {
+  const std::vector<std::filesystem::path> files = pictures_of(arguments.photographs);
+  if (files.empty()) return error("{}: no .png or .jpg pictures are there", arguments.photographs.string());
+  std::error_code code;
+  std::filesystem::create_directories(arguments.output, code);
+  if (code) return error("{}: the folder cannot be made: {}", arguments.output.string(), code.message());
+  Progress progress("mattes", files.size());
+  Errors problems;
+  for (const std::filesystem::path& file : files) {
+    const std::filesystem::path output = arguments.output / (file.stem().string() + ".png");
+    if (!std::filesystem::exists(output))
+      if (const Status status = make_matte(arguments, file, output); !status)
+        problems.insert(problems.end(), status.errors().begin(), status.errors().end());
+    progress.advance();
+  }
+  return problems.empty() ? Status(Done{}) : Status(problems);
+}
+
+Status reconstruct(ReconstructArguments arguments) {
+  const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+  if (!views) return views.errors();
+  if (arguments.is_octree) arguments.options.grid.branching = 2;
+  const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
+  if (!made) return made.errors();
+  for (const std::string& row : made->notes) fmt::print("{}\n", row);
+  const Result<std::size_t> bytes = trees::write_volume(arguments.output, made->volume);
+  if (!bytes) return bytes.errors();
+  fmt::print("{}: {} cells, {:.2f} MB\n", arguments.output.string(), made->volume.grid.size(),
+             double(*bytes) * 1e-6);
+  return Done{};
+}
+
+Status texture(const TextureArguments& arguments) {
+  const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+  if (!views) return views.errors();
+  const Result<trees::TreeVolume> volume = trees::read_volume(arguments.volume);
+  if (!volume) return volume.errors();
+  const trees::BillboardTree tree = trees::textured(*volume, *views, arguments.options);
+  const Result<std::size_t> bytes = trees::write_tree(arguments.output, tree);
+  if (!bytes) return bytes.errors();
+  fmt::print("{}: {} billboards, {:.2f} MB\n", arguments.output.string(), tree.grid.size(),
+             double(*bytes) * 1e-6);
+  return Done{};
+}
+
+Status pack(const FileArguments& arguments) {
+  const Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
+  if (!tree) return tree.errors();
+  const trees::Packing packing = trees::packed_disjoint_alphas(*tree);
+  const double raw = 4e-6 * double(packing.textures) * tree->texels_per_side * tree->texels_per_side;
+  std::error_code code;
+  fmt::print(
+      "{} textures, {} after packing disjoint alphas: {:.1f} MB become {:.1f} MB ({:.0f} %); this file "
+      "{:.1f} MB\n",
+      packing.textures, packing.packed, raw, raw * packing.ratio(), 100.0 * packing.ratio(),
+      1e-6 * double(std::filesystem::file_size(arguments.file, code)));
+  return Done{};
+}
+
+Status measure(const FileArguments& arguments) {
+  const Result<trees::TreeVolume> volume = trees::read_volume(arguments.file);
+  if (!volume) return volume.errors();
+  const trees::TreeMeasures m = trees::measured(*volume);
+  fmt::print(
+      "height {:.2f} m\ncrown base {:.2f} m\ncrown width {:.2f} m\ncrown volume {:.1f} m3\nprojected area "
+      "{:.1f} m2\n"
+      "trunk diameter {:.2f} m\nleaf area density per tenth of the height, from below (1/m):",
+      m.height_m, m.crown_base_m, m.crown_width_m, m.crown_volume_m3, m.projected_area_m2,
+      m.trunk_diameter_m);
+  for (const float density : m.leaf_area_density_per_m) fmt::print(" {:.2f}", density);
+  fmt::print("\n");
+  return Done{};
+}
+
+Status report(const FileArguments& arguments) {
+  const Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
+  if (!tree) return tree.errors();
+  const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+  if (!views) return views.errors();
+  trees::ViewErrors mean;
+  for (const trees::TreeView& view : *views) {
+    const ImageF picture = trees::render_billboards(*tree, view.camera);
+    const Result<trees::ViewErrors> errors = trees::judged(picture, view);
+    if (!errors) return errors.errors();
+    fmt::print("{}: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}\n", view.name,
+               errors->psnr_db, errors->ssim, errors->flip, errors->alpha_rmse);
+    mean += *errors;
+    if (!arguments.pictures.empty()) {
+      std::error_code code;
+      std::filesystem::create_directories(arguments.pictures, code);
+      const std::string name = std::filesystem::path(view.name).stem().string() + ".png";
+      if (Status status = write_image(arguments.pictures / name, trees::over_white(picture)); !status)
+        return status;
+    }
+  }
+  mean /= double(views->size());
+  fmt::print("mean of {} views: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}\n", views->size(),
+             mean.psnr_db, mean.ssim, mean.flip, mean.alpha_rmse);
+  return Done{};
+}
+
+void add_synthesize(CLI::App& tree, Chosen& chosen) {
+  CLI::App* command =
+      tree.add_subcommand("synthesize", "Photographs a procedural tree: a capture with truth");
+  const auto arguments = std::make_shared<SynthesizeArguments>();
+  command->add_option("name", arguments->name, "orange, oak, pine or winter")->required();
+  command->add_option("-o,--output", arguments->folder, "The folder to write")->required();
+  command->add_option("--views", arguments->views, "Photographs in a ring")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--held-out", arguments->held_out, "Further views, into OUTPUT/held_out")
+      ->check(CLI::Range(0, 1000));
+  command->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  command->add_option("--samples", arguments->capture.samples_per_pixel, "Paths per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4096));
+  command
+      ->add_option("--sun", arguments->light.sun_azimuth_deg,
+                   "Azimuth of the sun, degrees clockwise from north")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Another seed gives another tree")->capture_default_str();
+  command->footer("Example: parvis tree synthesize oak --views 22 --held-out 8 -o out/oak");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return synthesize(*arguments); }; });
+}
+
+void add_matte(CLI::App& tree, Chosen& chosen) {
+  CLI::App* command = tree.add_subcommand("matte", "Alpha and pure foreground of photographs");
+  const auto arguments = std::make_shared<MatteArguments>();
+  command->add_option("photographs", arguments->photographs, "A folder of .png and .jpg pictures")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The folder for the RGBA pictures")->required();
+  command->add_option(
+      "--zones", arguments->zones,
+      "A folder of small pictures of the same names, .png: background painted red, tree green; photographs "
+      "without one have a plain background");
+  command->footer("Example: parvis tree matte photographs --zones zones -o capture");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return mattes(*arguments); }; });
+}
+
+void add_reconstruct(CLI::App& tree, Chosen& chosen) {
+  CLI::App* command = tree.add_subcommand(
+      "reconstruct", "Estimates opacity and colour of a grid's cells from RGBA photographs");
+  const auto arguments = std::make_shared<ReconstructArguments>();
+  command->add_option("capture", arguments->capture, "Folder of RGBA pictures with a COLMAP model")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The volume (.volume)")->required();
+  command
+      ->add_option("--method", arguments->options.opacity.method,
+                   "projection (the thesis), sirt or multiplicative")
+      ->transform(CLI::CheckedTransformer(opacity_methods, CLI::ignore_case));
+  command->add_option("--level", arguments->options.grid.level, "Divisions of the grid for opacity")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 9));
+  command->add_option("--iterations", arguments->options.opacity.iterations, "Of the opacity estimate")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--fine-epochs", arguments->options.fine_epochs,
+                   "Passes over the photographs at one level more; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--cutoff", arguments->options.cutoff,
+                   "Transparency above which a cell is empty (default: by held-out error)")
+      ->check(CLI::Range(0.0f, 1.0f));
+  command->add_flag("--octree", arguments->is_octree, "Divide 2x2x2 in place of 3x3x3");
+  command->add_flag("--leave-out-inconsistent", arguments->options.leaves_out_inconsistent,
+                    "Leave out a photograph whose silhouette contradicts all others");
+  command->footer("Example: parvis tree reconstruct out/oak -o out/oak.volume");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return reconstruct(*arguments); }; });
+}
+
+void add_texture(CLI::App& tree, Chosen& chosen) {
+  CLI::App* command = tree.add_subcommand("texture", "Makes the billboards' textures");
+  const auto arguments = std::make_shared<TextureArguments>();
+  command->add_option("capture", arguments->capture, "Folder of RGBA pictures with a COLMAP model")
+      ->required();
+  command->add_option("volume", arguments->volume, "From parvis tree reconstruct")->required();
+  command->add_option("-o,--output", arguments->output, "The tree (.tree)")->required();
+  command
+      ->add_option("--method", arguments->options.method,
+                   "optimised, age_importance (the thesis), naive, random_texels")
+      ->transform(CLI::CheckedTransformer(texture_methods, CLI::ignore_case));
+  command->add_option("--texels", arguments->options.texels_per_side, "Texels along a billboard's side")
+      ->capture_default_str()
+      ->check(CLI::IsMember({4, 8, 16}));
+  command
+      ->add_option("--parents", arguments->options.parent_levels,
+                   "Levels by which billboards are coarser than the volume")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4));
+  command->footer("Example: parvis tree texture out/oak out/oak.volume -o out/oak.tree");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return texture(*arguments); }; });
+}
+
+void add_on_file(CLI::App& tree, Chosen& chosen, const char* name, const char* help, const char* file,
+                 const char* example, Status (*act)(const FileArguments&), bool takes_capture) {
+  CLI::App* command = tree.add_subcommand(name, help);
+  const auto arguments = std::make_shared<FileArguments>();
+  command->add_option("file", arguments->file, file)->required();
+  if (takes_capture) {
+    command
+        ->add_option("capture", arguments->capture,
+                     "Folder of the views to compare with, such as CAPTURE/held_out")
+        ->required();
+    command->add_option("--pictures", arguments->pictures,
+                        "Also write what the tree shows, over white, into this folder");
+  }
+  command->footer(example);
+  command->callback([arguments, act, &chosen] { chosen = [arguments, act] { return act(*arguments); }; });
+}
+
+}  // namespace
+
+void add_tree(CLI::App& app, Chosen& chosen) {
+  CLI::App* tree =
+      app.add_subcommand("tree", "A real tree from photographs: billboards that can be walked round");
+  tree->require_subcommand(1);
+  add_synthesize(*tree, chosen);
+  add_matte(*tree, chosen);
+  add_reconstruct(*tree, chosen);
+  add_texture(*tree, chosen);
+  add_on_file(*tree, chosen, "pack", "What the thesis's packing of disjoint alphas saves", "The tree (.tree)",
+              "Example: parvis tree pack out/oak.tree", pack, false);
+  add_on_file(*tree, chosen, "measure", "Height, crown, trunk and leaf area density", "The volume (.volume)",
+              "Example: parvis tree measure out/oak.volume", measure, false);
+  add_on_file(*tree, chosen, "report", "Compares a tree with views of the real one", "The tree (.tree)",
+              "Example: parvis tree report out/oak.tree out/oak/held_out --pictures out/pictures", report,
+              true);
+  tree->footer(
+      "Example: parvis tree synthesize oak -o out/oak, then parvis tree reconstruct out/oak -o "
+      "out/oak.volume");
+}
+
+}  // namespace parvis
