@@ -31,7 +31,7 @@ struct Made {
 Made made(const std::vector<NamedMesh>& meshes, const View& view = test_view(128, 128)) {
   Made m{model_of(meshes), view, {}, {}, {}};
   m.visibility = visibility_layers(m.model, m.view, "test");
-  m.layered = image_layers(m.model, m.view, m.visibility);
+  m.layered = image_layers(m.model, m.view, m.visibility, 32);
   m.pixels = original_pixels(Image8(view.width, view.height, 4, 90), m.layered);
   return m;
 }

@@ -28,7 +28,7 @@ struct Street {
     for (const double x : xs) views.push_back(test_view(160, 120, {x, 0, 0}));
     visibility = visibility_layers(model, views, std::vector<std::string>(xs.size(), "test"));
     for (std::size_t i = 0; i < views.size(); ++i) {
-      layered.push_back(image_layers(model, views[i], visibility[i]));
+      layered.push_back(image_layers(model, views[i], visibility[i], 32));
       const ItemBuffer seen = item_buffer(model, views[i]);
       ImageF picture(160, 120, 4, 1.0f);
       for (int y = 0; y < 120; ++y)
