@@ -1,0 +1,13 @@
+// A coarse model as glTF with named objects, which any modelling program opens and the house reads back.
+#pragma once
+
+#include <filesystem>
+
+#include "capture/facades/coarse_model.h"
+
+namespace parvis::facades {
+
+/// Writes `file` (.glb): a node and a mesh per surface, named after it, grey, seen from both sides.
+Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model);
+
+}  // namespace parvis::facades
