@@ -1,10 +1,10 @@
 // parvis sun: hours of direct sun over a scene.
 #include <fmt/format.h>
 
-#include "commands.h"
-#include "graphics/light/day_light.h"
 #include "base/progress.h"
+#include "commands.h"
 #include "graphics/gl/context.h"
+#include "graphics/light/day_light.h"
 #include "graphics/light/sun_study.h"
 #include "house/film.h"
 #include "scene_arguments.h"
@@ -104,7 +104,8 @@ Status film_day(const Arguments& arguments) {
   day.year = date->first, day.day_of_year = date->second;
   const light::DaylightHours hours = light::daylight_hours(day);
   if (hours.is_polar_night()) return error("the sun does not rise on {}", arguments.from);
-  const double from = std::max(hours.rise_h.value_or(0.0), 0.0), to = std::min(hours.set_h.value_or(24.0), 23.99);
+  const double from = std::max(hours.rise_h.value_or(0.0), 0.0),
+               to = std::min(hours.set_h.value_or(24.0), 23.99);
 
   Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
@@ -155,15 +156,17 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   command->add_flag("--ground-only", arguments->is_ground_only, "No facades: no model");
   command->add_option("-o,--output", arguments->output, "Prefix of the files to write");
-  command->add_option("--film", arguments->film, "In their place: a film of the shadows of the first day (.mp4)");
+  command->add_option("--film", arguments->film,
+                      "In their place: a film of the shadows of the first day (.mp4)");
   command->add_option("--step", arguments->film_step_min, "Of the film: minutes between frames")
       ->check(CLI::Range(0.1, 120.0))
       ->capture_default_str();
   arguments->scene.add_camera(*command);
-  command->add_option("--size", arguments->scene.size, "Of the film: width x height in pixels")->capture_default_str();
+  command->add_option("--size", arguments->scene.size, "Of the film: width x height in pixels")
+      ->capture_default_str();
   command->footer(
       "Example: parvis sun out/paper/paper_day.xp --from 2026-03-21 --area -120 -120 120 120 -o out/sun\n"
-                  "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4");
+      "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -26,7 +26,7 @@ void add_bench(CLI::App& app, Chosen& chosen);
 void add_tree(CLI::App& app, Chosen& chosen);
 
 inline constexpr void (*command_table[])(CLI::App&, Chosen&) = {
-    add_view,   add_render, add_bake, add_reference, add_compare, add_check,
-    add_format, add_export, add_city, add_sun,       add_facade,  add_tree, add_bench};
+    add_view,   add_render, add_bake, add_reference, add_compare, add_check, add_format,
+    add_export, add_city,   add_sun,  add_facade,    add_tree,    add_bench};
 
 }  // namespace parvis

@@ -140,18 +140,23 @@ std::vector<light::SunPoint> city_points(const reference::RayScene& rays, int co
   return points;
 }
 
-/// A tree's worth of vertices: a cloud of points four metres across, six metres up in the street, that face anywhere.
+/// A tree's worth of vertices: a cloud of points four metres across, six metres up in the street, that face
+/// anywhere.
 std::vector<light::LitVertex> tree_of(std::size_t count) {
   std::vector<light::LitVertex> vertices;
   Random random(9);
-  const auto any = [&] { return glm::vec3(random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f)); };
-  while (vertices.size() < count) vertices.push_back({glm::vec3(6.0f, 20.0f, 6.0f) + 2.0f * any(), glm::normalize(any() + 1e-4f)});
+  const auto any = [&] {
+    return glm::vec3(random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f));
+  };
+  while (vertices.size() < count)
+    vertices.push_back({glm::vec3(6.0f, 20.0f, 6.0f) + 2.0f * any(), glm::normalize(any() + 1e-4f)});
   return vertices;
 }
 
 double rmse_percent(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& truth) {
   double off = 0.0, mean = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) off += double((a[i].y - truth[i].y) * (a[i].y - truth[i].y)), mean += double(truth[i].y);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    off += double((a[i].y - truth[i].y) * (a[i].y - truth[i].y)), mean += double(truth[i].y);
   return 100.0 * std::sqrt(off * double(truth.size())) / mean;
 }
 
@@ -163,7 +168,8 @@ Status measure_relighting(const reference::RayScene& rays, Report& report) {
   light::VertexLight light(tree_of(10'000));
   std::vector<double> few(11), many(3);
   for (double& sample : few) light.restart(), sample = milliseconds([&] { light.refine(rays, table, 64); });
-  for (double& sample : many) light.restart(), sample = milliseconds([&] { light.refine(rays, table, 1024); });
+  for (double& sample : many)
+    light.restart(), sample = milliseconds([&] { light.refine(rays, table, 1024); });
   report.add("relight_10k_vertices_64_rays_ms", median(few));
   report.add("relight_10k_vertices_1024_rays_ms", median(many));
   light::VertexLight truth(tree_of(500)), quick(tree_of(500));
@@ -176,35 +182,42 @@ Status measure_relighting(const reference::RayScene& rays, Report& report) {
 }
 
 /// Views from eye height about the city's own cameras, under suns from 11 to 69 degrees high.
-void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays, bool is_quick, Report& report) {
+void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays, bool is_quick,
+                     Report& report) {
   constexpr int resolution = 4096;
   Bounds casters;
   for (const scene::Object& object : scene.objects)
-    for (const scene::Part& part : object.model->parts) casters.add(transformed(object.world_from_model, part.mesh.bounds()));
+    for (const scene::Part& part : object.model->parts)
+      casters.add(transformed(object.world_from_model, part.mesh.bounds()));
   Random random(4);
   light::ShadowErrors all, coarse;
   const int cameras = is_quick ? 12 : 200, suns = is_quick ? 6 : 24;
   for (int c = 0; c < cameras; ++c) {
     Camera camera = scene.cameras[std::size_t(c) % std::min<std::size_t>(scene.cameras.size(), 5)].camera;
     const float turn = random.uniform(0.0f, 6.2831853f);
-    const glm::vec3 eye = camera.position_in_world() + glm::vec3(random.uniform(-2.0f, 2.0f), random.uniform(-2.0f, 2.0f), 0.0f);
+    const glm::vec3 eye = camera.position_in_world() +
+                          glm::vec3(random.uniform(-2.0f, 2.0f), random.uniform(-2.0f, 2.0f), 0.0f);
     camera.world_from_camera = look_at(eye, eye + glm::vec3(std::cos(turn), std::sin(turn), -0.05f));
     for (int s = 0; s < suns; ++s) {
       const float e = random.uniform(0.2f, 1.2f), a = random.uniform(0.0f, 6.2831853f);
       const glm::vec3 to_sun(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
       all.add(light::check_shadows(rays, casters, camera, 128, 72, to_sun, resolution));
-      if (c % 4 == 0) coarse.add(light::check_shadows(rays, casters, camera, 128, 72, to_sun, resolution / 8));
+      if (c % 4 == 0)
+        coarse.add(light::check_shadows(rays, casters, camera, 128, 72, to_sun, resolution / 8));
     }
   }
   double best = 100.0, best_coarse = 100.0;
   for (std::size_t m = 0; m < light::shadow_method_names.size(); ++m) {
     const double percent = all.percent(light::ShadowMethod(m));
-    report.note(fmt::format("{}: {:.3f} % of {} pixels wrong", light::shadow_method_names[m], percent, all.pixels));
-    best = std::min(best, percent), best_coarse = std::min(best_coarse, coarse.percent(light::ShadowMethod(m)));
+    report.note(
+        fmt::format("{}: {:.3f} % of {} pixels wrong", light::shadow_method_names[m], percent, all.pixels));
+    best = std::min(best, percent),
+    best_coarse = std::min(best_coarse, coarse.percent(light::ShadowMethod(m)));
   }
   report.add("shadow_wrong_px_percent_best_raster", best);
   report.add("shadow_wrong_px_percent_best_raster_64th_of_memory", best_coarse);
-  report.add("shadow_perspective_over_best_raster", all.percent(light::ShadowMethod::perspective) / std::max(best, 1e-9));
+  report.add("shadow_perspective_over_best_raster",
+             all.percent(light::ShadowMethod::perspective) / std::max(best, 1e-9));
 }
 
 Status measure_sun_hours(bool is_quick, Report& report) {

@@ -1,6 +1,6 @@
 #include "capture/facades/coarse_model_file.h"
 
-#include "scene/gltf_writer.h"
+#include "formats/gltf/gltf_writer.h"
 
 namespace parvis::facades {
 

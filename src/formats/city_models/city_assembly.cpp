@@ -103,7 +103,7 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   const std::string name = surface_name(surface.semantics, object.type, float(normal.z));
   const bool turns_over = is_ground(name) && normal.z < 0.0 && !surface.is_of_solid;
   if (turns_over) normal = -normal;
-  ++polygon_count_;
+  ++polygon_count_, ++polygons_of_[name];
 
   std::vector<glm::dvec3> points;
   std::vector<std::uint32_t> triangles = triangulated(rings, normal, points);
@@ -166,9 +166,29 @@ void CityAssembly::read_pictures(Model& model) {
   model.textures = std::move(pictures_);
 }
 
+/// A place of many roofs without a wall, or the other way round, is a file that is read in part or tells
+/// half.
+void CityAssembly::warn_of_implausible_counts() {
+  constexpr std::size_t enough = 20;  // surfaces that make a place
+  const auto count = [&](const char* name) {
+    const auto found = polygons_of_.find(name);
+    return found == polygons_of_.end() ? 0 : found->second;
+  };
+  const auto expect = [&](const char* there, const char* missing) {
+    if (count(there) >= enough && count(missing) == 0)
+      warn(fmt::format(
+          "{} polygons are a {}, none is a {}: choose another level of detail with lod, or give surfaces "
+          "their kinds in the file",
+          count(there), there, missing));
+  };
+  expect("RoofSurface", "WallSurface");
+  expect("WallSurface", "RoofSurface");
+}
+
 Result<Model> CityAssembly::finish(std::size_t object_count) {
   const FileLocation where{file_.string(), 0, 0};
   if (parts_.empty()) return error_at(where, "none of the {} city objects has polygons", object_count);
+  warn_of_implausible_counts();
   Model model;
   model.name = file_.stem().string();
   model.origin = origin_;

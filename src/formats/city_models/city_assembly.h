@@ -70,6 +70,7 @@ class CityAssembly {
   void add_triangles(const PartKey& key, const CitySurface& surface, const std::vector<glm::dvec3>& points,
                      const std::vector<std::uint32_t>& triangles, glm::vec3 normal);
   Material material_of(const PartKey& key) const;
+  void warn_of_implausible_counts();
   void read_pictures(Model& model);
 
   std::filesystem::path file_;
@@ -77,6 +78,7 @@ class CityAssembly {
   Errors& warnings_;
   std::size_t warning_count_ = 0;
   std::size_t polygon_count_ = 0;
+  std::map<std::string, std::size_t> polygons_of_;  ///< by the name of the surface
   std::vector<CityMaterial> materials_;
   std::map<std::array<float, 8>, int> known_materials_;
   std::vector<Texture> pictures_;

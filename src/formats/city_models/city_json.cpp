@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/files.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_json_sequence.h"
 #include "formats/city_models/city_lod.h"
+#include "formats/city_models/city_semantics.h"
+#include "formats/terrain/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {
@@ -48,6 +51,18 @@ bool is_known(const std::string& version) {
                      [&](const char* known) { return version.starts_with(known); });
 }
 
+/// The number alone: early files name the version by an address, "http://www.cityjson.org/version/0.2".
+std::string version_of(const Json& city) {
+  const std::string named = text(member(city, "version"));
+  return named.substr(named.rfind('/') + 1);
+}
+
+/// Version 0.2 called itself CityModel in some writers.
+bool is_city_json(const Json& city) {
+  return member(city, "type") == "CityJSON" ||
+         (version_of(city).starts_with("0.") && city.contains("CityObjects"));
+}
+
 double level_of_detail(const Json& geometry) {
   const Json& lod = member(geometry, "lod");
   if (lod.is_number()) return lod.get<double>();
@@ -68,8 +83,8 @@ std::vector<glm::dvec3> triples(const Json& list, const char* what) {
   return points;
 }
 
-/// What a geometry says about each of its surfaces, in lists nested as its boundaries are. Up to version 0.3
-/// semantics were such a list themselves, and up to 0.2 there were no themes.
+/// What a geometry says about each of its surfaces, in lists nested as its boundaries are. Up to version
+/// 0.3 semantics were such a list themselves, and up to 0.2 there were no themes.
 struct Attached {
   const Json* semantics;
   const Json* material;
@@ -124,10 +139,8 @@ class Reader {
 
   /// Fills `vertices_`; gives the middle of the place, in whole metres: heights stay as they are.
   glm::dvec3 read_vertices() {
-    const std::string version = text(member(json_, "version"));
-    if (member(json_, "type") != "CityJSON" && !(version.starts_with("0.") && json_.contains("CityObjects")))
-      fail("this is no CityJSON: its \"type\" is {}", member(json_, "type").dump());
-    if (!is_known(version))
+    if (!is_city_json(json_)) fail("this is no CityJSON: its \"type\" is {}", member(json_, "type").dump());
+    if (const std::string version = version_of(json_); !is_known(version))
       fail("CityJSON version \"{}\" is not known; versions 0.2 to 2.0 are read", version);
     const Json& transform = member(json_, "transform");
     glm::dvec3 scale(1.0), translate(0.0);
@@ -185,14 +198,23 @@ class Reader {
     for (const Json& geometry : member(object, "geometry"))
       if (has_surfaces(geometry)) geometries.push_back(&geometry), levels.push_back(level_of(geometry));
     const std::size_t before = city_.polygon_count();
+    surfaces_of_object_.clear();
+    known_rings_.clear();
     if (const auto best = wanted_level(levels, most_detail_))
-      read_geometry(
-          *geometries[std::size_t(std::find(levels.begin(), levels.end(), *best) - levels.begin())]);
+      for (std::size_t i = 0; i < geometries.size();
+           ++i)  // roofs, walls and footprint may be one geometry each
+        if (levels[i] == *best) read_geometry(*geometries[i]);
+    add_surfaces();
     // Where the object's polygons are others' business; "Parts" and "Installations" up to version 0.6.
     const bool has_parts = std::any_of(group_members.begin(), group_members.end(),
                                        [&](const char* parts) { return !member(object, parts).empty(); });
     if (city_.polygon_count() == before && !has_parts)
       city_.warn(fmt::format("object \"{}\" has no polygons", name));
+  }
+
+  void add_surfaces() {
+    if (is_building(object_.type)) infer_semantics(surfaces_of_object_);
+    for (const CitySurface& surface : surfaces_of_object_) city_.add(object_, surface);
   }
 
   const Json& template_of(const Json& instance) const {
@@ -246,12 +268,11 @@ class Reader {
     const std::string type = text(member(geometry, "type"));
     const Json &boundaries = member(geometry, "boundaries"), &semantics = member(geometry, "semantics");
     const Json& appearance = member(json_, "appearance");
+    is_solid_ = type.find("Solid") != std::string::npos;
     const Attached attached{
-        semantics.is_array() ? &told(semantics) : &member(semantics, "values"),
-        &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
+        &told(semantics), &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
         &themed(member(geometry, "texture"), member(appearance, "default-theme-texture"))};
     surfaces_ = &member(semantics, "surfaces");
-    is_solid_ = type.find("Solid") != std::string::npos;
     if (type == "MultiSurface" || type == "CompositeSurface")
       read_surfaces(boundaries, attached, corners);
     else if (type == "Solid")  // inner shells are cavities: nobody sees them
@@ -261,12 +282,25 @@ class Reader {
         read_surfaces(element(element(boundaries, i), 0), attached.at(i).at(0), corners);
   }
 
-  /// Writers of versions 0.2 and 0.3 called every surface a wall, roofs too: one name for all tells nothing.
-  static const Json& told(const Json& semantics) {
-    const bool is_one_for_all = element(semantics, 0).is_object() &&
-                                std::all_of(semantics.begin(), semantics.end(),
-                                            [&](const Json& s) { return s == semantics.front(); });
-    return is_one_for_all ? nothing() : semantics;
+  /// The kind of each surface; nothing where the file gives one kind to all surfaces of a solid, which has
+  /// several, or, as writers of versions 0.2 and 0.3 did, calls every surface a wall.
+  const Json& told(const Json& semantics) const {
+    const Json& values = semantics.is_array() ? semantics : member(semantics, "values");
+    const bool must_differ = is_solid_ || semantics.is_array();
+    return must_differ && is_one_for_all(values) ? nothing() : values;
+  }
+
+  /// Of values in lists that are nested as the boundaries are.
+  static bool is_one_for_all(const Json& values) {
+    std::size_t count = 0;
+    const Json* first = nullptr;
+    const auto all_alike = [&](const auto& self, const Json& list) -> bool {
+      if (list.is_array())
+        return std::all_of(list.begin(), list.end(), [&](const Json& inner) { return self(self, inner); });
+      if (first == nullptr) first = &list;
+      return ++count > 0 && list == *first;
+    };
+    return all_alike(all_alike, values) && count > 1;
   }
 
   void read_surfaces(const Json& surfaces, const Attached& attached, const Corners& corners) {
@@ -301,10 +335,21 @@ class Reader {
     for (std::size_t i = 0; i < surface.size(); ++i)
       is_pictured = read_ring(surface[i], element(*attached.texture, i), corners, polygon) && is_pictured;
     if (!is_pictured) polygon.picture_uv.clear();
-    city_.add(object_, polygon);
+    // Files may give a shape twice at one level, as a solid and as surfaces.
+    if (polygon.rings.empty() || !known_rings_.insert(corners_of(polygon.rings.front())).second) return;
+    surfaces_of_object_.push_back(std::move(polygon));
   }
 
-  /// Adds a ring without repeated points. False where its texture coordinates are not as many as its points.
+  /// The same for rings that begin at another corner or run the other way round.
+  static std::vector<std::array<double, 3>> corners_of(const std::vector<glm::dvec3>& ring) {
+    std::vector<std::array<double, 3>> corners;
+    for (const glm::dvec3& point : ring) corners.push_back({point.x, point.y, point.z});
+    std::ranges::sort(corners);
+    return corners;
+  }
+
+  /// Adds a ring without repeated points. False where its texture coordinates are not as many as its
+  /// points.
   bool read_ring(const Json& ring, const Json& texture, const Corners& corners, CitySurface& polygon) const {
     if (!ring.is_array())
       fail("object \"{}\": a ring is {}; expected a list of vertices", object_.name,
@@ -340,6 +385,8 @@ class Reader {
   std::vector<int> pictures_, materials_;  ///< of the assembly, by the file's indices
 
   CityObject object_;  ///< that is being read
+  std::vector<CitySurface> surfaces_of_object_;
+  std::set<std::vector<std::array<double, 3>>> known_rings_;  ///< of that object
   const Json* surfaces_ = nullptr;
   bool is_solid_ = false;
 };

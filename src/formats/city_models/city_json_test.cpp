@@ -78,6 +78,71 @@ TEST(CityJson, BadFilesAreRefusedByName) {
   expect("[]", "no CityJSON");
 }
 
+TEST(CityJson, Version02AsItWasPublishedIsRead) {
+  const std::string early = with(with(house(), "\"CityJSON\"", "\"CityModel\""), "\"1.1\"",
+                                 "\"http://www.cityjson.org/version/0.2\"");
+  const Result<Model> city = read(early);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
+  EXPECT_FALSE(read(with(early, "/0.2", "/7.2")));
+}
+
+/// The house as towns publish it: roof, footprint and walls are a geometry each, of one level, beside a
+/// coarser one.
+std::string house_in_three() {
+  const std::string all = house();
+  const std::size_t begin = all.find("{\"type\":\"Solid\""), end = all.find("}]}},");
+  return all.substr(0, begin) + R"({"type":"MultiSurface","lod":1,"boundaries":[[[0,1,2,3]]]},
+    {"type":"MultiSurface","lod":2,"boundaries":[[[4,5,6,7],[8,11,10,9]]]},
+    {"type":"MultiSurface","lod":2,"boundaries":[[[0,1,2,3]]]},
+    {"type":"MultiSurface","lod":2,"boundaries":[[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]})" +
+         all.substr(end + 1);
+}
+
+TEST(CityJson, AllGeometriesOfTheChosenLevelAreRead) {
+  const Result<Model> city = read(house_in_three());
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);  // wound upward, and yet no roof
+}
+
+TEST(CityJson, AShapeThatIsGivenTwiceIsReadOnce) {
+  const std::string twice =
+      with(house(), "\"geometry\":[",
+           R"("geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":[[[1,5,4,0]]]},)");
+  const Result<Model> city = read(twice);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+}
+
+TEST(CityJson, ASolidOfOneKindIsToldApartBySlope) {
+  const std::string alike =
+      with(house(), "\"lod\":\"2.2\"",
+           R"("lod":"2.2","semantics":{"surfaces":[{"type":"WallSurface"}],"values":[[0,0,0,0,0,0]]})");
+  const Result<Model> city = read(alike);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
+}
+
+TEST(CityJson, RoofsWithoutWallsAreAWarning) {
+  const TestFolder folder;
+  std::string roofs;
+  for (int i = 0; i < 25; ++i)
+    roofs += fmt::format(
+        R"({}"r{}":{{"type":"Building","geometry":[{{"type":"MultiSurface","lod":2,"boundaries":[[[4,5,6]]],
+      "semantics":{{"surfaces":[{{"type":"RoofSurface"}}],"values":[0]}}}}]}})",
+        i == 0 ? "" : ",", i);
+  const std::string all = house();
+  const std::size_t begin = all.find("\"house\""), end = all.find("},\n    \"vertices\"");
+  Errors warnings;
+  ASSERT_TRUE(
+      read_city_model(folder.write("city.json", all.substr(0, begin) + roofs + all.substr(end)), warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find("none is a WallSurface"), std::string::npos) << warnings[0].message;
+}
+
 TEST(CityJson, AnObjectWithoutPolygonsIsNamed) {
   const TestFolder folder;
   Errors warnings;

@@ -51,11 +51,13 @@ std::string type_name(const std::string& object_type) {
 
 }  // namespace
 
+bool is_building(const std::string& object_type) {
+  return object_type.find("Building") != std::string::npos || object_type == "OtherConstruction";
+}
+
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up) {
   if (find(semantics)) return semantics;
-  const bool is_building =
-      object_type.find("Building") != std::string::npos || object_type == "OtherConstruction";
-  if (!is_building) return type_name(object_type);
+  if (!is_building(object_type)) return type_name(object_type);
   constexpr float steep = 0.34f;  // cosine of 70 degrees
   if (up > steep) return "RoofSurface";
   return up < -steep ? "GroundSurface" : "WallSurface";

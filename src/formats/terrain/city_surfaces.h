@@ -12,6 +12,9 @@ namespace parvis::scene {
 /// normal.
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up);
 
+/// Is an object of this CityJSON type a building, or a part or an extension of one?
+bool is_building(const std::string& object_type);
+
 /// The plain material of a name.
 Material surface_material(const std::string& name);
 
