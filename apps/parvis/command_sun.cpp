@@ -1,6 +1,10 @@
 // parvis sun: hours of direct sun over a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
 #include "base/progress.h"
 #include "commands.h"
 #include "graphics/gl/context.h"

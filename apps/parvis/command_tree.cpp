@@ -1,6 +1,9 @@
 // parvis tree: a real tree from photographs.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
 
 #include "base/image_io.h"
 #include "base/progress.h"

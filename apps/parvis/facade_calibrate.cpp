@@ -1,4 +1,6 @@
 // parvis facade calibrate: cameras and points of photographs, by COLMAP.
+#include <memory>
+
 #include "capture/photographs/calibrate.h"
 #include "facade_stages.h"
 

@@ -1,4 +1,7 @@
 // parvis facade model: proposes a coarse model of the place, corrected by a file of hints.
+#include <filesystem>
+#include <memory>
+
 #include "base/files.h"
 #include "capture/facades/coarse_model_file.h"
 #include "capture/photographs/set_file.h"

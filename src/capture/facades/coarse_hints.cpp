@@ -1,7 +1,9 @@
 // The hint file of a coarse model: one correction per line.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "capture/facades/coarse_model.h"

@@ -3,6 +3,7 @@
 // small file of hints corrects it.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 

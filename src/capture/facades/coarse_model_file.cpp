@@ -1,5 +1,7 @@
 #include "capture/facades/coarse_model_file.h"
 
+#include <filesystem>
+
 #include "formats/gltf/gltf_writer.h"
 
 namespace parvis::facades {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
 #include "base/colour.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"

@@ -1,5 +1,8 @@
 #include "graphics/light/nodes_day_light.h"
 
+#include <filesystem>
+#include <memory>
+
 #include "base/image_io.h"
 #include "graphics/light/day_light.h"
 #include "scene/script/scene_builder.h"
