@@ -99,7 +99,7 @@ Status film_day(const Arguments& arguments) {
   Result<std::unique_ptr<house::Stage>> stage = arguments.scene.open_stage();
   if (!stage) return stage.errors();
   house::Play& play = (*stage)->play();
-  scene::LiveScene& live = play.actions.live();
+  scene::LiveScene& live = play.live();
   const scene::Node* node = live.find("%dayLight");
   if (!node) return error("a film of the day's shadows needs a scene with dayLight(...)");
   const Result<std::pair<int, int>> date = read_date(arguments.from);
@@ -113,13 +113,13 @@ Status film_day(const Arguments& arguments) {
 
   Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
-  live.set(*node, "year", long(day.year), std::to_string(day.year));
-  live.set(*node, "julianDay", long(day.day_of_year), std::to_string(day.day_of_year));
+  live.set(*node, "year", long(day.year));
+  live.set(*node, "julianDay", long(day.day_of_year));
   const int frames = int((to - from) * 60.0 / arguments.film_step_min) + 1;
   Progress progress("film of the day", std::size_t(frames));
   for (int i = 0; i < frames; ++i, progress.advance()) {
     const double time = from + i * arguments.film_step_min / 60.0;
-    live.set(*node, "timeOfDay", time, fmt::format("{:.4f}", time));
+    live.set(*node, "timeOfDay", time);
     if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
     const Result<Camera> camera = (*stage)->camera(arguments.scene.camera);
     if (!camera) return camera.errors();
