@@ -117,6 +117,7 @@ Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
 Status write_atomically(const fs::path& named, const std::function<Status(const fs::path&)>& write) {
   std::error_code code;
   const fs::path file = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
+  code.clear();  // that nothing of this name is there yet is no error
   if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
   if (code)
     return error("{}: the folder cannot be made ({}); choose one that can be written",

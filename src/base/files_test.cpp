@@ -101,6 +101,16 @@ TEST(Files, ReplacingKeepsPermissionsAndLinks) {
             fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST(Files, AFileOfTheWorkingFolderIsWritten) {
+  const TestFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  const Status status = write_file("here.txt", "x");
+  fs::current_path(before);
+  ASSERT_TRUE(status) << to_string(status.errors());
+  EXPECT_EQ(*read_file(folder.path() / "here.txt"), "x");
+}
+
 TEST(Files, LongNamesAreWritten) {
   const TestFolder folder;
   const std::string name = fmt::format("{:n>251}.txt", "");  // 255 bytes, as many as a folder takes
