@@ -21,7 +21,7 @@ class ContentHash {
       mix(word);
     }
     std::uint64_t rest = 0;
-    std::memcpy(&rest, bytes, size);
+    if (size > 0) std::memcpy(&rest, bytes, size);  // `bytes` may be null then
     mix(rest);
   }
 
