@@ -136,8 +136,8 @@ TEST_F(SceneLoader, NodesOfTheThesisThatHaveNoRoomYetAreNamed) {
   const std::string errors =
       errors_of(std::string(thesis_examples) + "group(name=trees) { }\nexposure(value=-1)\n");
   for (const char* expected :
-       {"scene.xp:1:1: unknown node type \"vdobject\"", "scene.xp:3:1: unknown node type \"dayLight\"",
-        "scene.xp:7:1: unknown node type \"skyDome\"", "scene.xp:9:1: unknown node type \"litVirtualObject\"",
+       {"scene.xp:1:1: unknown node type \"vdobject\"",
+        "scene.xp:9:1: unknown node type \"litVirtualObject\"",
         "scene.xp:14:1: unknown node type \"%xpShadowMap\"", "scene.xp:16:16: value=\"-1\""})
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
