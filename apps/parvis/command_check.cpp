@@ -50,7 +50,7 @@ Status check(const Arguments& arguments) {
 }  // namespace
 
 void add_check(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("check", "Is a scene right? Tells every error with its line");
+  CLI::App* command = app.add_subcommand("check", "Checks a scene; reports every error with its line");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("scene", arguments->scene, "The scene's script (.xp)");
   command->add_option("--data", arguments->data, "A further folder that the scene may read from");

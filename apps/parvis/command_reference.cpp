@@ -89,7 +89,7 @@ Status photograph(const Arguments& arguments) {
   if (!cameras) return cameras.errors();
   job.cameras = *std::move(cameras);
   job.pictures = arguments.outputs;
-  job.options.samples_a_pixel = arguments.samples.value_or(photograph_samples);
+  job.options.samples_per_pixel = arguments.samples.value_or(photograph_samples);
   job.options.is_interrupted = &is_interrupted;
   std::signal(SIGINT, [](int) { is_interrupted = true; });
   return house::take_photographs(play->scene, job);
@@ -142,7 +142,7 @@ void add_reference(CLI::App& app, Chosen& chosen) {
                    "The picture (.png, .jpg; .exr, .hdr in linear radiance); may be repeated")
       ->capture_default_str();
   command->add_option("--mask", arguments->mask, "Also write which pixels mirror, for parvis compare --mask");
-  command->add_option("--samples", arguments->samples, "Rays a pixel (default: 16; photographs: 64)")
+  command->add_option("--samples", arguments->samples, "Rays per pixel (default: 16; photographs: 64)")
       ->check(CLI::Range(1, 65536));
   arguments->add_photograph(*command);
   command->footer(

@@ -102,7 +102,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
   command->add_option("--tour", arguments->tour, "A film of a tour of the scene")->excludes("--camera");
   command->add_option("--seconds", arguments->seconds, "Length of a film; 0: a picture, or the whole tour")
       ->check(CLI::Range(0.0, 86400.0));
-  command->add_option("--fps", arguments->frames_per_second, "Frames a second of a film")
+  command->add_option("--fps", arguments->frames_per_second, "Frames per second of a film")
       ->check(CLI::Range(1, 240))
       ->capture_default_str();
   command

@@ -36,7 +36,7 @@ void add_view(CLI::App& app, Chosen& chosen) {
   arguments->add_camera(*command);
   arguments->add_picture(*command);
   command->add_option("--tour", arguments->tour, "Begin with a tour of the scene; moving ends it");
-  command->add_option("--frames", arguments->window.most_frames, "Close after so many frames")
+  command->add_option("--frames", arguments->window.max_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
   command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
   command->add_option("--output", arguments->window.pictures.folder,

@@ -13,8 +13,8 @@ namespace {
 constexpr double same_place = 1e-6;  // of the mesh's size: vertices nearer than this are one
 /// Of the greatest coordinate: so are those nearer than a few of the steps that numbers have there.
 constexpr double few_steps = 4.0 * std::numeric_limits<float>::epsilon();
-constexpr double tolerances_a_cell = 8.0;
-constexpr double least_area = 1e-12;  // of the size squared
+constexpr double tolerances_per_cell = 8.0;
+constexpr double min_area = 1e-12;  // of the size squared
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -43,7 +43,7 @@ class Places {
   using Cell = std::array<long, 3>;
 
   Cell cell_of(glm::dvec3 point) const {
-    const auto along = [&](double x) { return long(std::floor(x / (tolerances_a_cell * tolerance_))); };
+    const auto along = [&](double x) { return long(std::floor(x / (tolerances_per_cell * tolerance_))); };
     return {along(point.x), along(point.y), along(point.z)};
   }
 
@@ -83,7 +83,7 @@ void take_triangles_with_area(const Mesh& mesh, double size, JoinedTriangles& jo
   const std::vector<std::uint32_t>& places = joined.places;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const Triangle t{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-    if (!has_three_places(t, places) || area_of(mesh, t) <= least_area * size * size) continue;
+    if (!has_three_places(t, places) || area_of(mesh, t) <= min_area * size * size) continue;
     joined.triangles.push_back(t);
   }
 }
@@ -109,7 +109,7 @@ void join(JoinedTriangles& joined) {
 }
 
 /// As its corners run, from the first place on.
-Triangle turned_to_least(const Triangle& t, const std::vector<std::uint32_t>& places) {
+Triangle rotated_to_min(const Triangle& t, const std::vector<std::uint32_t>& places) {
   Triangle at{places[t[0]], places[t[1]], places[t[2]]};
   std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
   return at;
@@ -130,7 +130,7 @@ Faces faces_of(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
     faces.face_of.push_back(no_triangle);
     if (!has_three_places(t, places)) continue;
     const auto [entry, is_new] =
-        known.try_emplace(turned_to_least(t, places), std::uint32_t(faces.numbers.size()));
+        known.try_emplace(rotated_to_min(t, places), std::uint32_t(faces.numbers.size()));
     faces.face_of.back() = entry->second;
     if (!is_new) continue;
     faces.numbers.push_back(std::uint32_t(i / 3));

@@ -28,8 +28,8 @@ void append(Mesh& mesh, const Mesh& other, const glm::mat4& mesh_from_other = gl
 /// Replaces missing or zero normals by area-weighted ones (smooth over shared vertices).
 void fill_normals(Mesh& mesh);
 
-/// Tells what a renderer could not stand: arrays of different length, non-finite numbers, indices out of
-/// range.
+/// Fails where a renderer could not draw the mesh: arrays of different length, non-finite numbers, indices
+/// out of range.
 Status check(const Mesh& mesh, const std::string& name);
 
 }  // namespace parvis

@@ -1,6 +1,6 @@
 // Binary files that Parvis keeps for itself: 8 characters that name kind and version, numbers as they lie in
-// memory (little-endian), a checksum of all before it. What was cut short, damaged or written by another
-// version is told, and never used.
+// memory (little-endian), a checksum of all before it. A file that was cut short, damaged or written by
+// another version is reported, and never used.
 #pragma once
 
 #include <algorithm>

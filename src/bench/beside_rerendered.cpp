@@ -10,7 +10,7 @@
 namespace parvis::bench {
 namespace {
 
-constexpr int samples_a_pixel = 16;
+constexpr int samples_per_pixel = 16;
 constexpr int baseline_faces_px = 512;
 
 }  // namespace
@@ -31,7 +31,7 @@ Status measure_beside_rerendered(house::Stage& stage, std::span<const char* cons
   for (const char* name : cameras) {
     const Result<Camera> camera = stage.camera(name);
     if (!camera) return camera.errors();
-    const reference::TracedPicture truth = stage.trace(*camera, width, height, samples_a_pixel);
+    const reference::TracedPicture truth = stage.trace(*camera, width, height, samples_per_pixel);
     const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
     std::array<double, 2> flips{};
     for (std::size_t m = 0; m < methods.size(); ++m) {

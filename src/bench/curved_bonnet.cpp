@@ -20,7 +20,7 @@ namespace parvis::bench {
 namespace {
 
 constexpr int width = 960, height = 600, quick_width = 640, quick_height = 400;
-constexpr int samples_a_pixel = 16;
+constexpr int samples_per_pixel = 16;
 constexpr float virtual_within_m = 3.0f;
 constexpr std::size_t black_saloon = 1;                           // of city_cars
 const Bounds bonnet{{0.85f, -0.8f, 0.55f}, {2.15f, 0.8f, 1.0f}};  // of the saloon
@@ -106,9 +106,9 @@ Status measure_bonnet(bool is_quick, Report& report) {
     const reference::PixelWindow window = window_of_bonnet(camera, w, h);
     scene::Object& person = stage.play().scene.objects.back();
     person.is_visible = false;
-    const reference::TracedPicture empty = stage.trace(camera, w, h, samples_a_pixel, window);
+    const reference::TracedPicture empty = stage.trace(camera, w, h, samples_per_pixel, window);
     person.is_visible = true;
-    const reference::TracedPicture truth = stage.trace(camera, w, h, samples_a_pixel, window);
+    const reference::TracedPicture truth = stage.trace(camera, w, h, samples_per_pixel, window);
     const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
     const Image8 mask = changed_pixels(
         expected, shading::tone_mapped_picture(empty.radiance, stage.scene().exposure), truth.mirror_mask);

@@ -9,7 +9,7 @@
 namespace parvis::bench {
 namespace {
 
-/// The second shows the bowl's hollow and rim, too: each is drawn in 17 layers.
+/// The second also shows the bowl's concave side and its rim: each is drawn in 17 layers.
 constexpr std::array cameras{"bowl in the kettle", "at the kettle"};
 constexpr int width = 480, height = 300;
 constexpr int turns = 2;  // each frame takes seconds in software

@@ -1,5 +1,5 @@
-// The paper's frame rates made again, in the bench "curved": what a frame of the kitchen takes with every
-// vertex searched for, with its grids, and with cube maps drawn anew.
+// The paper's frame rates reproduced, in the bench "curved": what a frame of the kitchen takes with every
+// vertex searched for, with its grids, and with re-rendered cube maps.
 #pragma once
 
 #include "bench/report.h"

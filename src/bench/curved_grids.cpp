@@ -23,7 +23,7 @@ using namespace reflection_search;
 using namespace virtual_objects;
 using Search = ReflectionSearch<Ellipsoid>;
 
-constexpr int width = 640, height = 480, samples_a_pixel = 9;
+constexpr int width = 640, height = 480, samples_per_pixel = 9;
 constexpr int frames = 120;
 constexpr std::size_t stride = 20, quick_stride = 120;  // of the vertices whose flicker is measured
 constexpr int paper_iterations = 9, newton_steps = 12, exact_starts = 8;
@@ -110,7 +110,7 @@ Image8 picture_of(const Mesh& mesh, const std::vector<VirtualPoint>& points) {
   scene::add(scene, scene::model_of(std::move(image), scene::matt({0.7f, 0.5f, 0.3f})));
   const reference::RayScene rays(scene);
   reference::TraceOptions options;
-  options.samples_a_pixel = samples_a_pixel;
+  options.samples_per_pixel = samples_per_pixel;
   const reference::TracedPicture traced = reference::trace_picture(
       rays, scene, shading::make_sky_light({}, 1.0f, 0.0f), camera_at(frames / 2), width, height, options);
   return shading::tone_mapped_picture(traced.radiance, 1.0f);

@@ -15,7 +15,8 @@ namespace parvis::bench {
 namespace {
 
 constexpr std::array cameras{"at the kettle", "figure 6", "into the bowl", "at the pans", "at the spoons"};
-constexpr std::size_t quick_cameras = 1;  // hollows are drawn in many layers, each as slow as a picture
+constexpr std::size_t quick_cameras =
+    1;  // concave mirrors are drawn in many layers, each as slow as a picture
 constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
 constexpr std::size_t points = 4000, quick_points = 400;  // a camera
 

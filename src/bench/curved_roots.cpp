@@ -25,7 +25,7 @@ constexpr double pixels_a_radian = 869.0;           // 720 rows, 45 degrees
 constexpr double wrong_px = 100.0;                  // what a missed or an extra point counts
 constexpr double same_px = 2.0, same_place = 0.05;  // found from two places
 constexpr double flattest = 0.1;                    // cosine: beyond it a pixel spans most of the body
-constexpr double rim = 0.02;                        // of the hollow ball, below the plane that it is open at
+constexpr double rim = 0.02;                        // of the concave ball, below the plane that it is open at
 
 struct Task {
   glm::vec3 viewer, vertex;
@@ -65,7 +65,7 @@ JudgedShape torus() {
 }
 
 /// The lower half of a ball from within: the viewer above it, the vertex in it or above.
-JudgedShape hollow() {
+JudgedShape concave_ball() {
   Mesh mesh = scene::sphere(glm::vec3(0.0f), 1.0f, mesh_rings);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -227,7 +227,7 @@ Status measure_shape(const JudgedShape& shape, std::size_t count, Report& report
 }  // namespace
 
 Status measure_roots(bool is_quick, Report& report) {
-  for (const JudgedShape& shape : {torus(), hollow()})
+  for (const JudgedShape& shape : {torus(), concave_ball()})
     if (Status status = measure_shape(shape, is_quick ? quick_tasks : tasks, report); !status) return status;
   return Done{};
 }

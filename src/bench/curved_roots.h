@@ -1,5 +1,5 @@
-// Do searches find every reflection point of a vertex? On a torus and in a hollow ball, which show it several
-// times.
+// Do searches find every reflection point of a vertex? On a torus and inside a concave ball, which show it
+// several times.
 #pragma once
 
 #include "bench/report.h"

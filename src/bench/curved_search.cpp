@@ -27,7 +27,7 @@ constexpr int paper_iterations = 9;
 constexpr float search_ends = 2e-9f;  // error, 0.005 degrees
 constexpr double degrees = 57.29577951308232;
 
-/// The paper's search begins where the default one does, as far as that is told before.
+/// The paper's search begins where the default one does, as far as that is known beforehand.
 MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::ReflectionTask& task) {
   const glm::vec3 start = search.reflector.is_whole_body()
                               ? search.first_direction(task)

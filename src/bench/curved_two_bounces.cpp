@@ -17,7 +17,7 @@ namespace parvis::bench {
 namespace {
 
 constexpr int width = 960, height = 720, quick_width = 480, quick_height = 360;
-constexpr int samples_a_pixel = 16;
+constexpr int samples_per_pixel = 16;
 constexpr int baseline_faces_px = 512;
 
 void add_mirror(scene::Scene& scene, const std::shared_ptr<scene::Model>& model, glm::vec3 at,
@@ -71,7 +71,7 @@ constexpr std::array places{Place{{-0.2f, -2.2f, 1.2f}, {-0.6f, 0.0f, 0.8f}},
 /// What the ray tracer makes of a view, with as many bounces.
 reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, int w, int h, int bounces) {
   methods::settings(stage.play().scene).bounces = bounces;
-  return stage.trace(camera, w, h, samples_a_pixel);
+  return stage.trace(camera, w, h, samples_per_pixel);
 }
 
 }  // namespace

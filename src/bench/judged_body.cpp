@@ -15,7 +15,7 @@ using namespace reflection_search;
 using namespace reflector_maps;
 
 constexpr int map_side = 512;
-constexpr std::size_t most_maps = 200;
+constexpr std::size_t max_maps = 200;
 constexpr std::array reaches{1.1f, 1.5f, 2.5f, 4.0f};
 constexpr float flattest = 0.1f;  // cosine of the steepest sight: beyond it a pixel spans most of the body
 constexpr double degrees = 57.29577951308232;
@@ -69,7 +69,7 @@ glm::vec3 leaves_ball(glm::vec3 from, glm::vec3 direction, glm::vec3 centre, flo
 }  // namespace
 
 Result<JudgedBody> JudgedBody::make(std::string name, const Mesh& mesh, std::size_t count) {
-  Result<Reflector> made = make_reflector(mesh, name, map_side, most_maps);
+  Result<Reflector> made = make_reflector(mesh, name, map_side, max_maps);
   if (!made) return made.errors();
   const ReflectorMesh& ordered = made->mesh;
   const std::vector<ReflectorPatch>& patches = made->patches;

@@ -48,7 +48,7 @@ Status measure_brute_force(bool is_quick, Report& report) {
   std::vector<double> elevations{-4, -2, 0, 5, 15, 45, 90}, turbidities{3.0};
   if (!is_quick)
     elevations = {-4, -3, -2, -1, 0, 1, 2, 5, 10, 15, 25, 35, 45, 60, 75, 90}, turbidities = {2.0, 3.0, 6.0};
-  double most = 0.0, most_preetham = 0.0;
+  double most = 0.0, max_preetham = 0.0;
   for (const double turbidity : turbidities)
     for (const double elevation : elevations) {
       const light::Air air{turbidity};
@@ -61,7 +61,7 @@ Status measure_brute_force(bool is_quick, Report& report) {
       if (!preetham) return preetham.errors();
       const double error = 100.0 * (diffuse(**sky) / expected - 1.0),
                    of_preetham = 100.0 * (diffuse(**preetham) / expected - 1.0);
-      most = std::max(most, std::abs(error)), most_preetham = std::max(most_preetham, std::abs(of_preetham));
+      most = std::max(most, std::abs(error)), max_preetham = std::max(max_preetham, std::abs(of_preetham));
       report.note(
           fmt::format("turbidity {}, sun at {:3.0f} deg: brute force {:8.1f} lx (+- {:.1f} %), tables "
                       "{:+.1f} %, preetham {:+.0f} %",
@@ -69,7 +69,7 @@ Status measure_brute_force(bool is_quick, Report& report) {
                       error, of_preetham));
     }
   report.add("sky_diffuse_illuminance_error_percent", most);
-  report.add("sky_diffuse_illuminance_error_percent_preetham", most_preetham);
+  report.add("sky_diffuse_illuminance_error_percent_preetham", max_preetham);
   return Done{};
 }
 
@@ -230,7 +230,7 @@ Status measure_sun_hours(bool is_quick, Report& report) {
   if (Status status = measure_relighting(rays, report); !status) return status;
   measure_shadows(loaded->scene, rays, is_quick, report);
   const std::vector<light::SunPoint> points = city_points(rays, is_quick ? 1000 : 10000);
-  double most = 0.0, most_hourly = 0.0;
+  double most = 0.0, max_hourly = 0.0;
   for (const int day : is_quick ? std::vector{80} : std::vector{80, 172, 355}) {
     const light::SunPeriod period{.place = {.day_of_year = day}, .first_day = day, .last_day = day};
     light::SunPeriod hourly = period;
@@ -243,10 +243,10 @@ Status measure_sun_hours(bool is_quick, Report& report) {
       return 100.0 * off / sum;
     };
     most = std::max(most, error_percent(light::sun_hours(rays, points, period)));
-    most_hourly = std::max(most_hourly, error_percent(light::sun_hours(rays, points, hourly)));
+    max_hourly = std::max(max_hourly, error_percent(light::sun_hours(rays, points, hourly)));
   }
   report.add("sun_hours_error_percent", most);
-  report.add("sun_hours_error_percent_hourly_rays", most_hourly);
+  report.add("sun_hours_error_percent_hourly_rays", max_hourly);
   report.note(
       fmt::format("mean difference over {} points of ground and facades of the paper's city, as a share of "
                   "the mean hours",

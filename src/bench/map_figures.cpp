@@ -17,7 +17,7 @@ constexpr float wanted_share = 0.99f;
 constexpr float sharp = 4.0f;  // times the footprint of a map at the vehicle
 constexpr std::size_t judged_points = 50000;
 constexpr std::uint64_t judging_seed = 97;
-constexpr int most_maps = 400;
+constexpr int max_maps = 400;
 
 /// The first maps of a list that show enough; one more than there are where all are too few.
 std::size_t maps_enough(const HeightPyramid& heights, const std::vector<glm::vec3>& places,
@@ -33,10 +33,10 @@ std::size_t maps_enough(const HeightPyramid& heights, const std::vector<glm::vec
 void measure_placement(const scene::Scene& scene, Report& report) {
   const HeightPyramid heights(heights_of(scene));
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, judged_points, judging_seed);
-  const std::vector<glm::vec3> even = spread_places(scene, heights, most_maps);
+  const std::vector<glm::vec3> even = spread_places(scene, heights, max_maps);
   const auto enough = [&](float sharpness) {  // as the points that judge have it, not those that place
     PlacementGoal goal;
-    goal.most = most_maps;
+    goal.most = max_maps;
     goal.share_shown = 0.5f * (1.0f + wanted_share);
     goal.sharpness = {sharpness};
     std::vector<glm::vec3> places = place_by_coverage(scene, heights, goal).places;

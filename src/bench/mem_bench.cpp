@@ -138,8 +138,8 @@ Status measure_motion(house::Stage& stage, bool is_quick, Report& report) {
   return Done{};
 }
 
-/// Times methods beside one without reflections, and tells what each costs.
-Result<std::vector<ReflectionCost>> told_costs(
+/// Times methods beside one without reflections, and reports the cost of each.
+Result<std::vector<ReflectionCost>> reported_costs(
     house::Stage& stage, const Camera& camera, int repeats, Frames frames,
     const std::vector<std::pair<const char*, methods::Settings>>& wanted, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, wanted);
@@ -164,23 +164,23 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   const Result<Camera> camera = view_of_cars(**stage, cars_seen, cars_seen, width, height, report);
   if (!camera) return camera.errors();
   // What costs least differs least from none, and needs most samples.
-  const Result<std::vector<ReflectionCost>> cheap = told_costs(
+  const Result<std::vector<ReflectionCost>> cheap = reported_costs(
       **stage, *camera, is_quick ? 20 : 60, Frames::whole,
       {{"none", usual("none")}, {"mem", usual("multiple_environment_maps")}, {"mem_lod", shipped()}}, report);
   if (!cheap) return cheap.errors();
-  const Result<std::vector<ReflectionCost>> dear =
-      told_costs(**stage, *camera, is_quick ? 5 : 30, Frames::left_out,
-                 {{"none", usual("none")},
-                  {"rerendered", usual("rerendered_cube_map")},
-                  {"rerendered_lod", usual("rerendered_cube_map", true)},
-                  {"local", usual("local_environment_maps")}},
-                 report);
-  if (!dear) return dear.errors();
+  const Result<std::vector<ReflectionCost>> rerendered_costs =
+      reported_costs(**stage, *camera, is_quick ? 5 : 30, Frames::left_out,
+                     {{"none", usual("none")},
+                      {"rerendered", usual("rerendered_cube_map")},
+                      {"rerendered_lod", usual("rerendered_cube_map", true)},
+                      {"local", usual("local_environment_maps")}},
+                     report);
+  if (!rerendered_costs) return rerendered_costs.errors();
   const Median mem = median((*cheap)[1].ms), mem_lod = median((*cheap)[2].ms),
-               rerendered = median((*dear)[1].ms);
+               rerendered = median((*rerendered_costs)[1].ms);
   report.add("cost_ratio_rerendered_over_mem_30", ratio(rerendered, mem));
-  report.add("cost_ratio_rerendered_over_mem_lod_30", ratio(median((*dear)[2].ms), mem_lod));
-  report.add("local_cost_ratio_30", ratio(rerendered, median((*dear)[3].ms)));
+  report.add("cost_ratio_rerendered_over_mem_lod_30", ratio(median((*rerendered_costs)[2].ms), mem_lod));
+  report.add("local_cost_ratio_30", ratio(rerendered, median((*rerendered_costs)[3].ms)));
   report.add("frame_ratio_mem_over_none_30", ratio_in_turn((*cheap)[2].frame_ms, (*cheap)[0].frame_ms));
   return Done{};
 }

@@ -10,11 +10,11 @@
 namespace parvis::bench {
 namespace {
 
-constexpr double frames_a_second = 30.0;
-constexpr int tried_frames = 12;          // the cheapest and the best, in turn
-constexpr int same_frames = 60;           // drawn again as it is, for the clock's own spread
-constexpr int settling_frames = 30;       // until the controller knows the machine
-constexpr float least_budget_ms = 1e-3f;  // the cheapest that there is
+constexpr double frames_per_second = 30.0;
+constexpr int tried_frames = 12;        // the cheapest and the best, in turn
+constexpr int same_frames = 60;         // drawn again as it is, for the clock's own spread
+constexpr int settling_frames = 30;     // until the controller knows the machine
+constexpr float min_budget_ms = 1e-3f;  // the cheapest that there is
 constexpr double quantile = 0.95;
 
 struct FrameTime {
@@ -45,9 +45,9 @@ Result<FrameTime> timed_frame(house::Stage& stage, const JudgedMethod& method, g
 }
 
 /// As small as pictures become.
-glm::ivec2 least_size(glm::ivec2 size) {
+glm::ivec2 min_size(glm::ivec2 size) {
   render::PictureScale scale;
-  for (int frame = 0; frame < settling_frames; ++frame) scale.frame_took(1e3, double(least_budget_ms));
+  for (int frame = 0; frame < settling_frames; ++frame) scale.frame_took(1e3, double(min_budget_ms));
   return scale.drawn_size(size.x, size.y);
 }
 
@@ -64,11 +64,11 @@ Result<JudgedMethod> with_budget(house::Stage& stage, methods::Settings reflecti
 /// What whole frames take with the fewest pixels and the cheapest reflections, and with all and the best.
 Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const methods::Settings& reflection,
                                                   glm::ivec2 size) {
-  const Result<JudgedMethod> cheapest = with_budget(stage, reflection, least_budget_ms),
+  const Result<JudgedMethod> cheapest = with_budget(stage, reflection, min_budget_ms),
                              best = with_budget(stage, reflection, 0.0f);
   if (!cheapest) return cheapest.errors();
   if (!best) return best.errors();
-  const glm::ivec2 least = least_size(size);
+  const glm::ivec2 least = min_size(size);
   std::vector<double> cheap_ms, dear_ms;
   for (int frame = 0; frame < tried_frames; ++frame)
     for (const auto& [method, drawn, samples] :
@@ -79,7 +79,7 @@ Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const met
         const Result<FrameTime> time = timed_frame(stage, *method, drawn);
         if (!time) return time.errors();
         if (turn > 0) samples->push_back(time->whole_ms());
-        stage.play().advance(1.0 / frames_a_second);
+        stage.play().advance(1.0 / frames_per_second);
       }
     }
   return std::pair{median(cheap_ms).value, median(dear_ms).value};
@@ -111,7 +111,7 @@ Status measure_budget(house::Stage& stage, const methods::Settings& reflection, 
   if (Status status = stage.renderer().set_reflection(method->reflections.get()); !status) return status;
   render::PictureScale scale;
   std::vector<double> errors_percent;
-  const int frames = int(std::lround(seconds * frames_a_second));
+  const int frames = int(std::lround(seconds * frames_per_second));
   for (int frame = 0; frame < settling_frames + frames; ++frame) {
     const Result<FrameTime> time = timed_frame(stage, *method, scale.drawn_size(width, height));
     if (!time) return time.errors();
@@ -119,7 +119,7 @@ Status measure_budget(house::Stage& stage, const methods::Settings& reflection, 
     scale.frame_took(time->whole_ms(), budget_ms);
     if (frame >= settling_frames)
       errors_percent.push_back(100.0 * std::abs(time->whole_ms() - budget_ms) / budget_ms);
-    stage.play().advance(1.0 / frames_a_second);
+    stage.play().advance(1.0 / frames_per_second);
   }
   const Result<double> own = own_spread_percent(stage, *method, scale.drawn_size(width, height));
   if (!own) return own.errors();

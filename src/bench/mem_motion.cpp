@@ -12,9 +12,9 @@ namespace {
 constexpr double frame_s = 1.0 / 30.0;
 constexpr int frames_before = 30;  // until maps that are taken face by face are as old as they ever are
 constexpr int judged_frames = 4;
-constexpr float least_way_m = 3.0f;  // in those: a car that waits mirrors the same
-constexpr int samples_a_pixel = 16;
-constexpr int most_attempts_a_drive = 8;
+constexpr float min_way_m = 3.0f;  // in those: a car that waits mirrors the same
+constexpr int samples_per_pixel = 16;
+constexpr int max_attempts_per_drive = 8;
 
 /// An eye that keeps its place beside a car.
 class Companion {
@@ -58,7 +58,7 @@ Result<std::optional<Drive>> drive_with(house::Stage& stage, const std::vector<J
     }
     stage.play().advance(frame_s);
   }
-  if (glm::distance(start, glm::vec3(companion.car()[3])) < least_way_m) return std::optional<Drive>();
+  if (glm::distance(start, glm::vec3(companion.car()[3])) < min_way_m) return std::optional<Drive>();
   stage.renderer().begin_frame(stage.scene(), companion.camera());
   const auto window = window_of_car(stage, companion.camera(), view.object, width, height);
   if (!window) return std::optional<Drive>();
@@ -67,7 +67,7 @@ Result<std::optional<Drive>> drive_with(house::Stage& stage, const std::vector<J
   drive.pictures.resize(methods.size());
   for (int frame = 0; frame < judged_frames; ++frame) {
     const Camera camera = companion.camera();
-    const reference::TracedPicture truth = stage.trace(camera, width, height, samples_a_pixel, *window);
+    const reference::TracedPicture truth = stage.trace(camera, width, height, samples_per_pixel, *window);
     drive.truths.push_back(shading::tone_mapped_picture(truth.radiance, stage.scene().exposure));
     drive.masks.push_back(truth.mirror_mask);
     for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -126,7 +126,7 @@ Result<MotionErrors> errors_in_motion(house::Stage& stage, const std::vector<Jud
   errors.flip.resize(methods.size());
   errors.difference.resize(methods.size());
   NearViews near_views(stage, width, height);
-  for (int attempt = 0; attempt < most_attempts_a_drive * drives && errors.drives < drives; ++attempt) {
+  for (int attempt = 0; attempt < max_attempts_per_drive * drives && errors.drives < drives; ++attempt) {
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
     const Result<std::optional<Drive>> drive = drive_with(stage, methods, *view, width, height);

@@ -9,7 +9,7 @@
 namespace parvis::bench {
 namespace {
 
-constexpr int samples_a_pixel = 16;
+constexpr int samples_per_pixel = 16;
 constexpr float crossing_reach_m = 15.0f;
 
 /// Lanes end at crossings.
@@ -30,7 +30,7 @@ Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
     const reference::TracedPicture truth =
-        stage.trace(view->camera, width, height, samples_a_pixel, view->window);
+        stage.trace(view->camera, width, height, samples_per_pixel, view->window);
     const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
     flips.push_back({is_at_crossing(stage.scene(), view->car), {}});
     for (std::size_t m = 0; m < methods.size(); ++m) {

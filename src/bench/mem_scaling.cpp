@@ -17,7 +17,7 @@ namespace {
 namespace maps = reference_maps;
 
 constexpr int width = 1280, height = 720;
-constexpr int balls_a_side = 10, rings_of_one = 160;
+constexpr int balls_per_side = 10, rings_of_one = 160;
 constexpr float ahead_m = 5.5f, ball_radius_m = 1.4f;
 constexpr float tile_m = 1000.0f;  // a side of the city
 constexpr int tiles_east = 5, tiles_north = 2, middle_tile = tiles_east / 2;
@@ -132,12 +132,12 @@ Status measure_body_count(const scene::Scene& city, const methods::Settings& ref
   if (!camera) return camera.errors();
   scene::Scene with_one = without_traffic(city), with_many = with_one;
   add_balls(with_one, *camera, 1);
-  add_balls(with_many, *camera, balls_a_side);
+  add_balls(with_many, *camera, balls_per_side);
   Result<Timed> one = timed(with_one, reflection), many = timed(with_many, reflection);
   if (!one) return one.errors();
   if (!many) return many.errors();
   if (Status status = time_in_turn(*one, *many, *camera, repeats); !status) return status;
-  const auto ns_a_pixel = [&](const Timed& timed) {
+  const auto ns_per_pixel = [&](const Timed& timed) {
     const double pixels = reflective_pixels(*timed.stage, *camera);
     std::vector<double> samples;
     samples.reserve(timed.ms.size());
@@ -147,7 +147,7 @@ Status measure_body_count(const scene::Scene& city, const methods::Settings& ref
                             ns.low, ns.high));
     return samples;
   };
-  const std::vector<double> of_one = ns_a_pixel(*one), of_many = ns_a_pixel(*many);
+  const std::vector<double> of_one = ns_per_pixel(*one), of_many = ns_per_pixel(*many);
   report.add("cost_ratio_100_over_1", ratio_in_turn(of_many, of_one));
   report.add("pixel_ns", median(of_one));
   return Done{};

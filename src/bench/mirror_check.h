@@ -1,5 +1,5 @@
 // A mirror ball and a mirror box in textured surroundings two thousand radii away: there a cube map is exact,
-// and FLIP against the ray tracer tells whether directions, faces and filters are right.
+// and FLIP against the ray tracer shows whether directions, faces and filters are right.
 #pragma once
 
 #include "base/result.h"

@@ -6,7 +6,7 @@ namespace {
 constexpr int seconds_apart = 3;  // by then another car, or another street, is near
 constexpr int longest_search_s = 120;
 constexpr int tries_a_time = 6;
-constexpr float least_share = 0.06f, most_others_share = 0.03f;  // of the picture, that cars cover
+constexpr float min_share = 0.06f, max_others_share = 0.03f;  // of the picture, that cars cover
 constexpr int sketch_width = 160, sketch_height = 90;
 constexpr int margin_px = 12;  // the filters of FLIP look so far
 
@@ -36,7 +36,7 @@ std::optional<reference::PixelWindow> window_of(const render::ObjectPicture& ske
     }
   const float pixels = float(sketch.width * sketch.height);
   const bool is_cut = low.x == 0 || low.y == 0 || high.x == sketch.width - 1 || high.y == sketch.height - 1;
-  if (is_cut || float(own) < least_share * pixels || float(others) > most_others_share * pixels)
+  if (is_cut || float(own) < min_share * pixels || float(others) > max_others_share * pixels)
     return std::nullopt;
   const glm::vec2 scale(float(width) / float(sketch.width), float(height) / float(sketch.height));
   const glm::ivec2 first = glm::max(glm::ivec2(glm::vec2(low) * scale) - margin_px, glm::ivec2(0));

@@ -26,16 +26,16 @@ Status measure_photographs(bool is_quick, Report& report) {
   const shading::SkyLight sky =
       shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
   reference::PhotographOptions options;
-  options.samples_a_pixel = is_quick ? quick_samples : samples;
+  options.samples_per_pixel = is_quick ? quick_samples : samples;
   const Result<reference::Photograph> photograph =
       reference::take_photograph(rays, scene, sky, *camera, width, height, options);
   if (!photograph) return photograph.errors();
   report.add("path_traced_mrays_s", 1e-6 * double(photograph->rays) / photograph->seconds);
-  report.add("photo_s_1280x960_64spp", photograph->seconds * samples / options.samples_a_pixel);
+  report.add("photo_s_1280x960_64spp", photograph->seconds * samples / options.samples_per_pixel);
   report.note(
-      fmt::format("the paper's city, camera \"{}\", {} triangles, {} samples a pixel, {:.1f} rays a path",
-                  camera_name, rays.triangle_count(), options.samples_a_pixel,
-                  double(photograph->rays) / (double(width) * height * options.samples_a_pixel)));
+      fmt::format("the paper's city, camera \"{}\", {} triangles, {} samples per pixel, {:.1f} rays a path",
+                  camera_name, rays.triangle_count(), options.samples_per_pixel,
+                  double(photograph->rays) / (double(width) * height * options.samples_per_pixel)));
   return Done{};
 }
 

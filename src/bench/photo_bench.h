@@ -6,8 +6,8 @@
 
 namespace parvis::bench {
 
-/// Adds path_traced_mrays_s and photo_s_1280x960_64spp. `is_quick`: a photograph of 4 samples a pixel stands
-/// for that of 64, whose time is in proportion.
+/// Adds path_traced_mrays_s and photo_s_1280x960_64spp. `is_quick`: a photograph of 4 samples per pixel
+/// stands for that of 64, whose time is in proportion.
 Status measure_photographs(bool is_quick, Report& report);
 
 }  // namespace parvis::bench

@@ -13,7 +13,7 @@ namespace {
 using namespace reflection_search;
 using namespace reflector_maps;
 
-constexpr std::size_t most_tries = 400;  // for each pixel that is wanted
+constexpr std::size_t max_tries = 400;  // for each pixel that is wanted
 constexpr float off_surface_m = 1e-4f;
 constexpr double none = -1.0;
 
@@ -87,7 +87,7 @@ std::vector<double> ReflectedPoints::errors_px(const Camera& camera, int width, 
       glm::scale(glm::mat4(1.0f), {0.5f * float(width), 0.5f * float(height), 1.0f}) * clip_from_world;
   Random random(3);
   std::vector<double> errors;
-  for (std::size_t i = 0; errors.size() < count && i < most_tries * count; ++i) {
+  for (std::size_t i = 0; errors.size() < count && i < max_tries * count; ++i) {
     const glm::vec2 pixel(random.uniform(0.0f, float(width)), random.uniform(0.0f, float(height)));
     const reference::Ray ray = reference::camera_ray(camera, width, height, pixel);
     const auto hit = rays_->nearest_hit(ray);

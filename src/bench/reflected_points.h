@@ -1,5 +1,5 @@
 // Where the mirrors of a scene show what stands in it: pixels whose mirror rays are known, and how far from
-// there the search over reflector maps shows what those rays meet.
+// there the search over reflector maps shows what those rays hit.
 #pragma once
 
 #include <memory>

@@ -3,7 +3,7 @@
 namespace parvis::bench {
 namespace {
 
-constexpr double least_ms = 1e-3;
+constexpr double min_ms = 1e-3;
 
 }  // namespace
 
@@ -43,14 +43,14 @@ Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
 }
 
 Median ratio(const Median& over, const Median& under) {
-  return {over.value / std::max(under.value, least_ms), over.low / std::max(under.high, least_ms),
-          over.high / std::max(under.low, least_ms)};
+  return {over.value / std::max(under.value, min_ms), over.low / std::max(under.high, min_ms),
+          over.high / std::max(under.low, min_ms)};
 }
 
 Median ratio_in_turn(const std::vector<double>& over, const std::vector<double>& under) {
   std::vector<double> ratios;
   ratios.reserve(over.size());
-  for (std::size_t i = 0; i < over.size(); ++i) ratios.push_back(over[i] / std::max(under[i], least_ms));
+  for (std::size_t i = 0; i < over.size(); ++i) ratios.push_back(over[i] / std::max(under[i], min_ms));
   return median(std::move(ratios));
 }
 

@@ -1,4 +1,4 @@
-// What a bench tells: figures by key and rows of text, printed as they come, and as JSON.
+// The output of a bench: figures by key and rows of text, printed as they come, and as JSON.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ Median median(std::vector<double> samples);
 /// The value below which a share of all lie; 0 of none.
 double percentile(std::vector<double> values, double share);
 
-/// Prints each figure and row when it is told: a bench that is stopped has said what it knew.
+/// Prints each figure and row as it is added: a bench that is stopped has printed what it knew.
 class Report {
  public:
   explicit Report(std::string name) : name_(std::move(name)) {}

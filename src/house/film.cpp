@@ -33,7 +33,7 @@ Result<Film> Film::open(const fs::path& file, int width, int height, int frames_
       "-c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
       width, height, frames_per_second,
       quoted("file:" + temporary.string()));  // a name with a colon is no protocol
-  std::signal(SIGPIPE, SIG_IGN);              // an encoder that stops is told by its write, not by our end
+  std::signal(SIGPIPE, SIG_IGN);  // an encoder that stops is noticed by a failed write, and does not end us
   std::FILE* pipe = popen(command.c_str(), "w");
   if (!pipe) return error("{}: ffmpeg cannot be started", file.string());
   return Film(file, temporary, pipe, width, height);

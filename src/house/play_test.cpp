@@ -58,10 +58,10 @@ TEST_F(PlayTest, IsTheSameWhenItIsPlayedAgain) {
 
 TEST_F(PlayTest, IsTheSameAtAnyFrameRate) {
   const Play slow = played(3, 40, 0.1);
-  for (const int frames_a_second : {24, 25, 60, 90}) {
-    const Play other = played(3, 4 * frames_a_second, 1.0 / frames_a_second);
+  for (const int frames_per_second : {24, 25, 60, 90}) {
+    const Play other = played(3, 4 * frames_per_second, 1.0 / frames_per_second);
     // The simulation's steps are the same; a frame shows a place between two of them, in float.
-    EXPECT_LT(farthest(slow, other), 2e-3f) << frames_a_second << " frames a second";
+    EXPECT_LT(farthest(slow, other), 2e-3f) << frames_per_second << " frames per second";
   }
 }
 
@@ -84,7 +84,7 @@ TEST_F(PlayTest, CamerasStandOrFollow) {
   EXPECT_GT(glm::distance(eye(early, "rider"), eye(late, "rider")), 1.0f);
   const Result<Camera> absent = late.camera("roof");
   ASSERT_FALSE(absent);
-  EXPECT_NE(to_string(absent.errors()).find("rider"), std::string::npos) << "tells which there are";
+  EXPECT_NE(to_string(absent.errors()).find("rider"), std::string::npos) << "lists which there are";
 }
 
 // What `--reflection` does (apps/parvis/scene_arguments.h).

@@ -88,12 +88,12 @@ void Stage::draw(const Camera& camera, int width, int height) {
   assert(status.ok() && "one eye has its target");
 }
 
-reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_a_pixel,
+reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
   renderer_->begin_frame(play_.scene, camera);
   const shading::DrawnLight light = renderer_->drawn_light();
   reference::TraceOptions options;
-  options.samples_a_pixel = samples_a_pixel;
+  options.samples_per_pixel = samples_per_pixel;
   options.window = window;
   options.drawn_light = &light;
   options.mirror_bounces = methods::settings(play_.scene).bounces;

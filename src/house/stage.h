@@ -29,8 +29,8 @@ struct Play {
   const scene::LiveScene& live() const { return clock.live(); }
   action::Actions& actions() const { return *clock.find<action::Actions>(); }
 
-  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Gives warnings, which it
-  /// tells on standard error, too.
+  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Returns the warnings,
+  /// which it also prints on standard error.
   Errors advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
 
   /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
@@ -83,7 +83,7 @@ class Stage {
   /// What was drawn last, tone-mapped with the scene's exposure.
   Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
   /// The same by the ray tracer, with the renderer's own shadow maps; all of it or a window.
-  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_a_pixel,
+  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                  const reference::PixelWindow& window = {});
 
  private:

@@ -81,7 +81,7 @@ TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
 
   const Result<reference::Difference> everywhere = reference::compare(drawn, traced);
   ASSERT_TRUE(everywhere) << to_string(everywhere.errors());
-  // Four samples a pixel against sixteen, and reflections of one map: the rest is equal.
+  // Four samples per pixel against sixteen, and reflections of one map: the rest is equal.
   EXPECT_LT(everywhere->flip, 0.02);
   EXPECT_GT(everywhere->psnr, 43.0);
   const Result<reference::Difference> mirrors = reference::compare(drawn, traced, truth.mirror_mask);

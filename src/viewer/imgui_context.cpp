@@ -21,7 +21,7 @@ ImguiContext::~ImguiContext() {
 void ImguiContext::rescale(float scale, float pixels_a_point) {
   scale_ = scale;
   fonts_ = apply_theme(scale, pixels_a_point);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew with the next frame
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // rebuilt with the next frame
   ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 

@@ -1,4 +1,4 @@
-// Owns Dear ImGui and its OpenGL drawing. What moves the mouse is somebody else's: GLFW in a window, a test.
+// Owns Dear ImGui and its OpenGL drawing. Its events come from elsewhere: GLFW in a window, a test.
 #pragma once
 
 #include "base/result.h"

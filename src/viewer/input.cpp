@@ -10,7 +10,7 @@
 namespace parvis::viewer {
 namespace {
 
-constexpr float radians_a_pixel = 0.0025f;
+constexpr float radians_per_pixel = 0.0025f;
 constexpr double farthest_click = 4.0;  // from press to release, in the window's units: beyond, it is a drag
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
@@ -108,7 +108,7 @@ void Input::choose_what_is_below_the_cursor() {
 void Input::on_cursor(double x, double y) {
   const glm::dvec2 moved = glm::dvec2(x, y) - cursor_;
   cursor_ = {x, y};
-  if (is_dragging_) controls_.turn -= radians_a_pixel * glm::vec2(moved);
+  if (is_dragging_) controls_.turn -= radians_per_pixel * glm::vec2(moved);
 }
 
 void Input::on_wheel(double steps) {

@@ -20,7 +20,7 @@ struct NodeRow {
   bool is_visible = true;   ///< by its own attribute
   bool is_in_sight = true;  ///< and none around it is hidden
   std::string kind, name;   ///< "model", "oaks"; the name may be empty
-  std::string says;         ///< the first that the script gives it: what tells unnamed nodes apart
+  std::string says;         ///< the first that the script gives it: distinguishes unnamed nodes
 };
 
 /// The nodes from the top on; those inside a node follow it where it is in `open`. With a `filter`: those

@@ -202,7 +202,7 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
   }
   if (statistics.passes().empty()) rows_.remark("None has been timed yet.");
   if (draws_on_processor_)
-    rows_.remark("This driver draws on the processor and puts work off: read them as rough.");
+    rows_.remark("This is a software driver, which puts work off: read the times as rough.");
 
   const render::DrawStatistics& drawn = visit.stage().renderer().statistics();
   rows_.heading("Main view");
@@ -240,19 +240,19 @@ void Panel::draw_keys() const {
 /// At the foot of the picture, the latest lowest.
 void Panel::draw_notices(const Visit& visit) const {
   const float margin = 14.0f * imgui_.scale();
-  const float most_width = ImGui::GetIO().DisplaySize.x - width() - 2.0f * margin;
+  const float max_width = ImGui::GetIO().DisplaySize.x - width() - 2.0f * margin;
   float foot = ImGui::GetIO().DisplaySize.y - margin;
   for (std::size_t i = visit.notices().size(); i-- > 0;) {
     const Notice& notice = visit.notices()[i];
     ImGui::SetNextWindowPos({margin, foot}, ImGuiCond_Always, {0.0f, 1.0f});
-    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {most_width, FLT_MAX});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {max_width, FLT_MAX});
     ImGui::SetNextWindowBgAlpha(0.85f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0f * imgui_.scale());
     ImGui::Begin(fmt::format("notice {}", i).c_str(), nullptr,
                  fixed_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleVar();
-    ImGui::PushTextWrapPos(most_width - margin);
+    ImGui::PushTextWrapPos(max_width - margin);
     ImGui::PushStyleColor(ImGuiCol_Text,
                           notice.is_error ? error_text : ImGui::GetStyleColorVec4(ImGuiCol_Text));
     ImGui::TextUnformatted(notice.text.c_str());

@@ -77,7 +77,7 @@ class SquareTest : public gl::ContextTest {
     ADD_FAILURE() << "no object " << name;
     return false;
   }
-  /// All that the visitor is told now.
+  /// All notices that the visitor sees now.
   std::string told() const {
     std::string all;
     for (const Notice& notice : visit_->notices()) all += notice.text + "\n";

@@ -11,7 +11,7 @@ namespace parvis::viewer {
 namespace {
 
 constexpr double notice_s = 5.0, error_notice_s = 12.0;
-constexpr std::size_t most_notices = 4;
+constexpr std::size_t max_notices = 4;
 constexpr float traffic_step_s = 0.1f;
 constexpr float longest_step_s = 0.1f;
 
@@ -162,7 +162,7 @@ void Visit::notice_error(std::string text) {
 /// Another word of the same takes the place of the first.
 void Visit::add_notice(Notice notice) {
   std::erase_if(notices_, [&](const Notice& each) { return each.text == notice.text; });
-  if (notices_.size() == most_notices) notices_.erase(notices_.begin());
+  if (notices_.size() == max_notices) notices_.erase(notices_.begin());
   notices_.push_back(std::move(notice));
 }
 

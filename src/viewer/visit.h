@@ -1,5 +1,5 @@
-// One visit to a stage: where the visitor stands, what they follow and have chosen, what they are told. All
-// that keys and the panel can do, without a window.
+// One visit to a stage: where the visitor stands, what they follow and have chosen, which notices they see.
+// All that keys and the panel can do, without a window.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace parvis::viewer {
 
-/// What a visitor is told for a while.
+/// A notice that a visitor sees for a while.
 struct Notice {
   std::string text;
   bool is_error = false;
@@ -54,8 +54,8 @@ class Visit {
   /// The node that made what stands at a pixel of the picture drawn last; null where it is the sky, or what
   /// no node made.
   const scene::Node* node_at(glm::ivec2 pixel);
-  /// Tells a node; errors say what it expects, and nothing has changed then. What cannot be built is a
-  /// notice, a step later.
+  /// Sends a message to a node; errors say what it expects, and nothing has changed then. What cannot be
+  /// built is a notice, a step later.
   Status tell(const scene::Node& node, const std::string& message);
   // Light and reflections: attributes of the nodes that stand for them, seen with the next step.
   void set_sun(float azimuth_deg, float elevation_deg);

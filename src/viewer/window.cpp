@@ -107,7 +107,7 @@ class Frames {
       visit_.stage().follow_clock();
       visit_.step(input_.poll(), seconds);
       draw();
-      const bool is_last = glfwWindowShouldClose(window_) || frame == options_.most_frames;
+      const bool is_last = glfwWindowShouldClose(window_) || frame == options_.max_frames;
       if (is_last && !options_.screenshot.empty())
         if (Status status = write_image(options_.screenshot, read_window(width_, height_)); !status)
           return status;

@@ -14,7 +14,7 @@ struct WindowOptions {
   std::string camera;      ///< where the visit begins; empty: the scene's first
   bool has_panel = false;  ///< at first; F2 opens and closes it
   PicturePlace pictures;   ///< where those go that the visitor takes
-  int most_frames = 0;     ///< closes after so many; 0: when the visitor does (tests and screenshots)
+  int max_frames = 0;      ///< closes after so many; 0: when the visitor does (tests and screenshots)
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 

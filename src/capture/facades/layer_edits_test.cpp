@@ -91,11 +91,11 @@ TEST(LayerEdits, WhatNoLongerFitsIsReportedAndKept) {
   EXPECT_NE(to_string(applied.messages[1]).find("\"post\""), std::string::npos);
   EXPECT_NE(to_string(applied.messages[1]).find("no such object any more"), std::string::npos);
   // With the old model again everything is back.
-  Made again = made(before());
+  Made rebuilt = made(before());
   LayerEdits all = applied.unplaced;
-  const AppliedEdits rest = apply(edits, again.layers(), "0001.jpg", again.pixels);
+  const AppliedEdits rest = apply(edits, rebuilt.layers(), "0001.jpg", rebuilt.pixels);
   EXPECT_EQ(rest.applied, 20u * 8 + 1);
-  EXPECT_EQ(apply(all, again.layers(), "0001.jpg", again.pixels).applied, 81u);
+  EXPECT_EQ(apply(all, rebuilt.layers(), "0001.jpg", rebuilt.pixels).applied, 81u);
 }
 
 TEST(LayerEdits, SurviveACameraThatIsCalibratedAnew) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double tile_m = 60.0;            // parts of this size are culled one by one
 constexpr double smallest_area_m2 = 1e-9;  // below it a ring has no direction
 constexpr double farthest_m = 1e7;         // of a surface from the origin: no place on earth is as wide
-constexpr std::size_t most_warnings = 20;
+constexpr std::size_t max_warnings = 20;
 
 /// Newell's normal with the ring's first point as origin: far coordinates would cost it its digits.
 glm::dvec3 newell_about_first(std::vector<glm::dvec3> ring) {
@@ -83,8 +83,8 @@ int CityAssembly::add_picture(const std::string& file, bool repeats) {
 
 void CityAssembly::warn(const std::string& message) {
   const FileLocation where{file_.string(), 0, 0};
-  if (++warning_count_ <= most_warnings) warnings_.push_back({message, where});
-  if (warning_count_ == most_warnings + 1)
+  if (++warning_count_ <= max_warnings) warnings_.push_back({message, where});
+  if (warning_count_ == max_warnings + 1)
     warnings_.push_back({"more warnings of this kind are not told", where});
 }
 
@@ -166,8 +166,8 @@ void CityAssembly::read_pictures(Model& model) {
   model.textures = std::move(pictures_);
 }
 
-/// A place of many roofs without a wall, or the other way round, is a file that is read in part or tells
-/// half.
+/// Warns of many roofs without walls, or walls without roofs: the file was read in part, or holds only half
+/// of its surfaces.
 void CityAssembly::warn_of_implausible_counts() {
   constexpr std::size_t enough = 20;  // surfaces that make a place
   const auto count = [&](const char* name) {

@@ -11,10 +11,10 @@ void furnish_city_models(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
   readers.add({".json", ".jsonl"},
               [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_city_model(file, warnings, reading.most_detail); });
+                 Errors& warnings) { return read_city_model(file, warnings, reading.max_detail); });
   readers.add({".gml", ".citygml", ".xml"},
               [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_city_gml(file, warnings, reading.most_detail); });
+                 Errors& warnings) { return read_city_gml(file, warnings, reading.max_detail); });
   readers.add({".osm"},
               [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
                  Errors& warnings) { return read_osm(file, warnings, reading.ground); });

@@ -141,8 +141,8 @@ bool has_polygons(const citygml::Geometry& geometry) {
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const citygml::CityModel& model, Errors& warnings,
-         std::optional<double> most_detail)
-      : model_(model), most_detail_(most_detail), city_(file, origin(model), warnings) {
+         std::optional<double> max_detail)
+      : model_(model), max_detail_(max_detail), city_(file, origin(model), warnings) {
     if (const auto themes = model.themes(); !themes.empty()) theme_ = themes.front();
   }
 
@@ -188,7 +188,7 @@ class Reader {
     levels.reserve(all.size());
     for (const Shown& shown : all) levels.push_back(shown.geometry->getLOD());
     object_ = {object.getId(), type_name(object), object.getAttribute("function")};
-    const auto wanted = wanted_level(levels, most_detail_);
+    const auto wanted = wanted_level(levels, max_detail_);
     // A solid lists the surfaces that bound it a second time: those that have a name count, and come first.
     seen_.clear();
     for (const bool is_named : {true, false})
@@ -282,7 +282,7 @@ class Reader {
   }
 
   const citygml::CityModel& model_;
-  std::optional<double> most_detail_;
+  std::optional<double> max_detail_;
   CityAssembly city_;
   std::string theme_;
   std::size_t object_count_ = 0;
@@ -306,7 +306,7 @@ Status check_version(const FileLocation& where, const std::string& root) {
 }  // namespace
 
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
-                            std::optional<double> most_detail) {
+                            std::optional<double> max_detail) {
   const FileLocation where{file.string(), 0, 0};
   const Result<XmlText> xml = read_xml(file);
   if (!xml) return xml.errors();
@@ -319,7 +319,7 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
     std::istringstream stream(xml->bytes);
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
-    return Reader(file, *city, warnings, most_detail).read();
+    return Reader(file, *city, warnings, max_detail).read();
   } catch (const std::exception& problem) {
     return error_at(where, "libcitygml cannot read it ({})", problem.what());
   } catch (...) {  // Xerces throws what is no std::exception

@@ -10,11 +10,11 @@
 
 namespace parvis::scene {
 
-/// Takes each object's highest level of detail, or the highest not above `most_detail`, of which the surfaces
+/// Takes each object's highest level of detail, or the highest not above `max_detail`, of which the surfaces
 /// that bound an object (walls, windows) count as its own. Of several themes the first counts. A missing
 /// picture is a warning. Errors: XML with a DOCTYPE or that is not well-formed (line named), a version that
 /// is neither 1 nor 2 (version 3 is refused by name), a file without polygons.
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
-                            std::optional<double> most_detail = {});
+                            std::optional<double> max_detail = {});
 
 }  // namespace parvis::scene

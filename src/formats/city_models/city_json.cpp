@@ -122,8 +122,8 @@ struct Corners {
 
 class Reader {
  public:
-  Reader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> most_detail)
-      : json_(json), most_detail_(most_detail), city_(file, read_vertices(), warnings) {}
+  Reader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> max_detail)
+      : json_(json), max_detail_(max_detail), city_(file, read_vertices(), warnings) {}
 
   Result<Model> read() {
     read_templates();
@@ -200,7 +200,7 @@ class Reader {
     const std::size_t before = city_.polygon_count();
     surfaces_of_object_.clear();
     known_rings_.clear();
-    if (const auto best = wanted_level(levels, most_detail_))
+    if (const auto best = wanted_level(levels, max_detail_))
       for (std::size_t i = 0; i < geometries.size();
            ++i)  // roofs, walls and footprint may be one geometry each
         if (levels[i] == *best) read_geometry(*geometries[i]);
@@ -378,7 +378,7 @@ class Reader {
   static constexpr std::array group_members{"children", "members", "Parts", "Installations"};
 
   const Json& json_;
-  std::optional<double> most_detail_;
+  std::optional<double> max_detail_;
   std::vector<glm::dvec3> vertices_, template_vertices_;
   std::vector<glm::vec2> texture_vertices_;
   CityAssembly city_;
@@ -393,7 +393,7 @@ class Reader {
 
 }  // namespace
 
-Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> most_detail) {
+Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> max_detail) {
   const FileLocation where{file.string(), 0, 0};
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return bytes.errors();
@@ -401,7 +401,7 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
     const Result<Json> json = file.extension() == ".jsonl" ? city_json_of_sequence(file, *bytes)
                                                            : Result<Json>(Json::parse(*bytes));
     if (!json) return json.errors();
-    return Reader(file, *json, warnings, most_detail).read();
+    return Reader(file, *json, warnings, max_detail).read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {

@@ -11,13 +11,13 @@
 
 namespace parvis::scene {
 
-/// Takes each object's highest level of detail, or the highest not above `most_detail` (the lowest, where all
+/// Takes each object's highest level of detail, or the highest not above `max_detail` (the lowest, where all
 /// are above). Of several themes of materials or pictures the file's default one counts, else the first.
 /// Surfaces without semantics are named after their object's type, those of buildings by their slope. Objects
 /// of extensions ("+Pavilion") are taken by their geometry. Objects without polygons and templates that are
 /// not there are named in `warnings`; a file without any polygon, an unknown version and an index out of
 /// range are errors.
 Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
-                              std::optional<double> most_detail = {});
+                              std::optional<double> max_detail = {});
 
 }  // namespace parvis::scene

@@ -265,9 +265,9 @@ class Footprints {
 
 double lowest_m(const Ring& ring, const GroundOnMap& ground) {
   if (!ground) return 0.0;
-  double least_m = ground(ring.front());
-  for (const dvec2& point : ring) least_m = std::min(least_m, ground(point));
-  return least_m;
+  double min_m = ground(ring.front());
+  for (const dvec2& point : ring) min_m = std::min(min_m, ground(point));
+  return min_m;
 }
 
 }  // namespace

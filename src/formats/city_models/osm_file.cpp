@@ -12,7 +12,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::size_t most_warnings = 20;
+constexpr std::size_t max_warnings = 20;
 
 /// The attributes of one element.
 class Attributes {
@@ -67,7 +67,7 @@ class Reader {
   int line() const { return int(XML_GetCurrentLineNumber(parser_.get())); }
 
   void warn(const std::string& message) {
-    if (++warning_count_ <= most_warnings) warnings_.push_back({message, {file_.string(), line(), 0}});
+    if (++warning_count_ <= max_warnings) warnings_.push_back({message, {file_.string(), line(), 0}});
   }
 
   void begin(std::string_view name, const Attributes& attributes) {
@@ -97,8 +97,8 @@ class Reader {
                east = attributes.number<double>("maxlon"), north = attributes.number<double>("maxlat");
     has_bounds_ = west && south && east && north && is_on_earth(*west, *south) && is_on_earth(*east, *north);
     if (!has_bounds_) return warn("these bounds lie nowhere on the earth; those of the nodes stand for them");
-    osm_.least_deg = {*west, *south};
-    osm_.most_deg = {*east, *north};
+    osm_.min_deg = {*west, *south};
+    osm_.max_deg = {*east, *north};
   }
 
   static bool is_on_earth(double longitude_deg, double latitude_deg) {
@@ -136,11 +136,11 @@ class Reader {
   }
 
   void bound_nodes() {
-    osm_.least_deg = glm::dvec2(1e9);
-    osm_.most_deg = glm::dvec2(-1e9);
+    osm_.min_deg = glm::dvec2(1e9);
+    osm_.max_deg = glm::dvec2(-1e9);
     for (const auto& [id, place] : osm_.nodes) {
-      osm_.least_deg = glm::min(osm_.least_deg, place);
-      osm_.most_deg = glm::max(osm_.most_deg, place);
+      osm_.min_deg = glm::min(osm_.min_deg, place);
+      osm_.max_deg = glm::max(osm_.max_deg, place);
     }
   }
 

@@ -44,7 +44,7 @@ struct OsmFile {
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;
   std::unordered_map<OsmId, std::size_t> way_of;  ///< index of each way
-  glm::dvec2 least_deg{0.0}, most_deg{0.0};       ///< its bounds as written, or else of its nodes
+  glm::dvec2 min_deg{0.0}, max_deg{0.0};          ///< its bounds as written, or else of its nodes
 };
 
 /// Errors tell the line: no OSM, a DOCTYPE, XML that is not well-formed, a file without nodes. A node without

@@ -17,8 +17,8 @@ constexpr double largest_m = 100'000.0;  // no city is so wide, and floats end a
 void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, CityAssembly& city) {
   CitySurface ground;
   std::vector<glm::dvec3>& ring = ground.rings.emplace_back();
-  for (const glm::dvec2 corner : {osm.least_deg, glm::dvec2(osm.most_deg.x, osm.least_deg.y), osm.most_deg,
-                                  glm::dvec2(osm.least_deg.x, osm.most_deg.y)})
+  for (const glm::dvec2 corner : {osm.min_deg, glm::dvec2(osm.max_deg.x, osm.min_deg.y), osm.max_deg,
+                                  glm::dvec2(osm.min_deg.x, osm.max_deg.y)})
     ring.emplace_back(utm(corner), origin.z);
   city.add({"ground", "LandUse", ""}, ground);
 }
@@ -29,9 +29,9 @@ Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, cons
   const FileLocation where{file.string(), 0, 0};
   const Result<OsmFile> osm = read_osm_file(file, warnings);
   if (!osm) return osm.errors();
-  const glm::dvec2 middle_deg = (osm->least_deg + osm->most_deg) / 2.0;
+  const glm::dvec2 middle_deg = (osm->min_deg + osm->max_deg) / 2.0;
   const Utm utm(middle_deg);
-  const glm::dvec2 size_m = utm(osm->most_deg) - utm(osm->least_deg);
+  const glm::dvec2 size_m = utm(osm->max_deg) - utm(osm->min_deg);
   if (!(glm::length(size_m) < largest_m))
     return error_at(where,
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",

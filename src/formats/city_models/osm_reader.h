@@ -11,7 +11,7 @@ namespace parvis::scene {
 
 /// Metres on the map of the file's UTM zone, about the middle of its bounds: `Model::origin` says where that
 /// is. All stands on the ground that is given, else on a level one at z = 0, which is added. What is
-/// incomplete is told in `warnings` by its id, and the rest is read.
+/// incomplete is reported in `warnings` by its id, and the rest is read.
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {});
 
 }  // namespace parvis::scene

@@ -130,7 +130,7 @@ class Roads {
   std::unordered_map<OsmId, int> layer_at_;  ///< the lowest of the roads that meet there
 };
 
-/// Leaves out, and tells, the roads of which the road builder can make no lanes.
+/// Leaves out, and reports, the roads of which the road builder can make no lanes.
 void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
   for (;;) {
     const Result<RoadGraph> graph = build_road_graph(roads);

@@ -7,8 +7,8 @@ namespace parvis::scene {
 
 /// Each at its way's line of `file`, on the ground, which is asked in the frame of `place`. Bridges pass
 /// above what they cross, tunnels are left out. Ways that lead through nodes that are not in the file are
-/// told, and drawn through the others; those of which no lanes can be made (one lies along another) are told,
-/// too, and left out.
+/// reported, and drawn through the others; those of which no lanes can be made (one lies along another) are
+/// reported, too, and left out.
 std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
                             const std::filesystem::path& file, CityAssembly& city);
 

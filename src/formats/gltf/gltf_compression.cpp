@@ -15,11 +15,11 @@ using Json = GltfFile::Json;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char *meshopt = "EXT_meshopt_compression", *draco_mesh = "KHR_draco_mesh_compression";
-constexpr std::size_t most_elements = 20'000'000;  // a hostile count must not allocate
+constexpr std::size_t max_elements = 20'000'000;  // a hostile count must not allocate
 
 std::size_t count_in(const Json& object, const char* name) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_number_unsigned() || found->get<std::size_t>() > most_elements * 16)
+  if (found == object.end() || !found->is_number_unsigned() || found->get<std::size_t>() > max_elements * 16)
     gltf_fail("{}: \"{}\" is missing or no sensible number", meshopt, name);
   return found->get<std::size_t>();
 }
@@ -74,7 +74,7 @@ Bytes unpacked_view(const GltfFile& file, const Json& packing, const std::vector
   if (buffer < 0 || offset > buffers[std::size_t(buffer)].size() ||
       length > buffers[std::size_t(buffer)].size() - offset)
     gltf_fail("buffer view {}: its {} reaches beyond its buffer", view, meshopt);
-  if (count > most_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
+  if (count > max_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
     gltf_fail("buffer view {}: {} elements of {} bytes, mode \"{}\", filter \"{}\" are none of {}'s", view,
               count, stride, mode, filter, meshopt);
   Bytes plain((count * stride + 3) / 4 * 4);
@@ -106,7 +106,7 @@ std::unique_ptr<draco::Mesh> decoded(std::span<const std::uint8_t> bytes, const 
   try {
     draco::Decoder decoder;
     auto mesh = decoder.DecodeMeshFromBuffer(&source);
-    if (mesh.ok() && mesh.value()->num_points() <= most_elements) return std::move(mesh).value();
+    if (mesh.ok() && mesh.value()->num_points() <= max_elements) return std::move(mesh).value();
     gltf_fail("mesh \"{}\": its compressed bytes ({}) are damaged: {}", mesh_name, draco_mesh,
               mesh.ok() ? "too many points" : mesh.status().error_msg_string());
   } catch (const std::exception& problem) {

@@ -14,7 +14,7 @@ using Json = GltfFile::Json;
 namespace {
 
 constexpr std::uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr std::size_t most_elements =
+constexpr std::size_t max_elements =
     20'000'000;  // no model of a city needs more; a hostile count must not allocate
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {
@@ -262,7 +262,7 @@ GltfFile::Access GltfFile::access(int accessor, int components) const {
   access.is_normalised = description.value("normalized", false);
   if (access.components != std::size_t(components))
     gltf_fail("accessor {} has {} components; expected {}", accessor, access.components, components);
-  if (access.count > most_elements) gltf_fail("accessor {} claims {} elements", accessor, access.count);
+  if (access.count > max_elements) gltf_fail("accessor {} claims {} elements", accessor, access.count);
   const int view = index(description, "bufferView", "bufferViews");
   const std::size_t element = component_bytes(access.type) * access.components;
   if (view < 0) return access;

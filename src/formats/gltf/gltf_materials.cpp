@@ -107,12 +107,12 @@ class MaterialReader {
 
   /// A body of glass, as against a pane.
   void make_solid(Material& m, const Json& ior, const Json& volume) {
-    constexpr float usual_ior = 1.5f, greatest_ior = 4.0f;
+    constexpr float usual_ior = 1.5f, max_ior = 4.0f;
     m.ior = gltf_number(ior, "ior", usual_ior);
-    if (!(m.ior >= 1.0f && m.ior <= greatest_ior)) {
+    if (!(m.ior >= 1.0f && m.ior <= max_ior)) {
       warnings_.push_back({fmt::format("material \"{}\": its index of refraction is {}; expected 1 to {}; {} "
                                        "stands for it",
-                                       m.name, m.ior, greatest_ior, usual_ior),
+                                       m.name, m.ior, max_ior, usual_ior),
                            {file_.path().string(), 0, 0}});
       m.ior = usual_ior;
     }

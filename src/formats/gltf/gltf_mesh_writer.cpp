@@ -9,7 +9,7 @@ using Json = GltfChunk::Json;
 using Component = GltfChunk::Component;
 using Use = GltfChunk::Use;
 
-constexpr std::size_t most_joints = 65536;  // a vertex names its joints by 16 bits
+constexpr std::size_t max_joints = 65536;  // a vertex names its joints by 16 bits
 
 /// A bent mesh hangs where its weights are animated: its skin places it wherever it hangs.
 int hanging_node(const Part& part) {
@@ -93,9 +93,9 @@ Result<std::vector<WrittenMesh>> write_meshes(const Model& model, int first_mate
       mesh = written.insert(written.end(), {int(meshes.size()), node, bends});
       meshes.push_back({{"name", part.object}, {"primitives", Json::array()}});
       if (bends && !bends->weights.empty()) meshes.back()["weights"] = bends->weights;
-      if (bends && bends->skin.joints.size() > most_joints)
+      if (bends && bends->skin.joints.size() > max_joints)
         return error("\"{}\" hangs on {} joints; glTF can number {}", part.object, bends->skin.joints.size(),
-                     most_joints);
+                     max_joints);
       if (bends && !bends->skin.joints.empty()) mesh->inverse_bind = write_inverse_bind(bends->skin, chunk);
     }
     meshes[std::size_t(mesh->mesh)]["primitives"].push_back(primitive_json(part, first_material, chunk));

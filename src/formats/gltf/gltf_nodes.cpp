@@ -11,7 +11,7 @@ namespace {
 
 using Json = GltfFile::Json;
 
-constexpr std::size_t most_warnings = 20;  // of a graph that is no tree: a hostile file has millions
+constexpr std::size_t max_warnings = 20;  // of a graph that is no tree: a hostile file has millions
 
 ModelNode read_node(const Json& source, int parent) {
   ModelNode node;
@@ -102,7 +102,7 @@ class TreeReader {
   }
 
   void leave_out(std::size_t gltf_node, int parent) {
-    if (++left_out_ > most_warnings) return;
+    if (++left_out_ > max_warnings) return;
     const int present = nodes_.of_gltf[gltf_node];
     int above = parent;
     while (above > present) above = model_.nodes[std::size_t(above)].parent;

@@ -15,8 +15,8 @@ struct GltfNodes {
 };
 
 /// Appends the nodes of the file's scene, or of the whole file where it has no scene, below node 0 of
-/// `model`; parents first. Links that were left out are told in `warnings`, by the numbers of their nodes.
-/// Throws GltfProblem.
+/// `model`; parents first. Links that were left out are reported in `warnings`, by the numbers of their
+/// nodes. Throws GltfProblem.
 GltfNodes read_nodes(const GltfFile& file, Model& model, Errors& warnings);
 
 }  // namespace parvis::scene

@@ -236,7 +236,7 @@ std::string graph_gltf(const std::string& scenes, const std::string& nodes) {
     "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAA"}]})";
 }
 
-/// How many parts the rest has, and what is told.
+/// How many parts the rest has, and what is reported.
 std::pair<std::size_t, std::string> read_graph(const std::string& scenes, const std::string& nodes) {
   const TestFolder folder;
   Errors warnings;

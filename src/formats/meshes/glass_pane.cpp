@@ -8,8 +8,8 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float least_alpha = 0.25f;  // as the preset clear_glass has it
-constexpr float mirrored = 0.08f;     // of the light, seen straight on: by both faces
+constexpr float min_alpha = 0.25f;  // as the preset clear_glass has it
+constexpr float mirrored = 0.08f;   // of the light, seen straight on: by both faces
 constexpr float tint_light =
     0.5f;  // of the light that a tint keeps, how much more of that colour is mirrored
 
@@ -29,7 +29,7 @@ Material pane_of(const Material& glass) {
       glm::clamp(glass.base_colour * glm::exp(-glass.thickness_m * glass.absorption_per_m), 0.0f, 1.0f);
   Material pane = glass;
   pane.ior = 1.0f, pane.absorption_per_m = glm::vec3(0.0f);
-  pane.alpha = std::max(1.0f - luminance(clear), least_alpha);
+  pane.alpha = std::max(1.0f - luminance(clear), min_alpha);
   // What blends mirrors by as much less. As a metal it mirrors as much more.
   pane.metallic = 1.0f;
   pane.base_colour = mirrored / pane.alpha + tint_light * (clear - std::min({clear.x, clear.y, clear.z}));

@@ -35,7 +35,7 @@ Material changed(Material material, const MaterialChange& change, const std::str
   if (change.metallic && !change.ior) material.ior = 1.0f;  // another surface than glass
   if (change.ior) {
     material.ior = *change.ior;
-    material.alpha_mode = Alpha::opaque;  // what one sees through it is worked out, not blended
+    material.alpha_mode = Alpha::opaque;  // what lies behind it is computed, not blended
     material.is_double_sided = false;
     material.is_mirror_like = true;
     if (!change.colour && material.refracts())  // glass has none of its own; where it is open, panes would
@@ -156,7 +156,7 @@ MaterialChange merged(const MaterialChange& under, const MaterialChange& over) {
 std::size_t change_material(Model& model, std::span<const std::size_t> parts,
                             std::span<const MaterialMask> masks, const MaterialChange& change,
                             const std::string& name) {
-  std::map<int, Sides> sides_of;  // for each material that is met
+  std::map<int, Sides> sides_of;  // for each material in use
   std::size_t changed_triangles = 0;
   for (const std::size_t index : parts) {
     const std::vector<bool> is_taken = triangles_in(masks, model, model.parts[index]);

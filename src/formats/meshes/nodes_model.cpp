@@ -95,7 +95,7 @@ std::string reading_key(const Node& node) {
   return node.file("file").string() + "?up=" + node.text("up") + level + cell + ground;
 }
 
-/// The ground of ground=, which tells where a place lies beyond it. Empty, with the errors in `builder`,
+/// The ground of ground=, which knows where a place lies beyond it. Empty, with the errors in `builder`,
 /// where there is none.
 GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& places_beyond) {
   const std::string name = node.text("ground");
@@ -143,7 +143,7 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
   using formats::UpAxis;
   formats::ModelReading reading;
   reading.up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
-  if (node.gives("lod")) reading.most_detail = node.number("lod");
+  if (node.gives("lod")) reading.max_detail = node.number("lod");
   if (node.gives("cell")) reading.cell_m = node.number("cell");
   return builder.shared_model(reading_key(node), [&]() -> std::shared_ptr<const Model> {
     Errors warnings;

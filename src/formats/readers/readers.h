@@ -20,9 +20,9 @@ enum class UpAxis : unsigned char { file, y, z };
 /// What a script may say about reading a model file.
 struct ModelReading {
   UpAxis up = UpAxis::file;
-  std::optional<double> most_detail = {};  ///< of city models: the level of detail; the highest there is
-  std::optional<double> cell_m = {};       ///< of grids of heights that have no place on the earth
-  scene::GroundOnMap ground = {};          ///< on which a file without heights (OpenStreetMap) stands
+  std::optional<double> max_detail = {};  ///< of city models: the level of detail; the highest there is
+  std::optional<double> cell_m = {};      ///< of grids of heights that have no place on the earth
+  scene::GroundOnMap ground = {};         ///< on which a file without heights (OpenStreetMap) stands
 };
 
 /// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to

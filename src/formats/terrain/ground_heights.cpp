@@ -12,7 +12,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr float finest_cell_m = 0.5f;
-constexpr float most_cells = 16e6f;
+constexpr float max_cells = 16e6f;
 constexpr float above_or_below_m = 2.5f;  // of a lane: beyond are roofs, bridges, cellars
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -30,7 +30,7 @@ void GroundHeights::note_lanes(const RoadGraph& roads, float reach_m) {
   for (const Lane& lane : roads.lanes)
     for (const glm::vec3& p : lane.points) bounds.add(p);
   const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * reach_m;
-  const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / most_cells));
+  const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells = glm::ivec2(glm::ceil(size / cell_m)) + 1;
   lane_heights_m_ = GroundRaster<float>(cells.x, cells.y, cell_m, glm::vec2(bounds.min) - reach_m, unknown);
 

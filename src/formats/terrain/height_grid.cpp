@@ -17,10 +17,10 @@
 namespace parvis::scene {
 namespace {
 
-constexpr int most_across = 1000;       // two million triangles
+constexpr int max_across = 1000;        // two million triangles
 constexpr double highest_m = 20'000.0;  // what is beyond is no height on the earth
 constexpr double farthest_deg = 84.0;   // as far as UTM goes
-constexpr double most_block_mb = 256.0;
+constexpr double max_block_mb = 256.0;
 
 /// What GDAL says goes into our errors, not to the terminal.
 struct QuietGdal {
@@ -135,11 +135,11 @@ Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::opti
                                     Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
   const QuietGdal quiet;
-  if (const double block_mb = largest_block_mb(file); block_mb > most_block_mb)
+  if (const double block_mb = largest_block_mb(file); block_mb > max_block_mb)
     return error_at(where,
                     "its samples lie in blocks of {:.0f} MB; expected at most {:.0f} MB: write it in tiles "
                     "(gdal_translate -co TILED=YES)",
-                    block_mb, most_block_mb);
+                    block_mb, max_block_mb);
   const Dataset opened = open(file);
   if (!opened) return error_at(where, "this is no GeoTIFF that can be read ({})", CPLGetLastErrorMsg());
   const int width = GDALGetRasterXSize(opened.get()), height = GDALGetRasterYSize(opened.get());
@@ -152,7 +152,7 @@ Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::opti
                     "samples, and it stands about the node's position");
 
   HeightGrid grid;
-  const int step = (std::max(width, height) + most_across - 1) / most_across;
+  const int step = (std::max(width, height) + max_across - 1) / max_across;
   grid.columns = std::max(width / step, 2), grid.rows = std::max(height / step, 2);
   grid.points.resize(std::size_t(grid.columns) * std::size_t(grid.rows));
   grid.has_place = given.has_value();

@@ -15,13 +15,13 @@ bool has_height(const HeightGrid& grid, int column, int row) { return std::isfin
 
 /// The lowest sample's height and the middle of the map, in whole metres.
 std::optional<glm::dvec3> origin_of(const HeightGrid& grid) {
-  double least_m = std::numeric_limits<double>::max();
+  double min_m = std::numeric_limits<double>::max();
   for (const glm::dvec3& point : grid.points)
-    if (std::isfinite(point.z)) least_m = std::min(least_m, point.z);
-  if (least_m == std::numeric_limits<double>::max()) return std::nullopt;
+    if (std::isfinite(point.z)) min_m = std::min(min_m, point.z);
+  if (min_m == std::numeric_limits<double>::max()) return std::nullopt;
   if (!grid.has_place) return glm::dvec3(0.0);
   const glm::dvec3& middle = grid.at(grid.columns / 2, grid.rows / 2);
-  return glm::floor(glm::dvec3(middle.x, middle.y, least_m));
+  return glm::floor(glm::dvec3(middle.x, middle.y, min_m));
 }
 
 /// By the neighbours that there are, two of them at most along each axis.

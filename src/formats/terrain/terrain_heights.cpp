@@ -9,7 +9,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float finest_cell_m = 0.5f, most_cells = 4e6f;
+constexpr float finest_cell_m = 0.5f, max_cells = 4e6f;
 
 /// Calls use(a, b, c) for each triangle of ground, in the model's frame.
 template <class Use>
@@ -32,7 +32,7 @@ TerrainHeights::TerrainHeights(const Model& terrain) : origin_(terrain.origin) {
   Bounds box;
   each_triangle(terrain, [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) { box.add(a), box.add(b), box.add(c); });
   if (!(box.size().x > 0.0f && box.size().y > 0.0f)) return;
-  const float cell_m = std::max(finest_cell_m, std::sqrt(box.size().x * box.size().y / most_cells));
+  const float cell_m = std::max(finest_cell_m, std::sqrt(box.size().x * box.size().y / max_cells));
   const glm::ivec2 cells = glm::ivec2(glm::ceil(glm::vec2(box.size()) / cell_m)) + 1;
   heights_m_ =
       HeightRaster(cells.x, cells.y, cell_m, glm::vec2(box.min), std::numeric_limits<float>::quiet_NaN());
@@ -51,11 +51,11 @@ std::optional<double> TerrainHeights::at(glm::dvec2 on_map) const {
 }
 
 std::optional<double> TerrainHeights::lowest() const {
-  std::optional<float> least_m;
+  std::optional<float> min_m;
   for (const float height_m : heights_m_.cells)
-    if (!std::isnan(height_m)) least_m = std::min(least_m.value_or(height_m), height_m);
-  if (!least_m) return std::nullopt;
-  return origin_.z + double(*least_m);
+    if (!std::isnan(height_m)) min_m = std::min(min_m.value_or(height_m), height_m);
+  if (!min_m) return std::nullopt;
+  return origin_.z + double(*min_m);
 }
 
 }  // namespace parvis::scene

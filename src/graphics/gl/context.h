@@ -31,7 +31,7 @@ Status check_current();
 
 /// "renderer, version" of the current context, as benches name the machine.
 std::string driver_name();
-/// Does the current context run on the processor (llvmpipe and its like)?
+/// True if the current context renders on the CPU (llvmpipe and its like).
 bool is_software();
 
 }  // namespace parvis::gl

@@ -30,7 +30,7 @@ TEST_F(ContextOfTest, OwnersHandTheirNamesOn) {
   EXPECT_FALSE(glIsBuffer(name));
 }
 
-/// Tells on standard error what a driver of OpenGL 3.3 is answered, and leaves. Only Mesa can play an older
+/// Prints on standard error the answer to a driver of OpenGL 3.3, and exits. Only Mesa can imitate an older
 /// driver.
 [[noreturn]] void start_on_an_old_driver() {
   setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);

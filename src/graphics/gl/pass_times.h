@@ -15,8 +15,8 @@ struct PassTime {
   double seconds = 0.0;
 };
 
-/// A frame is begin_frame, then end_pass after each of its passes. Drivers that draw on the processor put off
-/// the work of a pass: their times say little.
+/// A frame is begin_frame, then end_pass after each of its passes. Software drivers put off
+/// the work of a pass: their times mean little.
 class PassTimes {
  public:
   /// Needs a current context; so does the rest.

@@ -36,7 +36,7 @@ class ProgramTest : public ContextTest {};
 TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
   // The define breaks one line of an included file.
   const Result<GLuint> shader = compile_shader(GL_FRAGMENT_SHADER, "graphics/render/surface.frag",
-                                               {{"greatest_radiance", "1.0f 2.0f"}}, Dialect::desktop_450);
+                                               {{"max_radiance", "1.0f 2.0f"}}, Dialect::desktop_450);
   ASSERT_FALSE(shader);
   const std::string message = to_string(shader.errors());
   EXPECT_NE(message.find("graphics/render/surface_body.glsl:"), std::string::npos) << message;

@@ -144,7 +144,7 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
   if (!made) return made;
   SunStudy& study = *made;
 
-  scene::Scene still = scene;  // what moves stands somewhere else in an hour
+  scene::Scene still = scene;  // dynamic objects stand somewhere else in an hour
   for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
   const reference::RayScene rays(still);
   find_ground(rays, bounds.max.z, study);

@@ -48,8 +48,9 @@ struct SunStudy {
   std::size_t rays_from = 0;             ///< points that rays start from
 };
 
-/// Ground is what is met from above, below leaves and fewer than 2.5 m above the lowest surface within 20 m;
-/// the rest is built. Refused where the area would have more than 16 million cells or 12 million vertices.
+/// Ground is the surface hit from above, below leaves and less than 2.5 m above the lowest surface within
+/// 20 m; the rest is built. Refused where the area would have more than 16 million cells or 12 million
+/// vertices.
 Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options);
 
 /// Of the open ground of a study of 21 March.

@@ -10,8 +10,8 @@ namespace {
 
 using glm::vec3;
 
-constexpr int most_inner_bounces = 8;
-constexpr float least_share = 2e-3f;    // of the light, that is followed
+constexpr int max_inner_bounces = 8;
+constexpr float min_share = 2e-3f;      // of the light, that is followed
 constexpr float off_surface_m = 1e-4f;  // where rays begin, so that they do not meet where they come from
 
 /// A cone that a surface bends by `turn_per_m` of its width.
@@ -37,7 +37,7 @@ std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const S
                    seen, into, (1.0f - into) * entry.curvature_per_m);
   vec3 share(1.0f);
   Passage passage{Random(0), true};
-  for (int bounce = 0; bounce <= most_inner_bounces; ++bounce) {
+  for (int bounce = 0; bounce <= max_inner_bounces; ++bounce) {
     const std::optional<Hit> met = rays.nearest_hit(cone.ray, passage);
     if (!met || met->place->object != hit.place->object || !met->place->material->refracts()) {
       exits.push_back({cone, share});
@@ -55,7 +55,7 @@ std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const S
                             (glass.ior - 1.0f) * point.curvature_per_m),
                        (1.0f - kept) * share});
     share *= kept;
-    if (std::max({share.x, share.y, share.z}) < least_share) break;
+    if (std::max({share.x, share.y, share.z}) < min_share) break;
     cone = bent(
         {point.position + off_surface_m * point.geometric_normal, glm::reflect(cone.ray.direction, normal)},
         cone, 1.0f, 2.0f * point.curvature_per_m);

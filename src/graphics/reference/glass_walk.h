@@ -27,7 +27,7 @@ struct GlassExit {
 /// `seen` enters at `entry`, a point of a part that refracts, seen from outside; it is as wide as there. What
 /// stands in the glass ends the ray: its cone begins before it. A body with a hole has no other side there:
 /// the ray goes straight on. The shares add up to less than 1; what they lack is absorbed, or still goes
-/// round after `most_inner_bounces`.
+/// round after `max_inner_bounces`.
 std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const ShadingPoint& entry,
                                    const Cone& seen);
 

@@ -11,14 +11,14 @@ namespace {
 
 using glm::vec3;
 
-constexpr float off_surface_m = 1e-3f;      // where rays begin, so that they do not meet where they come from
-constexpr float greatest_survival = 0.95f;  // of a path at each bounce: even in a white room paths end
-constexpr float least_cosine = 1e-3f;
+constexpr float off_surface_m = 1e-3f;  // where rays begin, so that they do not meet where they come from
+constexpr float max_survival = 0.95f;   // of a path at each bounce: even in a white room paths end
+constexpr float min_cosine = 1e-3f;
 
 /// Keeps a vector on the side of `normal`, where interpolated or mapped normals would turn it away.
 vec3 kept_above(vec3 vector, vec3 normal) {
   const float height = glm::dot(vector, normal);
-  return height >= least_cosine ? vector : glm::normalize(vector + (least_cosine - height) * normal);
+  return height >= min_cosine ? vector : glm::normalize(vector + (min_cosine - height) * normal);
 }
 
 vec3 clamped(vec3 radiance, float most) {
@@ -110,7 +110,7 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   if (side * glm::dot(point.surface.normal, way->direction) <= 0.0f) return false;
   path.throughput *= way->weight * point.relief.light_from(way->direction);
   const float survival =
-      std::min(greatest_survival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+      std::min(max_survival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
   if (!(choices.y < survival)) return false;
   path.throughput /= survival;
   path.ray = {point.position + std::copysign(off_surface_m, side) * point.geometric_normal, way->direction};
@@ -121,7 +121,8 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   return true;
 }
 
-/// At solid glass the path is reflected or goes through, by chance, as light is shared; false where it ends.
+/// At solid glass the path is reflected or refracted, at random in proportion to the light; false where it
+/// ends.
 bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const {
   const vec3 normal = point.surface.normal, before = path.ray.direction;
   const vec3 bent = shading::refracted(before, normal, point.is_back ? ior : 1.0f / ior);
@@ -129,8 +130,8 @@ bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_
   const float reflected =
       bent == vec3(0.0f) ? 1.0f : shading::inner_reflectance(ior, -glm::dot(outside, normal));
   const glm::vec2 choices = path.numbers.next_2d();
-  if (!(choices.y < greatest_survival)) return false;
-  path.throughput /= greatest_survival;
+  if (!(choices.y < max_survival)) return false;
+  path.throughput /= max_survival;
   const bool reflects = choices.x < reflected;
   const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : bent;
   path.ray = {point.position + (reflects ? off_surface_m : -off_surface_m) * point.geometric_normal, after};

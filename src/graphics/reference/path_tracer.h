@@ -23,7 +23,7 @@ enum class LightStrategy : std::uint8_t { both, chosen_lights, scattered_rays };
 
 struct PathOptions {
   std::optional<int>
-      bounces;  ///< most surfaces that scatter light on its way; none: paths end by chance alone
+      bounces;  ///< maximum number of scattering surfaces; none: paths end by Russian roulette alone
   /// The most radiance, before exposure, that one path may bring from beyond its first bounce. None:
   /// unbiased.
   std::optional<float> clamp;

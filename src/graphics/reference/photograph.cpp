@@ -17,13 +17,13 @@ namespace parvis::reference {
 namespace {
 
 constexpr int tile_side = 32;  // pixels: rays of a tile meet the same parts, and its textures stay at hand
-constexpr int values_a_pixel = 5;            // red, green, blue, alpha, depth
+constexpr int values_per_pixel = 5;          // red, green, blue, alpha, depth
 constexpr std::uint32_t method_version = 2;  // to be raised whenever the same options give other pictures
 
 struct Tile {
   int x0, y0, x1, y1;
 
-  std::size_t value_count() const { return std::size_t(x1 - x0) * std::size_t(y1 - y0) * values_a_pixel; }
+  std::size_t value_count() const { return std::size_t(x1 - x0) * std::size_t(y1 - y0) * values_per_pixel; }
 };
 
 Tile tile_at(std::size_t index, int width, int height) {
@@ -41,14 +41,14 @@ std::uint64_t work_key(const scene::Scene& scene, const Camera& camera, int widt
   for (const float value : {camera.vertical_fov, camera.near_m, options.paths.clamp.value_or(-1.0f)})
     hash.add(value);
   if (camera.off_axis) hash.add(*camera.off_axis);
-  for (const int value : {width, height, options.samples_a_pixel, options.paths.bounces.value_or(-1),
+  for (const int value : {width, height, options.samples_per_pixel, options.paths.bounces.value_or(-1),
                           int(options.paths.strategy)})
     hash.add(value);
   hash.add(options.seed);
   return hash.value();
 }
 
-/// Of what the pixel's centre sees; what blends counts from half its alpha on, as 0.5 decides by chance.
+/// Depth of the surface at the pixel's centre; a blended surface counts where its alpha is at least 0.5.
 float centre_depth_m(const RayScene& rays, const Camera& camera, int width, int height, int x, int y) {
   const Ray ray = camera_ray(camera, width, height, {float(x) + 0.5f, float(y) + 0.5f});
   Passage passage{Random(1), false};
@@ -61,14 +61,14 @@ std::uint64_t trace_tile(const PathTracer& tracer, const RayScene& rays, const C
                          int height, const PhotographOptions& options, const Tile& tile,
                          std::vector<float>& values) {
   const float pixel_spread = camera.height_at_1m() / float(height);
-  const float spread = pixel_spread / std::sqrt(float(options.samples_a_pixel));
+  const float spread = pixel_spread / std::sqrt(float(options.samples_per_pixel));
   std::uint64_t ray_count = 0;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
       const std::uint32_t pixel = std::uint32_t(y) * std::uint32_t(width) + std::uint32_t(x);
       glm::vec3 sum(0.0f);
       int met = 0;
-      for (int i = 0; i < options.samples_a_pixel; ++i) {
+      for (int i = 0; i < options.samples_per_pixel; ++i) {
         SampleSequence numbers(options.seed, pixel, std::uint32_t(i));
         const glm::vec2 place = glm::vec2(float(x), float(y)) + numbers.next_2d();
         const std::uint64_t chance_seed =
@@ -79,7 +79,7 @@ std::uint64_t trace_tile(const PathTracer& tracer, const RayScene& rays, const C
         met += sample.meets_scene;
         ray_count += sample.rays;
       }
-      const float samples = float(options.samples_a_pixel);
+      const float samples = float(options.samples_per_pixel);
       for (int c = 0; c < 3; ++c) values.push_back(sum[c] / samples);
       values.push_back(float(met) / samples);
       values.push_back(centre_depth_m(rays, camera, width, height, x, y));
@@ -90,7 +90,7 @@ std::uint64_t trace_tile(const PathTracer& tracer, const RayScene& rays, const C
 void put_tile(const Tile& tile, std::span<const float> values, Photograph& photograph) {
   const float* value = values.data();
   for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x, value += values_a_pixel) {
+    for (int x = tile.x0; x < tile.x1; ++x, value += values_per_pixel) {
       std::copy(value, value + 3, photograph.radiance.at(x, y));
       *photograph.alpha.at(x, y) = std::uint8_t(std::lround(255.0f * value[3]));
       *photograph.depth_m.at(x, y) = value[4];

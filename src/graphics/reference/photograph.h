@@ -13,7 +13,7 @@
 namespace parvis::reference {
 
 struct PhotographOptions {
-  int samples_a_pixel = 64;
+  int samples_per_pixel = 64;
   std::uint64_t seed = 1;
   PathOptions paths;
   std::filesystem::path checkpoint;  ///< file of finished tiles, the caller's to remove; empty: none

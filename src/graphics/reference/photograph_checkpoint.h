@@ -24,8 +24,8 @@ class PhotographCheckpoint {
   PhotographCheckpoint& operator=(PhotographCheckpoint&&) = delete;
   ~PhotographCheckpoint();
 
-  /// Appends a tile; any thread may. A tile that cannot be written (full disk) is made again after an
-  /// interruption: it costs time, no truth.
+  /// Appends a tile; any thread may. A tile that cannot be written (full disk) is rendered once more after
+  /// an interruption: that costs time, the picture is the same.
   void keep(std::uint32_t tile, std::span<const float> values);
 
  private:

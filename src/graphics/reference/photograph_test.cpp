@@ -32,7 +32,7 @@ struct Corner {
 
 PhotographOptions four_samples(const fs::path& checkpoint = {}) {
   PhotographOptions options;
-  options.samples_a_pixel = 4;
+  options.samples_per_pixel = 4;
   options.checkpoint = checkpoint;
   return options;
 }

@@ -25,18 +25,18 @@ RTCRay embree_ray(const Ray& ray) {
   return {ray.origin.x,
           ray.origin.y,
           ray.origin.z,
-          ray.least_m,
+          ray.min_m,
           ray.direction.x,
           ray.direction.y,
           ray.direction.z,
           0.0f,
-          ray.most_m,
+          ray.max_m,
           ~0u,
           0,
           0};
 }
 
-/// Front and back are told in the mesh's frame, where a mirrored placement does not exchange them.
+/// Front and back are decided in the mesh's frame, where a mirroring transform does not exchange them.
 bool meets_back(const RTCFilterFunctionNArguments* arguments) {
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
                      RTCHitN_Ng_y(arguments->hit, arguments->N, 0),

@@ -17,7 +17,7 @@ namespace parvis::reference {
 
 struct Ray {
   glm::vec3 origin, direction;  ///< unit direction
-  float least_m = 1e-4f, most_m = 1e30f;
+  float min_m = 1e-4f, max_m = 1e30f;
 };
 
 /// A part of an object in the world, or a mesh that a room draws by itself.
@@ -42,8 +42,8 @@ struct Hit {
 };
 
 /// How light travels in a photograph, as against the renderer's picture: every part stops it, from both
-/// sides, but for those that blend: they stop it by chance, as often as their alpha says. Contact shadows
-/// that are painted for the renderer (what blends and throws no shadow) are not there.
+/// sides; blended parts stop it at random, with a probability of their alpha. Contact shadows painted for
+/// the renderer (blended parts that cast no shadow) are left out.
 struct Passage {
   Random random;
   bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
@@ -59,7 +59,7 @@ class RayScene {
 
   std::optional<Hit> nearest_hit(const Ray& ray) const;
   std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
-  /// Is there anything that throws a shadow along the ray?
+  /// True if a shadow caster lies along the ray.
   bool is_blocked(const Ray& ray) const;
   bool is_blocked(const Ray& ray, Passage& passage) const;
   std::size_t triangle_count() const { return triangle_count_; }

@@ -12,7 +12,7 @@ namespace parvis::reference {
 /// (`DataRole`). Cameras, roads and exposure leave it alone.
 std::uint64_t scene_key(const scene::Scene& scene);
 
-/// The same without what moves and what is hidden: what a picture of the fixed surroundings depends on.
+/// The same without dynamic and hidden objects: what a picture of the static surroundings depends on.
 std::uint64_t fixed_scene_key(const scene::Scene& scene);
 
 }  // namespace parvis::reference

@@ -11,9 +11,9 @@ namespace {
 
 using glm::vec2, glm::vec3;
 
-constexpr int most_rows = 256;                // the distribution stays in the cache
-constexpr float least_share_of_mean = 0.05f;  // dark parts are chosen, too: they are bilinear, cells are not
-constexpr float share_below_horizon = 0.1f;   // as often: there the ground hides it, mostly
+constexpr int max_rows = 256;                // the distribution stays in the cache
+constexpr float min_share_of_mean = 0.05f;   // dark parts are chosen, too: they are bilinear, cells are not
+constexpr float share_below_horizon = 0.1f;  // as often: there the ground hides it, mostly
 constexpr float pi_f = 3.14159265f;
 
 /// Mean luminance of the pixels of a cell and of the ones about it, from which lookups within it interpolate.
@@ -57,8 +57,8 @@ std::pair<int, float> SkySampler::find(const Shares& shares, std::size_t first, 
 }
 
 SkySampler::SkySampler(const shading::SkyLight& sky)
-    : rows_(std::min(sky.levels.front().height, most_rows)),
-      columns_(std::min(sky.levels.front().width, 2 * most_rows)),
+    : rows_(std::min(sky.levels.front().height, max_rows)),
+      columns_(std::min(sky.levels.front().width, 2 * max_rows)),
       heading_(sky.heading) {
   const ImageF& picture = sky.levels.front();
   const std::size_t rows = std::size_t(rows_), columns = std::size_t(columns_);
@@ -78,7 +78,7 @@ SkySampler::SkySampler(const shading::SkyLight& sky)
     const float seen_often = 2 * row < rows ? 1.0f : share_below_horizon;
     float light = 0.0f;
     for (float& cell : std::span(cells.data() + row * columns, columns)) {
-      cell += least_share_of_mean * float(mean);
+      cell += min_share_of_mean * float(mean);
       light += cell * solid_angle * seen_often;
     }
     vertical_.ends.push_back(light);

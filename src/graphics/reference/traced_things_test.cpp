@@ -117,11 +117,11 @@ TEST(TracedThings, BlendingCoversItsShare) {
   EXPECT_LT(glm::distance(seen, glm::vec3(0.5f, 0.0f, 0.5f)), 0.02f) << "both shine alike";
   const RayScene rays(scene);
   const Ray through{{0.5f, -5, 0.2f}, {0, 1, 0}, 1e-4f, 6.0f};  // beside the edge that two triangles share
-  EXPECT_FALSE(rays.is_blocked(through)) << "it throws no shadow";
+  EXPECT_FALSE(rays.is_blocked(through)) << "it casts no shadow";
   int stopped = 0;
   Passage passage{Random(7), true};
   for (int i = 0; i < 4000; ++i) stopped += rays.is_blocked(through, passage) ? 1 : 0;
-  EXPECT_NEAR(stopped, 1000, 130) << "in photographs by chance: 4.7 standard deviations";
+  EXPECT_NEAR(stopped, 1000, 130) << "in photographs at random: 4.7 standard deviations";
 }
 
 TEST(TracedThings, OneMeshMayHaveSeveralSurfaces) {

@@ -22,7 +22,7 @@ using shading::Surface;
 
 constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
 constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
-constexpr int most_blended_layers = 8;
+constexpr int max_blended_layers = 8;
 
 /// Keeps a reflected ray above the surface, where interpolated normals would send it below.
 vec3 kept_above(vec3 direction, vec3 normal) {
@@ -77,21 +77,21 @@ class Tracer {
                 bool* is_mirror) const {
     vec3 sum(0.0f);
     float left = 1.0f;  // what blended layers in front let through
-    for (int layer = 0; layer < most_blended_layers; ++layer) {
+    for (int layer = 0; layer < max_blended_layers; ++layer) {
       ++ray_count;
       const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
       if (!hit) return sum + left * sky_radiance(sky_, cone.ray.direction, 0.0f);
       const Cone seen = widened(cone, hit->distance_m);
       const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
-      const float alpha = blends && layer + 1 < most_blended_layers ? point.alpha : 1.0f;
+      const float alpha = blends && layer + 1 < max_blended_layers ? point.alpha : 1.0f;
       if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
       const vec3 shaded = shade(point, *hit, seen, bounce, lobe_points, ray_count);
       sum += left * alpha *
              shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
       left *= 1.0f - alpha;
       if (left < 1e-3f) break;
-      cone.ray.least_m = past(hit->distance_m);
+      cone.ray.min_m = past(hit->distance_m);
     }
     return sum;
   }
@@ -100,7 +100,7 @@ class Tracer {
   std::optional<Hit> nearest_hit_but(Ray ray, int hidden_object) const {
     std::optional<Hit> hit = rays_.nearest_hit(ray);
     while (hit && hit->place->object == hidden_object) {
-      ray.least_m = past(hit->distance_m);
+      ray.min_m = past(hit->distance_m);
       hit = rays_.nearest_hit(ray);
     }
     return hit;
@@ -213,7 +213,7 @@ ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int widt
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options) {
   const Tracer tracer(rays, scene, sky, options);
-  const int side = int(std::ceil(std::sqrt(float(options.samples_a_pixel)))), samples = side * side;
+  const int side = int(std::ceil(std::sqrt(float(options.samples_per_pixel)))), samples = side * side;
   const float spread =  // of a sample's share of the pixel
       camera.height_at_1m() / float(height) / float(side);
 

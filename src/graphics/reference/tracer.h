@@ -16,7 +16,7 @@ struct PixelWindow {
 };
 
 struct TraceOptions {
-  int samples_a_pixel = 16;  ///< rounded up to a square number
+  int samples_per_pixel = 16;  ///< rounded up to a square number
   std::uint64_t seed = 1;
   /// The renderer's; null: exact shadow rays, a sky open everywhere, and moving things that hide none of it.
   const shading::DrawnLight* drawn_light = nullptr;
@@ -37,9 +37,9 @@ struct TracedPicture {
 using ObjectPicture = BasicImage<std::uint32_t>;
 ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height);
 
-/// Traces one picture. Solid glass shows what its refracted rays meet, with Fresnel's share at each surface
+/// Traces one picture. Solid glass shows what its refracted rays hit, with Fresnel's share at each surface
 /// and reflections inside; in mirrors, and on objects that take no reflections, the sky straight through it.
-/// It throws no shadow. Mirror-like parts of objects that take reflections show what their mirror rays hit,
+/// It casts no shadow. Mirror-like parts of objects that take reflections show what their mirror rays hit,
 /// shaded by the same recipe; after `mirror_bounces` mirrors they reflect the sky, as all
 /// other surfaces do. The same options
 /// give the same picture for any number of threads.

@@ -31,7 +31,7 @@ class Culling {
   /// Is all of it behind occluders? Ask last: it is the most expensive.
   bool is_hidden(const Bounds& bounds) const { return occluders_ && occluders_->hides(bounds); }
   /// At the nearest point of the bounds' sphere; infinity where the eye may be within.
-  float pixels_per_metre(const Bounds& bounds) const { return scale_.pixels_a_metre(bounds); }
+  float pixels_per_metre(const Bounds& bounds) const { return scale_.pixels_per_metre(bounds); }
   const Frustum& frustum() const { return frustum_; }
 
  private:

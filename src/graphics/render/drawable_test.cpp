@@ -216,7 +216,8 @@ TEST_F(DrawableTest, CubeFacesShowIt) {
   EXPECT_LT(glm::distance(middle_of(north, Subjects::all), static_one), 0.03f);
   EXPECT_LT(glm::distance(middle_of(south, Subjects::all), moving_one), 0.03f);
   EXPECT_LT(glm::distance(middle_of(north, Subjects::fixed), static_one), 0.03f);
-  EXPECT_LT(glm::length(middle_of(south, Subjects::fixed)), 0.03f) << "what moves is not in reference maps";
+  EXPECT_LT(glm::length(middle_of(south, Subjects::fixed)), 0.03f)
+      << "dynamic objects are not in reference maps";
   EXPECT_LT(glm::length(middle_of(north, Subjects::moving)), 0.03f);
   const std::vector<std::uint8_t> the_second{1, 0, 1}, objects_alone{1};
   EXPECT_LT(glm::length(middle_of(north, Subjects::all, &the_second)), 0.03f);

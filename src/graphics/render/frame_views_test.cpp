@@ -108,7 +108,7 @@ TEST_F(FrameViewsTest, TwoEyesAndAWallBesideThemAreDrawnInOneFrame) {
   EXPECT_EQ(counting.updates, 1);
   EXPECT_EQ(counting.main_views, 3);
   EXPECT_EQ(counting.shadow_views, 3)
-      << "the far map, the near one without and with what moves: once for all";
+      << "the far map, the near one without and with dynamic casters: once for all";
   ASSERT_EQ(reflected.size(), 3u);
   EXPECT_EQ(passes, (std::vector<std::string>{"shadows", "reflections", "picture", "reflections", "picture",
                                               "reflections", "picture"}));

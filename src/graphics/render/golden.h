@@ -18,8 +18,8 @@ struct GoldenTolerance {
   double mean_difference = 0.0;
 };
 
-/// An error tells the differences and where the page lies that shows actual, expected and difference side by
-/// side: in `build/golden-failures` below `source_folder`.
+/// An error gives the differences and the page that shows actual, expected and difference side by side: in
+/// `build/golden-failures` below `source_folder`.
 Status matches_golden(const Image8& actual, const std::string& name, const GoldenTolerance& tolerance,
                       const std::filesystem::path& source_folder);
 

@@ -120,7 +120,7 @@ void GpuScene::add_models(const scene::Scene& scene) {
   }
 }
 
-/// Of what moves, and of what stands in many places: only they are far away as a whole.
+/// For dynamic objects and for models placed many times: only they are far away as a whole.
 void GpuScene::add_levels(const scene::Scene& scene) {
   std::unordered_map<const scene::Model*, int> uses;
   for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;

@@ -140,7 +140,7 @@ class GpuScene {
   std::vector<std::uint8_t> is_moving_, is_visible_, is_newcomer_;
   std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
-  std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of what moves
+  std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of dynamic objects
   std::vector<shading::Body> bodies_;
   FixedChange fixed_change_;
   std::vector<std::vector<glm::mat4>> rest_poses_;  ///< of each object's model

@@ -7,7 +7,7 @@
 namespace parvis::render {
 namespace {
 
-constexpr std::size_t least_triangles = 64;  // below it a call costs more than its triangles
+constexpr std::size_t min_triangles = 64;  // below it a call costs more than its triangles
 // Long edges tell less of normals and textures, even where the surface stays in its place.
 constexpr float error_of_edge = 0.005f;
 
@@ -24,11 +24,11 @@ float mean_edge_m(const Mesh& mesh, const std::vector<std::uint32_t>& indices) {
 
 std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
   std::vector<MeshLevel> levels;
-  if (mesh.triangle_count() < 2 * least_triangles) return levels;
+  if (mesh.triangle_count() < 2 * min_triangles) return levels;
   const float* positions = &mesh.positions.front().x;
   const float scale_m = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof(glm::vec3));
   std::size_t finer = mesh.indices.size();
-  while (levels.size() < std::size_t(most_mesh_levels) && finer >= 6 * least_triangles) {
+  while (levels.size() < std::size_t(max_mesh_levels) && finer >= 6 * min_triangles) {
     MeshLevel level{std::vector<std::uint32_t>(mesh.indices.size()), 0.0f};
     const std::size_t wanted = finer / 6 * 3;
     level.indices.resize(meshopt_simplify(level.indices.data(), mesh.indices.data(), mesh.indices.size(),

@@ -9,7 +9,7 @@
 
 namespace parvis::render {
 
-inline constexpr int most_mesh_levels = 7;  ///< one triangle in 128
+inline constexpr int max_mesh_levels = 7;  ///< one triangle in 128
 
 struct MeshLevel {
   std::vector<std::uint32_t> indices;

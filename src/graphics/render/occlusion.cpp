@@ -11,9 +11,9 @@ namespace {
 
 constexpr int width = 640, height = 360;
 constexpr std::size_t pixel_count = std::size_t(width) * std::size_t(height);
-constexpr float least_area_m2 = 4.0f;  // smaller triangles hide less than they cost
-constexpr std::size_t most_shape_triangles = 20'000;
-constexpr float least_area_px = 0.01f;
+constexpr float min_area_m2 = 4.0f;  // smaller triangles hide less than they cost
+constexpr std::size_t max_shape_triangles = 20'000;
+constexpr float min_area_px = 0.01f;
 constexpr std::size_t tasks = 16;
 constexpr float slack = 1.001f;  // of depth: an occluder does not hide itself, nor what lies in its plane
 
@@ -54,13 +54,13 @@ void OcclusionCuller::add_occluder(const Mesh& mesh, const glm::mat4& world_from
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = world_from_mesh * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f);
     const float area = 0.5f * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (area < least_area_m2) continue;
+    if (area < min_area_m2) continue;
     add_triangle(corners, has_backs, corners_);
   }
 }
 
 int OcclusionCuller::add_shape(const Mesh& mesh, bool has_backs) {
-  if (mesh.indices.size() / 3 > most_shape_triangles) return -1;
+  if (mesh.indices.size() / 3 > max_shape_triangles) return -1;
   std::vector<glm::vec3>& corners = shapes_.emplace_back();
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     add_triangle({mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
@@ -83,7 +83,7 @@ void OcclusionCuller::project(const glm::mat4& clip_from_corners, const glm::vec
     const std::array<glm::vec3, 3> p{on_screen(polygon[0]), on_screen(polygon[std::size_t(fan)]),
                                      on_screen(polygon[std::size_t(fan) + 1])};
     const float twice_area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    if (twice_area < least_area_px) continue;  // seen from behind, or too small
+    if (twice_area < min_area_px) continue;  // seen from behind, or too small
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     ScreenTriangle screen;

@@ -1,5 +1,5 @@
-// Occlusion culling on the processor, without readback: large triangles of the fixed scene, and those of
-// moving things near the eye (a queue of cars hides most of itself), are rasterised at a low resolution, and
+// Occlusion culling on the CPU, without readback: large triangles of the static scene, and those of
+// dynamic objects near the eye (a queue of cars hides most of itself), are rasterised at a low resolution;
 // a box is hidden where all its pixels lie behind them (after Greene 1993, Hierarchical Z-Buffer Visibility,
 // and Collin 2011, Culling the Battlefield). It never hides what can be seen through a gap of a pixel or more
 // of its own resolution: depth is the farthest of a pixel and its eight neighbours.
@@ -24,7 +24,7 @@ class OcclusionCuller {
   void clear() { corners_.clear(); }
 
   /// Keeps an opaque mesh that moves; returns the number by which `draw` knows it, or -1 where it has too
-  /// many triangles to be drawn by the processor.
+  /// many triangles to be rasterised on the CPU.
   int add_shape(const Mesh& mesh, bool has_backs);
 
   /// A shape as it stands now.

@@ -3,7 +3,7 @@
 namespace parvis::render {
 namespace {
 
-constexpr std::size_t most_pending = 2;
+constexpr std::size_t max_pending = 2;
 
 GLsizeiptr bytes_of(int width, int height) { return GLsizeiptr(4) * width * height; }
 
@@ -22,7 +22,7 @@ Image8 PictureReader::take() {
 
 std::optional<Image8> PictureReader::next(Renderer& renderer, float exposure) {
   std::optional<Image8> picture;
-  if (pending_.size() == most_pending) picture = take();
+  if (pending_.size() == max_pending) picture = take();
 
   const GLsizeiptr bytes = bytes_of(renderer.width(), renderer.height());
   Pending started{gl::Buffer(), renderer.width(), renderer.height()};

@@ -5,7 +5,7 @@ namespace {
 
 gl::Texture multisampled_texture(GLenum format, int width, int height) {
   gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D_MULTISAMPLE));
-  glTextureStorage2DMultisample(texture.name(), samples_a_pixel, format, width, height, GL_TRUE);
+  glTextureStorage2DMultisample(texture.name(), samples_per_pixel, format, width, height, GL_TRUE);
   return texture;
 }
 

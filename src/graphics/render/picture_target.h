@@ -1,4 +1,4 @@
-// Where the main view is drawn: four samples a pixel, brought together to linear radiance, then to a picture.
+// Main render target: 4x MSAA, resolved to linear radiance, then tone-mapped.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace parvis::render {
 
-inline constexpr int samples_a_pixel = 4;
+inline constexpr int samples_per_pixel = 4;
 
 class PictureTarget {
  public:

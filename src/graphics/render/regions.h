@@ -1,4 +1,4 @@
-// Regions of a place in which something has changed, so that little is made anew.
+// Regions of a place in which something has changed, so that only they are rebuilt.
 #pragma once
 
 #include <vector>

@@ -172,7 +172,7 @@ void Renderer::gather_extents() {
     if (!extents.fixed_change || extents.fixed_change->empty()) continue;
     append(fixed_change_.gone, extents.fixed_change->gone);
     append(fixed_change_.come, extents.fixed_change->come);
-    // The heights that hide the sky follow single objects of the scene; else all are made again.
+    // The heights that hide the sky follow single objects of the scene; else all are rebuilt.
     fixed_change_.has_moved |= extents.fixed_change->has_moved || drawable != &scene_;
   }
 }
@@ -193,7 +193,7 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
   const GLintptr bodies =
       body_blocks_.append(std::span<const shading::BodyShade>(&body_shade_, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, bodies_block, body_blocks_.name(), bodies, sizeof(shading::BodyShade));
-  glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still throws its shadow
+  glEnable(GL_DEPTH_CLAMP);  // a caster in front of the sun's near plane still casts its shadow
   light_->draw_shadows(camera,
                        has_moving_shade ? std::span<const Bounds>(moving_bounds_) : std::span<const Bounds>(),
                        [this](const View& view) { draw_view(view); });

@@ -1,5 +1,5 @@
-// Draws the scene: shadows, the main view at four samples a pixel, the sky, tone mapping; and small views for
-// those rooms that ask for them. Everything that draws is a Drawable.
+// Draws the scene: shadows, the main view at four samples per pixel, the sky, tone mapping; and small views
+// for those rooms that ask for them. Everything that draws is a Drawable.
 //
 // A frame: begin_frame (what moved; shadows), prepare_main_view (culling), then a room makes reflections for
 // visible_objects through draw_view, then draw_main_view and display.
@@ -46,20 +46,20 @@ class Renderer {
   /// Time of a frame (ms) that levels of detail of drawables must keep to; 0: each gets its best.
   void set_budget(double budget_ms) { budget_ms_ = budget_ms; }
 
-  /// Takes over what moved and the light, and draws the shadow maps for a viewer.
+  /// Takes over transforms and light from the scene, and draws the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
-  /// The same for pictures of what stands still: what moves throws no shade.
+  /// The same for pictures of the static scene: dynamic objects cast no shadow.
   void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
   /// Makes targets for so many eyes (frame_views.h); fails only if a shader does.
   Status reserve_eyes(std::size_t count);
   /// The eye whose main view is prepared, drawn, displayed and read from now on: below the count reserved.
   void select_eye(std::size_t eye) { eye_ = eye; }
-  /// Culls for the main view: afterwards `visible_objects` tells what reflections are worth making for. A
-  /// bench may leave out what stands still.
+  /// Culls for the main view: afterwards `visible_objects` lists the objects that may need reflections. A
+  /// bench may leave out the static scene.
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }
-  /// Draws the view that was prepared, four samples a pixel.
+  /// Draws the view that was prepared, four samples per pixel.
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
   void draw_view(const View& view);

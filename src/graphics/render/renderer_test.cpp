@@ -197,7 +197,7 @@ TEST_F(RendererTest, FixedThingsMayVanishAppearAndMove) {
   object(wall).is_visible = false;
   expect_as_new("a wall vanishes");
   object(guest).is_visible = false;
-  expect_as_new("what moves vanishes");
+  expect_as_new("a dynamic object vanishes");
   object(wall).is_visible = object(guest).is_visible = true;
   object(tower).world_from_model[3] = {-6, 3, 0, 1};
   expect_as_new("a tower stands elsewhere");

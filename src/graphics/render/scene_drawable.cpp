@@ -34,7 +34,7 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
 }
 
 // Of a surface that stands beside its place, in pixels.
-constexpr float most_error_px = 0.25f, most_mirror_error_px = 0.1f;
+constexpr float max_error_px = 0.25f, max_mirror_error_px = 0.1f;
 
 /// How much larger a mesh stands in the world, along the edge of its frame that grows most.
 float size_of(const Item::Record& record) {
@@ -93,15 +93,15 @@ bool SceneDrawable::is_mirror_in(const View& view, const Item& item) const {
   return item.is_mirror && reflection_ && view.kind == ViewKind::main;
 }
 
-/// The coarsest that no eye tells from the mesh. Reflections show errors of a surface enlarged.
+/// The coarsest level that looks like the mesh. Reflections show errors of a surface enlarged.
 int SceneDrawable::level_of(const Item& item, const Culling& culling) const {
   const std::span<const LevelRange> levels = gpu_.levels_of(gpu_.parts()[std::size_t(item.part)]);
   if (levels.empty()) return 0;
-  const float most_error_m =
-      (item.is_mirror ? most_mirror_error_px : most_error_px) / culling.pixels_per_metre(item.bounds);
+  const float max_error_m =
+      (item.is_mirror ? max_mirror_error_px : max_error_px) / culling.pixels_per_metre(item.bounds);
   const float size = size_of(item.record);
   const auto too_coarse = std::ranges::find_if(
-      levels, [&](const LevelRange& level) { return level.error_m * size > most_error_m; });
+      levels, [&](const LevelRange& level) { return level.error_m * size > max_error_m; });
   return int(too_coarse - levels.begin());
 }
 
@@ -111,7 +111,7 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& v
   const PartRange& part = gpu_.parts()[std::size_t(item.part)];
   const GpuMaterial& material = gpu_.materials()[std::size_t(part.material)];
   const std::uint64_t pass = std::uint64_t(material.pass) << 62;
-  static_assert(most_mesh_levels < 8);
+  static_assert(max_mesh_levels < 8);
   const std::uint64_t mesh = std::uint64_t(item.part) << 3 | std::uint64_t(level);
   if (material.pass == Pass::blend) {
     const float distance_m = glm::distance(item.bounds.centre(), view.position_in_world);
@@ -122,7 +122,7 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& v
          (std::uint64_t(part.material) << 22) | mesh;
 }
 
-/// Of what moves, only what is near: what hides others must look larger than they do.
+/// Dynamic objects only when near: an occluder must look larger than what it hides.
 void SceneDrawable::sort(ViewList& list) {
   std::ranges::sort(list.order, {},
                     [](const ViewList::Entry& entry) { return std::pair(entry.key, entry.item); });

@@ -1,4 +1,4 @@
-// What hides other things in a view: the static scene, and what moves near the eye.
+// Occluders of a view: the static scene, and dynamic objects near the eye.
 #pragma once
 
 #include "graphics/render/gpu_scene.h"

@@ -20,7 +20,7 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
   return heights;
 }
 
-/// What has come is put onto the heights; where something has gone they are made anew. All objects stand
+/// Adds new objects to the heights, and rebuilds the heights where an object has gone. All objects stand
 /// where they stood, seen or hidden, and no room's own drawable has changed.
 void renew_heights(const scene::Scene& scene, const GpuScene& gpu, shading::Heightfield& heights) {
   const std::vector<Bounds> places_left = united(gpu.fixed_change().gone, 0.0f);

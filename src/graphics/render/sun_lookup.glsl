@@ -21,7 +21,7 @@ float visible_sun(vec3 position, vec3 normal) {
   return sun_visibility(frame_shadow_maps(), position, normal, frame_to_sun.xyz);
 }
 
-// The same of what stands still alone, coarser.
+// The same for the static scene alone, coarser.
 float visible_fixed_sun(vec3 position, vec3 normal) {
   ShadowMaps maps = frame_shadow_maps();
   vec3 uvz = shadow_coordinates(maps, shadow_far_map, position, normal, frame_to_sun.xyz);

@@ -10,11 +10,11 @@ namespace parvis::render {
 namespace {
 
 constexpr int map_size = 4096;
-constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings throw shadows
+constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings cast shadows
 constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
 constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
 constexpr float room_radius_m = 12.0f;      // a place no larger lies in the near map as a whole, and finer
-constexpr float round_room_m = 4.0f;        // and what moves so near to it
+constexpr float round_room_m = 4.0f;        // margin for dynamic objects around it
 constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
 
 glm::mat3 sun_frame(glm::vec3 to_sun) {

@@ -58,7 +58,7 @@ class SunShadowMaps final : public ShadowMethod {
   glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
   Bounds fixed_in_sun_;
   gl::Texture depth_;       ///< a layer for each map
-  gl::Texture near_fixed_;  ///< the near map without what moves
+  gl::Texture near_fixed_;  ///< the near map without dynamic casters
   std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
   gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};

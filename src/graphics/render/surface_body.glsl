@@ -17,7 +17,7 @@
 #include "graphics/shading/lighting.glsl"
 
 const int base_layer = 0, coat_layer = 1;
-const float greatest_radiance = 30000.0f;  // the target holds half floats
+const float max_radiance = 30000.0f;  // the target holds half floats
 
 in vec3 position;
 in vec3 vertex_normal;
@@ -81,7 +81,7 @@ SeenPoint seen_point() {
   seen.to_viewer /= seen.distance_m;
   seen.normal = normalize(vertex_normal);
 #ifdef IS_MIRRORED
-  // A mirror image may be turned over: what faces front is told by the normal.
+  // A mirror image may be flipped: the normal decides which side faces front.
   bool is_front = dot(seen.normal, seen.to_viewer) > -seen_back;
   if (!is_mirrored_here()) discard;
 #ifndef HAS_BACKS
@@ -164,6 +164,6 @@ void main() {
 #elif defined(WRITES_OBJECT)
   object_and_one = uint(object_of_surface + 1);
 #elif !defined(WRITES_DEPTH)
-  radiance = vec4(min(radiance_of(s, seen, sun), vec3(greatest_radiance)), alpha);
+  radiance = vec4(min(radiance_of(s, seen, sun), vec3(max_radiance)), alpha);
 #endif
 }

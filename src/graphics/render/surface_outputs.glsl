@@ -4,7 +4,7 @@ out vec3 position;           // in the world
 out vec3 vertex_normal;      // in the world, of any length
 out vec2 uv;
 #ifdef IS_LEAF
-// A leaf is so small that the light at its corners tells all, and a crown has more pixels of leaves than corners.
+// A leaf is small enough to be lit at its vertices, and a crown covers more pixels than it has vertices.
 out float leaf_sun;
 out vec4 leaf_sky_cell;
 #endif

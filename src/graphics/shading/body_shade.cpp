@@ -8,7 +8,7 @@ namespace {
 
 using glm::uint;
 
-constexpr float most_body_m = 60.0f;   // a long tram
+constexpr float max_body_m = 60.0f;    // a long tram
 constexpr float fading_begins = 0.8f;  // of the distance to where bodies are left out
 
 glm::mat3 world_from_box(const Body& body) {  // the rows hold a rotation: its inverse is its transpose
@@ -32,16 +32,16 @@ void enter(BodyShade& shade, int index) {
   const Body& body = shade.bodies[index];
   const glm::vec2 centre = glm::vec2(centre_of(body)) - glm::vec2(shade.body_grid);
   const glm::vec2 reach = glm::vec2(half_extent(body)) + body_reach_m;
-  const glm::ivec2 last(body_cells_a_side - 1);
+  const glm::ivec2 last(body_cells_per_side - 1);
   const glm::ivec2 from = glm::max(glm::ivec2(glm::floor((centre - reach) / body_cell_m)), glm::ivec2(0));
   const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((centre + reach) / body_cell_m)), last);
   for (int y = from.y; y <= to.y; ++y)
     for (int x = from.x; x <= to.x; ++x) {
-      const int cell = y * body_cells_a_side + x;
+      const int cell = y * body_cells_per_side + x;
       glm::uint& word = shade.body_cells[cell / 4][cell % 4];
       int taken = 0;
-      while (taken < bodies_a_cell && (word >> (8 * taken)) & 255u) ++taken;
-      if (taken < bodies_a_cell) word |= glm::uint(index + 1) << (8 * taken);
+      while (taken < bodies_per_cell && (word >> (8 * taken)) & 255u) ++taken;
+      if (taken < bodies_per_cell) word |= glm::uint(index + 1) << (8 * taken);
     }
 }
 
@@ -69,7 +69,7 @@ std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, cons
     const vec3 axis(world_from_model[i]);
     const float scale = glm::length(axis);
     const float size_m = scale * hull.size()[i];
-    if (!(scale > 0.0f) || !(size_m < most_body_m)) return std::nullopt;
+    if (!(scale > 0.0f) || !(size_m < max_body_m)) return std::nullopt;
     axes[i] = axis / scale;
     body.half_size_m[i] = 0.5f * size_m;
   }
@@ -82,19 +82,19 @@ std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, cons
 
 BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer) {
   BodyShade shade{};
-  const float half_m = 0.5f * body_cell_m * float(body_cells_a_side);
+  const float half_m = 0.5f * body_cell_m * float(body_cells_per_side);
   shade.body_grid = vec4(viewer.x - half_m, viewer.y - half_m, 0.0f, 0.0f);
   std::vector<std::pair<float, const Body*>> near;  // by distance
   for (const Body& body : bodies) {
     const vec3 away = centre_of(body) - viewer;
     const float distance_m = std::max(std::abs(away.x), std::abs(away.y));
-    if (distance_m < half_m + most_body_m) near.emplace_back(distance_m, &body);
+    if (distance_m < half_m + max_body_m) near.emplace_back(distance_m, &body);
   }
   std::sort(near.begin(), near.end());
   // Bodies fade before they are left out: at the border of the grid, or where there are too many.
   float last_m = half_m - body_reach_m;
-  if (near.size() > std::size_t(most_bodies)) last_m = std::min(last_m, near[most_bodies].first);
-  for (std::size_t i = 0; i < std::min(near.size(), std::size_t(most_bodies)); ++i) {
+  if (near.size() > std::size_t(max_bodies)) last_m = std::min(last_m, near[max_bodies].first);
+  for (std::size_t i = 0; i < std::min(near.size(), std::size_t(max_bodies)); ++i) {
     shade.bodies[i] = *near[i].second;
     shade.bodies[i].coverage *= 1.0f - smoothstep(fading_begins * last_m, last_m, near[i].first);
     enter(shade, int(i));

@@ -1,5 +1,5 @@
 // The shade of a moving body on what lies near it: without it cars seem to float, for the baked light of the sky
-// (sky_visibility.glsl) knows only what stands still. A body is a box as dense as what it stands for looks from each
+// (sky_visibility.glsl) knows only the static scene. A body is a box as dense as what it stands for looks from each
 // side (shading/body_shape.h). The share of a surface's sky that the box hides is exact where all of it stands above the
 // surface's plane, as on a road: Lambert's formula over the box's outline (Quilez, box occlusion, 2014). What lies below
 // the plane would take away from it, so the box is cut there, where one of its sides lies along the surface.
@@ -11,11 +11,11 @@ struct Body {
 };
 
 const float body_reach_m = 3.0f;   // from the box: farther away its shade has faded
-const float most_body_shade = 0.95f;  // some light gets everywhere
+const float max_body_shade = 0.95f;  // some light gets everywhere
 const float body_rim_m = 0.3f;     // so deep within a box a surface has forgotten the side that it looks through
-const int most_bodies = 32;
-const int bodies_a_cell = 4;       // as many as bytes in a word
-const int body_cells_a_side = 48;
+const int max_bodies = 32;
+const int bodies_per_cell = 4;       // as many as bytes in a word
+const int body_cells_per_side = 48;
 const float body_cell_m = 3.25f;
 
 // Edge of the outline between two unit vectors: its share of Lambert's sum.
@@ -74,7 +74,7 @@ GLSL_FUNCTION float sky_share_beside(Body body, vec3 position, vec3 normal) {
   float distance_m = length(beyond);
   vec3 seen = beyond + vec3(0.01f);  // the more of a side is seen, the farther it is beyond; from within all alike
   float filled = dot(seen, vec3(body.coverage.x, body.coverage.y, body.coverage.z)) / (seen.x + seen.y + seen.z);
-  float strength = most_body_shade * filled * (1.0f - smoothstep(0.3f * body_reach_m, body_reach_m, distance_m));
+  float strength = max_body_shade * filled * (1.0f - smoothstep(0.3f * body_reach_m, body_reach_m, distance_m));
   return 1.0f - strength * hidden_by_box(p, n, half_size);
 }
 

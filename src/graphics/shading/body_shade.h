@@ -13,7 +13,7 @@ namespace parvis::shading {
 #include "graphics/shading/body_shade_block.glsl"
 
 /// The body of an object with these bounds and this shape within them, in its own frame. None where there is
-/// nothing, or more than `most_body_m`, whose shape no box tells.
+/// nothing, or more than `max_body_m`, whose shape no box describes.
 std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, const glm::mat4& world_from_model,
                             int object);
 
@@ -21,7 +21,7 @@ std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, cons
 /// body_shade_block.glsl.
 using BodyShade = Bodies;
 
-/// Of the bodies, those nearest to the viewer: `most_bodies` in all and `bodies_a_cell` in each cell, over a
+/// Of the bodies, those nearest to the viewer: `max_bodies` in all and `bodies_per_cell` in each cell, over a
 /// square of 156 m. Toward its border, and toward the farthest where there are more, their shade fades.
 BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer);
 

@@ -2,6 +2,6 @@
 // the struct of its bytes.
 UNIFORM_BLOCK(Bodies) {
   vec4 body_grid;
-  uvec4 body_cells[body_cells_a_side * body_cells_a_side / 4];
-  Body bodies[most_bodies];
+  uvec4 body_cells[body_cells_per_side * body_cells_per_side / 4];
+  Body bodies[max_bodies];
 };

@@ -2,14 +2,14 @@
 // fills:
 //   vec4 body_grid;                 // xy: corner of the least coordinates of a square of cells, seen from above
 //   uvec4 body_cells[];             // of each cell a word, of each body near it a byte: its index and 1
-//   Body bodies[most_bodies];
+//   Body bodies[max_bodies];
 
 // Share 0..1 of its sky that bodies leave to a surface; `object` does not shade itself.
 GLSL_FUNCTION float sky_share_beside_bodies(vec3 position, vec3 normal, int object) {
   vec2 place = (vec2(position.x, position.y) - vec2(body_grid.x, body_grid.y)) / body_cell_m;
-  float side = float(body_cells_a_side);
+  float side = float(body_cells_per_side);
   if (min(place.x, place.y) < 0.0f || max(place.x, place.y) >= side) return 1.0f;
-  int cell = int(place.y) * body_cells_a_side + int(place.x);
+  int cell = int(place.y) * body_cells_per_side + int(place.x);
   uint word = body_cells[cell / 4][cell % 4];
   float share = 1.0f;
   for (; word != 0u; word >>= 8u) {

@@ -133,11 +133,11 @@ TEST(BodyShade, BodiesFadeBeforeTheyAreLeftOut) {
 
 TEST(BodyShade, AMultitudeFadesTowardItsFarthest) {
   std::vector<Body> crowd;
-  for (int i = 0; i < most_bodies + 1; ++i) crowd.push_back(car_at({float(i), 0, 0}, 0.0f, i));
+  for (int i = 0; i < max_bodies + 1; ++i) crowd.push_back(car_at({float(i), 0, 0}, 0.0f, i));
   const BodyShade shade = make_body_shade(crowd, {0, 0, 0});
   EXPECT_EQ(shade.bodies[0].coverage.z, 1.0f);
-  EXPECT_GT(shade.bodies[most_bodies - 1].coverage.z, 0.0f);
-  EXPECT_LT(shade.bodies[most_bodies - 1].coverage.z, 0.1f);
+  EXPECT_GT(shade.bodies[max_bodies - 1].coverage.z, 0.0f);
+  EXPECT_LT(shade.bodies[max_bodies - 1].coverage.z, 0.1f);
 }
 
 TEST(BodyShade, WhatIsHalfFilledHidesHalf) {

@@ -11,10 +11,10 @@ namespace {
 using glm::vec2, glm::vec3;
 using Triangle = std::array<vec3, 3>;
 
-constexpr int slices = 16;               // of the height
-constexpr float least_footprint = 0.2f;  // of the widest slice: narrower ones are poles and aerials
-constexpr float open_below = 0.12f;      // of the height: wheels or feet, not a hull
-constexpr int cells_a_side = 32;         // of the picture in which coverage is counted
+constexpr int slices = 16;             // of the height
+constexpr float min_footprint = 0.2f;  // of the widest slice: narrower ones are poles and aerials
+constexpr float open_below = 0.12f;    // of the height: wheels or feet, not a hull
+constexpr int cells_per_side = 32;     // of the picture in which coverage is counted
 
 /// All triangles, in shares of the bounds.
 std::vector<Triangle> triangles_in_bounds(std::span<const BodyMesh> meshes) {
@@ -60,7 +60,7 @@ Bounds box_of_widest_slices(const std::vector<Triangle>& triangles) {
   float foot = 1.0f, top = 0.0f;
   for (std::size_t i = 0; i < slices; ++i) {
     const Bounds& outline = outlines[i];
-    if (!(footprint(outline) >= least_footprint * widest)) continue;
+    if (!(footprint(outline) >= min_footprint * widest)) continue;
     const float values[]{outline.min.x, outline.min.y, -outline.max.x, -outline.max.y};
     for (std::size_t side = 0; side < 4; ++side) sides[side].push_back(values[side]);
     foot = std::min(foot, float(i) / slices), top = std::max(top, float(i + 1) / slices);
@@ -80,12 +80,12 @@ float twice_area(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b
 float coverage_along(int axis, const Bounds& box, const std::vector<Triangle>& triangles) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const vec2 least(box.min[u], box.min[v]), size(box.size()[u], box.size()[v]);
-  std::bitset<std::size_t(cells_a_side) * cells_a_side> covered;
+  std::bitset<std::size_t(cells_per_side) * cells_per_side> covered;
   for (const Triangle& triangle : triangles) {
     std::array<vec2, 3> p;
     for (std::size_t i = 0; i < 3; ++i)
-      p[i] = (vec2(triangle[i][u], triangle[i][v]) - least) / size * float(cells_a_side) - 0.5f;
-    const glm::ivec2 last(cells_a_side - 1);
+      p[i] = (vec2(triangle[i][u], triangle[i][v]) - least) / size * float(cells_per_side) - 0.5f;
+    const glm::ivec2 last(cells_per_side - 1);
     const glm::ivec2 from =
         glm::max(glm::ivec2(glm::ceil(glm::min(p[0], glm::min(p[1], p[2])))), glm::ivec2(0));
     const glm::ivec2 to = glm::min(glm::ivec2(glm::floor(glm::max(p[0], glm::max(p[1], p[2])))), last);
@@ -95,7 +95,7 @@ float coverage_along(int axis, const Bounds& box, const std::vector<Triangle>& t
         const float a = twice_area(p[0], p[1], cell), b = twice_area(p[1], p[2], cell),
                     c = twice_area(p[2], p[0], cell);
         if (std::min(a, std::min(b, c)) >= 0.0f || std::max(a, std::max(b, c)) <= 0.0f)
-          covered.set(std::size_t(y) * cells_a_side + std::size_t(x));
+          covered.set(std::size_t(y) * cells_per_side + std::size_t(x));
       }
   }
   return float(covered.count()) / float(covered.size());

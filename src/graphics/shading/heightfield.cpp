@@ -5,10 +5,10 @@
 
 namespace parvis::shading {
 
-Heightfield::Heightfield(const Bounds& bounds, float cell_m, int most_cells_a_side) : bounds_(bounds) {
+Heightfield::Heightfield(const Bounds& bounds, float cell_m, int max_cells_per_side) : bounds_(bounds) {
   if (bounds.empty()) return;
   const glm::vec3 size = bounds.size();
-  cell_m_ = std::max(cell_m, std::max(size.x, size.y) / float(most_cells_a_side));
+  cell_m_ = std::max(cell_m, std::max(size.x, size.y) / float(max_cells_per_side));
   heights_ = ImageF(int(size.x / cell_m_) + 1, int(size.y / cell_m_) + 1, 1, bounds.min.z);
 }
 

@@ -13,8 +13,8 @@ namespace parvis::shading {
 class Heightfield {
  public:
   /// Over the horizontal extent of `bounds`, square cells of `cell_m`, larger where more than
-  /// `most_cells_a_side` of them would be needed.
-  explicit Heightfield(const Bounds& bounds, float cell_m = 1.0f, int most_cells_a_side = 2048);
+  /// `max_cells_per_side` of them would be needed.
+  explicit Heightfield(const Bounds& bounds, float cell_m = 1.0f, int max_cells_per_side = 2048);
   /// Raises the cells whose middle a mesh covers. Leave out what light passes: leaves, railings. `region`:
   /// only cells that this box touches.
   void add(const Mesh& mesh, const glm::mat4& world_from_mesh, const Bounds* region = nullptr);

@@ -1,6 +1,6 @@
 // What lies behind a flat surface, such as a window in its reveal: a ray goes on until it meets the relief that a
 // texture gives, and the sun's light comes in only where the relief lets it (Policarpo et al. 2005, Real-Time Relief
-// Mapping on Arbitrary Polygonal Surfaces). Openings with flat floors need few lookups: a floor is met at once, and a
+// Mapping on Arbitrary Polygonal Surfaces). Openings with flat floors need few lookups: a floor is hit at once, and a
 // wall that hides it is found by bisection. Needs texture_frame.glsl, and from the host:
 //   float relief_depth(vec2 uv)   0: at the surface, 1: at the floor of the deepest
 

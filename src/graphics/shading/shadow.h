@@ -9,7 +9,7 @@
 namespace parvis::shading {
 #include "graphics/shading/shadow.glsl"
 
-/// The depth of each map as OpenGL gives it back: row 0 is v = 0. Maps of zero size throw no shadow.
+/// The depth of each map as OpenGL gives it back: row 0 is v = 0. Maps of zero size cast no shadow.
 struct SunShadow {
   ShadowMaps maps{};
   std::array<ImageF, shadow_map_count> depth;

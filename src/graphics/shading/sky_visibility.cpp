@@ -10,7 +10,7 @@ namespace parvis::shading {
 namespace {
 
 constexpr glm::vec3 cell_size_m{4.0f, 4.0f, 3.0f};
-constexpr float most_cells = 2e6f;
+constexpr float max_cells = 2e6f;
 constexpr int directions = 12;
 constexpr std::array<float, 10> distances_m{1.5f,  3.0f,  5.0f,  7.5f,  11.0f,
                                             16.0f, 23.0f, 33.0f, 48.0f, sky_visibility_reach_m};
@@ -67,7 +67,7 @@ Grid layout(const Bounds& bounds) {
   grid.origin = bounds.min - vec3(grid.cell_m.x, grid.cell_m.y, 0.0f);
   const vec3 size = bounds.max + grid.cell_m - grid.origin;
   const float wanted = (size.x / grid.cell_m.x) * (size.y / grid.cell_m.y) * (size.z / grid.cell_m.z);
-  if (wanted > most_cells) grid.cell_m *= std::cbrt(wanted / most_cells);
+  if (wanted > max_cells) grid.cell_m *= std::cbrt(wanted / max_cells);
   grid.cells = glm::max(glm::ivec3(glm::ceil(size / grid.cell_m)), glm::ivec3(1));
   return grid;
 }

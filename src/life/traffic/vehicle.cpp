@@ -16,9 +16,9 @@ float length_of(std::span<const DrivingLane> lanes, int lane) {
 /// One of the lanes that lead least far out of the area, at random.
 int turn(const std::vector<int>& next, std::span<const DrivingLane> lanes, Random& random) {
   const auto outside_m = [&](int lane) { return lanes[std::size_t(lane)].outside_m; };
-  const float least_m = outside_m(std::ranges::min(next, {}, outside_m));
-  int chance = random.index(int(std::ranges::count(next, least_m, outside_m)));
-  return *std::ranges::find_if(next, [&](int lane) { return outside_m(lane) == least_m && chance-- == 0; });
+  const float min_m = outside_m(std::ranges::min(next, {}, outside_m));
+  int chance = random.index(int(std::ranges::count(next, min_m, outside_m)));
+  return *std::ranges::find_if(next, [&](int lane) { return outside_m(lane) == min_m && chance-- == 0; });
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace parvis::city {
 namespace {
 
-constexpr int plots_a_side = 8;
-constexpr float plot_m = courtyard_sheet_m / float(plots_a_side);
+constexpr int plots_per_side = 8;
+constexpr float plot_m = courtyard_sheet_m / float(plots_per_side);
 constexpr float terrace_m = 3.0f;
 constexpr float path_m = 0.9f;
 
@@ -31,9 +31,9 @@ struct Plot {
 };
 
 Plot plot_at(float x, float y, std::uint32_t seed) {
-  const int column = int(std::floor(x / plot_m)) % plots_a_side;
+  const int column = int(std::floor(x / plot_m)) % plots_per_side;
   const float shifted = y + plot_m * lattice_value(column, 0, seed);
-  const int row = int(std::floor(shifted / plot_m)) % plots_a_side;
+  const int row = int(std::floor(shifted / plot_m)) % plots_per_side;
   Plot plot;
   plot.x = std::fmod(x, plot_m), plot.y = std::fmod(shifted, plot_m);
   plot.to_border_m = std::min(std::min(plot.x, plot_m - plot.x), std::min(plot.y, plot_m - plot.y));

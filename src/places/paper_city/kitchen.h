@@ -1,5 +1,5 @@
 // A kitchen for curved mirrors, after the scene of Estalella and others 2005 (figures 6 to 8): tiles,
-// cupboards, fruit, crockery; kettle, pans, spoons, a glass, and a mixing bowl that mirrors in its hollow.
+// cupboards, fruit, crockery; kettle, pans, spoons, a glass, and a mixing bowl with a mirroring inside.
 #pragma once
 
 #include <cstdint>

@@ -128,7 +128,7 @@ void add_cloth(scene::Model& model) {
 
 void add_shade(scene::Model& model, glm::vec3 foot, float radius_m) {
   const float half = 1.6f * radius_m;
-  const float lift_m = 0.0009f + 0.003f * radius_m;  // of two that overlap, rays would meet one by chance
+  const float lift_m = 0.0009f + 0.003f * radius_m;  // of two that overlap, rays would hit either at random
   Mesh mesh =
       panel(foot + glm::vec3(-half, -half, lift_m), {2.0f * half, 0, 0}, {0, 2.0f * half, 0}, 0.5f * half);
   for (glm::vec2& uv : mesh.uvs) uv = uv / (2.0f * half) + glm::vec2(0.0f, 1.0f);

@@ -92,7 +92,7 @@ scene::Model kettle() {
   return model;
 }
 
-/// Its inside is hollow.
+/// A concave shell.
 scene::Model mixing_bowl() {
   scene::Model model = model_of("mixing_bowl");
   add_turned(
@@ -148,7 +148,7 @@ scene::Model saucepan(const char* name, float radius, float height, bool has_lid
   return model;
 }
 
-/// The hollow of a spoon's bowl, or its back: a shallow dish about (0.05, 0), 1 mm thick.
+/// The concave side of a spoon's bowl, or its back: a shallow dish about (0.05, 0), 1 mm thick.
 Mesh spoon_dish(bool is_back) {
   constexpr int rings = 12, around = 40;
   constexpr float half_length = 0.033f, half_width = 0.0215f, depth = 0.0095f, thick = 0.001f;
@@ -175,7 +175,7 @@ Mesh spoon_dish(bool is_back) {
   return mesh;
 }
 
-/// Lies on its back, or with its hollow down.
+/// Lies on its back, or with its concave side down.
 scene::Model spoon(const char* name, bool is_turned_over) {
   scene::Model model = model_of(name);
   const float up = is_turned_over ? -1.0f : 1.0f;
@@ -190,7 +190,7 @@ scene::Model spoon(const char* name, bool is_turned_over) {
       is_turned_over ? glm::rotate(glm::translate(glm::mat4(1.0f), {0, 0, 0.003f}), 3.14159265f, {1, 0, 0})
                      : glm::translate(glm::mat4(1.0f), {0, 0, 0.011f});
   const glm::mat4 flat = glm::scale(glm::mat4(1.0f), {1.0f, 1.4f, 0.55f});
-  add(model, "hollow", spoon_dish(false), polished, lie);
+  add(model, "inside", spoon_dish(false), polished, lie);
   add(model, "back", spoon_dish(true), polished, lie);
   add(model, "handle", tube(rings, 16), brushed, lie * flat);
   return model;

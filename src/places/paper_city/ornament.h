@@ -1,4 +1,4 @@
-// What is put on houses where it is seen: balconies and cornices that throw shadows, awnings, signs, dormers,
+// Ornament of houses: balconies and cornices that cast shadows, awnings, signs, dormers,
 // chimneys, wings in the courtyard. Each costs a known number of triangles.
 #pragma once
 

@@ -137,7 +137,7 @@ void enter(const Face& face, int index, const Bounds& box, float reach_m, std::v
         constexpr float alike_m = 1e-4f;
         if (distance_m > known.distance_m + alike_m || distance_m > reach_m) continue;
         const float facing = distance_m > 0.0f ? dot(way, face.normal) / distance_m : 1.0f;
-        // Faces meet at edges: the one that is looked at most squarely tells inside from outside.
+        // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
         const bool is_nearer = distance_m < known.distance_m - alike_m;
         if (is_nearer || std::abs(facing) > std::abs(known.facing))
           known = {distance_m, facing, index, shares};

@@ -1,12 +1,12 @@
-// Where does a ray meet a moving body (a car, a walker)? The second structure beside the heightfield, which knows only
-// what stands still: the distance from the body's surface in a box of cells (sphere tracing, Hart 1996). From the host:
+// Intersection of a ray with a dynamic body (a car, a walker), beside the heightfield of the static scene: the distance
+// from the body's surface, sampled in a box of cells (sphere tracing, Hart 1996). From the host:
 //   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within; `cell` in cells from the
 //                                                box's corner
 
 const vec3 field_cells = vec3(48.0f, 24.0f, 20.0f);
 const float field_reach = 1.75f;     // cells: so far from the surface distances are known, and cut off beyond
-const int most_field_steps = 40;
-const float least_field_step_m = 0.01f;
+const int max_field_steps = 40;
+const float min_field_step_m = 0.01f;
 const float field_clearance = 0.25f; // cells: a ray that starts on the body has left it when it is so far away
 
 GLSL_FUNCTION float field_reach_m(vec3 half_size_m) {
@@ -27,8 +27,8 @@ GLSL_FUNCTION vec2 ray_in_box(vec3 origin, vec3 direction, vec3 half_size_m) {
   return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0f)), min(leaves.x, min(leaves.y, leaves.z)));
 }
 
-// The distance along a unit direction at which the ray meets the body, in the frame of its box; `reach_m` where it does
-// not. A ray that starts on the body (`is_own`) may meet it once it has left it.
+// The distance along a unit direction at which the ray hits the body, in the frame of its box; `reach_m` where it does
+// not. A ray that starts on the body (`is_own`) may hit it once it has left it.
 GLSL_FUNCTION float distance_to_body(vec3 origin, vec3 direction, vec3 half_size_m, int field, float reach_m,
                                      bool is_own) {
   vec2 within = ray_in_box(origin, direction, half_size_m);
@@ -36,11 +36,11 @@ GLSL_FUNCTION float distance_to_body(vec3 origin, vec3 direction, vec3 half_size
   float at = within.x;
   float clearance_m = field_clearance * field_reach_m(half_size_m) / field_reach;
   bool has_left = !is_own;
-  for (int i = 0; i < most_field_steps && at < to; ++i) {
+  for (int i = 0; i < max_field_steps && at < to; ++i) {
     float off_m = field_distance(field_cell(origin + at * direction, half_size_m), field);
-    if (has_left && off_m < least_field_step_m) return at;
+    if (has_left && off_m < min_field_step_m) return at;
     has_left = has_left || off_m > clearance_m;
-    at += max(abs(off_m), 2.0f * least_field_step_m);
+    at += max(abs(off_m), 2.0f * min_field_step_m);
   }
   return reach_m;
 }

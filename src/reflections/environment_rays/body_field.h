@@ -25,7 +25,7 @@ struct BodyField {
 /// triangles turn their backs.
 BodyField body_field(const scene::Model& model);
 
-/// The distance at which a ray meets the body, `reach_m` where it does not: as distance_to_body in
+/// The distance at which a ray hits the body, `reach_m` where it does not: as distance_to_body in
 /// body_field.glsl, in the model's frame.
 float distance_to_body(const BodyField& field, glm::vec3 origin, glm::vec3 direction, float reach_m,
                        bool is_own = false);

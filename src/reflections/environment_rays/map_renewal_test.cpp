@@ -66,7 +66,7 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
       make_multiple_environment_maps(scene_, **renderer);
   ASSERT_TRUE(reflections);
   ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
-  const auto faces_of_a_frame = [&] {
+  const auto faces_per_frame = [&] {
     Camera camera;
     camera.world_from_camera = look_at({7, 3, 1}, {3, 0, 0});
     (*renderer)->begin_frame(scene_, camera);
@@ -75,13 +75,13 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
     (*renderer)->draw_main_view();
     return (*reflections)->faces_drawn();
   };
-  EXPECT_EQ(faces_of_a_frame(), 0);
-  EXPECT_EQ(faces_of_a_frame(), 0);
+  EXPECT_EQ(faces_per_frame(), 0);
+  EXPECT_EQ(faces_per_frame(), 0);
   scene_.objects[lamp_].is_visible = false;
-  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(faces_of_a_frame(), 6) << frame;
-  EXPECT_EQ(faces_of_a_frame(), 0);
+  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(faces_per_frame(), 6) << frame;
+  EXPECT_EQ(faces_per_frame(), 0);
   scene_.sun.direction_to_sun = glm::vec3(0.0f, 0.0f, 1.0f);
-  EXPECT_EQ(faces_of_a_frame(), 6) << "the sun counts, too";
+  EXPECT_EQ(faces_per_frame(), 6) << "the sun counts, too";
 }
 
 }  // namespace

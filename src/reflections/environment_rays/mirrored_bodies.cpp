@@ -9,7 +9,7 @@
 namespace parvis::environment_rays {
 namespace {
 
-constexpr std::size_t most_fields = 100;  // upon one another in a texture as high as any driver allows
+constexpr std::size_t max_fields = 100;  // upon one another in a texture as high as any driver allows
 
 gl::Texture upload(const std::vector<BodyField>& fields) {
   const glm::ivec3 size = BodyField::size();
@@ -40,7 +40,7 @@ MirroredBodies::MirroredBodies(const scene::Scene& scene)
     if (is_new) models.push_back(object.model.get());
     field_of_object_[o] = place->second;
   }
-  models.resize(std::min(models.size(), most_fields));
+  models.resize(std::min(models.size(), max_fields));
   std::vector<BodyField> fields(models.size());
   parallel_for(models.size(), [&](std::size_t i) { fields[i] = body_field(*models[i]); });
   std::ranges::transform(fields, std::back_inserter(boxes_), &BodyField::box);
@@ -97,7 +97,7 @@ void MirroredBodies::find_neighbours(const std::vector<methods::VisibleReflector
       if (const float distance_m = glm::distance(middles_[i], middles_[k]);
           distance_m < reach_m && !(reflector && reflector->is_overlaid(objects_[k])))
         by_distance_.emplace_back(distance_m, int(k));
-    const std::size_t count = std::min(by_distance_.size(), std::size_t(most_near));
+    const std::size_t count = std::min(by_distance_.size(), std::size_t(max_nearby));
     std::ranges::partial_sort(by_distance_, by_distance_.begin() + std::ptrdiff_t(count));
     for (std::size_t n = 0; n < count; ++n)
       bodies_[i].near[int(n / 4)] |= glm::uint(by_distance_[n].second + 1) << (8 * (n % 4));

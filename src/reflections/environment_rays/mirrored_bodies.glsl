@@ -4,9 +4,9 @@ struct MirroredBody {
   vec4 half_size_m;        // w: the field
   uvec4 near;              // a byte a body that stands near it: its index and 1, the nearest first; 0: no more
 };
-const int most_mirrored_bodies = 200;
+const int max_mirrored_bodies = 200;
 
-layout(std140) uniform MirroredBodies { MirroredBody mirrored_bodies[most_mirrored_bodies]; };
+layout(std140) uniform MirroredBodies { MirroredBody mirrored_bodies[max_mirrored_bodies]; };
 
 uniform highp sampler3D body_fields;  // one upon the other
 uniform int reflecting_body;          // the index of the one that is drawn, or below 0
@@ -26,7 +26,7 @@ vec4 field_texel(vec3 cell, int field) {
 float field_distance(vec3 cell, int field) { return (2.0f * field_texel(cell, field).a - 1.0f) * field_reach_now_m; }
 
 struct BodyHit {
-  float distance;  // as far as was looked, where no body was met
+  float distance;  // the length of the search where no body was hit
   int body;        // below 0: none
   vec3 normal;     // in the world, unit
   vec3 base_colour;

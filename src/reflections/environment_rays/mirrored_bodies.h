@@ -1,5 +1,6 @@
-// What moves, for mirror rays to meet: cars reflect one another, the people beside them, and themselves. Each
-// model's surface is a field of distances (body_field.h), each body a box in which its model's field lies.
+// Dynamic objects as mirror rays hit them: cars reflect one another, the people beside them, and themselves.
+// Each model's surface is a field of distances (body_field.h), each body a box in which its model's field
+// lies.
 #pragma once
 
 #include <vector>
@@ -26,7 +27,7 @@ class MirroredBodies {
   /// Of an object; below 0: none.
   int body_of(int object) const { return body_of_object_[std::size_t(object)]; }
 
-  static constexpr int most = 200, most_near = 16;
+  static constexpr int most = 200, max_nearby = 16;
   static constexpr float reach_m = 25.0f;  ///< between bodies that mirror one another
 
  private:

@@ -111,12 +111,12 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
       details_[std::size_t(reflector.object)] = best_detail_for(reflector);
     return;
   }
-  const double most_pixels = double(renderer.width()) * double(renderer.height());
+  const double max_pixels = double(renderer.width()) * double(renderer.height());
   qualities_.resize(reflectors.size());
   wishes_.clear();
   for (std::size_t i = 0; i < reflectors.size(); ++i) {
     const double size_px = double(reflectors[i].size_px);
-    const double pixels = std::min(shown_share * size_px * size_px, most_pixels);
+    const double pixels = std::min(shown_share * size_px * size_px, max_pixels);
     for (std::size_t detail = 0; detail < detail_count; ++detail)
       qualities_[i][detail] = {pixels * pixel_ms[detail], worths[detail]};
     const Detail best = best_detail_for(reflectors[i]);

@@ -29,26 +29,26 @@ uniform vec3 choice_grid;   // south-west corner, metres a cell
 uniform vec2 layer_size;    // texels a side, and of its border
 
 const float reach_m = 1000.0f;
-const float greatest_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
-const float most_taps = 4.0f;
+const float max_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
+const float max_taps = 4.0f;
 const float first_step_m = 2.0f;     // through what a map saw
 const float step_growth = 1.4f;      // to 30 m
-const int most_steps = 9;
-const float greatest_crossing_m = 2.0f;  // of the map's distance, where a ray meets what it saw: at an edge it jumps
-const int most_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
+const int max_steps = 9;
+const float max_crossing_m = 2.0f;  // of the map's distance, where a ray hits what it saw: at an edge it jumps
+const int max_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
 #ifndef DETAIL
 #define DETAIL 2
 #endif
 const int detail = DETAIL;           // MultipleEnvironmentMaps::Detail
 const int one_map = 1;
 const int all_detail = 2;
-const int most_maps = detail == all_detail ? 2 : 1;
-const float greatest_radiance = 30000.0f;  // the picture holds half floats
-const float least_wide_lobe = 0.3f;  // roughness
+const int max_maps = detail == all_detail ? 2 : 1;
+const float max_radiance = 30000.0f;  // the picture holds half floats
+const float min_wide_lobe = 0.3f;  // roughness
 const float share_over_ground = 0.4f;
-const float least_weight = 0.05f;    // of a second map: what is less is left out
+const float min_weight = 0.05f;    // of a second map: what is less is left out
 const float shade_reach_m = 25.0f;   // ground nearer than this may lie in the shade of moving bodies
-const float most_ground_error_m = 0.2f;  // a cell has one height: beside a kerb its point may lie in the pavement
+const float max_ground_error_m = 0.2f;  // a cell has one height: beside a kerb its point may lie in the pavement
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
@@ -56,7 +56,7 @@ float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, leve
 #include "reflections/reference_maps/validity.glsl"
 #include "reflections/environment_rays/mirrored_bodies.glsl"
 
-// What the pixel's ray meets, as two maps show it.
+// What the pixel's ray hits, as two maps show it.
 struct Sight {
   vec3 to_met[2];    // from each map
   float map[2];
@@ -65,7 +65,7 @@ struct Sight {
   vec3 across;       // how far the pixel's cone reaches there, the way that it is widest
   float narrow;      // and the other way, metres
   vec3 direction;    // of the mirror ray
-  bool is_ground;    // that is met
+  bool is_ground;    // that is hit
   vec3 shade;        // what moving bodies leave of its light
   bool is_body;      // of those that move, which no map shows
   vec3 body_radiance;
@@ -77,7 +77,7 @@ float seen_distance(vec3 to_point, float map) {
 }
 
 // Of the texels that the filter mixes: it hangs curtains from the edges of what is near to what lies beyond, in colours, too.
-float least_seen_distance(vec3 to_point, float map) {
+float min_seen_distance(vec3 to_point, float map) {
   vec2 texel = layer_uv(to_point, layer_size.x, layer_size.y) * layer_size.x - 0.5f;
   ivec3 low = ivec3(ivec2(clamp(texel, vec2(0.0f), layer_size.xx - 2.0f)), int(map));
   vec2 south = vec2(texelFetch(map_distances, low, 0).r, texelFetch(map_distances, low + ivec3(1, 0, 0), 0).r);
@@ -87,12 +87,12 @@ float least_seen_distance(vec3 to_point, float map) {
 }
 
 // Two steps of the secant method (Szirmay-Kalos and others 2005, distance impostors) from the hit on the heights to where
-// the ray meets what the map saw.
+// the ray hits what the map saw.
 float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map) {
   float near = distance;
   vec3 to_near = at + near * direction - place;
   float near_off = length(to_near) - seen_distance(normalize(to_near), map);
-  if (abs(near_off) > greatest_move_m) return distance;
+  if (abs(near_off) > max_move_m) return distance;
   float along = dot(direction, normalize(to_near));
   float far = distance - near_off * sign(along) / max(abs(along), 0.4f);
   for (int i = 0; i < 2; ++i) {
@@ -103,12 +103,12 @@ float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map)
     float next = far - far_off * (far - near) / change;
     near = far;
     near_off = far_off;
-    far = clamp(next, distance - greatest_move_m, distance + greatest_move_m);
+    far = clamp(next, distance - max_move_m, distance + max_move_m);
   }
   return max(far, 0.0f);
 }
 
-// Shadow without what moves. Beside a wall that throws one its map leaks light by a texel or two; a step toward the sun is a
+// Shadow of the static scene. Beside a wall that casts one its map leaks light by a texel or two; a step toward the sun is a
 // step into the wall.
 float visible_sun_without_bodies(vec3 met, vec3 normal) {
   vec2 step_m = 2.0f * frame_shadow_texel.x * frame_to_sun.xy / max(length(frame_to_sun.xy), 1e-4f);
@@ -123,7 +123,7 @@ vec3 share_left_by_bodies(vec3 met) {
   vec3 sky = sky_share_of_normal(sky_visibility_cell(met, normal), normal) * sky_irradiance(sh, normal);
   vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
   float fixed_sun = visible_sun_without_bodies(met, normal);
-  vec3 above_ground = met + most_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
+  vec3 above_ground = met + max_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
   float sun_share = min(visible_sun(above_ground, normal), fixed_sun);
   float sky_share = sky_share_beside_bodies(met, normal, -1);
   return (sky_share * sky + sun_share * sun) / max(sky + fixed_sun * sun, vec3(1e-4f));
@@ -161,7 +161,7 @@ void look_into_nearest_map(vec3 at, vec3 direction) {
   sight.weight[0] = 1.0f;
 }
 
-// The two of the maps about the reflecting point that show best what the ray met.
+// The two of the maps about the reflecting point that best show the point that the ray hit.
 void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out float weights[2]) {
   uvec4 maps = maps_about(at);
   weights = float[2](-1.0f, -1.0f);
@@ -169,7 +169,7 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
     vec4 place = place_of(maps[k]);
     vec3 to_met = met - place.xyz;
     float distance_m = length(to_met);
-    float valid = validity(least_seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
+    float valid = validity(min_seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
     // The nearer a map stands to the ray, the less it shows at another place what is not quite where it is thought to be.
     vec3 away = place.xyz - at;
     float along = dot(away, direction);
@@ -188,20 +188,20 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
   }
 }
 
-// Does a map see on through a point? Else something is met there, or is before it.
+// True if a map sees on through a point; else something is there, or in front of it.
 bool is_seen_through(vec3 point, vec4 place) {
   vec3 to_point = point - place.xyz;
   float distance_m = length(to_point);
   return seen_distance(to_point / distance_m, place.w) > distance_m + slack_m(distance_m, height_grid.z);
 }
 
-// Heights have no air under bridges, balconies and arches. Where the ray meets the side of a cell and the map that shows it
+// Heights have no air under bridges, balconies and arches. Where the ray hits the side of a cell and the map that shows it
 // best sees on through it, the ray goes on to the next cell.
 HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2]) {
   HeightHit hit = walk_pyramid(grid, at, direction, reach);
   choose_maps(at, direction, at + hit.distance * direction, places, weights);
   if (detail != all_detail) return hit;
-  for (int i = 0; i < most_cells_under; ++i) {
+  for (int i = 0; i < max_cells_under; ++i) {
     if (hit.met != met_side || !is_seen_through(at + hit.distance * direction, places[0])) break;
     float from = hit.distance + 0.01f * grid.cell_m;  // within the cell, which it leaves freely
     hit = walk_pyramid(grid, at + from * direction, direction, reach - from);
@@ -211,8 +211,8 @@ HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out 
   return hit;
 }
 
-// Trees with holes and railings are not among the heights. Where the nearest map sees something before what was met, or the
-// ray met the sky, before which a map sees a crown elsewhere, the ray is followed through what that map saw, in growing steps,
+// Trees with holes and railings are not among the heights. Where the nearest map sees something in front of the hit, or the
+// ray reached the sky, before which a map sees a crown elsewhere, the ray is followed through what that map saw, in growing steps,
 // to where it first passes behind it (relief mapping). Edges, behind which rays pass, too, are no hits.
 float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   vec3 to_met = at + distance * direction - place.xyz;
@@ -220,7 +220,7 @@ float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   bool may_be_hidden = distance > 0.99f * reach_m || seen_distance(to_met / met_m, place.w) < met_m - slack_m(met_m, height_grid.z);
   float near = 0.0f, far = first_step_m;
   bool was_before = true;
-  for (int i = 0; may_be_hidden && far < distance && i < most_steps; ++i) {
+  for (int i = 0; may_be_hidden && far < distance && i < max_steps; ++i) {
     vec3 to_far = at + far * direction - place.xyz;
     float far_m = length(to_far);
     bool is_before = far_m < seen_distance(to_far / far_m, place.w);
@@ -236,7 +236,7 @@ float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
       }
       vec3 to_high = at + high * direction - place.xyz;
       float high_m = length(to_high);
-      if (abs(high_m - least_seen_distance(to_high / high_m, place.w)) < greatest_crossing_m) return high;
+      if (abs(high_m - min_seen_distance(to_high / high_m, place.w)) < max_crossing_m) return high;
     }
     was_before = is_before;
     near = far;
@@ -274,7 +274,7 @@ void trace(vec3 at, vec3 direction) {
     sight.map[k] = places[k].w;
   }
   float second = weights[1] / (weights[0] + weights[1]);
-  sight.weight[1] = second < least_weight || detail != all_detail ? 0.0f : second;
+  sight.weight[1] = second < min_weight || detail != all_detail ? 0.0f : second;
   sight.weight[0] = 1.0f - sight.weight[1];
   if (hit.met == met_top && hit.distance < shade_reach_m && detail == all_detail)
     sight.shade = share_left_by_bodies(met);
@@ -316,7 +316,7 @@ vec3 sharp_radiance(int k, float lobe) {
   float texels_a_m = layer_size.x / layer_rad / length(sight.to_met[k]);
   float wide = length(sight.across) * texels_a_m;
   float thin = sqrt(sight.narrow * sight.narrow * texels_a_m * texels_a_m + lobe * lobe);
-  float taps = clamp(ceil(wide / max(thin, 1.0f)), 1.0f, most_taps);
+  float taps = clamp(ceil(wide / max(thin, 1.0f)), 1.0f, max_taps);
   float level = log2(max(max(wide / taps, thin), 1.0f)) - 0.5f;
   vec3 sum = vec3(0.0f);
   for (float i = 0.5f; i < taps; ++i) {
@@ -338,18 +338,18 @@ vec3 glossy_radiance(int k, vec3 direction, float roughness) {
 // `over_ground`: of the lobe, the share that passes over the ground that its middle meets, to what stands beyond.
 vec3 reflected_radiance(float roughness, float over_ground) {
   vec3 sum = vec3(0.0f);
-  for (int k = 0; k < most_maps; ++k) {
+  for (int k = 0; k < max_maps; ++k) {
     if (sight.weight[k] == 0.0f) continue;
     // A lobe that ends near the surface is narrow for a map that is farther away.
     float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
     vec3 to_met = normalize(sight.to_met[k]);
-    vec3 seen = seen_roughness < least_gloss ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
+    vec3 seen = seen_roughness < min_gloss ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
                                              : glossy_radiance(k, to_met, seen_roughness);
     if (over_ground > 0.0f)
       seen = mix(seen, glossy_radiance(k, normalize(to_met + sight.direction), roughness), over_ground);
     sum += sight.weight[k] * seen;
   }
-  return min(sight.is_body ? sight.body_radiance : sight.shade * sum, vec3(greatest_radiance));
+  return min(sight.is_body ? sight.body_radiance : sight.shade * sum, vec3(max_radiance));
 }
 
 void main() {
@@ -357,7 +357,7 @@ void main() {
   vec4 start = texelFetch(ray_starts, here, 0), way = texelFetch(ray_ways, here, 0);
   if (int(way.w) != reflecting_object + 1) discard;
   look_along(start.xyz, octahedral_direction(way.xy));
-  bool passes_ground = sight.is_ground && start.w > least_wide_lobe;
+  bool passes_ground = sight.is_ground && start.w > min_wide_lobe;
   base_radiance = vec4(reflected_radiance(start.w, passes_ground ? share_over_ground : 0.0f), 1.0f);
   coat_radiance = reflected_radiance(way.z, 0.0f);
 }

@@ -36,7 +36,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
 
   enum Detail : int {  // as multiple_environment_maps.frag has it
     nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
-    one_map,           ///< a ray among what stands still, looked up in the best map
+    one_map,           ///< a ray against the static scene, looked up in the best map
     all,
     detail_count
   };

@@ -86,7 +86,7 @@ TEST_F(EnvironmentMapsTest, AGlossyTileIsTheMeanOverTheLobe) {
 }
 
 TEST(MapLevels, RoughnessRunsThroughTheTilesWithoutAGap) {
-  for (float roughness = least_gloss; roughness <= 1.0f; roughness += 0.01f) {
+  for (float roughness = min_gloss; roughness <= 1.0f; roughness += 0.01f) {
     const glm::vec3 tiles = gloss_tiles(roughness);
     EXPECT_NEAR(glm::mix(gloss_of_tile(tiles.x), gloss_of_tile(tiles.y), tiles.z), roughness, 1e-4f);
     EXPECT_LT(tiles.y, gloss_tile_count);
@@ -101,7 +101,7 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsTheSquareThatTheRayTracerShows) {
   }
 }
 
-// No map shows what moves; a mirror that passes over it stands at 0.112.
+// No map shows dynamic objects; a mirror that passes over it stands at 0.112.
 TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
   scene::Scene scene = tower_square();
   const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
@@ -130,7 +130,7 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsACrownWhereItStands) {
   EXPECT_LT(flip_of(scene, make_multiple_environment_maps, {-2.5f, -3.5f, 2.2f}), 0.095);
 }
 
-// Light is worked out before the first view is drawn; maps that were kept have drawn nothing either.
+// Light is computed before the first view is drawn; maps that were kept have drawn nothing either.
 TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   scene::Scene scene = tower_square();
   const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});

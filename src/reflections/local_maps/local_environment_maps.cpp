@@ -12,7 +12,7 @@
 namespace parvis::local_maps {
 namespace {
 
-constexpr float least_other_texels = 8.0f;  // what moves and looks smaller in a map is left out of it
+constexpr float min_other_texels = 8.0f;  // a dynamic object that looks smaller in a map is left out of it
 
 enum Unit : GLuint { local_unit = methods::first_method_unit, colours_unit };
 
@@ -24,7 +24,7 @@ bool mark_others(const render::GpuScene& gpu, int object, glm::vec3 centre, int 
     if (other == object || !gpu.is_moving(other) || !gpu.is_visible(other)) continue;
     const Bounds& bounds = gpu.object_bounds()[std::size_t(other)];
     const float texels = shift_texels(2.0f * bounds.radius(), glm::distance(bounds.centre(), centre), tile);
-    others[std::size_t(other)] = texels >= least_other_texels;
+    others[std::size_t(other)] = texels >= min_other_texels;
   }
   return std::ranges::find(others, 1) != others.end();
 }

@@ -11,7 +11,7 @@ uniform vec3 local_map;     // south-west corner in texels, texels a side of a t
 uniform vec2 picture_size;  // of all local maps
 uniform float local_border;
 
-const float most_taps = 4.0f;  // each way
+const float max_taps = 4.0f;  // each way
 const float coarsest_level = 3.0f;  // as far as the tiles' borders reach
 
 vec3 local_radiance(vec3 direction, float level) {
@@ -32,7 +32,7 @@ vec3 reflected_radiance(float roughness, int layer) {
   float reach = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
   float texels_a_unit = (0.5f * local_map.z - local_border) / reach;
   float size_x = texels_a_unit * length(along_x), size_y = texels_a_unit * length(along_y);
-  float taps_x = clamp(ceil(size_x), 1.0f, most_taps), taps_y = clamp(ceil(size_y), 1.0f, most_taps);
+  float taps_x = clamp(ceil(size_x), 1.0f, max_taps), taps_y = clamp(ceil(size_y), 1.0f, max_taps);
   float level = log2(max(max(size_x / taps_x, size_y / taps_y), 1e-4f)) - 0.5f + 5.0f * roughness;
   vec3 sum = vec3(0.0f);
   for (float y = 0.5f; y < taps_y; ++y)

@@ -1,6 +1,6 @@
 // Local maps (Meyer and Loscos 2003, section 4.4): each reflecting body has an environment map of its own,
-// made anew for where it is out of the two reference maps that it lies between, and looked up as a cube map
-// is. What moves is drawn over it in a second pass (section 6).
+// computed for its position from the two reference maps that it lies between, and looked up like a cube map.
+// Dynamic objects are drawn over it in a second pass (section 6).
 #pragma once
 
 #include <optional>

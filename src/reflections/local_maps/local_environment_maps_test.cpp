@@ -178,7 +178,7 @@ TEST_F(LocalMapsTest, WhatMovesStandsInTheMapWhereNothingHidesIt) {
   EXPECT_LT(glm::distance(court_of_maps.shown(glm::vec3(5, 1, 1.5f) - mirror_at), other_colour), 0.05f);
   EXPECT_LT(glm::distance(court_of_maps.shown(glm::vec3(0, -11, 3) - mirror_at), render::wall_colours[3]),
             0.05f);
-  EXPECT_EQ(court_of_maps.draw(), 6) << "others may move: the map is made anew";
+  EXPECT_EQ(court_of_maps.draw(), 6) << "others may move: the map is recomputed";
   court_of_maps.scene.objects[mirror + 1].is_visible = false;
   court_of_maps.scene.objects[mirror + 2].is_visible = false;
   EXPECT_EQ(court_of_maps.draw(), 6) << "the others are gone";

@@ -1,4 +1,4 @@
-// The corners of local maps' meshes, all maps in one picture: what each corner's ray met, and how the two reference maps
+// The corners of local maps' meshes, all maps in one picture: what each corner's ray hit, and how the two reference maps
 // share in it.
 #include "graphics/shading/octahedral.glsl"
 #include "reflections/reference_maps/validity.glsl"

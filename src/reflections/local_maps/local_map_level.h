@@ -26,9 +26,9 @@ LocalMapLevel level_for(float size_px, float speed_px, int resolution);
 /// The levels that a budget may choose from for a body whose best is `best`, the cheapest first, and what
 /// they cost on the two cores of a software renderer.
 struct LevelLadder {
-  static constexpr std::size_t most_rungs = 4;
-  std::array<LocalMapLevel, most_rungs> levels;
-  std::array<render::QualityLevel, most_rungs> qualities;
+  static constexpr std::size_t max_rungs = 4;
+  std::array<LocalMapLevel, max_rungs> levels;
+  std::array<render::QualityLevel, max_rungs> qualities;
   std::size_t rungs;
 };
 LevelLadder ladder_below(const LocalMapLevel& best);

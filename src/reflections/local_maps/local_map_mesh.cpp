@@ -10,7 +10,7 @@
 namespace parvis::local_maps {
 namespace {
 
-constexpr int most_splits = 5;  // a quad of 32 texels down to one
+constexpr int max_splits = 5;  // a quad of 32 texels down to one
 constexpr float not_traced = -1.0f;
 constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
@@ -18,7 +18,7 @@ constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 int splits_of(const FaceTask& task) {
   const float quad_texels = float(task.tile) / float(task.rule.quads);
   const float halvings = std::log2(quad_texels / std::max(task.rule.smallest_texels, 1e-3f));
-  return std::clamp(int(std::floor(halvings + 1e-4f)), 0, most_splits);
+  return std::clamp(int(std::floor(halvings + 1e-4f)), 0, max_splits);
 }
 
 /// A face's points on the finest lattice that its quads can have; those that are needed are traced, once.
@@ -118,7 +118,7 @@ class FaceMesher {
   /// Two triangles; or, where smaller neighbours have corners on its sides, a fan about its middle that goes
   /// through all of them: no gap opens between sides that are the same.
   void cover(const Quad& quad) {
-    std::array<std::uint32_t, 4 << most_splits> around;
+    std::array<std::uint32_t, 4 << max_splits> around;
     std::size_t count = 0;
     const std::array<glm::ivec2, 4> corners{{{quad.x, quad.y},
                                              {quad.x + quad.size, quad.y},

@@ -50,7 +50,7 @@ struct LocalMapVertex {
 struct FaceMesh {
   std::vector<LocalMapVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< triangles
-  float nearest_m = sky_distance_m;    ///< of all that the rays met
+  float nearest_m = sky_distance_m;    ///< of all hits
 };
 
 /// Fills `mesh`, whose triangles cover the tile once everywhere: where a quad meets smaller ones it takes

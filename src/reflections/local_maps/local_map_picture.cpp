@@ -9,8 +9,7 @@
 namespace parvis::local_maps {
 namespace {
 
-constexpr int most_picture_texels =
-    8192;  // a side; what OpenGL 4.5 grants is 16384, what phones have is this
+constexpr int max_picture_texels = 8192;  // a side; what OpenGL 4.5 grants is 16384, what phones have is this
 
 enum Unit : GLuint { colours_unit = methods::first_method_unit, distances_unit, places_unit, finer_unit };
 
@@ -38,7 +37,7 @@ gl::VertexArray tile_array() {
 
 }  // namespace
 
-Result<LocalMapPicture> LocalMapPicture::create(int most_texels, LocalMapView shown) {
+Result<LocalMapPicture> LocalMapPicture::create(int max_texels, LocalMapView shown) {
   constexpr const char* mesh_vertex = "reflections/local_maps/local_map.vert";
   constexpr const char* mesh_fragment = "reflections/local_maps/local_map.frag";
   Programs programs;
@@ -57,11 +56,11 @@ Result<LocalMapPicture> LocalMapPicture::create(int most_texels, LocalMapView sh
   Status status = link(programs.level, gl::Program::create("reflections/local_maps/local_map_tile.vert",
                                                            "reflections/local_maps/local_map_level.frag"));
   if (!status) return status.errors();
-  return LocalMapPicture(most_texels, shown, std::move(programs));
+  return LocalMapPicture(max_texels, shown, std::move(programs));
 }
 
-LocalMapPicture::LocalMapPicture(int most_texels, LocalMapView shown, Programs programs)
-    : most_texels_(most_texels),
+LocalMapPicture::LocalMapPicture(int max_texels, LocalMapView shown, Programs programs)
+    : max_texels_(max_texels),
       shown_(shown),
       programs_(std::move(programs)),
       framebuffer_(gl::Framebuffer::create()),
@@ -71,14 +70,14 @@ LocalMapPicture::LocalMapPicture(int most_texels, LocalMapView shown, Programs p
 }
 
 bool LocalMapPicture::reserve(int slots) {
-  const int most_columns = std::max(most_picture_texels / (3 * most_texels_), 1);
-  const int most_rows = std::max(most_picture_texels / (2 * most_texels_), 1);
-  slots = std::min(slots, most_columns * most_rows);
+  const int max_columns = std::max(max_picture_texels / (3 * max_texels_), 1);
+  const int max_rows = std::max(max_picture_texels / (2 * max_texels_), 1);
+  slots = std::min(slots, max_columns * max_rows);
   if (slots <= slots_) return false;
-  columns_ = std::min(slots, most_columns);
+  columns_ = std::min(slots, max_columns);
   const int rows = (slots + columns_ - 1) / columns_;
   slots_ = columns_ * rows;
-  size_ = most_texels_ * glm::ivec2(3 * columns_, 2 * rows);
+  size_ = max_texels_ * glm::ivec2(3 * columns_, 2 * rows);
   colours_ = gl::texture_2d(GL_R11F_G11F_B10F, size_.x, size_.y, local_map_levels);
   glTextureParameteri(colours_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, size_.x, size_.y);
@@ -86,7 +85,7 @@ bool LocalMapPicture::reserve(int slots) {
 }
 
 glm::vec2 LocalMapPicture::corner(int slot) const {
-  return glm::vec2(most_texels_ * glm::ivec2(3 * (slot % columns_), 2 * (slot / columns_)));
+  return glm::vec2(max_texels_ * glm::ivec2(3 * (slot % columns_), 2 * (slot / columns_)));
 }
 
 void LocalMapPicture::upload(std::span<const FaceMesh> meshes) {

@@ -23,8 +23,8 @@ struct LocalMapPlace {
 
 class LocalMapPicture {
  public:
-  /// `most_texels`: a side of the largest tile, a power of two. Fails only if a shader does.
-  static Result<LocalMapPicture> create(int most_texels, LocalMapView shown);
+  /// `max_texels`: a side of the largest tile, a power of two. Fails only if a shader does.
+  static Result<LocalMapPicture> create(int max_texels, LocalMapView shown);
 
   /// Makes room for so many slots, or for as many as the largest texture holds. True: what was drawn is lost.
   bool reserve(int slots);
@@ -35,7 +35,7 @@ class LocalMapPicture {
 
   /// Draws meshes with colour and depth; `cell_m` is that of the heights they were traced in.
   void draw(std::span<const FaceMesh> meshes, const ReferenceMaps& maps, float cell_m);
-  /// The view of one face as `draw` left it, to draw over it what moves.
+  /// The view of one face as `draw` left it, to draw dynamic objects over it.
   render::View face_view(LocalMapPlace place, int face, glm::vec3 centre) const;
   /// To be called when all is drawn: the coarser levels of these maps.
   void update_levels(std::span<const LocalMapPlace> places);
@@ -44,10 +44,10 @@ class LocalMapPicture {
   struct Programs {
     gl::Program radiance, marks, level;  ///< marks: mesh or weights
   };
-  LocalMapPicture(int most_texels, LocalMapView shown, Programs programs);
+  LocalMapPicture(int max_texels, LocalMapView shown, Programs programs);
   void upload(std::span<const FaceMesh> meshes);
 
-  int most_texels_;
+  int max_texels_;
   LocalMapView shown_;
   Programs programs_;
   int slots_ = 0, columns_ = 1;

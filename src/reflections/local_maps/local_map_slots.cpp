@@ -30,7 +30,7 @@ std::optional<int> LocalMapSlots::find(const LocalMapWish& wish) {
     if (!map || map->shows_others || map->tile != wish.tile || map->smallest_texels != wish.smallest_texels)
       continue;
     const float nearest_m = std::max(slots_[i].nearest_m, std::min(map->body_radius_m, wish.body_radius_m));
-    if (shift_texels(glm::distance(map->centre, wish.centre), nearest_m, wish.tile) > most_shift_texels)
+    if (shift_texels(glm::distance(map->centre, wish.centre), nearest_m, wish.tile) > max_shift_texels)
       continue;
     slots_[i].idle_frames = 0;
     return int(i);

@@ -25,7 +25,7 @@ class LocalMapSlots {
  public:
   /// A map whose directions are off by no more than this serves another centre, too: half a texel is what its
   /// filter blurs.
-  static constexpr float most_shift_texels = 0.5f;
+  static constexpr float max_shift_texels = 0.5f;
 
   /// More slots than before, all empty, or the same ones.
   void begin_frame(int slots, bool are_new);

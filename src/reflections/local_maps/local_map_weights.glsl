@@ -10,13 +10,13 @@ GLSL_FUNCTION vec2 projected_weights(vec3 met, vec3 place_a, vec3 place_b) {
 }
 
 // A map that sees a point counts for at least so much: beside one that does not, it has it alone.
-const float least_weight = 1e-3f;
+const float min_weight = 1e-3f;
 
 // The weights once each map's validity (0: something hides the point from it) is known; they sum to 1. Where no map sees
 // the point, the one with the highest weight before the test.
 GLSL_FUNCTION vec2 valid_weights(vec2 projected, vec2 validities) {
-  vec2 weights = max(projected, vec2(least_weight)) * validities;
+  vec2 weights = max(projected, vec2(min_weight)) * validities;
   float sum = weights.x + weights.y;
-  if (sum < 0.1f * least_weight) return projected.x >= projected.y ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
+  if (sum < 0.1f * min_weight) return projected.x >= projected.y ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
   return weights / sum;
 }

@@ -81,8 +81,8 @@ void MirrorPicture::bind_rays(const gl::Program& program) const {
   program.set("ray_ways", int(ways_unit));
 }
 
-/// Depth tells pixels with a ray from others before any shader runs. Beside them, where a surface covers less
-/// than the pixel's middle, the light of neighbours stands in.
+/// The depth test separates pixels with a ray from others before any shader runs. Beside them, where a
+/// surface covers less than the pixel's middle, the light of neighbours stands in.
 void MirrorPicture::draw_light(
     const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
     const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {

@@ -1,4 +1,4 @@
-// Mirror-like surfaces that show what was worked out for their pixel; the sky where nothing was.
+// Mirror-like surfaces that show the radiance computed for their pixel; the sky where there is none.
 #include "graphics/render/sky_lookup.glsl"
 #include "graphics/render/surface_body.glsl"
 

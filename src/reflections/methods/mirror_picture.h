@@ -1,5 +1,5 @@
 // What mirror-like surfaces show in each pixel of the main view. The rays that leave them are drawn first;
-// then what comes along each ray is worked out once, however many small triangles share the pixel (deferred
+// then the radiance along each ray is computed once, however many small triangles share the pixel (deferred
 // shading, Saito and Takahashi 1990).
 #pragma once
 

@@ -95,8 +95,8 @@ class SharedCubeMap final : public CubeMapReflections {
   methods::CubeMap map_;
 };
 
-/// Maps at fixed places along the roads, drawn once without what moves, each looked up as the inside of a box
-/// fitted to the street around it.
+/// Maps at fixed places along the roads, drawn once without dynamic objects, each looked up as the inside of
+/// a box fitted to the street around it.
 class BoxProjectedProbe final : public CubeMapReflections {
  public:
   explicit BoxProjectedProbe(const scene::Scene& scene);

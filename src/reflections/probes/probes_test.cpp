@@ -68,7 +68,7 @@ scene::Scene room_with_mirror(const std::string& method) {
   return scene;
 }
 
-/// Where a ray meets the mirror box about the origin, and the outward normal there; false: it passes by.
+/// Where a ray hits the mirror box about the origin, and the outward normal there; false: it passes by.
 bool meets_mirror(glm::vec3 from, glm::vec3 direction, glm::vec3& point, glm::vec3& normal) {
   for (int axis = 0; axis < 3; ++axis) {
     const float side = from[axis] > 0.0f ? mirror_half_m : -mirror_half_m;

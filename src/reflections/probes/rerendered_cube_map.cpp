@@ -7,13 +7,13 @@ namespace parvis::probes {
 namespace {
 
 constexpr float shared_below_px = 40.0f;  // smaller reflectors show too little for a map of their own
-constexpr float texels_a_pixel =
+constexpr float texels_per_pixel =
     0.5f;  // a face spans a quarter turn, of which a body shows a part in half its width
-constexpr int least_resolution = 16;
+constexpr int min_resolution = 16;
 
 int resolution_for(float size_px, int most) {
-  const int wanted = int(std::bit_ceil(unsigned(std::max(size_px * texels_a_pixel, 1.0f))));
-  return std::clamp(wanted, std::min(least_resolution, most), most);
+  const int wanted = int(std::bit_ceil(unsigned(std::max(size_px * texels_per_pixel, 1.0f))));
+  return std::clamp(wanted, std::min(min_resolution, most), most);
 }
 
 }  // namespace

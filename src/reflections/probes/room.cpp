@@ -30,7 +30,7 @@ void furnish(House& house) {
       {.name = "time_sliced_cube_map",
        .help = "the same maps, a face or a few per frame",
        .make = make<TimeSlicedCubeMap>,
-       .attributes = {{.name = "faces_a_frame",
+       .attributes = {{.name = "faces_per_frame",
                        .type = scene::AttributeType::integer,
                        .help = "of time_sliced_cube_map: how many faces of maps a frame draws, over all "
                                "reflectors; 0: one for each of them",
@@ -39,7 +39,7 @@ void furnish(House& house) {
                        .maximum = 1000,
                        .is_live = true}},
        .read = [](const scene::Node& node, methods::Settings& settings) {
-         settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_a_frame"));
+         settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_per_frame"));
        }});
   registry.add({.name = "shared_cube_map",
                 .help = "one cube map for all reflectors, drawn about the largest on the screen",

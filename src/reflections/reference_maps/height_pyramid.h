@@ -9,10 +9,10 @@
 
 namespace parvis::reference_maps {
 
-/// What a ray meets; see heightfield_walk.glsl.
+/// What a ray hits; see heightfield_walk.glsl.
 enum class Met { nothing, side, top };
 struct HeightHit {
-  float distance_m;  ///< along the unit direction; the reach where nothing is met
+  float distance_m;  ///< along the unit direction; the reach where nothing is hit
   Met met;
 };
 

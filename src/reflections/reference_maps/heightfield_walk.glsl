@@ -11,7 +11,7 @@ struct HeightGrid {
   int top_level;  // of the pyramid: one cell covers everything
 };
 
-// What a ray met: nothing, the upright side of a cell, or its level top.
+// What a ray hit: nothing, the upright side of a cell, or its level top.
 const int met_nothing = 0;
 const int met_side = 1;
 const int met_top = 2;

@@ -57,7 +57,7 @@ std::optional<MapFile> MapCache::read(std::size_t number) const {
   return std::nullopt;
 }
 
-void MapCache::tell_what_is_old() const {
+void MapCache::report_other_states() const {
   std::error_code code;
   if (folder_.empty() || fs::exists(folder_, code) || !fs::exists(folder_.parent_path(), code)) return;
   fmt::print(

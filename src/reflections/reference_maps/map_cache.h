@@ -19,10 +19,10 @@ class MapCache {
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path file(std::size_t number) const;
 
-  /// A map, if it is there, whole and of this state. Tells on standard error what is unfit.
+  /// A map, if it is there, whole and of this state. Unfit ones are reported on standard error.
   std::optional<MapFile> read(std::size_t number) const;
-  /// Tells on standard error that maps of other states of the scene are there, but none of this.
-  void tell_what_is_old() const;
+  /// Reports on standard error that there are maps of other states of the scene, but none of this one.
+  void report_other_states() const;
   Status write(MapFile map) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace parvis::reference_maps {
 namespace {
 
-constexpr int most_cells = 512;         // a side
+constexpr int max_cells = 512;          // a side
 constexpr std::size_t looked_at = 12;   // nearest maps of a cell, of which the best are kept
 constexpr float unseen_penalty = 5.0f;  // a map behind a house counts as so many times farther away
 
@@ -18,9 +18,9 @@ constexpr float unseen_penalty = 5.0f;  // a map behind a house counts as so man
 MapChoice::MapChoice(const std::vector<glm::vec3>& places, const HeightPyramid& heights)
     : origin_(heights.origin()) {
   const glm::vec2 size = heights.cell_m() * glm::vec2(heights.cells());
-  cell_m_ = std::max(cell_m_, std::max(size.x, size.y) / float(most_cells));
+  cell_m_ = std::max(cell_m_, std::max(size.x, size.y) / float(max_cells));
   cells_ = glm::max(glm::ivec2(glm::ceil(size / cell_m_)), glm::ivec2(1));
-  indices_.resize(std::size_t(cells_.x) * std::size_t(cells_.y) * maps_a_cell);
+  indices_.resize(std::size_t(cells_.x) * std::size_t(cells_.y) * maps_per_cell);
   const std::size_t kept = std::min(places.size(), looked_at);
   parallel_for(std::size_t(cells_.y), [&](std::size_t y) {
     std::vector<int> nearest(places.size());
@@ -42,8 +42,8 @@ MapChoice::MapChoice(const std::vector<glm::vec3>& places, const HeightPyramid& 
         ranked[i] = {distance * (is_seen ? 1.0f : unseen_penalty), nearest[i]};
       }
       std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(kept));
-      std::uint16_t* cell = &indices_[(y * std::size_t(cells_.x) + std::size_t(x)) * maps_a_cell];
-      for (std::size_t k = 0; k < maps_a_cell; ++k)
+      std::uint16_t* cell = &indices_[(y * std::size_t(cells_.x) + std::size_t(x)) * maps_per_cell];
+      for (std::size_t k = 0; k < maps_per_cell; ++k)
         cell[k] = std::uint16_t(ranked[std::min(k, kept - 1)].second);
     }
   });

@@ -8,7 +8,7 @@ namespace parvis::reference_maps {
 namespace {
 
 constexpr SealedKind kind{"PARVISM1", "reference map"};
-constexpr std::uint32_t most_textures = 16;
+constexpr std::uint32_t max_textures = 16;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Result<MapFile> read_map_file(const std::filesystem::path& file) {
   map.number = taker.take<std::uint32_t>();
   map.resolution = taker.take<std::uint32_t>();
   const std::uint32_t textures = taker.take<std::uint32_t>();
-  for (std::uint32_t i = 0; i < std::min(textures, most_textures); ++i)
+  for (std::uint32_t i = 0; i < std::min(textures, max_textures); ++i)
     map.textures.push_back(taker.take_values<std::uint8_t>());
   if (!taker.is_at_end()) return cut_short(file);
   return map;

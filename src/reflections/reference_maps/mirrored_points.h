@@ -1,5 +1,5 @@
-// What vehicles will mirror, by chance rays from where they are likely to drive; and how well reference maps
-// show it. The measure by which maps are placed, and by which any placement is judged.
+// The points that vehicles will mirror, sampled by random rays from where they are likely to drive; and how
+// well reference maps show it. The measure by which maps are placed, and by which any placement is judged.
 #pragma once
 
 #include <cstdint>

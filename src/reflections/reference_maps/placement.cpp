@@ -17,9 +17,9 @@ namespace {
 constexpr float height_m = 1.2f;            // of a map over the street: that of bodywork
 constexpr float candidates_apart_m = 4.0f;  // along a lane
 constexpr float alike_m = 2.0f;             // lanes cross and run side by side: one candidate is enough
-constexpr std::size_t candidates_a_map = 16, least_candidates = 1024;
-constexpr std::size_t points_a_map = 160;  // fewer, and chance decides what a map is worth
-constexpr std::size_t least_points = 8192, most_points = 65536;
+constexpr std::size_t candidates_per_map = 16, min_candidates = 1024;
+constexpr std::size_t points_per_map = 160;  // fewer, and chance decides what a map is worth
+constexpr std::size_t min_points = 8192, max_points = 65536;
 // Other points are shown a little less well than those that choose, so that these must reach more.
 constexpr int attempts = 9;
 constexpr float attempt_step = 0.001f;
@@ -38,9 +38,9 @@ std::vector<glm::vec3> thinned(const std::vector<glm::vec3>& places, float side_
 }
 
 std::vector<glm::vec3> candidate_places(const scene::Scene& scene, const HeightPyramid& heights,
-                                        std::size_t most_maps) {
+                                        std::size_t max_maps) {
   std::vector<glm::vec3> candidates = driving_places(scene, heights, candidates_apart_m);
-  const std::size_t enough = std::max(candidates_a_map * most_maps, least_candidates);
+  const std::size_t enough = std::max(candidates_per_map * max_maps, min_candidates);
   float side_m = alike_m;
   candidates = thinned(candidates, side_m);
   while (candidates.size() > enough) candidates = thinned(candidates, side_m *= 1.25f);
@@ -53,10 +53,10 @@ std::vector<SetCover::Elements> shown_from(const std::vector<glm::vec3>& places,
                                            const std::vector<MirroredPoint>& points,
                                            const std::vector<float>& sharpness) {
   std::vector<SetCover::Elements> shown(places.size());
-  const float least_sharp = *std::ranges::max_element(sharpness);
+  const float min_sharp = *std::ranges::max_element(sharpness);
   parallel_for(places.size(), [&](std::size_t place) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!shows(heights, places[place], points[i], least_sharp)) continue;
+      if (!shows(heights, places[place], points[i], min_sharp)) continue;
       const float times = footprint(places[place], points[i]) / points[i].vehicle_footprint;
       for (std::size_t k = 0; k < sharpness.size(); ++k)
         if (times <= sharpness[k]) shown[place].push_back(std::uint32_t(k * points.size() + i));
@@ -74,7 +74,7 @@ std::vector<std::size_t> even_spread(const std::vector<glm::vec3>& candidates, s
   std::size_t next = std::size_t(
       std::ranges::min_element(candidates, {}, [&](glm::vec3 p) { return glm::distance(p, middle); }) -
       candidates.begin());
-  while (spread.size() < most && (spread.empty() || distances[next] >= least_apart_m)) {
+  while (spread.size() < most && (spread.empty() || distances[next] >= min_apart_m)) {
     spread.push_back(next);
     for (std::size_t i = 0; i < candidates.size(); ++i)
       distances[i] = std::min(distances[i], glm::distance(candidates[i], candidates[next]));
@@ -97,15 +97,15 @@ Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heig
                             const PlacementGoal& goal) {
   const std::size_t most = std::size_t(std::max(goal.most, 0));
   const std::vector<glm::vec3> candidates = candidate_places(scene, heights, most);
-  const std::size_t count = std::clamp(points_a_map * most, least_points, most_points);
+  const std::size_t count = std::clamp(points_per_map * most, min_points, max_points);
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, count, goal.seed);
   const std::size_t elements = points.size() * goal.sharpness.size();
   const SetCover cover(shown_from(candidates, heights, points, goal.sharpness), elements,
                        [&](std::size_t a, std::size_t b) {
-                         return glm::distance(candidates[a], candidates[b]) >= least_apart_m;
+                         return glm::distance(candidates[a], candidates[b]) >= min_apart_m;
                        });
   const std::vector<MirroredPoint> judges =
-      mirrored_points(scene, heights, most_points, goal.seed ^ judging_seed);
+      mirrored_points(scene, heights, max_points, goal.seed ^ judging_seed);
 
   Placement placement;
   for (int attempt = 0; attempt < attempts; ++attempt) {

@@ -25,7 +25,7 @@ struct Placement {
   float share_shown = 0.0f;       ///< of points that the choice did not see
 };
 
-/// Places over the streets that show what vehicles will mirror. None is nearer than `least_apart_m` to
+/// Places over the streets that show what vehicles will mirror. None is nearer than `min_apart_m` to
 /// another. Takes some seconds in a city; the same goal gives the same places.
 Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
                             const PlacementGoal& goal);
@@ -34,10 +34,10 @@ Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heig
 Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int most);
 
 /// Distance below which a second map adds nothing.
-inline constexpr float least_apart_m = 8.0f;
+inline constexpr float min_apart_m = 8.0f;
 
 /// At most `most` places over the streets that the scene's traffic uses, as even a spread as can be: each
-/// next one where a street lies farthest from all before it, none nearer than `least_apart_m` to another.
+/// next one where a street lies farthest from all before it, none nearer than `min_apart_m` to another.
 /// Where there are no streets: a spread over the open ground. Metres, in the world. What placement by
 /// coverage is compared with.
 std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most);

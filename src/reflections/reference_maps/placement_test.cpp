@@ -91,7 +91,7 @@ TEST(Placement, AsManyMapsAsAreAllowedStandApart) {
   ASSERT_GT(all.places.size(), 8u);
   EXPECT_LE(all.places.size(), 30u);
   for (std::size_t i = 0; i < all.places.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(glm::distance(all.places[i], all.places[j]), least_apart_m);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(glm::distance(all.places[i], all.places[j]), min_apart_m);
 }
 
 TEST(Placement, TheSameGoalGivesTheSamePlaces) {

@@ -9,7 +9,7 @@ namespace {
 
 using scene::AttributeType;
 
-constexpr std::size_t most_places = 2000;
+constexpr std::size_t max_places = 2000;
 
 scene::NodeSchema reference_maps_schema() {
   return {.type = "referenceMaps",
@@ -40,7 +40,7 @@ scene::NodeSchema reference_maps_schema() {
                           .type = AttributeType::integer,
                           .help = "how many place themselves, at most; absent: as reflection has it",
                           .minimum = 1,
-                          .maximum = double(most_places)},
+                          .maximum = double(max_places)},
                          {.name = "resolution",
                           .type = AttributeType::integer,
                           .help = "edge of a cube map's face that is as sharp; absent: as reflection has it",
@@ -50,7 +50,7 @@ scene::NodeSchema reference_maps_schema() {
                          {.name = "cell",
                           .type = AttributeType::number,
                           .help = "of the heights in which mirrored rays are traced; places that would take "
-                                  "more than 256 MB get larger ones, which is told",
+                                  "more than 256 MB get larger ones, with a warning",
                           .fallback = "1",
                           .unit = "m",
                           .minimum = 0.05,
@@ -71,11 +71,11 @@ void build_reference_maps(const scene::Node& node, scene::SceneBuilder& builder)
     const scene::MeasuredPath path(node.points("path"));
     const float spacing_m = float(node.number("spacing"));
     const std::size_t count = std::size_t(path.length() / spacing_m) + 1;
-    for (std::size_t i = 0; i < std::min(count, most_places + 1); ++i)
+    for (std::size_t i = 0; i < std::min(count, max_places + 1); ++i)
       places.push_back(path.at(float(i) * spacing_m));
   }
-  if (places.size() > most_places) {
-    builder.fail(error_at(node.where, "more than {} reference maps; take a wider spacing", most_places));
+  if (places.size() > max_places) {
+    builder.fail(error_at(node.where, "more than {} reference maps; take a wider spacing", max_places));
     return;
   }
   for (const glm::vec3& place : places)

@@ -13,11 +13,11 @@
 namespace parvis::reference_maps {
 namespace {
 
-constexpr double most_heights = double(1 << 26);  // cells: 256 MB, and a third more for the levels above
-constexpr double most_heights_a_side = 16384;     // what OpenGL 4.5 promises of textures
+constexpr double max_heights = double(1 << 26);  // cells: 256 MB, and a third more for the levels above
+constexpr double max_heights_per_side = 16384;   // what OpenGL 4.5 promises of textures
 
 /// Of the finest level, whose sides are powers of two.
-glm::dvec2 cells_a_side(glm::vec2 size_m, float cell_m) {
+glm::dvec2 cells_per_side(glm::vec2 size_m, float cell_m) {
   const glm::dvec2 cells = glm::floor(glm::dvec2(size_m) / double(cell_m)) + 1.0;
   return glm::exp2(glm::ceil(glm::log2(cells)));
 }
@@ -25,7 +25,7 @@ glm::dvec2 cells_a_side(glm::vec2 size_m, float cell_m) {
 void tell_if_coarse(glm::vec2 size_m, float cell_m, float wanted_m) {
   if (cell_m <= wanted_m) return;
   const auto megabytes = [&](float cell) {
-    const glm::dvec2 cells = cells_a_side(size_m, cell);
+    const glm::dvec2 cells = cells_per_side(size_m, cell);
     return 4e-6 * cells.x * cells.y;
   };
   fmt::print(stderr,
@@ -54,8 +54,8 @@ ReferenceMaps compressed(const ReferenceMaps& maps) {
 float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
   constexpr float step = 1.01f;
   const auto fits = [&](float cell_m) {
-    const glm::dvec2 cells = cells_a_side(size_m, cell_m);
-    return std::max(cells.x, cells.y) <= most_heights_a_side && cells.x * cells.y <= most_heights;
+    const glm::dvec2 cells = cells_per_side(size_m, cell_m);
+    return std::max(cells.x, cells.y) <= max_heights_per_side && cells.x * cells.y <= max_heights;
   };
   float cell_m = wanted_m;
   while (!fits(cell_m) && std::isfinite(cell_m)) cell_m *= step;
@@ -75,7 +75,7 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
   const glm::vec2 size_m = bounds.empty() ? glm::vec2(0.0f) : glm::vec2(bounds.size());
   const float wanted_m = map_plan(scene).cell_m, cell_m = fitting_cell_m(size_m, wanted_m);
   tell_if_coarse(size_m, cell_m, wanted_m);
-  shading::Heightfield heights(bounds, cell_m, int(most_heights_a_side));
+  shading::Heightfield heights(bounds, cell_m, int(max_heights_per_side));
   each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
   return heights;
 }
@@ -94,7 +94,7 @@ Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& 
   Result<MapPainter> painter = MapPainter::create(face_resolution);
   if (!painter) return painter.errors();
   const MapCache cache(scene);
-  if (keep == Keep::no) cache.tell_what_is_old();
+  if (keep == Keep::no) cache.report_other_states();
   const std::optional<MapFile> first = cache.read(0);
   ReferenceMaps maps(first ? first->places : map_places(scene, heights),
                      ReferenceMaps::layer_side(face_resolution));

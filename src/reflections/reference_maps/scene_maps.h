@@ -8,8 +8,8 @@
 
 namespace parvis::reference_maps {
 
-/// The highest point over each cell of the ground of what stands still, is visible and lets no light through.
-/// Cells are as wide as the scene wants them, and wider (which is told) where these would take more memory
+/// The highest opaque, visible, static point over each cell of the ground.
+/// Cells are as wide as the scene wants them, and wider (with a warning) where these would take more memory
 /// than heights may have.
 shading::Heightfield heights_of(const scene::Scene& scene);
 
@@ -24,7 +24,7 @@ std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid
 enum class Keep : bool { no, yes };
 
 /// The scene's reference maps: those that are baked are read, the others drawn; begins a frame for the light.
-/// Tells on standard error which baked ones are unfit. Fails if a shader does, or if a map cannot be kept.
+/// Unfit baked ones are reported on standard error. Fails if a shader does, or if a map cannot be kept.
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
                                 render::Renderer& renderer, Keep keep = Keep::no);
 

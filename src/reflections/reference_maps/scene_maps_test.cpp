@@ -8,7 +8,7 @@
 namespace parvis::reference_maps {
 namespace {
 
-constexpr double most_bytes = 256.0 * 1024.0 * 1024.0;
+constexpr double max_bytes = 256.0 * 1024.0 * 1024.0;
 
 double bytes_of(glm::vec2 size_m, float cell_m) {
   scene::Scene scene;
@@ -35,7 +35,7 @@ TEST(Heights, CellsAreAsWideAsTheSceneWants) {
 
 TEST(Heights, APlaceThatWouldNotFitIntoMemoryGetsWiderCellsAndItIsToldHowMuchItWouldTake) {
   testing::internal::CaptureStderr();
-  EXPECT_LE(bytes_of({9000.0f, 5000.0f}, 0.5f), most_bytes);
+  EXPECT_LE(bytes_of({9000.0f, 5000.0f}, 0.5f), max_bytes);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_NE(told.find("9.0 x 5.0 km"), std::string::npos) << told;
   EXPECT_NE(told.find("would take 2147 MB"), std::string::npos) << told;  // 32768 x 16384 cells of four bytes

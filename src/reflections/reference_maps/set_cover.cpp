@@ -45,7 +45,7 @@ class SetCover::State {
   }
 
   /// The chosen set that alone covers the fewest elements.
-  std::size_t least_slot() const {
+  std::size_t min_slot() const {
     const auto alone = [&](std::size_t set) {
       return std::ranges::count_if(cover_.sets_[set],
                                    [&](std::uint32_t element) { return times_[element] == 1; });
@@ -99,7 +99,7 @@ SetCover::Chosen SetCover::improved(const Chosen& start, std::size_t enough) con
   Chosen best = state.chosen();
   while (!state.chosen().empty() && state.covered() >= enough) {
     best = state.chosen();
-    state.take(state.least_slot());
+    state.take(state.min_slot());
     state.exchange();
   }
   return best;

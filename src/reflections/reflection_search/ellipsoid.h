@@ -9,12 +9,12 @@ namespace parvis::reflection_search {
 
 struct Ellipsoid {
   glm::vec3 radii{1.0f};
-  bool is_hollow = false;  ///< it reflects inside
+  bool is_concave = false;  ///< it reflects inside
 
   std::pair<glm::vec3, glm::vec3> surface(glm::vec3 direction) const {
     const glm::vec3 position = direction / glm::length(direction / radii);
     const glm::vec3 outward = glm::normalize(position / (radii * radii));
-    return {position, is_hollow ? -outward : outward};
+    return {position, is_concave ? -outward : outward};
   }
 };
 

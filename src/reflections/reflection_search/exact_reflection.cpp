@@ -98,7 +98,7 @@ double bisector_angle(glm::dvec3 position, glm::dvec3 normal, glm::dvec3 viewer,
 
 // In the plane of centre, viewer and vertex as complex numbers a and b, a point z of the unit circle reflects
 // where (a - z)(b - z) / z^2 is real: conj(ab) z^4 - conj(a + b) z^3 + (a + b) z - ab = 0.
-std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex, bool is_hollow) {
+std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex, bool is_concave) {
   const glm::dvec3 x = glm::normalize(viewer);
   glm::dvec3 y = vertex - glm::dot(vertex, x) * x;
   if (glm::length(y) < 1e-12 * glm::length(vertex))
@@ -111,7 +111,7 @@ std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex
     const double viewer_height = (a * std::conj(z)).real() - 1.0,
                  vertex_height = (b * std::conj(z)).real() - 1.0;
     const bool reflects =
-        is_hollow ? viewer_height < 0.0 && vertex_height < 0.0 : viewer_height > 0.0 && vertex_height > 0.0;
+        is_concave ? viewer_height < 0.0 && vertex_height < 0.0 : viewer_height > 0.0 && vertex_height > 0.0;
     if (reflects) add_if_new(points, z.real() * x + z.imag() * y);
   }
   return points;
@@ -140,14 +140,14 @@ std::vector<glm::dvec3> reflections_on_ellipsoid(glm::dvec3 radii, glm::dvec3 vi
 }
 
 std::vector<glm::dvec3> reflections_on_torus(double ring, double tube, glm::dvec3 viewer, glm::dvec3 vertex) {
-  constexpr int ring_starts = 40, tube_starts = 20, most_steps = 40;
+  constexpr int ring_starts = 40, tube_starts = 20, max_steps = 40;
   constexpr double turn = 6.283185307179586, probe = 1e-5, longest = 0.2;
   const Torus torus{ring, tube};
   std::vector<glm::dvec3> points;
   for (int i = 0; i < ring_starts * tube_starts; ++i) {
     const int round_ring = i / tube_starts, round_tube = i % tube_starts;
     glm::dvec2 turns(turn * (round_ring + 0.5) / ring_starts, turn * (round_tube + 0.5) / tube_starts);
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       const auto change = [&](glm::dvec2 along) {
         return (torus.slope(turns + probe * along, viewer, vertex) -
                 torus.slope(turns - probe * along, viewer, vertex)) /

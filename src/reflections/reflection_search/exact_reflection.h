@@ -7,9 +7,9 @@
 namespace parvis::reflection_search {
 
 /// On the unit ball about the origin, where a viewer sees a vertex reflected: the roots of Alhazen's quartic
-/// on which both lie before the tangent plane (behind it, if the ball is hollow). Neither point lies at the
+/// on which both lie before the tangent plane (behind it, if the ball is concave). Neither point lies at the
 /// origin.
-std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex, bool is_hollow);
+std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex, bool is_concave);
 
 /// On the ellipsoid of these radii about the origin, seen from outside: by Newton's method from `starts`
 /// places all over it.

@@ -36,14 +36,14 @@ GLSL_FUNCTION ProjectedBisector projected_bisector(ReflectionTask task, vec3 dir
   return ProjectedBisector(apart - dot(apart, axis) * axis, bisector_error(bisecting, at.normal), at);
 }
 
-GLSL_FUNCTION ReflectionPoint search_by_midpoint(ReflectionTask task, vec3 start, int iterations, float least_error) {
+GLSL_FUNCTION ReflectionPoint search_by_midpoint(ReflectionTask task, vec3 start, int iterations, float min_error) {
   vec3 direction = start;
   float step_length = first_step;
   for (int i = 0; i < iterations; ++i) {
     vec3 axis = face_axis(direction);
     vec3 from = direction / dot(direction, axis);
     ProjectedBisector first = projected_bisector(task, from, axis);
-    if (first.error < least_error) return reflection_point(first.at, normalize(direction), first.error);
+    if (first.error < min_error) return reflection_point(first.at, normalize(direction), first.error);
     ProjectedBisector middle = projected_bisector(task, from + 0.5f * step_length * first.along_face, axis);
     direction = from + step_length * middle.along_face;
     float difference = length(middle.along_face - first.along_face) / max(length(first.along_face), 1e-12f);

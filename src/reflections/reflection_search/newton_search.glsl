@@ -1,6 +1,6 @@
 // The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
 // method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails (over bands and hollows how the surface bends is measured again); after two
+// Steps stay in a region that shrinks when one fails (over bands and concave places the curvature is measured once more); after two
 // failures the paper's direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a
 // little: there a step is right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
 // Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
@@ -10,7 +10,7 @@
 #include "reflections/reflection_search/surface_bend.glsl"
 
 const float first_region = 0.25f;      // the longest first step: radians seen from the centre; on bands the normal turns by no more
-const float least_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
+const float min_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
 const float near_error = 2e-7f;        // 0.05 degrees
 const float near_step = 2e-3f;         // of the distance from the centre, for a body seen all around: about a texel
 const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
@@ -74,7 +74,7 @@ GLSL_FUNCTION vec2 newton_step(Way way, vec3 surface, bool is_convex) {
   float middle = 0.5f * (bend.x + bend.z);
   float spread = sqrt(0.25f * (bend.x - bend.z) * (bend.x - bend.z) + bend.y * bend.y);
   if (is_convex) {
-    float least = least_curvature * (abs(middle) + spread);
+    float least = min_curvature * (abs(middle) + spread);
     float shift = max(least - (middle - spread), 0.0f);
     bend += vec3(shift, 0.0f, shift);
   }
@@ -93,10 +93,10 @@ GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex)
 // When a search ends, and what its steps may do.
 struct SearchBounds {
   bool is_convex;     // believe that the way is shortest at the point
-  float most_growth;  // of the error, in a step
-  int most_steps;
-  int most_failures;  // steps that lead nowhere
-  float least_error;
+  float max_growth;  // of the error, in a step
+  int max_steps;
+  int max_failures;  // steps that lead nowhere
+  float min_error;
   bool stays_on_surface;  // not even for a while over what closes it
 };
 
@@ -118,9 +118,9 @@ GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, Sear
   int hard = is_convex ? band_count(map_window()) : 1;
 #endif
   float region = first_region;
-  int failures = 0, failures_left = bounds.most_failures;
+  int failures = 0, failures_left = bounds.max_failures;
   vec2 last = vec2(0.0f);
-  for (int i = 0; i < bounds.most_steps && failures_left > 0 && way.error >= bounds.least_error; ++i) {
+  for (int i = 0; i < bounds.max_steps && failures_left > 0 && way.error >= bounds.min_error; ++i) {
     vec2 whole = newton_step(way, surface, is_convex);
     float to_go = length(whole);
     if (way.error < near_error && to_go < near_step * breadth * length(way.plane.at.position - task.centre)) {
@@ -135,10 +135,10 @@ GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, Sear
     vec2 d = part * whole;
     Way next = way_at(task, window_step(map_window(), from_centre, d.x * way.plane.u + d.y * way.plane.v), way.plane.u);
     bool is_shorter = is_convex && way.length_m - next.length_m > -0.1f * dot(way.slope, d);
-    float growth = bounds.most_growth;
+    float growth = bounds.max_growth;
     bool is_nearer = false;
     for (int bands = band_count(map_window()); bands > 0; --bands) {
-      growth = mix(1.0f, bounds.most_growth, part);
+      growth = mix(1.0f, bounds.max_growth, part);
       is_nearer = way_to_go(way, next.slope, surface, is_convex) < (1.0f - 0.25f * part) * to_go;
     }
     bool is_better = next.error < growth * way.error ||
@@ -172,8 +172,8 @@ GLSL_FUNCTION SearchStart start_along(ReflectionTask task, vec3 direction) {
   return SearchStart(plane, surface_bend(plane, task.centre, window_breadth(map_window())));
 }
 
-GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float most_growth,
-                                               int most_steps, float least_error) {
-  SearchBounds bounds = SearchBounds(is_convex, most_growth, most_steps, most_steps, least_error, false);
+GLSL_FUNCTION ReflectionPoint search_by_newton(ReflectionTask task, vec3 start, bool is_convex, float max_growth,
+                                               int max_steps, float min_error) {
+  SearchBounds bounds = SearchBounds(is_convex, max_growth, max_steps, max_steps, min_error, false);
   return search_from(task, start_along(task, start), bounds).found.point;
 }

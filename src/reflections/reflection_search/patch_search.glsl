@@ -11,9 +11,9 @@ const int search_start_count = 16;
 const int starts_beside = 8;       // each of those
 const int all_start_count = 144;
 const int layer_count = search_start_count + 1;
-const int most_attempts = 16;
+const int max_attempts = 16;
 const int newton_steps = 20;
-const int most_failures = 4;
+const int max_failures = 4;
 const float found_error = 2e-9f;    // 0.005 degrees: a search ends
 const float found_angle = 0.0035f;  // radians, 0.2 degrees: beyond it a point is none
 const float second_turn = 16.0f;    // as if the way were so much longer, squared
@@ -24,12 +24,12 @@ struct PatchKind {
   bool is_whole_body;  // its centre sees surface all around
 };
 
-// May it be drawn? Else it has been told, and an environment map stands in.
+// True if the search converged on the surface. Otherwise the vertex is flagged and the environment map is shown instead.
 GLSL_FUNCTION bool is_found(PatchPoint p) { return p.point.angle < found_angle && p.kind == kind_surface; }
 
 // From near a point of about the same task, over rims where they are in its way.
-GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_convex, float most_growth) {
-  SearchBounds bounds = SearchBounds(is_convex, most_growth, newton_steps, newton_steps, found_error, false);
+GLSL_FUNCTION PatchPoint patch_point(ReflectionTask task, vec3 start, bool is_convex, float max_growth) {
+  SearchBounds bounds = SearchBounds(is_convex, max_growth, newton_steps, newton_steps, found_error, false);
   return search_from(task, start_along(task, start), bounds).found;
 }
 
@@ -59,9 +59,9 @@ GLSL_FUNCTION bool bends_upward(ReflectionTask task, SearchStart start) {
   return way.lift <= 0.0f || (bend.x > 0.0f && bend.x * bend.z > bend.y * bend.y);
 }
 
-// Hollows and saddles may show a vertex several times. A layer holds for each vertex the point that is found from one place, the
+// Concave surfaces and saddles may show a vertex several times. A layer holds for each vertex the point that is found from one place, the
 // same for all, so that the corners of a triangle end in the same image of it; the last layer begins below the vertex, where the
-// points of what nearly touches a hollow are. `layer` -1: any point will do.
+// points of objects that nearly touch a concave surface are. `layer` -1: any point will do.
 GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int layer) {
 #ifndef ALL_PLAIN
   if (layer >= 0) {
@@ -87,14 +87,14 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
   SearchEnd best;
   best.found.point.angle = 4.0f;
   bool is_done = false;
-  for (int k = 0; k <= most_attempts && !is_done; ++k) {
+  for (int k = 0; k <= max_attempts && !is_done; ++k) {
     SearchStart start = further_start(next);
-    bool had_turn = to_go[next] < 0.0f, is_last = k == most_attempts;
+    bool had_turn = to_go[next] < 0.0f, is_last = k == max_attempts;
     to_go[next] = had_turn || !kind.is_convex ? no_turn : -to_go[next];
     bool is_convex = kind.is_convex && (is_last || bends_upward(task, start) != had_turn);
     if (is_last) start = best.last;
     SearchEnd end =
-        search_from(task, start, SearchBounds(is_convex, free_growth, newton_steps, is_last ? newton_steps : most_failures,
+        search_from(task, start, SearchBounds(is_convex, free_growth, newton_steps, is_last ? newton_steps : max_failures,
                                               found_error, !is_last));
     is_done = is_found(end.found);
     if (is_done || end.found.point.angle < best.found.point.angle) best = end;

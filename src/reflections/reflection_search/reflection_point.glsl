@@ -9,7 +9,7 @@
 struct ReflectionTask {
   vec3 viewer;
   vec3 vertex;
-  vec3 centre;  // that directions start from: in the body of a convex reflector, in the hollow of a concave one
+  vec3 centre;  // that directions start from: inside the body of a convex reflector, in front of the surface of a concave one
 };
 
 // The last point of a search.

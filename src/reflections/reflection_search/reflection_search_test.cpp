@@ -15,7 +15,7 @@ using Search = ReflectionSearch<Ellipsoid>;
 using Task = Search::ReflectionTask;
 using Point = Search::ReflectionPoint;
 
-constexpr float least_error = 2e-9f;  // 0.005 degrees
+constexpr float min_error = 2e-9f;  // 0.005 degrees
 constexpr int newton_steps = 12;
 constexpr float flag_angle = 0.005f;  // radians, 0.3 degrees: a point beyond it is not drawn
 constexpr double degree = 0.017453292519943295;
@@ -35,11 +35,11 @@ Task chance_task(const Ellipsoid& ellipsoid, Random& random, float reach) {
 
 Point newton(Search& search, const Task& task) {
   return search.search_by_newton(task, search.first_direction(task), true, search.free_growth, newton_steps,
-                                 least_error);
+                                 min_error);
 }
 
 Point midpoint(Search& search, const Task& task, int iterations) {
-  return search.search_by_midpoint(task, search.first_direction(task), iterations, least_error);
+  return search.search_by_midpoint(task, search.first_direction(task), iterations, min_error);
 }
 
 double true_angle(const Ellipsoid& ellipsoid, const Point& point, const Task& task) {
@@ -182,7 +182,7 @@ TEST(NewtonSearch, AWarmStartIsNearlyThere) {
     const Point before = newton(search, task);
     task.viewer += 0.02f * chance_direction(random);  // a frame later
     task.vertex += 0.02f * chance_direction(random);
-    done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, least_error).angle <
+    done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, min_error).angle <
                     flag_angle
                 ? 1
                 : 0;
@@ -190,11 +190,11 @@ TEST(NewtonSearch, AWarmStartIsNearlyThere) {
   EXPECT_GT(done, 290) << "all but those at the rim of what the viewer sees";
 }
 
-// What the paper says of convex reflectors does not hold in a hollow one: a vertex has up to four reflection
-// points.
-TEST(NewtonSearch, InAHollowEveryPointFoundIsARootAndAllCanBeFound) {
-  const Ellipsoid hollow{vec3(1), true};
-  Search search{hollow};
+// What the paper says of convex reflectors does not hold for a concave one: a vertex has up to four
+// reflection points.
+TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootAndAllCanBeFound) {
+  const Ellipsoid concave{vec3(1), true};
+  Search search{concave};
   Random random(7);
   std::size_t most = 0;
   for (int i = 0; i < 100; ++i) {
@@ -205,7 +205,7 @@ TEST(NewtonSearch, InAHollowEveryPointFoundIsARootAndAllCanBeFound) {
     std::vector<bool> found(truth.size());
     for (int start = 0; start < 300; ++start) {
       const Point point =
-          search.search_by_newton(task, chance_direction(random), false, search.free_growth, 20, least_error);
+          search.search_by_newton(task, chance_direction(random), false, search.free_growth, 20, min_error);
       if (!(point.angle < 1e-3f)) continue;
       double nearest = 10.0;
       for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -227,7 +227,7 @@ TEST(MidpointSearch, ConvergesOnABallWhoseViewerAndVertexAreFar) {
   float last = 1.0f;
   for (const int iterations : {3, 5, 7, 9}) {
     const float angle =
-        search.search_by_midpoint(task, normalize(vec3(1, 0.3f, 3)), iterations, least_error).angle;
+        search.search_by_midpoint(task, normalize(vec3(1, 0.3f, 3)), iterations, min_error).angle;
     EXPECT_LT(angle, last);
     last = angle;
   }
@@ -319,9 +319,9 @@ TEST(Searches, DoNotDependOnSizeAndPlace) {
     const ReflectionSearch<Moved>::ReflectionTask far_task{at(task.viewer), at(task.vertex), moved.centre};
     const vec3 start = search.first_direction(task);
     const auto by_newton =
-        other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, least_error);
+        other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, min_error);
     EXPECT_LT(distance(by_newton.position, at(newton(search, task).position)), 0.02f * moved.scale);
-    const auto by_midpoint = other.search_by_midpoint(far_task, start, 1, least_error);
+    const auto by_midpoint = other.search_by_midpoint(far_task, start, 1, min_error);
     EXPECT_LT(distance(by_midpoint.position, at(midpoint(search, task, 1).position)), 0.001f * moved.scale);
   }
 }
@@ -334,7 +334,8 @@ TEST(Searches, StandWhatTouchesOrLiesWithin) {
     for (const vec3 vertex : {outside, on, 0.5f * on, centre, -outside}) {
       const Task task{viewer, vertex, centre};
       for (const Point& point : {newton(search, task), midpoint(search, task, 9)})
-        EXPECT_TRUE(!(point.angle <= flag_angle) || std::isfinite(length(point.position))) << "or it is told";
+        EXPECT_TRUE(!(point.angle <= flag_angle) || std::isfinite(length(point.position)))
+            << "or it is flagged";
     }
 }
 

@@ -1,12 +1,12 @@
 // Where does a first mirror show a vertex that a second one shows it? (Estalella and others 2005, section 8, "a straightforward
 // extension".) The whole way viewer - first - second - vertex is stationary in both points, each of which is a reflection point
-// between its neighbours. So both are searched for in turn, each from where it was, until they agree. A hollow may show the other
+// between its neighbours. So both are searched for in turn, each from where it was, until they agree. A concave mirror may show the other
 // several times: in layers, as patch_search.glsl has them, of either of the two. From the host:
 //   void turn_to(int mirror)            which of the two, 0 or 1, all other functions of the host speak of
 //   vec3 across(vec3 point, int to)     from the frame of the other mirror
 // Needs patch_search.glsl.
 
-const int most_turns = 12;
+const int max_turns = 12;
 const float agreed_error = 2e-8f;  // 0.016 degrees
 
 struct TwoBounces {
@@ -28,7 +28,7 @@ GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind firs
   turn_to(1);
   second.viewer = across(found.first.point.position, 1);
   found.second = search_patch(second, second_kind, second_layer);
-  for (int i = 0; i < most_turns; ++i) {
+  for (int i = 0; i < max_turns; ++i) {
     turn_to(0);
     first.vertex = across(found.second.point.position, 0);
     found.first = point_again(first, found.first.point.direction, first_kind, first_layer);

@@ -53,7 +53,7 @@ struct Pair {
 #define GLSL_FUNCTION inline
 };
 
-/// Where a ray meets an ellipsoid about the origin.
+/// Where a ray hits an ellipsoid about the origin.
 std::optional<glm::vec3> hit(const Ellipsoid& ellipsoid, glm::vec3 origin, glm::vec3 direction) {
   const glm::dvec3 o = glm::dvec3(origin) / glm::dvec3(ellipsoid.radii),
                    d = glm::dvec3(direction) / glm::dvec3(ellipsoid.radii);

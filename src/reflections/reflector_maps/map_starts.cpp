@@ -15,9 +15,9 @@ namespace {
 using Search = ReflectionSearch<ReflectorMap>;
 
 constexpr float pi = 3.14159265f;
-constexpr float middle_share = 0.3f;               // of a band's breadth, in which searches begin
-constexpr int bend_probes = 16, least_probes = 4;  // about a start
-constexpr float bend_reach = 0.6f;                 // of the way to the next start
+constexpr float middle_share = 0.3f;             // of a band's breadth, in which searches begin
+constexpr int bend_probes = 16, min_probes = 4;  // about a start
+constexpr float bend_reach = 0.6f;               // of the way to the next start
 
 /// Directions to triangles of a patch, where the map says what the surface is; of a rim, to those along its
 /// middle: beside its edges normals point away from most that it shows.
@@ -95,7 +95,7 @@ glm::vec3 bend_about(const ReflectorMap& map, const Search::TangentPlane& plane,
     sums += weight * (glm::outerProduct(across_u, across_u) + glm::outerProduct(across_v, across_v));
     turned += weight * (n.x * across_u + n.y * across_v);
   }
-  if (met < least_probes || map.window.extent == 0.0f)  // a rim is narrower than the way to the next start
+  if (met < min_probes || map.window.extent == 0.0f)  // a rim is narrower than the way to the next start
     return search.surface_bend(plane, map.window.centre, window_breadth(map.window));
   return {glm::inverse(sums) * turned};
 }

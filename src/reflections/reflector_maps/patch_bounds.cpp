@@ -37,7 +37,7 @@ bool PatchBounds::may_show(glm::vec3 viewer, glm::vec3 centre, float radius) con
 }
 
 // The image in a ball of radius r of what stands at distance d above it lies at d r / (2 d + r) below, and is
-// smaller by as much. A hollow may show anything as wide as itself.
+// smaller by as much. A concave patch may show anything as wide as itself.
 float PatchBounds::image_width(glm::vec3 viewer, glm::vec3 centre, float radius, bool is_convex) const {
   const auto distance_to_box = [&](glm::vec3 from) {
     return glm::distance(from, glm::clamp(from, box.min, box.max));

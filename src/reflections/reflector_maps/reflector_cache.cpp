@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr int version = 4;  // of how reflectors are made: raise it when old ones no longer serve
 constexpr std::string_view extension = ".reflector";
-constexpr std::size_t most_patches = 200;
+constexpr std::size_t max_patches = 200;
 
 std::uint64_t key_of(const ReflectorSource& source) {
   ContentHash hash;
@@ -23,11 +23,11 @@ std::uint64_t key_of(const ReflectorSource& source) {
   hash.add(source.mesh.indices);
   hash.add_text(source.name);
   hash.add(source.side);
-  hash.add(most_patches);
+  hash.add(max_patches);
   return hash.value();
 }
 
-/// Makes and keeps it, unless it is kept. `without` tells what comes of one that cannot be made.
+/// Makes and keeps it, unless it is kept. `without` describes the consequence if it cannot be made.
 Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::string_view without,
             BakedReflectors& baked) {
   if (!cache.has(source)) {
@@ -59,9 +59,9 @@ Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const
   if (!kept.empty() && fs::exists(kept, code)) {
     Result<Reflector> read = read_reflector_file(kept);
     if (read) return read;
-    fmt::print(stderr, "warning: {}; the reflector is made anew\n", read.errors().front().message);
+    fmt::print(stderr, "warning: {}; the reflector is rebuilt\n", read.errors().front().message);
   }
-  return make_reflector(source.mesh, source.name, source.side, most_patches);
+  return make_reflector(source.mesh, source.name, source.side, max_patches);
 }
 
 bool ReflectorCache::has(const ReflectorSource& source) const {

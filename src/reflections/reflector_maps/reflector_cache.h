@@ -14,7 +14,7 @@ class ReflectorCache {
   /// Nothing is kept of a scene that was made in memory.
   explicit ReflectorCache(const scene::Scene& scene);
 
-  /// As it was kept, or made now. Tells on standard error what cannot be used of what was kept. Errors as
+  /// As it was kept, or made now. Reports on standard error what cannot be used of what was kept. Errors as
   /// make_reflector's.
   Result<Reflector> reflector(const ReflectorSource& source) const;
   /// Is it kept, and fit?
@@ -38,7 +38,7 @@ struct BakedReflectors {
 
 /// Makes and keeps all reflectors that the scene's method looks up and that are not kept yet, with progress:
 /// curved mirrors where virtual objects are wanted, solid glass by every method. What cannot be a reflector
-/// is told on standard error.
+/// is reported on standard error.
 Result<BakedReflectors> bake_reflectors(const scene::Scene& scene);
 /// Removes what is kept of others.
 void forget_other_reflectors(const BakedReflectors& kept);

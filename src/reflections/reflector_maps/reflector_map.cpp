@@ -29,11 +29,11 @@ struct Sampler {
 constexpr float pi = 3.14159265f;
 constexpr float window_margin = 1.1f;   // about the patch
 constexpr float widest_window = 0.9f;   // beyond it, all directions
-constexpr float least_breadth = 1e-3f;  // radians, of a band
+constexpr float min_breadth = 1e-3f;    // radians, of a band
 constexpr float band_share = 0.25f;     // of a square window's solid angle, from which on a band is better
-constexpr double most_sides = 2.0;      // of the usual, of the largest maps
+constexpr double max_sides = 2.0;       // of the usual, of the largest maps
 constexpr double usual_share = 0.020;   // of a reflector's surface, that a map of the usual side holds
-constexpr double creased_share = 0.01;  // of a map: it is made again, twice as wide
+constexpr double creased_share = 0.01;  // of a map: it is rebuilt, twice as wide
 constexpr float crease_angle = 0.010f;  // radians, 0.6 degrees: what texels may be off between them
 constexpr float crease_depth = 0.005f;  // of the distance
 
@@ -99,7 +99,7 @@ MapWindow window_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, int 
   const glm::vec3 band = band_around(mesh, patch, window.axes);
   const float of_square = 4.0f * pi * extent * extent,
               of_band = 2.0f * pi * (std::cos(band.y) - std::cos(band.y + band.z));
-  if (band.z > least_breadth && of_band < band_share * of_square)
+  if (band.z > min_breadth && of_band < band_share * of_square)
     window.extent = 0.0f, window.band = band;
   else
     window.extent = extent;
@@ -231,7 +231,7 @@ bool is_at_an_end(const MapWindow& window, std::size_t x, std::size_t y) {
   return window.extent < 1.0f && (y == 0 || y == last || (ends_across && (x == 0 || x == last)));
 }
 
-/// Turns distances into what the map stores; `is_open` tells texels that met no surface.
+/// Turns distances into what the map stores; `is_open` marks texels whose ray hit no surface.
 void encode(ReflectorMap& map, const PatchRays& rays, const std::vector<char>& is_open) {
   const int side = map.texels.width;
   for (std::size_t i = 3; i < map.texels.pixels.size(); i += 4)
@@ -254,7 +254,7 @@ int side_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, double surfa
   double area = 0.0;
   for (const std::uint32_t t : patch.triangles) area += area_of(mesh, t);
   const double fitting = side * std::sqrt(area / (usual_share * surface));
-  return int(std::clamp(fitting, 0.25 * side, most_sides * side));
+  return int(std::clamp(fitting, 0.25 * side, max_sides * side));
 }
 
 bool has_many_creases(const ReflectorMap& map) {
@@ -267,7 +267,7 @@ bool has_many_creases(const ReflectorMap& map) {
 /// Of a body in one piece, which most often is round: `side` texels wide if that will do.
 ReflectorMap map_of_body(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side) {
   ReflectorMap map = reflector_map(mesh, patch, side);
-  return has_many_creases(map) ? reflector_map(mesh, patch, int(most_sides * side)) : map;
+  return has_many_creases(map) ? reflector_map(mesh, patch, int(max_sides * side)) : map;
 }
 
 std::vector<std::string> remarks_on(const ReflectorMesh& mesh, const std::string& name) {
@@ -318,14 +318,14 @@ ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patc
 }
 
 Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int side,
-                                 std::size_t most_patches) {
+                                 std::size_t max_patches) {
   Result<ReflectorMesh> ordered = reflector_mesh(mesh, name);
   if (!ordered) return ordered.errors();
   Reflector reflector;
   reflector.mesh = *std::move(ordered);
   reflector.remarks = remarks_on(reflector.mesh, name);
   reflector.patches = reflector_patches(reflector.mesh);
-  reflector.maps.resize(std::min(reflector.patches.size(), most_patches));
+  reflector.maps.resize(std::min(reflector.patches.size(), max_patches));
   double surface = 0.0;
   for (std::size_t t = 0; t < reflector.mesh.neighbours.size(); ++t) surface += area_of(reflector.mesh, t);
   parallel_for(reflector.maps.size(), [&](std::size_t i) {

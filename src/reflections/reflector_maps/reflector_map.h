@@ -47,9 +47,9 @@ struct Reflector {
   std::vector<std::string> remarks;  ///< what was wrong with the mesh, and what was done about it
 };
 
-/// Errors name the mesh (see reflector_mesh); a reflector of more than `most_patches` patches keeps its
+/// Errors name the mesh (see reflector_mesh); a reflector of more than `max_patches` patches keeps its
 /// largest, and says what share of the surface has none: there an environment map stands in.
 Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int side,
-                                 std::size_t most_patches = 200);
+                                 std::size_t max_patches = 200);
 
 }  // namespace parvis::reflector_maps

@@ -276,7 +276,7 @@ Mesh rim(float thickness) {
   return turned(profile);
 }
 
-/// A cone with waves down its side, convex and hollow by turns.
+/// A cone with waves down its side, convex and concave by turns.
 Mesh wavy_cone() {
   constexpr float wave = 0.01f, frequency = 30.0f;
   std::vector<ProfilePoint> profile;

@@ -15,7 +15,7 @@ constexpr float saddle_curvature = 0.1f;  // product of the principal curvatures
 constexpr double saddle_share = 0.2;      // of a patch's area, from which on it may show a vertex twice
 constexpr double small_patch = 0.01;      // of the surface
 constexpr int absorbing_rounds = 7;       // each of patches twice as large
-constexpr float least_slope = 0.15f;      // cosine at which a centre must see each triangle of its patch
+constexpr float min_slope = 0.15f;        // cosine at which a centre must see each triangle of its patch
 constexpr int centre_rounds = 200;
 constexpr float same_layer = 1e-3f;  // of the distance: what lies before that much hides what is behind
 constexpr double overlap = 0.3;      // of a patch's area: how far its map goes on over its neighbours
@@ -171,11 +171,11 @@ std::optional<glm::vec3> centre_of(const Facets& facets, const std::vector<std::
       const glm::vec3 from_centre = facets.middle[t] - centre;
       const float slope =
           side * glm::dot(facets.normal[t], from_centre) / std::max(glm::length(from_centre), 1e-12f);
-      if (slope < 2.0f * least_slope)
-        push -= side * facets.area[t] * (2.0f * least_slope - slope) * facets.normal[t];
+      if (slope < 2.0f * min_slope)
+        push -= side * facets.area[t] * (2.0f * min_slope - slope) * facets.normal[t];
       if (slope < worst) worst = slope;
     }
-    if (worst > least_slope) return centre;
+    if (worst > min_slope) return centre;
     if (glm::length(push) < 1e-12f * area) return std::nullopt;
     centre += step * glm::normalize(push);
   }
@@ -235,7 +235,7 @@ std::vector<std::uint32_t> surroundings(const ReflectorMesh& mesh, const Facets&
         const glm::vec3 from_centre = facets.middle[other] - patch.centre;
         const float slope =
             (patch.is_convex ? 1.0f : -1.0f) * glm::dot(facets.normal[other], glm::normalize(from_centre));
-        if (slope < least_slope || rays.along(patch.centre, from_centre)) continue;
+        if (slope < min_slope || rays.along(patch.centre, from_centre)) continue;
         next.push_back(other);
         area += double(facets.area[other]);
       }

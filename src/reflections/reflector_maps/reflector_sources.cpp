@@ -9,10 +9,10 @@
 namespace parvis::reflector_maps {
 namespace {
 
-constexpr int texels_a_face_texel =
+constexpr int texels_per_face_texel =
     4;                           // a map's side, for the resolution that scripts give for a cube map's face
 constexpr int glass_side = 512;  // texels of a body's map: smooth ones to a hundredth of a degree
-constexpr int least_glass_side = 128;  // of one among many: to a tenth
+constexpr int min_glass_side = 128;  // of one among many: to a tenth
 
 std::string name_of(const scene::Object& object) {
   if (!object.name.empty()) return object.name;
@@ -21,7 +21,7 @@ std::string name_of(const scene::Object& object) {
 
 bool is_glass(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
 
-/// Of a sheet with as much glass as a body has, as large as half its surface: hollow bodies' walls.
+/// Of a sheet with as much glass as the body, as large as half its surface: the wall of a shell.
 float thickness_of(const scene::GlassPiece& body) {
   double area = 0.0;
   for (std::size_t i = 0; i < body.mesh.indices.size(); i += 3) {
@@ -35,7 +35,7 @@ float thickness_of(const scene::GlassPiece& body) {
 
 /// As many texels in all as one body would have, and the least for each.
 int side_of(float size, float all_sizes) {
-  return std::max(least_glass_side, int(std::lround(float(glass_side) * size / all_sizes)));
+  return std::max(min_glass_side, int(std::lround(float(glass_side) * size / all_sizes)));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ ReflectorSource mirror_source(const scene::Scene& scene, const scene::Object& ob
   for (const scene::Part& part : model.parts)
     if (model.materials[std::size_t(part.material)].is_mirror_like)
       append(mesh, part.mesh, pose[std::size_t(part.node)]);
-  return {name_of(object), std::move(mesh), texels_a_face_texel * methods::settings(scene).resolution};
+  return {name_of(object), std::move(mesh), texels_per_face_texel * methods::settings(scene).resolution};
 }
 
 bool has_glass(const scene::Model& model) {

@@ -7,7 +7,7 @@ namespace {
 
 gl::Texture multisampled(GLenum format, int width, int height) {
   gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D_MULTISAMPLE));
-  glTextureStorage2DMultisample(texture.name(), render::samples_a_pixel, format, width, height, GL_TRUE);
+  glTextureStorage2DMultisample(texture.name(), render::samples_per_pixel, format, width, height, GL_TRUE);
   return texture;
 }
 

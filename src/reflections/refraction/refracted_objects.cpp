@@ -14,8 +14,8 @@ namespace {
 constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
 constexpr float ways_apart =
     0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
-constexpr int pane_number = 255;         // of the stencil
-constexpr std::size_t most_shown = 254;  // other numbers
+constexpr int pane_number = 255;        // of the stencil
+constexpr std::size_t max_shown = 254;  // other numbers
 
 /// A reflector's mesh as one patch, for drawing alone.
 Reflector surface_of(const Reflector& reflector) {
@@ -121,7 +121,7 @@ void RefractedObjects::find_bodies(const render::Renderer& renderer, int object,
   for (const Glass& glass : bodies) {
     const GpuReflector::Patch& patch = glass.gpu.patches().front();
     if (!frustum.may_see(patch.bounds.box)) continue;
-    if (!glass.map || !is_even || shown_.size() == most_shown) {
+    if (!glass.map || !is_even || shown_.size() == max_shown) {
       panes_.push_back({object, -1, &glass.gpu, &patch, world_from_reflector, viewer});
       glass_of_panes_.push_back(&glass);
       continue;

@@ -25,7 +25,7 @@ using namespace reflector_maps;
 
 class RefractedObjects final : public methods::Overlay, public render::VirtualVertices {
  public:
-  /// Makes the maps of all bodies of glass; tells on standard error which are none that light can be followed
+  /// Makes the maps of all bodies of glass; reports on standard error those that light cannot be followed
   /// through (open, not convex): they are drawn as panes. `reflections` is what all surfaces mirror by.
   static Result<std::unique_ptr<RefractedObjects>> create(const scene::Scene& scene,
                                                           const render::Renderer& renderer,

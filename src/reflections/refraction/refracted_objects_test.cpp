@@ -38,7 +38,7 @@ class RefractedObjectsTest : public gl::ContextTest {};
 
 const glm::vec3 eye{2.4f, -5.2f, 2.6f}, target{0, 0, 1};
 
-// FLIP's floor is what four samples a pixel make of edges, of which a ball lens shows many.
+// FLIP's floor is what four samples per pixel make of edges, of which a ball lens shows many.
 TEST_F(RefractedObjectsTest, ABallShowsItsSurroundingsUpsideDown) {
   const scene::Scene scene =
       among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), glass(), placed({0, 0, 1.1f}));
@@ -78,7 +78,7 @@ TEST_F(RefractedObjectsTest, WhatIsBakedIsLookedUp) {
   const auto is_made_anew = [&] {
     testing::internal::CaptureStderr();
     draw(scene, eye, target);
-    return testing::internal::GetCapturedStderr().find("is made anew") != std::string::npos;
+    return testing::internal::GetCapturedStderr().find("is rebuilt") != std::string::npos;
   };
   EXPECT_FALSE(is_made_anew());
   ASSERT_TRUE(write_file(*baked->files.begin(), "no reflector"));
@@ -130,11 +130,11 @@ TEST_F(RefractedObjectsTest, OpenHollowAndSqueezedBodiesArePanes) {
     EXPECT_LT(unlike_nothing(pane), 0.4 * unlike_nothing(sky));
   };
   const Mesh ball = scene::sphere(glm::vec3(0.0f), 1.0f, 24);
-  Mesh open = ball, hollow = scene::sphere(glm::vec3(0.0f), 0.6f, 24);
+  Mesh open = ball, shell = scene::sphere(glm::vec3(0.0f), 0.6f, 24);
   open.indices.resize(open.indices.size() / 2);
-  append(hollow, scene::sphere(glm::vec3(0.0f), 0.5f, 24));
+  append(shell, scene::sphere(glm::vec3(0.0f), 0.5f, 24));
   expect_pane(open, above);
-  expect_pane(hollow, above);
+  expect_pane(shell, above);
   expect_pane(ball, glm::scale(above, {1, 1, 0.5f}));
 }
 
@@ -149,14 +149,14 @@ TEST_F(RefractedObjectsTest, PanesAbsorb) {
   EXPECT_LT(2.0 * tinted.flip(), reference::compare(clear.ours, tinted.traced, tinted.mirrors)->flip);
 }
 
-/// On its way through a hollow body light passes two walls, hence as much is left as of two panes.
-TEST_F(RefractedObjectsTest, HollowBodiesAbsorbAsTheirWallsDo) {
-  Mesh hollow = scene::sphere(glm::vec3(0.0f), 0.9f, 32);
-  append(hollow, scene::sphere(glm::vec3(0.0f), 0.88f, 32));
+/// On its way through a shell light passes two walls, hence as much is left as of two panes.
+TEST_F(RefractedObjectsTest, ShellsAbsorbAsTheirWallsDo) {
+  Mesh shell = scene::sphere(glm::vec3(0.0f), 0.9f, 32);
+  append(shell, scene::sphere(glm::vec3(0.0f), 0.88f, 32));
   scene::Material clear = glass(1.001f), green = clear;
   green.absorption_per_m = {20.0f, 2.0f, 15.0f};
   const auto middle = [&](const scene::Material& material) {
-    const Image8 picture = draw(among_boxes(hollow, material, placed({0, 0, 1})), eye, target).ours;
+    const Image8 picture = draw(among_boxes(shell, material, placed({0, 0, 1})), eye, target).ours;
     const std::uint8_t* pixel = picture.at(width / 2, height / 2);
     return glm::vec3(pixel[0], pixel[1], pixel[2]);
   };

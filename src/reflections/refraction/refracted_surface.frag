@@ -10,7 +10,7 @@ in float is_lost;         // 0 where the glass shows all corners
 in float is_elsewhere;    // 1 where another layer shows all corners: what is clear would be blended twice
 in vec3 image_in_glass;
 
-const float least_agreement = 0.985f;  // cosine of 10 degrees
+const float min_agreement = 0.985f;  // cosine of 10 degrees
 
 // Corners that ended in different images tell nothing of what lies between them: near a focus the glass enlarges so much that only the
 // ray itself can tell. The pixel's own ray must leave the glass toward about this point of the surface.
@@ -22,5 +22,5 @@ bool is_mirrored_here() {
   vec3 inside = refracted(seen, entry.normal, 1.0f / glass_ior);
   SurfacePoint exit = far_side(map_centre, map_size.z, entry.position, inside);
   vec3 way = refracted(inside, -exit.normal, glass_ior);
-  return dot(way, normalize(point - exit.position)) > least_agreement;
+  return dot(way, normalize(point - exit.position)) > min_agreement;
 }

@@ -12,7 +12,7 @@ mat4 refraction_start(int i) { return refraction_rays[i]; }
 #include "reflections/refraction/refraction_search.glsl"
 
 // A vertex that the glass does not show, or not in this layer, is the corner of triangles that it shows in part: it stays where it would
-// be shown most nearly, and refracted_surface.frag tells pixel by pixel what is seen.
+// be shown most nearly, and refracted_surface.frag decides pixel by pixel what is seen.
 const float nearly_refracted = 0.3f;
 
 out vec3 seen_from;

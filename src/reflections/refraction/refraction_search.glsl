@@ -161,8 +161,8 @@ GLSL_FUNCTION RefractedPoint search_refraction(RefractionTask task, vec3 to_entr
 }
 
 // How far a ray that was traced misses the vertex, squared: about an angle, and for what is near a share of the body. No more than
-// most_miss lies between two rays, so what all of them miss by more is not shown: that is most of a scene.
-const float most_miss = 0.36f;
+// max_miss lies between two rays, so what all of them miss by more is not shown: that is most of a scene.
+const float max_miss = 0.36f;
 
 GLSL_FUNCTION float miss_of_start(RefractionTask task, mat4 start, int foci) {
   vec3 exit = vec3(start[1].x, start[1].y, start[1].z);
@@ -170,7 +170,7 @@ GLSL_FUNCTION float miss_of_start(RefractionTask task, mat4 start, int foci) {
   float far = length(to_vertex);
   vec3 off = (to_vertex - far * vec3(start[2].x, start[2].y, start[2].z)) / (far + 0.5f * length(exit - task.centre));
   int passed = (far > start[0].w ? 1 : 0) + (far > start[1].w ? 1 : 0);
-  return passed == foci ? dot(off, off) : 2.0f * most_miss;
+  return passed == foci ? dot(off, off) : 2.0f * max_miss;
 }
 
 GLSL_FUNCTION bool is_refracted(RefractedPoint p, int foci) { return p.error < refraction_lost && p.foci == foci; }
@@ -182,7 +182,7 @@ GLSL_FUNCTION RefractedPoint refracted_vertex(RefractionTask task, int foci) {
   float tried = -1.0f;  // the misses of starts that were: those that are left miss by more
   for (int k = 0; k < refraction_attempts; ++k) {
     int next = -1;
-    float least = most_miss;
+    float least = max_miss;
     for (int i = 0; i < refraction_start_count; ++i) {
       float miss = miss_of_start(task, refraction_start(i), foci);
       if (miss > tried && miss < least) {

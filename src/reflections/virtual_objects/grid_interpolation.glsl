@@ -17,7 +17,7 @@ struct InterpolatedPoint {
 
 // Of a vertex of a mesh, in the mesh's frame; `first_row` holds the grid's first corners.
 InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
-  const float least_agreement = 0.95f;
+  const float min_agreement = 0.95f;
   vec4 origin = grid_texel(grid);
   vec3 place = (vertex - origin.xyz) * grid_texel(grid + 1).xyz;
   ivec3 count = ivec3(grid_texel(grid + 2).xyz);
@@ -36,6 +36,6 @@ InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     seen_from += share * point.seen_from;
     shown_by += share * point.shown_by;
   }
-  bool is_sure = image.w == sure && dot(shown_by, shown_by) >= least_agreement;
+  bool is_sure = image.w == sure && dot(shown_by, shown_by) >= min_agreement;
   return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_sure ? sure : lost), image.w >= 8.0f * lost);
 }

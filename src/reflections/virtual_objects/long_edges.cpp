@@ -13,9 +13,9 @@ namespace {
 constexpr float longest_angle = 0.18f;  // radians under which a reflector may see an edge
 constexpr float longest_angle_in_glass = 0.05f;
 constexpr float focal_reach = 2.5f;  // radii: what is farther, glass makes smaller
-constexpr float least_reach = 1.1f;  // radii: what is nearer is treated as if it stood there
-constexpr int most_rounds = 16;
-constexpr std::size_t most_triangles_of_a_part = 200000;
+constexpr float min_reach = 1.1f;    // radii: what is nearer is treated as if it stood there
+constexpr int max_rounds = 16;
+constexpr std::size_t max_triangles_of_a_part = 200000;
 
 float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) {
   const glm::vec3 along = b - a;
@@ -28,7 +28,7 @@ float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) {
 bool is_long(glm::vec3 a, glm::vec3 b, std::span<const ReflectorBall> balls) {
   if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);  // rounded alike from both sides
   return std::any_of(balls.begin(), balls.end(), [&](const ReflectorBall& ball) {
-    const float reach = std::max(distance_to_segment(ball.centre, a, b), least_reach * ball.radius);
+    const float reach = std::max(distance_to_segment(ball.centre, a, b), min_reach * ball.radius);
     const bool is_enlarged = ball.is_glass && reach < focal_reach * ball.radius;
     return glm::distance(a, b) > (is_enlarged ? longest_angle_in_glass : longest_angle) * reach;
   });
@@ -127,11 +127,11 @@ std::vector<ReflectorBall> reflector_balls(const scene::Scene& scene) {
 }  // namespace
 
 Mesh with_short_edges(const Mesh& mesh, const glm::mat4& world_from_mesh,
-                      std::span<const ReflectorBall> balls, std::size_t most_triangles) {
+                      std::span<const ReflectorBall> balls, std::size_t max_triangles) {
   Mesh divided = mesh;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     Mesh next = Halving(divided, world_from_mesh, balls).halved();
-    if (next.indices.size() == divided.indices.size() || next.indices.size() > 3 * most_triangles) break;
+    if (next.indices.size() == divided.indices.size() || next.indices.size() > 3 * max_triangles) break;
     divided = std::move(next);
   }
   return divided;
@@ -149,7 +149,7 @@ void divide_long_edges(scene::Scene& scene) {
     for (scene::Part& part : model->parts)
       if (!part.deformation)
         part.mesh = with_short_edges(part.mesh, object.world_from_model * pose[std::size_t(part.node)], balls,
-                                     most_triangles_of_a_part);
+                                     max_triangles_of_a_part);
   }
   for (scene::Object& object : scene.objects)
     if (const auto found = divided.find(object.model.get());

@@ -17,9 +17,9 @@ struct ReflectorBall {
 
 /// The mesh with long edges halved, again and again: long beside their distance from a ball, so that their
 /// image is off by a pixel (720 rows, a viewer at 3 radii). Both sides of an edge are divided alike, so no
-/// cracks open. Ends early, still without cracks, before there are more than `most_triangles`.
+/// cracks open. Ends early, still without cracks, before there are more than `max_triangles`.
 Mesh with_short_edges(const Mesh& mesh, const glm::mat4& world_from_mesh,
-                      std::span<const ReflectorBall> balls, std::size_t most_triangles);
+                      std::span<const ReflectorBall> balls, std::size_t max_triangles);
 
 /// Divides what a scene's reflectors show; models that several objects share are divided for all of
 /// them. A reflector that moves stands for where it begins.

@@ -7,8 +7,8 @@ const float doubtful = 1.0f;  // near where a convex patch would show the vertex
 const float lost = 1e4f;      // the mirror has no place that shows it
 
 // Corners that places show which face too far apart, by more than 25 degrees, tell nothing of what lies between them.
-const float least_agreement = 0.95f;
+const float min_agreement = 0.95f;
 
 bool is_shown_whole(float doubt, float height, vec3 shown_by) {
-  return doubt == sure && height >= 0.0f && dot(shown_by, shown_by) >= least_agreement;
+  return doubt == sure && height >= 0.0f && dot(shown_by, shown_by) >= min_agreement;
 }

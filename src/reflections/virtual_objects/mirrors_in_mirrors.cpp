@@ -9,7 +9,7 @@ namespace {
 
 // Radians, radius over distance: a mirror that is worth showing, and one of which, or in which, many layers
 // are drawn.
-constexpr float least_angle = 0.05f, least_hollow_angle = 0.3f;
+constexpr float min_angle = 0.05f, min_concave_angle = 0.3f;
 constexpr GLuint first_bits = 0x0f, second_bits = 0xf0;
 
 Bounds bounds_in_world(const ShownPatch& patch) {
@@ -53,9 +53,9 @@ void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const Sho
     const Bounds bounds = bounds_in_world(patch);
     const float distance = std::max(glm::distance(bounds.centre(), before.centre()) - before.radius(), 1e-3f);
     const float angle = bounds.radius() / distance;
-    const bool is_hollow = !patch.patch->shows_once, in_hollow = !first.patch->shows_once;
-    if (patch.object != first.object && !(is_hollow && in_hollow) &&
-        angle > (is_hollow || in_hollow ? least_hollow_angle : least_angle))
+    const bool is_concave = !patch.patch->shows_once, in_concave = !first.patch->shows_once;
+    if (patch.object != first.object && !(is_concave && in_concave) &&
+        angle > (is_concave || in_concave ? min_concave_angle : min_angle))
       candidates_.emplace_back(angle, &patch);
   }
   std::ranges::sort(candidates_, [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -23,7 +23,7 @@ class MirrorsInMirrors final : public render::VirtualVertices {
                                                           gl::Defines map_defines);
 
   /// `first`: what the main view shows, ordered by size; `second`: all patches there are. Left out are all
-  /// beyond the first fifteen of each, and a hollow in a hollow.
+  /// beyond the first fifteen of each, and a concave mirror in a concave one.
   void draw(render::Renderer& renderer, const gl::Program& patch_pixels, std::span<const ShownPatch> first,
             std::span<const ShownPatch> second);
   /// As large as the main view; coverage in alpha.

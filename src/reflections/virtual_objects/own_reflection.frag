@@ -1,5 +1,5 @@
-// A hollow that mirrors itself: the mirror ray of each pixel walks through the hollow's own map, and where it meets the surface
-// that mirrors the sky, as all that is mirrored does.
+// A concave surface that mirrors itself: the mirror ray of each pixel walks through the surface's own map, and where it hits the
+// surface, that mirrors the sky, as all that is mirrored does.
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 
@@ -13,7 +13,7 @@ const int walk_steps = 48;
 const int halvings = 6;
 const float mirror_roughness = 0.05f;
 
-// How far a point lies beyond what the centre sees that way; below 0: within the hollow.
+// How far a point lies beyond what the centre sees that way; below 0: in front of the surface.
 float beyond(vec3 point) {
   vec3 from_centre = point - map_centre;
   return length(from_centre) - map_sample(map_window(), normalize(from_centre)).distance;

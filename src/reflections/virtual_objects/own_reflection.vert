@@ -1,4 +1,4 @@
-// The surface of a hollow, for own_reflection.frag.
+// A concave surface, for own_reflection.frag.
 layout(location = 0) in vec3 reflector_position;
 
 uniform mat4 clip_from_reflector;

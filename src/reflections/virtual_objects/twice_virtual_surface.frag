@@ -10,7 +10,7 @@ in vec3 seen_first_from;
 in vec3 shown_first_by;
 in float height_of_second;
 
-// Of a hollow, whose layers hold the corners of a triangle in different images: the pixel must lie in one.
+// For a concave mirror, whose layers hold the corners of a triangle in different images: the pixel must lie in one.
 bool mirrors(int by, vec3 from, vec3 at_mirror, vec3 to) {
   mirror = by;
   if (patch_layer < 0) return true;

@@ -11,12 +11,12 @@ namespace parvis::virtual_objects {
 using namespace reflector_maps;
 namespace {
 
-constexpr std::size_t least_vertices = 200;  // of a mesh: its coarsest grid has the corners of a cell
+constexpr std::size_t min_vertices = 200;  // of a mesh: its coarsest grid has the corners of a cell
 constexpr int table_width = 1024, results_width = 64;  // as in grid_table.glsl
-constexpr int least_result_rows = 256, most_result_rows = 16384;
-constexpr std::size_t most_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
-constexpr float stray_px = 0.3f;                                        // what of interpolation nobody sees
-constexpr int result_layers = 3;                                        // vertex_search.frag's
+constexpr int min_result_rows = 256, max_result_rows = 16384;
+constexpr std::size_t max_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
+constexpr float stray_px = 0.3f;                                       // what of interpolation nobody sees
+constexpr int result_layers = 3;                                       // vertex_search.frag's
 
 int rows_of(std::size_t corners) { return int((corners + results_width - 1) / results_width); }
 
@@ -70,7 +70,7 @@ std::vector<const Mesh*> meshes_of_parts(const scene::Scene& scene, const render
     for (const scene::Part& part : object.model->parts) {
       const Mesh*& mesh = meshes[std::size_t(gpu.items()[item++].part)];
       const bool is_rigid = object.bent_meshes.empty() || !part.deformation;
-      if (is_rigid && part.mesh.positions.size() >= least_vertices) mesh = &part.mesh;
+      if (is_rigid && part.mesh.positions.size() >= min_vertices) mesh = &part.mesh;
     }
   return meshes;
 }
@@ -98,7 +98,7 @@ Result<VertexSearch> VertexSearch::create(const scene::Scene& scene, const rende
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     if (!meshes[p]) continue;
     const std::vector<glm::vec3>& vertices = meshes[p]->positions;
-    if (table.size() + texels_of(grids[p]) + 3 + vertices.size() > most_in_table) continue;
+    if (table.size() + texels_of(grids[p]) + 3 + vertices.size() > max_in_table) continue;
     of_part[p].vertex_count = vertices.size();
     of_part[p].first_vertex = gpu.parts()[p].base_vertex;
     of_part[p].vertices_in_table = append(vertices, table);
@@ -115,12 +115,12 @@ VertexSearch::VertexSearch(gl::Program program, bool follows_area, float grid_sh
     : program_(std::move(program)),
       follows_area_(follows_area),
       is_asked_for_(grid_share < 1.0f),
-      most_stray_px_(follows_area_ ? stray_px : std::numeric_limits<float>::max()),
+      max_stray_px_(follows_area_ ? stray_px : std::numeric_limits<float>::max()),
       of_part_(std::move(of_part)),
       has_any_(table.size() > 1),
       vertex_array_(gl::VertexArray::create()) {
   upload_table(table);
-  make_results(least_result_rows);
+  make_results(min_result_rows);
   const GLuint array = vertex_array_.name();
   for (GLuint row = 0; row < 3; ++row) {
     glEnableVertexArrayAttrib(array, row);
@@ -167,7 +167,7 @@ glm::ivec2 VertexSearch::add(const render::Item& item, float area_px) {
   if (!level && is_asked_for_ && !grids.corner_counts.empty()) level = 0;
   const int in_table = level ? grids.in_table[*level] : grids.vertices_in_table;
   const int rows = rows_of(level ? grids.corner_counts[*level] : grids.vertex_count);
-  if (in_table == 0 || rows_taken_ + rows > most_result_rows) return {};
+  if (in_table == 0 || rows_taken_ + rows > max_result_rows) return {};
   instances_.push_back(
       {{item.record.rows[0], item.record.rows[1], item.record.rows[2]}, {in_table, rows_taken_}});
   rows_taken_ += rows;
@@ -176,7 +176,7 @@ glm::ivec2 VertexSearch::add(const render::Item& item, float area_px) {
 
 void VertexSearch::search(const std::function<void(const gl::Program&)>& bind_patch) {
   if (instances_.empty()) return;
-  if (rows_taken_ > rows_) make_results(std::min(2 * rows_taken_, most_result_rows));
+  if (rows_taken_ > rows_) make_results(std::min(2 * rows_taken_, max_result_rows));
   const GLintptr first = instance_store_.append(std::span<const Instance>(instances_), 16);
   glVertexArrayVertexBuffer(vertex_array_.name(), 0, instance_store_.name(), first, sizeof(Instance));
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
@@ -196,7 +196,7 @@ void VertexSearch::bind(const gl::Program& program) const {
   glBindTextureUnit(grid_results_unit, results_.name());
   program.set("grid_table", int(grid_table_unit));
   program.set("grid_results", int(grid_results_unit));
-  program.set("most_stray_px", most_stray_px_);
+  program.set("max_stray_px", max_stray_px_);
 }
 
 }  // namespace parvis::virtual_objects

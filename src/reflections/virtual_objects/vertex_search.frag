@@ -1,5 +1,5 @@
 // Where a patch shows vertices, and corners of virtual grids (Estalella and others 2005, section 5): a texel each. In the reflector's
-// frame; w of the image tells how doubtful the point is.
+// frame; w of the image is how doubtful the point is.
 #include "reflections/virtual_objects/virtual_point.glsl"
 #include "reflections/virtual_objects/grid_table.glsl"
 

@@ -57,7 +57,7 @@ class VertexSearch {
   gl::Program program_;
   bool follows_area_;               ///< coarser where the image is small
   bool is_asked_for_;               ///< large images, too
-  float most_stray_px_;             ///< beyond it, a vertex is searched for
+  float max_stray_px_;              ///< beyond it, a vertex is searched for
   std::vector<MeshGrids> of_part_;  ///< of the GPU scene's parts
   bool has_any_;
   gl::Texture table_, results_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int halvings = 16;                              // of the search for the cells' size
 constexpr float finest = 1e-3f;                           // cells of the box's longest edge
-constexpr std::size_t box_a_vertex = 4, least_box = 512;  // corners of the whole box, used or not
+constexpr std::size_t box_per_vertex = 4, min_box = 512;  // corners of the whole box, used or not
 constexpr float pixels_a_corner = 64.0f;
 
 /// Cells of about `edge`, stretched so that a whole number fills the box; a flat box has one layer of them.
@@ -53,7 +53,7 @@ GridLayout choose_layout(std::span<const glm::vec3> vertices, float share) {
   const auto wanted = std::size_t(share * float(vertices.size()));
   std::vector<std::uint32_t> numbers;
   const auto is_coarse_enough = [&](const GridLayout& layout) {
-    if (layout.box_size() > std::max(box_a_vertex * vertices.size(), least_box)) return false;
+    if (layout.box_size() > std::max(box_per_vertex * vertices.size(), min_box)) return false;
     std::size_t corners = 0;
     for_each_corner(layout, vertices, numbers, [&](glm::ivec3) { ++corners; });
     return corners <= wanted;

@@ -11,9 +11,9 @@
 namespace parvis::virtual_objects {
 namespace {
 
-constexpr std::size_t most_shown = 255;  // numbers of the stencil
-constexpr float least_size_px = 120.0f;  // on the screen, of a mirror in which what is near is worth it
-constexpr float large_radii = 3.0f;      // of a mirror: what is larger is in its surroundings
+constexpr std::size_t max_shown = 255;  // numbers of the stencil
+constexpr float min_size_px = 120.0f;   // on the screen, of a mirror in which what is near is worth it
+constexpr float large_radii = 3.0f;     // of a mirror: what is larger is in its surroundings
 
 std::unique_ptr<GpuReflector> reflector_of(const ReflectorCache& cache, const scene::Scene& scene,
                                            const scene::Object& object) {
@@ -156,14 +156,14 @@ void VirtualObjects::find_patches(const render::Renderer& renderer,
     const auto& gpu = reflectors_.at(model_of_object_[std::size_t(reflector.object)]);
     const glm::mat4& world_from_reflector = renderer.gpu().world_from_model(reflector.object);
     if (!gpu || !is_scaled_evenly(world_from_reflector)) continue;
-    const bool is_small = uses_level_of_detail_ && reflector.size_px < least_size_px;
+    const bool is_small = uses_level_of_detail_ && reflector.size_px < min_size_px;
     if (!shows_all_ && is_small) continue;
     const int near = shows_all_ ? -1 : near_.find(renderer, reflector.object, within_m_);
     if (!shows_all_ && near < 0) continue;
     const glm::vec3 viewer = in_reflector(world_from_reflector, renderer.main_view().position_in_world);
     const render::Frustum frustum(renderer.main_view().clip_from_world * world_from_reflector);
     for (const GpuReflector::Patch& patch : gpu->patches())
-      if (shown_.size() < most_shown && patch.bounds.may_be_seen(viewer) && frustum.may_see(patch.bounds.box))
+      if (shown_.size() < max_shown && patch.bounds.may_be_seen(viewer) && frustum.may_see(patch.bounds.box))
         shown_.push_back({reflector.object, near, gpu.get(), &patch, world_from_reflector, viewer});
   }
 }
@@ -182,7 +182,7 @@ void VirtualObjects::draw_patch(render::Renderer& renderer, const ShownPatch& pa
   current_ = nullptr;
 }
 
-/// Over what hollows show: themselves, where their mirror rays meet them. The light of the mirrored views is
+/// Self-reflections of concave mirrors, drawn over what they show. The light of the mirrored views is
 /// bound still.
 void VirtualObjects::draw_own_reflections(const render::View& view) {
   if (!shows_all_) return;  // the method below shows them
@@ -209,14 +209,14 @@ void VirtualObjects::leave_out_small(const render::Renderer& renderer) {
   const std::vector<Bounds>& bounds = renderer.gpu().object_bounds();
   if (large_.size() < below_reflectors_.size()) large_.resize(below_reflectors_.size());
   for (std::size_t r = 0; r < below_reflectors_.size(); ++r) {
-    const float least_m = large_radii * bounds[std::size_t(below_reflectors_[r].object)].radius();
+    const float min_m = large_radii * bounds[std::size_t(below_reflectors_[r].object)].radius();
     large_[r].resize(bounds.size());
-    for (std::size_t o = 0; o < bounds.size(); ++o) large_[r][o] = bounds[o].radius() > least_m ? 1 : 0;
+    for (std::size_t o = 0; o < bounds.size(); ++o) large_[r][o] = bounds[o].radius() > min_m ? 1 : 0;
     below_reflectors_[r].shown = &large_[r];
   }
 }
 
-/// Tells the method below what each reflector shows over it.
+/// Marks for the method below which reflectors have objects drawn over it.
 void VirtualObjects::flag_near_objects() {
   for (methods::VisibleReflector& reflector : below_reflectors_) {
     const auto patch = std::ranges::find(shown_, reflector.object, &ShownPatch::object);

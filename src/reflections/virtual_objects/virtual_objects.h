@@ -24,7 +24,7 @@ using ReflectorsByModel = std::unordered_map<const scene::Model*, std::unique_pt
 
 class VirtualObjects final : public methods::Overlay, public render::VirtualVertices {
  public:
-  /// Makes the maps of all reflecting objects; tells on standard error what is wrong with their meshes. One
+  /// Makes the maps of all reflecting objects; reports on standard error what is wrong with their meshes. One
   /// whose mesh cannot be used mirrors the sky alone.
   /// `surroundings` is what shows where no virtual object does; null: the sky.
   static Result<std::unique_ptr<VirtualObjects>> create(const scene::Scene& scene, render::Renderer& renderer,

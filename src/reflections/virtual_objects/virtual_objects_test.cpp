@@ -30,7 +30,7 @@ class VirtualObjectsTest : public gl::ContextTest {};
 
 const glm::vec3 eye{2.4f, -5.2f, 2.6f}, target{0, 0, 1};
 
-// FLIP's floor here is what four samples a pixel and a mirror's rim of a pixel make of it.
+// FLIP's floor here is what four samples per pixel and a mirror's rim of a pixel make of it.
 TEST_F(VirtualObjectsTest, ABallShowsWhatRaysMeet) {
   const scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
   const Compared ball = draw(scene, eye, target);
@@ -42,7 +42,7 @@ TEST_F(VirtualObjectsTest, ABallShowsWhatRaysMeet) {
       render::matches_golden(ball.ours, "virtual-objects-ball", tolerance, PARVIS_SOURCE_DIR);
   EXPECT_TRUE(golden) << to_string(golden.errors());
   EXPECT_GT(draw(scene, eye, target, Mirrored::sky).flip(), 5.0 * by_virtual_objects)
-      << "the sky alone is told";
+      << "the sky alone is reported";
 }
 
 TEST_F(VirtualObjectsTest, AnEllipsoidThatIsTurnedAndScaledDoes) {

@@ -36,7 +36,7 @@ struct VirtualPoint {
 PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f); }
 
 #ifdef MIDPOINT_ITERATIONS
-// The paper's search takes as many steps as it is told to, and what it has come to is drawn. Beyond this it was on its way to
+// The paper's search takes a given number of steps, and its last point is drawn. Beyond this it was on its way to
 // nothing: the mirror does not show the vertex.
 const float astray_angle = 0.2f;  // radians, 11 degrees
 bool is_near_enough(PatchPoint found) { return found.point.angle < astray_angle; }
@@ -54,7 +54,7 @@ bool is_near_enough(PatchPoint found) { return found.point.angle < found_angle; 
 PatchPoint point_of_mirror(ReflectionTask task, PatchKind kind) { return search_patch(task, kind, patch_layer); }
 #endif
 
-// Points beyond a rim are no reflections, but corners of triangles that reach over it. What closes a hollow lies between it and
+// Points beyond a rim are no reflections, but corners of triangles that reach over it. What closes a concave surface lies between it and
 // the viewer: there they are not even that.
 bool has_place(PatchPoint found, PatchKind kind) {
   return is_near_enough(found) && (found.kind == kind_surface || (found.kind == kind_closed && kind.is_convex));

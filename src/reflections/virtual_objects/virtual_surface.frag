@@ -7,9 +7,9 @@ in float doubt;
 in float height;
 in vec3 shown_by;
 
-const float most_beside_px = 3.0f;
+const float max_beside_px = 3.0f;
 
-// How far from this pixel the place is that is said to show the point.
+// Distance in pixels from this pixel to the place that shows the point.
 float beside_px() {
   vec4 clip = clip_from_world * vec4(seen_from, 1.0f);
   return distance((0.5f * clip.xy / clip.w + 0.5f) * frame_size.xy, gl_FragCoord.xy);
@@ -22,8 +22,8 @@ bool is_mirrored_here() {
   // A corner must be sure, and none lost. Beyond a triangle's edge, where the middle of a pixel may lie, doubt turns negative.
   if (abs(doubt) > 0.999f * doubtful || height < 0.0f) return false;
   bool is_doubtful = doubt != sure;
-  if (patch_layer < 0 && !is_doubtful && dot(shown_by, shown_by) >= least_agreement) return true;
-  if (is_doubtful && beside_px() > most_beside_px) return false;
+  if (patch_layer < 0 && !is_doubtful && dot(shown_by, shown_by) >= min_agreement) return true;
+  if (is_doubtful && beside_px() > max_beside_px) return false;
   return is_mirrored(moved(reflector_from_world, viewer_position.xyz), moved(reflector_from_world, seen_from),
                      moved(reflector_from_world, position));
 }

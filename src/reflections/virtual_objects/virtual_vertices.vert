@@ -1,5 +1,5 @@
 // Where a patch of a reflector shows each vertex of the scene (Estalella and others 2005, sections 3 to 6.1): as it was searched for
-// ahead of the view, or out of the virtual grid about its mesh, where that tells, else by a search of its own. The vertex stands behind its reflection point
+// ahead of the view, or from the virtual grid about its mesh, where that has a point, else by a search of its own. The vertex stands behind its reflection point
 // as behind the plane that touches there.
 #include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 #include "reflections/virtual_objects/virtual_place.glsl"
@@ -10,7 +10,7 @@
 
 layout(location = 7) in ivec2 vertex_data;  // of each instance, as VertexSearch::add has it; 0: none
 
-uniform float most_stray_px;  // of what is interpolated, from where a search would put it
+uniform float max_stray_px;  // of what is interpolated, from where a search would put it
 
 vec2 pixel_of(vec3 in_mirror) {
   vec4 clip = clip_from_world * vec4(moved(world_from_reflector, in_mirror), 1.0f);
@@ -30,7 +30,7 @@ VirtualPoint point_of_vertex(vec3 vertex) {
   for (int grids = vertex_data.x > 0 ? 1 : 0; grids > 0; --grids) {
     InterpolatedPoint between = interpolated_point(vertex_data.x, vertex_data.y, mesh_position);
     point = between.point;
-    bool strays = point.doubt > sure || stray_px(vertex, point) > most_stray_px;
+    bool strays = point.doubt > sure || stray_px(vertex, point) > max_stray_px;
     searches = strays && !between.is_between_lost ? 1 : 0;
   }
   for (; searches > 0; --searches) point = virtual_point(moved(reflector_from_world, viewer_position.xyz), vertex);

@@ -154,7 +154,7 @@ NodeSchema path_schema() {
           {name,
            {.name = "of",
             .type = AttributeType::reference,
-            .help = "what moves; its position and heading are those of the path",
+            .help = "the node that moves; its position and heading are those of the path",
             .refers_to = {"model", "group", "camera"},
             .is_required = true},
            running("1"),
@@ -177,7 +177,7 @@ NodeSchema path_schema() {
 
 NodeSchema key_schema() {
   return {.type = "key",
-          .help = "Where a path is at a time. Without angles on any key, what moves keeps its own.",
+          .help = "Where a path is at a time. Without angles on any key, the node keeps its own.",
           .attributes = {time_s,
                          {.name = "position",
                           .type = AttributeType::vec3,

@@ -290,11 +290,11 @@ TEST_F(ActionsTest, TheSameHappeningsGiveTheSameSceneAtAnyFrameRate) {
       "1 0\") key(time_s=1, position=\"5 5 0\") }\n"
       "timer(period_s=0.35, onTime=\"0.1, orange, toggle\")";
   std::vector<scene::Scene> results;
-  for (const int frames_a_second : {10, 60, 200}) {
+  for (const int frames_per_second : {10, 60, 200}) {
     load(script);
-    for (int i = 0; i < 2 * frames_a_second; ++i) {
-      if (i == frames_a_second) actions().press("x");
-      advance(1.0 / frames_a_second);
+    for (int i = 0; i < 2 * frames_per_second; ++i) {
+      if (i == frames_per_second) actions().press("x");
+      advance(1.0 / frames_per_second);
     }
     results.push_back(scene_);
   }

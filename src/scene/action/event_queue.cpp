@@ -27,9 +27,9 @@ void EventQueue::post(Delivery delivery, double delay_s) {
                                   text, name_of(*delivery.target));
     return warn(to_string(circle), circle);
   }
-  if (waiting_.size() >= most_waiting_messages)
+  if (waiting_.size() >= max_waiting_messages)
     return warn("loss", error_at(delivery.where, "more than {} messages wait: \"{}\" to \"{}\" was lost",
-                                 most_waiting_messages, text, name_of(*delivery.target)));
+                                 max_waiting_messages, text, name_of(*delivery.target)));
   waiting_.emplace(std::pair(step, posted_++), std::move(delivery));
 }
 
@@ -37,13 +37,13 @@ bool EventQueue::next(Delivery& delivery) {
   next_chain_ = 0;
   if (now_ != counted_step_) counted_step_ = now_, delivered_ = 0;
   if (waiting_.empty() || waiting_.begin()->first.first > now_) return false;
-  if (delivered_ == most_messages_a_step) {
+  if (delivered_ == max_messages_per_step) {
     const Delivery& first = waiting_.begin()->second;
     warn("storm",
          error_at(
              first.where,
              "more than {} messages in one step, from \"{}\" to \"{}\" on: the others come in the next steps",
-             most_messages_a_step, first.message.text, name_of(*first.target)));
+             max_messages_per_step, first.message.text, name_of(*first.target)));
     return false;
   }
   ++delivered_;

@@ -79,8 +79,8 @@ bool encloses(const Mesh& mesh, glm::vec3 point) {
   return std::abs(half_angle) > pi;
 }
 
-/// Puts the surfaces of hollows to the bodies of the same glass that they are in.
-void join_hollows(std::vector<GlassPiece>& found) {
+/// Joins the surfaces of cavities to the bodies of the same glass that they are in.
+void join_cavities(std::vector<GlassPiece>& found) {
   std::vector<Bounds> bounds;
   bounds.reserve(found.size());
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
@@ -119,7 +119,7 @@ std::vector<GlassPiece> glass_pieces(const Model& model) {
   for (const Glass& glass : glass_by_kind(model)) {
     std::vector<GlassPiece> of_kind;
     for (const MeshShell& shell : shells(glass.mesh)) of_kind.push_back(piece_of(glass, shell));
-    join_hollows(of_kind);
+    join_cavities(of_kind);
     std::ranges::move(of_kind, std::back_inserter(found));
   }
   return found;

@@ -9,12 +9,12 @@
 namespace parvis::scene {
 
 /// Triangles of one kind of glass (index of refraction, absorption) that hang together over their edges. What
-/// is closed bounds a body, together with the surfaces of the hollows in it.
+/// is closed bounds a body, together with the surfaces of the cavities in it.
 struct GlassPiece {
   Mesh mesh;  ///< in the model's frame, at rest
   int material = 0;
   bool is_closed = true;
-  double volume = 0.0;  ///< of its glass, without the hollows, if it is closed; in the model's frame
+  double volume = 0.0;  ///< of its glass, without the cavities, if it is closed; in the model's frame
   std::map<std::size_t, std::vector<std::uint32_t>> triangles;  ///< of each part that has any
 };
 

@@ -73,17 +73,17 @@ TEST(GlassPieces, OfAnotherGlassAreNoHollows) {
   EXPECT_LT(found[1].mesh.bounds().max.x, 0.4f);
 }
 
-/// Whichever way round the hollow's triangles run.
+/// Whichever way round the cavity's triangles run.
 TEST(GlassPieces, HaveTheirGlassAsVolumeWithoutHollows) {
   const auto cube = [](float half) { return box(glm::vec3(-half), glm::vec3(half)); };
-  Mesh mesh = cube(0.5f), hollow = cube(1.0f);
-  for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
-    std::swap(hollow.indices[i], hollow.indices[i + 1]);
-  append(mesh, hollow);
+  Mesh mesh = cube(0.5f), cavity = cube(1.0f);
+  for (std::size_t i = 0; i < cavity.indices.size(); i += 3)
+    std::swap(cavity.indices[i], cavity.indices[i + 1]);
+  append(mesh, cavity);
   append(mesh, cube(2.0f));
   const std::vector<GlassPiece> found = glass_pieces(*model_of(mesh, glass()));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(found[0].volume, 64.0 - 8.0 + 1.0, 1e-4) << "a body in the hollow of a body";
+  EXPECT_NEAR(found[0].volume, 64.0 - 8.0 + 1.0, 1e-4) << "a body in the cavity of a body";
 }
 
 TEST(GlassPieces, AreClosedThoughBlocksStandFaceToFace) {

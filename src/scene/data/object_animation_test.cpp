@@ -167,19 +167,19 @@ TEST(ObjectAnimation, FiguresWalkAndStayFigures) {
     const float height_m = rest.size().z;
     Scene scene = playing(*std::move(model));
     const Animation& animation = scene.objects[0].model->animations[0];
-    float most_m = 0.0f;
+    float max_m = 0.0f;
     std::vector<glm::vec3> before;
     for (int step = 0; step <= 20; ++step) {
       animate(scene, double(animation.duration_s) * step / 20.0);
       const std::vector<glm::vec3>& now = scene.objects[0].mesh(0).positions;
       for (std::size_t v = 0; v < before.size(); ++v)
-        most_m = std::max(most_m, glm::distance(before[v], now[v]));
+        max_m = std::max(max_m, glm::distance(before[v], now[v]));
       before = now;
       EXPECT_NEAR(bounds_now(scene).size().z, height_m, 0.35f * height_m) << name;
       EXPECT_TRUE(check(scene.objects[0].mesh(0), name));
     }
-    EXPECT_GT(most_m, 0.01f * height_m) << name;
-    EXPECT_LT(most_m, 0.5f * height_m) << name;
+    EXPECT_GT(max_m, 0.01f * height_m) << name;
+    EXPECT_LT(max_m, 0.5f * height_m) << name;
   }
 }
 

@@ -17,7 +17,7 @@ namespace parvis::scene {
 /// Which pictures of a scene depend on a room's data, beside its objects.
 enum class DataRole : std::uint8_t {
   static_content,   ///< all: it is drawn and does not move
-  dynamic_content,  ///< those that show what moves
+  dynamic_content,  ///< those that show dynamic objects
   settings          ///< none: how something is computed, or what objects of the scene show already
 };
 
@@ -164,7 +164,7 @@ class RoomDataSet {
     }
   }
 
-  /// Moves the items that these nodes made into a set of their own: they are about to be built again.
+  /// Moves the items that these nodes made into a set of their own: they are about to be rebuilt.
   RoomDataSet take_made_by(const NodeRange& nodes) {
     RoomDataSet taken;
     for (auto& [name, value] : values_)
@@ -172,7 +172,7 @@ class RoomDataSet {
         taken.values_.emplace(name, std::move(items));
     return taken;
   }
-  /// Puts them back: they could not be built again.
+  /// Puts them back: they could not be rebuilt.
   void put_back(RoomDataSet taken) {
     for (auto& [name, items] : taken.values_) values_.at(name)->put_back(*items);
   }

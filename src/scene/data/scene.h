@@ -32,9 +32,9 @@ struct Object {
   std::shared_ptr<const Model> model;
   glm::mat4 world_from_model{1.0f};
   std::vector<glm::mat4> pose;    ///< model_from_node of each node; empty: the model's rest pose
-  bool is_dynamic = false;        ///< moves: has no part in baked things, throws its own shadow
+  bool is_dynamic = false;        ///< moves: has no part in baked things, casts its own shadow
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
-  bool is_visible = true;         ///< is drawn, throws shadows, stands in reflections; may change at any time
+  bool is_visible = true;         ///< is drawn, casts shadows, stands in reflections; may change at any time
   PlayedAnimation played = {};    ///< `animate` writes the pose and bends the meshes
   std::vector<Mesh> bent_meshes = {};  ///< of each part: as it is bent now; empty: the model's
 

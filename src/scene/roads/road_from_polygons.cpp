@@ -17,7 +17,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr float finest_cell_m = 0.5f;
-constexpr float most_cells = 16e6f;  // larger places get larger cells
+constexpr float max_cells = 16e6f;   // larger places get larger cells
 constexpr float margin_m = 4.0f;     // around the polygons
 constexpr float gap_m = 2.0f;        // between surfaces that belong together
 constexpr float island_m2 = 150.0f;  // in the carriageway, driven past, not around
@@ -43,7 +43,7 @@ Mask empty_mask(std::span<const RoadPolygon* const> polygons) {
     for (const std::vector<glm::vec3>& ring : polygon->rings)
       for (const glm::vec3& p : ring) bounds.add(p);
   const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * margin_m;
-  const float cell = std::max(finest_cell_m, std::sqrt(size.x * size.y / most_cells));
+  const float cell = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells(glm::ceil(size / cell));
   return Mask(cells.x, cells.y, cell, glm::vec2(bounds.min) - margin_m, 0);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float bridge_clearance_m = 3.0f;  // roads further apart than this in height pass over one another
 constexpr float shortest_street_m = 2.0f;   // what must remain between two crossings for both to stand
-constexpr int most_lanes_each_way = 8;
+constexpr int max_lanes_each_way = 8;
 constexpr float parallel_sine = 0.05f;  // 3 degrees
 
 /// A straight piece of a road.
@@ -61,8 +61,8 @@ std::optional<Error> fault_of(const Road& road, std::size_t index) {
   for (const glm::vec3& p : road.path)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       return error_at(road.where, "{}: its path holds a number that is not finite", name);
-  if (road.lanes_each_way < 1 || road.lanes_each_way > most_lanes_each_way)
-    return error_at(road.where, "{}: expected 1 to {} lanes, got {}", name, most_lanes_each_way,
+  if (road.lanes_each_way < 1 || road.lanes_each_way > max_lanes_each_way)
+    return error_at(road.where, "{}: expected 1 to {} lanes, got {}", name, max_lanes_each_way,
                     road.lanes_each_way);
   if (!(road.lane_width_m > 0.0f) || !std::isfinite(road.lane_width_m))
     return error_at(road.where, "{}: expected a lane width above 0 m, got {}", name, road.lane_width_m);

@@ -83,7 +83,7 @@ const NodeFrame& LiveScene::frame_of(const Node& node) const {
 /// All nodes are ours to change; others only read them.
 Node& LiveScene::writable(const Node& node) { return const_cast<Node&>(node); }
 
-/// The node, to be changed now and built again at the next refresh.
+/// The node, to be changed now and rebuilt at the next refresh.
 Node& LiveScene::change(const Node& node) {
   changed_.try_emplace(&node, node.attributes);
   return writable(node);
@@ -215,7 +215,7 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
   return errors;
 }
 
-/// The node that is built again where this one changes: itself, or the one around it that it is a part of.
+/// The node that is rebuilt where this one changes: itself, or the one around it that it is a part of.
 /// Null for what stays as it was when the scene was loaded.
 const Node* LiveScene::builder_of(const Node& node) const {
   if (is_built(node)) return &node;

@@ -1,5 +1,5 @@
-// A scene that runs: its nodes change by messages and scenarios, and what they made is made again: those
-// nodes alone, from models that are there already.
+// A running scene: messages and scenarios change node attributes; only the affected nodes are rebuilt, from
+// models already loaded.
 #pragma once
 
 #include <deque>
@@ -59,7 +59,7 @@ class LiveScene {
   /// attributes as written. Fails where there is no such scenario, or where what it asks for cannot be built.
   Status choose(Scene& scene, const std::string& name);
   /// Builds what every scenario needs, hidden, so that choosing one loads nothing; then chooses the one that
-  /// begins. All errors are told. To be called before the scene is drawn: it adds objects.
+  /// begins. All errors are reported. To be called before the scene is drawn: it adds objects.
   Status prepare_scenarios(Scene& scene);
 
   /// Builds again what changed. A node that cannot be built gets back the attributes that it had; errors tell

@@ -269,7 +269,7 @@ TEST(Messages, TheShadowMapOfTheThesisUnderstandsBothSpellings) {
     EXPECT_FALSE(parse_message(schema, text, {})) << text;
 }
 
-/// Tells a node, as a panel does.
+/// Sends a message to a node, as a panel does.
 void tell(LiveScene& live, const std::string& node, const std::string& text) {
   const Result<Message> message = parse_message(*live.find(node)->schema, text, {});
   ASSERT_TRUE(message) << to_string(message.errors());

@@ -1,4 +1,4 @@
-// What a node is told while the scene runs: "show oaks", "position 1 2 0".
+// A message to a node while the scene runs: "show oaks", "position 1 2 0".
 #pragma once
 
 #include <string>

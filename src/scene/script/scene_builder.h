@@ -105,8 +105,7 @@ class SceneBuilder {
   std::unordered_map<const Node*, NodeFrame> frames_;
   std::vector<const Node*> object_makers_, camera_makers_;
   SharedModels models_;
-  const std::unordered_map<const Node*, NodeFrame>* known_frames_ =
-      nullptr;  ///< of a scene that is built again
+  const std::unordered_map<const Node*, NodeFrame>* known_frames_ = nullptr;  ///< of a scene that is rebuilt
   Errors errors_, warnings_;
 };
 

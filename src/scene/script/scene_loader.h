@@ -12,8 +12,8 @@
 namespace parvis::scene {
 
 /// Reads `script` and every file it names: below the script's folder, or below one of `data_folders`.
-/// All errors are told at once: first those of the scripts, and when they are right those of the models and
-/// pictures.
+/// All errors are reported at once: first those of the scripts, and when they are right those of the models
+/// and pictures.
 Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRegistry& registry,
                                std::span<const std::filesystem::path> data_folders = {});
 

@@ -27,8 +27,8 @@ type(attribute=value, attribute="a value with spaces") {
 - Names (`name=`) are unique in a scene. The one node of a type that stands once in a scene is also called `%TYPE`:
   `%sun`.
 - A node takes messages while the scene runs: its section lists them. The last argument takes the rest of the message.
-- An event attribute sends one: `onPress="button2, trees, show oaks, 0.5"`: what must happen, the node that is told, the
-  message, and how many seconds later (none if left out).
+- An event attribute sends one: `onPress="button2, trees, show oaks, 0.5"`: what must happen, the node that receives the
+  message, the message, and how many seconds later (none if left out).
 )";
 
 std::string type_name(AttributeType type) {

@@ -244,7 +244,7 @@ std::string expectation(const AttributeSchema& schema) {
       return "the name of a node inside it";
     case AttributeType::event:
       return fmt::format(
-          "\"{}\": {}, the node that is told, what it is told, and after how "
+          "\"{}\": {}, the node that receives a message, the message, and after how "
           "many seconds (0 if left out)",
           event_pattern(schema), source_help(schema));
   }

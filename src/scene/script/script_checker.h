@@ -17,9 +17,9 @@ inline constexpr std::size_t max_scene_nodes = 500'000;
 inline constexpr std::size_t max_included_files = 10'000;  ///< a file that is included twice counts twice
 inline constexpr std::size_t max_include_depth = 16;
 
-/// The top-level nodes of `script`. Every error of every file is told: syntax, unknown types and attributes,
-/// values, files that are missing or lie outside `roots`, repeated names, references to nothing, cyclic
-/// includes.
+/// The top-level nodes of `script`. Every error of every file is reported: syntax, unknown types and
+/// attributes, values, files that are missing or lie outside `roots`, repeated names, references to nothing,
+/// cyclic includes.
 Result<std::vector<Node>> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
                                        const Roots& roots);
 

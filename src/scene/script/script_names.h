@@ -26,7 +26,7 @@ struct ScriptNames {
 };
 
 /// Checks every name that the nodes use, and reads their overrides by the schema of the node they override.
-/// Tells each mistake to `fail`.
+/// Reports each mistake to `fail`.
 void resolve_names(std::vector<Node>& nodes, const ScriptNames& names, const Roots& roots,
                    const std::function<void(Error)>& fail);
 

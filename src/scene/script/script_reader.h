@@ -19,7 +19,7 @@ inline constexpr int max_script_depth = 64;
 inline constexpr std::size_t max_script_items = 500'000;  ///< nodes and attributes of one file
 
 /// Reads the script `text`; `file` stands in errors. After an error reading goes on at the next node, so that
-/// several are told at once.
+/// several are reported at once.
 Result<std::vector<ScriptNode>> parse_script(std::string_view text, const std::string& file);
 
 /// The same as one node without a type that holds the file's nodes and its last comments.

@@ -9,7 +9,7 @@ namespace {
 
 /// Longer words are no misspelt names; more names than these are no scene made by hand. Both bound the time.
 constexpr std::size_t longest_word = 40;
-constexpr std::size_t most_words = 20'000;
+constexpr std::size_t max_words = 20'000;
 
 char lower(char c) { return char(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -37,7 +37,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
   const int tolerated = 1 + int(word.size()) / 3;
   const std::string* nearest = nullptr;
   int smallest = tolerated + 1;
-  for (const std::string& name : known.first(std::min(known.size(), most_words))) {
+  for (const std::string& name : known.first(std::min(known.size(), max_words))) {
     if (name.size() > longest_word) continue;
     const int distance = edit_distance(word, name);
     if (distance < smallest) smallest = distance, nearest = &name;

@@ -1,5 +1,5 @@
 // Any bytes as a captured tree, and as a volume: with the checksum that they lack, so that the checks behind
-// it are met.
+// it are reached.
 #include <filesystem>
 
 #include "base/fuzz_file.h"
