@@ -20,7 +20,6 @@ namespace {
 constexpr float max_alpha_factor = 3.0f;  // of a texel's extinction, per iteration
 constexpr float max_alpha = 0.998f;
 constexpr float min_seen = 0.02f;  // share of a billboard's pixels below which it has no texture of its own
-constexpr float rectangle_share = 0.7f;  // of a billboard that its cell covers, in the mean
 
 /// Billboards of the cells `levels` above the volume's: the mean colour and extinction of their parts.
 BillboardTree bare_billboards(const TreeVolume& volume, int levels) {
@@ -76,15 +75,18 @@ class Fit {
     colour_.assign(texels_.size(), glm::vec4(0.0f)), opacity_.assign(texels_.size(), glm::vec2(0.0f));
     const glm::vec3 eye = view.camera.position_in_world;
     for (const PlacedBillboard& b : placed_) {
-      const glm::vec3 centre = tree.grid.centre(b.cell), to_eye = glm::normalize(eye - centre);
-      const glm::vec3 right = display::billboard_right(to_eye), up = display::billboard_up(to_eye, right);
+      const glm::vec3 centre = tree.grid.centre(b.cell);
+      const BillboardFrame frame = billboard_frame(centre, tree.grid.cell_size_m(), eye);
       const Bounds box = tree.grid.bounds(b.cell);
       const glm::vec3 base = glm::vec3(tree.base[b.cell]) / 255.0f;
       for (int v = 0; v < side; ++v)
         for (int u = 0; u < side; ++u) {
-          const glm::vec2 m = b.half_size_m * glm::vec2((2.0f * float(u) + 1.0f) / float(side) - 1.0f,
-                                                        1.0f - (2.0f * float(v) + 1.0f) / float(side));
-          const glm::vec3 point = centre + m.x * right + m.y * up;
+          glm::vec2 place((2.0f * float(u) + 1.0f) / float(side) - 1.0f,
+                          1.0f - (2.0f * float(v) + 1.0f) / float(side));
+          // Other eyes see what lies beyond this one's silhouette: they get the texture's nearest point.
+          place /= std::max(display::silhouette_reach(place, frame.slants) / 0.97f, 1.0f);
+          const glm::vec2 m = frame.half_size_m * place;
+          const glm::vec3 point = centre + m.x * frame.right + m.y * frame.up;
           glm::vec4 seen = seen_within(volume, box, {eye, glm::normalize(point - eye)});
           if (seen.w <= 0.0f) seen = glm::vec4(base, 0.0f);
           seen.w = std::min(seen.w, max_alpha);
@@ -128,8 +130,8 @@ class Fit {
 
  private:
   /// A texture at a point: the texels and, premultiplied, the colour.
-  glm::vec4 sample(const PlacedBillboard& b, glm::vec2 metres, Footprint& footprint) const {
-    footprint = Footprint(display::billboard_uv(metres, b.half_size_m), side_);
+  glm::vec4 sample(const PlacedBillboard& b, glm::vec2 place, Footprint& footprint) const {
+    footprint = Footprint(display::billboard_uv(place), side_);
     glm::vec4 sum(0.0f);
     for (std::size_t k = 0; k < 4; ++k) {
       const glm::vec4 t = texels_[b.cell * std::size_t(side_ * side_) + std::size_t(footprint.texel[k])];
@@ -142,9 +144,9 @@ class Fit {
     picture_.assign(std::size_t(view_.camera.width) * std::size_t(view_.camera.height), glm::vec4(0.0f));
     Footprint footprint({0.0f, 0.0f}, side_);
     for (const PlacedBillboard& b : placed_)
-      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 metres) {
+      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 place) {
         glm::vec4& p = pixel(picture_, x, y);
-        if (p.w < 0.9995f) p += (1.0f - p.w) * sample(b, metres, footprint);
+        if (p.w < 0.9995f) p += (1.0f - p.w) * sample(b, place, footprint);
       });
   }
 
@@ -154,14 +156,14 @@ class Fit {
     std::vector<float> passed(picture_.size(), 1.0f);
     Footprint footprint({0.0f, 0.0f}, side_);
     for (const PlacedBillboard& b : placed_)
-      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 metres) {
+      visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 place) {
         float& before = pixel(passed, x, y);
         const glm::vec4 found = pixel(picture_, x, y);
         const std::uint8_t* p = view_.picture.at(x, y);
         const float alpha = float(p[3]) / 255.0f, left = 1.0f - found.w + 1e-3f;
         const glm::vec3 wanted = glm::vec3(float(p[0]), float(p[1]), float(p[2])) * (alpha / 255.0f);
         const glm::vec3 residual = wanted - glm::vec3(found);
-        const glm::vec4 own = sample(b, metres, footprint);
+        const glm::vec4 own = sample(b, place, footprint);
         const std::size_t first = b.cell * std::size_t(side_ * side_);
         for (std::size_t k = 0; k < 4; ++k) {
           const std::size_t i = first + std::size_t(footprint.texel[k]);
@@ -207,8 +209,6 @@ BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views
                         ? optimised_texels(tree, volume, views[i], options)
                         : selected_texels(tree, views[i], options);
   });
-  // Seen from where no photograph sees it, a cell fills only a part of its rectangle.
-  for (glm::u8vec4& base : tree.base) base.w = std::uint8_t(rectangle_share * float(base.w));
   return tree;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "capture/trees/billboard_math.h"
 #include "capture/trees/tree_volume.h"
 
 namespace parvis::trees {
@@ -41,6 +42,7 @@ struct PlacedBillboard {
   glm::mat2
       metres_from_pixels;  ///< right and upward; affine, which a billboard far smaller than its distance is
   glm::vec2 half_size_m;
+  glm::vec4 slants;      ///< of the cell's silhouette, as display::silhouette_slants
   glm::ivec2 low, high;  ///< pixels that it may cover, high excluded
 };
 
@@ -49,29 +51,43 @@ struct PlacedBillboard {
 std::vector<PlacedBillboard> placed_billboards(const CellGrid& grid, const Pinhole& camera,
                                                bool back_to_front);
 
-/// Half width and height of a cell's billboard towards a point.
-glm::vec2 billboard_half_size_towards(const CellGrid& grid, std::size_t cell, glm::vec3 eye);
+/// A billboard in the tree's frame, for an eye there.
+struct BillboardFrame {
+  glm::vec3 to_eye, right, up;  ///< unit; to the eye from the cell's middle
+  glm::vec2 half_size_m;
+  glm::vec4 slants;
+};
+BillboardFrame billboard_frame(glm::vec3 centre, glm::vec3 cell_size_m, glm::vec3 eye);
+
+/// A texture's colour at a point of its billboard (-1..1), sRGB, premultiplied; of a cell that the photograph
+/// does not see, the cell's own.
+glm::vec4 texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
+                         glm::vec2 place);
+/// The same in linear light, which scenes are drawn in: texels are decoded before they are interpolated.
+glm::vec4 linear_texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
+                                glm::vec2 place);
 
 /// Up to two photographs and their weights, which add up to 1.
 struct ClosestViews {
   std::array<int, 2> views{0, 0};
   std::array<float, 2> weights{1.0f, 0.0f};
 };
-/// The two photographs whose directions from the tree's middle are closest to the eye's.
-ClosestViews closest_views(const BillboardTree& tree, glm::vec3 eye);
+/// The two photographs whose directions from a point of the tree are closest to the eye's, `to_eye` (unit).
+ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye);
 
 /// The picture from a camera: RGBA, premultiplied, sRGB. Billboards from back to front, the textures of the
 /// two closest photographs, over.
 ImageF render_billboards(const BillboardTree& tree, const Pinhole& camera);
 
-/// Calls visit(x, y, metres) for the pixels of a placed billboard that lie on it, within rows [row0, row1).
+/// Calls visit(x, y, place) for the pixels that show the billboard's cell, within rows [row0, row1); `place`
+/// on the billboard, -1..1 to the right and upward.
 template <class Visit>
 void visit_pixels(const PlacedBillboard& b, int row0, int row1, Visit&& visit) {
   for (int y = std::max(b.low.y, row0); y < std::min(b.high.y, row1); ++y)
     for (int x = b.low.x; x < b.high.x; ++x) {
-      const glm::vec2 metres =
-          b.metres_from_pixels * (glm::vec2(float(x) + 0.5f, float(y) + 0.5f) - b.middle);
-      if (std::abs(metres.x) <= b.half_size_m.x && std::abs(metres.y) <= b.half_size_m.y) visit(x, y, metres);
+      const glm::vec2 place =
+          b.metres_from_pixels * (glm::vec2(float(x) + 0.5f, float(y) + 0.5f) - b.middle) / b.half_size_m;
+      if (display::silhouette_reach(place, b.slants) <= 1.0f) visit(x, y, place);
     }
 }
 

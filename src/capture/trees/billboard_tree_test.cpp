@@ -93,7 +93,9 @@ TEST(Billboards, TheTwoClosestCamerasFadeWithoutAJump) {
   std::array<float, 6> last{};
   for (int i = 0; i <= 720; ++i) {
     const TreeView view = TestVolume(3).view(6.2831853f * float(i) / 720.0f, 1.3f, 8);
-    const ClosestViews closest = closest_views(tree, view.camera.position_in_world);
+    const ClosestViews closest =
+        closest_views(tree, {0.0f, 0.0f, 1.0f},
+                      glm::normalize(view.camera.position_in_world - glm::vec3(0.0f, 0.0f, 1.0f)));
     std::array<float, 6> weights{};
     for (std::size_t v = 0; v < 2; ++v) weights[std::size_t(closest.views[v])] += closest.weights[v];
     for (std::size_t v = 0; i > 0 && v < 6; ++v) {

@@ -1,0 +1,53 @@
+// Captured trees that stand in a scene.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "capture/trees/tree_levels.h"
+#include "scene/data/room_data.h"
+#include "scene/data/scene.h"
+
+namespace parvis::trees {
+
+/// One of them; nodes make any number.
+struct SceneTree {
+  static constexpr std::string_view name = "trees.scene_trees";
+  static constexpr scene::DataRole role = scene::DataRole::static_content;
+
+  std::shared_ptr<const TreeLevels> tree;  ///< shared by all that are read from one file
+  std::uint64_t content = 0;               ///< hash of the file
+  glm::mat4 world_from_tree{1.0f};         ///< from the frame of the photographs' cameras
+  bool is_visible = true;
+  float sway_m = 0.0f;  ///< of the top in the wind; 0: it stands still
+
+  void hash(ContentHash& hash) const {
+    hash.add(content), hash.add(world_from_tree), hash.add(is_visible), hash.add(sway_m);
+  }
+};
+
+using SceneTrees = scene::ItemsOf<SceneTree>;
+
+/// The scene's captured trees, in the order of their things.
+inline const std::vector<SceneTree>& scene_trees(const scene::Scene& scene) {
+  return scene.data<SceneTrees>().items;
+}
+
+/// Trees that have been read, by file: a node that changes does not read them again.
+struct TreeShelf {
+  static constexpr std::string_view name = "trees.shelf";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  struct Read {
+    std::shared_ptr<const TreeLevels> tree;
+    std::uint64_t content = 0;
+  };
+  std::map<std::filesystem::path, Read> trees;
+
+  void hash(ContentHash& hash) const {
+    for (const auto& [path, read] : trees) hash.add(read.content);
+  }
+};
+
+}  // namespace parvis::trees

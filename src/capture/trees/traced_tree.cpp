@@ -1,0 +1,112 @@
+// What rays see of a captured tree: the box of each cell. Where a ray enters one, the billboard that faces
+// the ray's origin says colour and opacity, as the renderer's does; a ray is stopped by the chance of that
+// opacity, so that the mean of a pixel's rays is their over.
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/colour.h"
+#include "capture/trees/billboard_math.h"
+#include "capture/trees/scene_tree.h"
+#include "capture/trees/tree_drawable.h"
+#include "graphics/shading/surface.h"
+
+namespace parvis::trees {
+namespace {
+
+namespace foliage {
+using namespace parvis::shading;
+#include "capture/trees/foliage.glsl"
+}  // namespace foliage
+
+constexpr float far_m = 1e5f;  // an eye there sees a tree as the sun does
+
+/// The boxes of all cells, 12 triangles each, in the tree's frame.
+Mesh boxes_of(const CellGrid& grid) {
+  constexpr std::uint32_t faces[6][4]{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  Mesh mesh;
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    const Bounds box = grid.bounds(cell);
+    const auto first = std::uint32_t(mesh.positions.size());
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      mesh.positions.emplace_back(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                  corner & 4 ? box.max.z : box.min.z);
+      mesh.normals.push_back(glm::normalize(mesh.positions.back() - box.centre()));
+      mesh.uvs.emplace_back(0.0f, 0.0f);
+    }
+    for (const auto& face : faces)
+      for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+        mesh.indices.push_back(first + face[corner]);
+  }
+  return mesh;
+}
+
+class TreeSurface final : public scene::TracedSurface {
+ public:
+  TreeSurface(const SceneTree& tree, glm::vec3 to_sun)
+      : tree_(tree.tree), tree_from_world_(glm::inverse(tree.world_from_tree)), to_sun_(to_sun) {}
+
+  scene::TracedPoint point(const scene::TracedHit& hit) const override {
+    const glm::vec4 colour = colour_at(hit);
+    const glm::vec3 albedo = colour.w > 0.0f ? glm::vec3(colour) / colour.w : glm::vec3(0.0f);
+    const shading::Surface s = foliage::foliage_surface(albedo, to_sun_);
+    scene::TracedPoint point;
+    point.normal = s.normal, point.base_colour = s.base_colour;
+    point.metallic = s.metallic, point.roughness = s.roughness;
+    point.translucency = s.translucency, point.occlusion = s.occlusion;
+    return point;
+  }
+  float alpha(const scene::TracedHit& hit) const override {
+    if (hit.is_back) return 0.0f;  // the ray leaves the cell
+    return colour_at(hit).w > display::opacity_threshold(hit.position) ? 1.0f : 0.0f;
+  }
+  scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
+
+ private:
+  /// Linear, premultiplied.
+  glm::vec4 colour_at(const scene::TracedHit& hit) const {
+    const BillboardTree& shown = tree_->levels.front();
+    const std::size_t cell = hit.triangle / 12;
+    const glm::vec3 at(tree_from_world_ * glm::vec4(hit.position, 1.0f));
+    const glm::vec3 centre = shown.grid.centre(cell);
+    // A cell is so small that all of it is seen from one direction.
+    const glm::vec3 to_eye = glm::normalize(glm::mat3(tree_from_world_) * hit.to_viewer);
+    const BillboardFrame frame = billboard_frame(centre, shown.grid.cell_size_m(), centre + far_m * to_eye);
+    const glm::vec3 off = at - centre;
+    const glm::vec2 place = glm::clamp(
+        glm::vec2(glm::dot(off, frame.right), glm::dot(off, frame.up)) / frame.half_size_m, -1.0f, 1.0f);
+    const ClosestViews closest = closest_views(shown, centre, to_eye);
+    glm::vec4 sum(0.0f);
+    for (std::size_t v = 0; v < 2; ++v) {
+      if (closest.weights[v] <= 0.0f) continue;
+      sum += closest.weights[v] *
+             linear_texture_colour(shown, shown.views[std::size_t(closest.views[v])], cell, place);
+    }
+    return sum;
+  }
+
+  std::shared_ptr<const TreeLevels> tree_;
+  glm::mat4 tree_from_world_;
+  glm::vec3 to_sun_;
+};
+
+}  // namespace
+
+scene::TracedKind traced_trees() {
+  scene::TracedKind kind;
+  kind.name = "captured trees";
+  kind.count = [](const scene::Scene& scene) { return int(scene_trees(scene).size()); };
+  kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
+    std::unordered_map<const TreeLevels*, std::shared_ptr<const Mesh>> meshes;
+    int thing = 0;
+    for (const SceneTree& tree : scene_trees(scene)) {
+      std::shared_ptr<const Mesh>& mesh = meshes[tree.tree.get()];
+      if (!mesh) mesh = std::make_shared<const Mesh>(boxes_of(tree.tree->levels.front().grid));
+      traced.add(mesh, std::make_shared<const TreeSurface>(tree, scene.sun.direction_to_sun),
+                 tree.world_from_tree, {thing++, false, tree.is_visible, true});
+    }
+  };
+  return kind;
+}
+
+}  // namespace parvis::trees

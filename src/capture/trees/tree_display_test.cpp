@@ -1,0 +1,242 @@
+// Captured trees in scenes: their pictures against what rays see, shadows, picking, levels of detail, the
+// node.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "capture/trees/billboard_textures.h"
+#include "capture/trees/cell_order.h"
+#include "capture/trees/judge.h"
+#include "capture/trees/room.h"
+#include "capture/trees/scene_tree.h"
+#include "capture/trees/test_volume.h"
+#include "capture/trees/tree_drawable.h"
+#include "capture/trees/tree_file.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/renderer.h"
+#include "graphics/shading/tone_curve.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::trees {
+namespace {
+
+using scene::add, scene::ground, scene::matt, scene::model_of;
+
+/// A ball of 1 m round (0, 0, 1) whose colour changes with height, photographed from 12 places.
+const BillboardTree& ball_tree() {
+  static const BillboardTree tree = [] {
+    const TestVolume ball(27, 0.3f, 20.0f);
+    TreeVolume volume{ball.grid, ball.extinction_per_m, {}};
+    for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+      const float height = volume.grid.centre(i).z - 0.5f;
+      volume.colour.emplace_back(0.8f * height, 0.7f, 0.2f);
+    }
+    std::vector<TreeView> views = ball.ring(12, 96);
+    for (TreeView& view : views) {
+      const ImageF seen = render_volume(volume, view.camera);
+      for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+        const float alpha = seen.pixels[i / 4 * 4 + 3];
+        const float value = i % 4 == 3 ? alpha : alpha > 0.0f ? seen.pixels[i] / alpha : 0.0f;
+        view.picture.pixels[i] = std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+      }
+    }
+    TextureOptions options;
+    options.parent_levels = 0;
+    return textured(volume, views, options);
+  }();
+  return tree;
+}
+
+std::shared_ptr<const TreeLevels> ball_levels() {
+  static const auto levels = std::make_shared<const TreeLevels>(levels_of(ball_tree()));
+  return levels;
+}
+
+/// A tree on a plain, 4 m tall, and a camera 12 m south of it.
+class TreeDisplayTest : public gl::ContextTest {
+ protected:
+  static constexpr int width = 160, height = 160;
+
+  TreeDisplayTest() {
+    camera_.world_from_camera = look_at({0, -12, 3}, {0, 0, 2});
+    camera_.vertical_fov = 0.6f;
+    scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.6f, -0.5f, 0.7f));
+    add(scene_, model_of(ground(40), matt(glm::vec3(0.5f))));
+    drawables_.add(scene_trees_kind());
+    drawables_.furnish(scene_);
+  }
+  void plant(glm::vec3 foot, float scale = 4.0f) {
+    SceneTree tree;
+    tree.tree = ball_levels();
+    tree.world_from_tree = glm::translate(glm::scale(glm::translate(glm::mat4(1.0f), foot), glm::vec3(scale)),
+                                          glm::vec3(0, 0, -0.5f));
+    scene_.data<SceneTrees>().add(tree, int(scene_trees(scene_).size()));
+  }
+  std::unique_ptr<render::Renderer> renderer() const {
+    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_, drawables_);
+    EXPECT_TRUE(made) << to_string(made.errors());
+    return *std::move(made);
+  }
+  Image8 drawn(render::Renderer& renderer) const {
+    renderer.begin_frame(scene_, camera_);
+    renderer.prepare_main_view(camera_, width, height);
+    renderer.draw_main_view();
+    return shading::tone_mapped_picture(renderer.read_radiance(), 1.0f);
+  }
+  Image8 traced(render::Renderer& renderer, int samples) const {
+    renderer.begin_frame(scene_, camera_);
+    const shading::DrawnLight light = renderer.drawn_light();
+    reference::TraceOptions options;
+    options.samples_per_pixel = samples;
+    options.drawn_light = &light;
+    const reference::RayScene rays(scene_);
+    return shading::tone_mapped_picture(
+        reference::trace_picture(rays, scene_, renderer.sky(), camera_, width, height, options).radiance,
+        1.0f);
+  }
+  static double flip(const Image8& a, const Image8& b) {
+    const Result<reference::Difference> difference = reference::compare(a, b);
+    EXPECT_TRUE(difference) << to_string(difference.errors());
+    return difference->flip;
+  }
+
+  scene::Scene scene_;
+  Camera camera_;
+  render::Drawables drawables_;
+};
+
+TEST_F(TreeDisplayTest, ItsPictureIsWhatRaysSee) {
+  plant({-1, 0, 0}), plant({1.6f, 3, 0}, 3.0f);
+  const auto with = renderer();
+  const Image8 picture = drawn(*with);
+  // Light is looked up where the eye's billboards stand, and where rays enter the cells: half a cell apart.
+  const double difference = flip(picture, traced(*with, 64));
+  EXPECT_LT(difference, 0.05);
+  // The control: without the trees.
+  scene_.data<SceneTrees>() = {};
+  EXPECT_GT(flip(drawn(*renderer()), picture), 2.5 * difference);
+}
+
+TEST_F(TreeDisplayTest, PickingGivesItsThing) {
+  plant({-1.5f, 0, 0}, 2.0f), plant({1.5f, 0, 0}, 2.0f);
+  const auto made = renderer();
+  made->begin_frame(scene_, camera_);
+  const render::ObjectPicture picked = made->pick(camera_, width, height, true);
+  const reference::ObjectPicture rays =
+      reference::trace_objects(reference::RayScene(scene_), camera_, width, height);
+  const auto count = [](const auto& picture, std::uint32_t number) {
+    return std::ranges::count(picture.pixels, number);
+  };
+  for (const std::uint32_t number : {2u, 3u}) {
+    EXPECT_GT(count(picked, number), 300);
+    EXPECT_NEAR(double(count(picked, number)), double(count(rays, number)),
+                0.1 * double(count(rays, number)));
+  }
+}
+
+TEST_F(TreeDisplayTest, ItsShadowHasTheDensityOfItsCrown) {
+  camera_.world_from_camera = look_at({0, 0, 30}, {0, 0, 0}, {0, 1, 0});
+  scene_.sun.direction_to_sun = glm::normalize(glm::vec3(1, 0, 1));
+  const Image8 open = drawn(*renderer());
+  plant({0, 0, 0});
+  const Image8 shaded = drawn(*renderer());
+  // The crown's middle is 2 m high: its shadow lies 2 m to the west; 8.9 pixels per metre.
+  const auto mean = [](const Image8& image, int x) {
+    double sum = 0.0;
+    for (int v = -4; v <= 4; ++v)
+      for (int u = -4; u <= 4; ++u) sum += image.at(x + u, height / 2 + v)[1] / 81.0;
+    return sum;
+  };
+  EXPECT_LT(mean(shaded, width / 2 - 30), 0.8 * mean(open, width / 2 - 30));
+  EXPECT_NEAR(mean(shaded, width / 2 + 60), mean(open, width / 2 + 60), 1.0) << "toward the sun";
+}
+
+TEST_F(TreeDisplayTest, HiddenAndPlantedTreesChangeThePicture) {
+  plant({-1, 0, 0});
+  const auto kept = renderer();
+  const Image8 before = drawn(*kept);
+  scene_.data<SceneTrees>().items[0].is_visible = false;
+  const Image8 hidden = drawn(*kept);
+  EXPECT_EQ(hidden.pixels, drawn(*renderer()).pixels);
+  EXPECT_NE(hidden.pixels, before.pixels);
+  scene_.data<SceneTrees>().items[0].is_visible = true;
+  EXPECT_EQ(drawn(*kept).pixels, before.pixels);
+}
+
+TEST(TreeLevels, EachShowsTheSameTreeWithFewerBillboards) {
+  const TreeLevels& tree = *ball_levels();
+  ASSERT_EQ(tree.levels.size(), 4u);
+  EXPECT_EQ(tree.levels.back().grid.size(), 1u);
+  const TreeView view = TestVolume(3).view(0.3f, 1.2f, 24);
+  const ImageF finest = render_billboards(tree.levels[0], view.camera);
+  for (std::size_t level = 1; level < tree.levels.size(); ++level) {
+    EXPECT_LT(3 * tree.levels[level].grid.size(), tree.levels[level - 1].grid.size());
+    const ImageF coarse = render_billboards(tree.levels[level], view.camera);
+    double sum = 0.0, error = 0.0;
+    for (std::size_t i = 3; i < coarse.pixels.size(); i += 4)
+      sum += finest.pixels[i], error += std::abs(coarse.pixels[i] - finest.pixels[i]);
+    EXPECT_LT(error, 0.2 * sum) << "level " << level;
+  }
+}
+
+TEST(TreeLevels, AreChosenByPixels) {
+  const TreeLevels& tree = *ball_levels();
+  EXPECT_EQ(level_for(tree, 1e6f, 1.0f), 0u);
+  EXPECT_EQ(level_for(tree, 1.0f, 1.0f), tree.levels.size() - 1);
+  std::size_t last = tree.levels.size() - 1;
+  for (float pixels_per_metre = 1.0f; pixels_per_metre < 1e4f; pixels_per_metre *= 1.3f) {
+    const std::size_t level = level_for(tree, pixels_per_metre, 1.0f);
+    EXPECT_LE(level, last);
+    if (level > 0) {
+      EXPECT_LE(texel_size_m(tree.levels[level]) * pixels_per_metre, 1.0f);
+    }
+    last = level;
+  }
+}
+
+class TreeNodeTest : public testing::Test {
+ protected:
+  TreeNodeTest() {
+    std::filesystem::create_directories(folder_);
+    scene::furnish_script(house_), furnish(house_);
+  }
+  Result<scene::LoadedScene> load(const std::string& script) const {
+    std::ofstream(folder_ / "scene.xp") << script;
+    return scene::load_scene(folder_ / "scene.xp", house_.get<scene::NodeRegistry>(), {});
+  }
+
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "parvis_tree_node";
+  House house_;
+};
+
+TEST_F(TreeNodeTest, ItsFootStandsWhereTheNodeSays) {
+  ASSERT_TRUE(write_tree(folder_ / "ball.tree", ball_tree()));
+  const Result<scene::LoadedScene> loaded = load(
+      "tree(file=\"ball.tree\", position=\"5 2 1\", height=8)\n"
+      "group(position=\"1 0 0\") { tree(file=\"ball.tree\", visible=0) }\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const std::vector<SceneTree>& trees = scene_trees(loaded->scene);
+  ASSERT_EQ(trees.size(), 2u);
+  EXPECT_EQ(trees[0].tree, trees[1].tree) << "one file, one tree";
+  const glm::vec3 foot(trees[0].world_from_tree * glm::vec4(trees[0].tree->foot, 1.0f));
+  EXPECT_LT(glm::distance(foot, glm::vec3(5, 2, 1)), 1e-4f);
+  EXPECT_NEAR(transformed(trees[0].world_from_tree, trees[0].tree->box).max.z, 9.0f, 0.4f);
+  EXPECT_FALSE(trees[1].is_visible);
+}
+
+TEST_F(TreeNodeTest, ABadFileIsAnErrorAtItsPlace) {
+  std::ofstream(folder_ / "bad.tree") << "no tree";
+  const Result<scene::LoadedScene> bad = load("\ntree(file=\"bad.tree\")\n");
+  ASSERT_FALSE(bad);
+  EXPECT_NE(to_string(bad.errors()).find("scene.xp:2:"), std::string::npos) << to_string(bad.errors());
+  EXPECT_NE(to_string(bad.errors()).find("bad.tree"), std::string::npos);
+  EXPECT_FALSE(load("tree(position=\"0 0 0\")\n")) << "no file";
+}
+
+}  // namespace
+}  // namespace parvis::trees

@@ -1,0 +1,18 @@
+// Captured trees in the renderer (003_d5b01da2d2f805f6, section 4.6): billboards back to front, the two
+// closest photographs, over; levels of detail by pixels.
+#pragma once
+
+#include "graphics/render/drawables.h"
+
+namespace parvis::trees {
+
+/// A texel may be so many pixels wide before a finer level of detail is shown.
+inline constexpr float max_texel_pixels = 1.5f;
+
+/// The kind: drawn (tree_drawable.cpp) and traced (traced_tree.cpp).
+render::DrawableKind scene_trees_kind();
+
+/// What rays see of them.
+scene::TracedKind traced_trees();
+
+}  // namespace parvis::trees

@@ -1,0 +1,187 @@
+// A coarse billboard's texel is the over of what the finer billboards show along the rays from the photograph
+// through it. Past the thesis, which names levels of detail in the hierarchy as future work (section 4.8).
+#include "capture/trees/tree_levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "capture/trees/billboard_math.h"
+#include "capture/trees/cell_order.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr int max_texels_per_side = 64;
+constexpr int samples_per_side = 2;  // of a texel
+constexpr float foot_share = 0.06f;  // of the height: what of the tree is near the ground
+constexpr float min_opacity = 1.0f / 510.0f;
+
+/// Cells of a coarser grid and the finer cells that each stands for.
+struct Parents {
+  std::vector<glm::u16vec3> cells;
+  std::vector<std::vector<std::uint32_t>> parts;
+};
+
+Parents parents_of(const CellGrid& grid) {
+  std::map<std::array<int, 3>, std::vector<std::uint32_t>> by_place;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const glm::ivec3 place = glm::ivec3(grid.cells()[i]) / grid.branching();
+    by_place[{place.z, place.y, place.x}].push_back(std::uint32_t(i));
+  }
+  Parents result;
+  for (auto& [place, parts] : by_place) {
+    result.cells.emplace_back(place[2], place[1], place[0]);
+    result.parts.push_back(std::move(parts));
+  }
+  return result;
+}
+
+/// Extinction times volume adds up; colours by it.
+glm::u8vec4 base_of(const BillboardTree& tree, const std::vector<std::uint32_t>& parts) {
+  const int branching = tree.grid.branching();
+  const float chord_m = mean_chord_m(tree.grid.cell_size_m());
+  glm::vec3 colour(0.0f);
+  float sum = 1e-6f;
+  for (const std::uint32_t part : parts) {
+    const glm::vec4 base = glm::vec4(tree.base[part]) / 255.0f;
+    const float depth = -std::log(1.0f - std::min(base.w, 0.998f));
+    colour += depth * glm::vec3(base), sum += depth;
+  }
+  const float extinction_per_m = sum / (chord_m * float(branching * branching * branching));
+  const float alpha = 1.0f - std::exp(-extinction_per_m * chord_m * float(branching));
+  return glm::u8vec4(glm::round(255.0f * glm::vec4(colour / sum, alpha)));
+}
+
+/// Draws the parts of one coarse cell into its texture, as one photograph sees them.
+class PartsPicture {
+ public:
+  PartsPicture(const BillboardTree& fine, const BillboardTextures& view) : fine_(fine), view_(view) {}
+
+  /// `parts` from front to back. False: the photograph sees none of them.
+  bool draw(glm::vec3 centre, glm::vec3 cell_size_m, const std::vector<std::uint32_t>& parts, int side,
+            std::vector<std::uint8_t>& texels) {
+    const glm::vec3 eye = view_.camera.position_in_world;
+    const BillboardFrame whole = billboard_frame(centre, cell_size_m, eye);
+    frames_.clear();
+    bool is_seen = false;
+    for (const std::uint32_t part : parts) {
+      frames_.push_back(billboard_frame(fine_.grid.centre(part), fine_.grid.cell_size_m(), eye));
+      is_seen |= view_.texture_of_cell[part] >= 0;
+    }
+    if (!is_seen) return false;
+    const int fine_side = side * samples_per_side;
+    for (int v = 0; v < side; ++v)
+      for (int u = 0; u < side; ++u) {
+        glm::vec4 sum(0.0f);
+        for (int s = 0; s < samples_per_side * samples_per_side; ++s) {
+          const glm::vec2 at(float(u * samples_per_side + s % samples_per_side) + 0.5f,
+                             float(v * samples_per_side + s / samples_per_side) + 0.5f);
+          glm::vec2 place(2.0f * at.x / float(fine_side) - 1.0f, 1.0f - 2.0f * at.y / float(fine_side));
+          place /= std::max(display::silhouette_reach(place, whole.slants) / 0.99f, 1.0f);
+          const glm::vec2 m = place * whole.half_size_m;
+          sum += along(eye, glm::normalize(centre + m.x * whole.right + m.y * whole.up - eye), parts);
+        }
+        sum /= float(samples_per_side * samples_per_side);
+        if (sum.w > 0.0f) sum = glm::vec4(glm::vec3(sum) / sum.w, sum.w);
+        const glm::vec4 bytes = glm::round(255.0f * glm::clamp(sum, 0.0f, 1.0f));
+        for (int c = 0; c < 4; ++c) texels.push_back(std::uint8_t(bytes[c]));
+      }
+    return true;
+  }
+
+ private:
+  glm::vec4 along(glm::vec3 eye, glm::vec3 direction, const std::vector<std::uint32_t>& parts) const {
+    glm::vec4 sum(0.0f);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const BillboardFrame& f = frames_[i];
+      const glm::vec3 from_eye = fine_.grid.centre(parts[i]) - eye;
+      const glm::vec3 off =
+          direction * (glm::dot(from_eye, f.to_eye) / glm::dot(direction, f.to_eye)) - from_eye;
+      const glm::vec2 place = glm::vec2(glm::dot(off, f.right), glm::dot(off, f.up)) / f.half_size_m;
+      if (display::silhouette_reach(place, f.slants) > 1.0f) continue;
+      sum += (1.0f - sum.w) * texture_colour(fine_, view_, parts[i], place);
+    }
+    return sum;
+  }
+
+  const BillboardTree& fine_;
+  const BillboardTextures& view_;
+  std::vector<BillboardFrame> frames_;
+};
+
+BillboardTextures coarser_view(const BillboardTree& fine, const BillboardTree& coarse, const Parents& parents,
+                               const BillboardTextures& view) {
+  BillboardTextures result{view.camera, std::vector<std::int32_t>(coarse.grid.size(), -1), {}};
+  std::vector<std::uint32_t> order, rank(fine.grid.size());
+  CellOrder().back_to_front(fine.grid, view.camera.position_in_world, order);
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = std::uint32_t(order.size() - i);
+  PartsPicture picture(fine, view);
+  std::int32_t next = 0;
+  for (std::size_t cell = 0; cell < coarse.grid.size(); ++cell) {
+    std::vector<std::uint32_t> parts = parents.parts[cell];
+    std::ranges::sort(parts, {}, [&](std::uint32_t part) { return rank[part]; });
+    if (picture.draw(coarse.grid.centre(cell), coarse.grid.cell_size_m(), parts, coarse.texels_per_side,
+                     result.texels))
+      result.texture_of_cell[cell] = next++;
+  }
+  return result;
+}
+
+/// The middle of what stands near the ground, weighed by opacity.
+glm::vec3 foot_of(const BillboardTree& tree) {
+  float lowest = tree.grid.box().max.z, highest = tree.grid.box().min.z;
+  for (std::size_t i = 0; i < tree.grid.size(); ++i) {
+    const float z = tree.grid.centre(i).z;
+    lowest = std::min(lowest, z), highest = std::max(highest, z);
+  }
+  glm::vec3 sum(0.0f);
+  float weight = 1e-6f;
+  for (std::size_t i = 0; i < tree.grid.size(); ++i) {
+    const glm::vec3 centre = tree.grid.centre(i);
+    if (centre.z > lowest + foot_share * (highest - lowest)) continue;
+    sum += float(tree.base[i].w) * centre, weight += float(tree.base[i].w);
+  }
+  return {sum.x / weight, sum.y / weight, lowest - 0.5f * tree.grid.cell_size_m().z};
+}
+
+}  // namespace
+
+BillboardTree coarser(const BillboardTree& tree) {
+  const int branching = tree.grid.branching();
+  const Parents parents = parents_of(tree.grid);
+  BillboardTree result;
+  result.grid = CellGrid(tree.grid.box(), branching, tree.grid.side() / branching, parents.cells);
+  result.texels_per_side = std::min(2 * tree.texels_per_side, max_texels_per_side);
+  for (const auto& parts : parents.parts) result.base.push_back(base_of(tree, parts));
+  result.views.resize(tree.views.size());
+  parallel_for(tree.views.size(),
+               [&](std::size_t v) { result.views[v] = coarser_view(tree, result, parents, tree.views[v]); });
+  return result;
+}
+
+TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells) {
+  TreeLevels result;
+  result.box = tree.grid.box(), result.foot = foot_of(tree);
+  result.levels.push_back(std::move(tree));
+  while (result.levels.back().grid.size() > max_last_cells && result.levels.back().grid.side() > 1)
+    result.levels.push_back(coarser(result.levels.back()));
+  return result;
+}
+
+float texel_size_m(const BillboardTree& tree) {
+  const glm::vec3 size = tree.grid.cell_size_m();
+  return std::max({size.x, size.y, size.z}) / float(tree.texels_per_side);
+}
+
+std::size_t level_for(const TreeLevels& tree, float pixels_per_metre, float max_texel_pixels) {
+  std::size_t level = 0;
+  while (level + 1 < tree.levels.size() &&
+         texel_size_m(tree.levels[level + 1]) * pixels_per_metre <= max_texel_pixels)
+    ++level;
+  return level;
+}
+
+}  // namespace parvis::trees

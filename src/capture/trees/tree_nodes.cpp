@@ -1,0 +1,96 @@
+// tree: a captured tree in a scene.
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "capture/trees/room.h"
+#include "capture/trees/scene_tree.h"
+#include "capture/trees/tree_drawable.h"
+#include "capture/trees/tree_file.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::trees {
+namespace {
+
+using scene::AttributeType, scene::Node, scene::SceneBuilder;
+
+scene::NodeSchema tree_schema() {
+  scene::NodeSchema schema{
+      .type = "tree",
+      .help =
+          "A real tree, captured from photographs (parvis tree): it is seen as the closest photographs saw "
+          "it, "
+          "lit by the scene's sun and sky, and casts shadows. Its foot stands at position.",
+      .attributes = {{.name = "name", .help = "by which other nodes refer to it"},
+                     {.name = "file",
+                      .type = AttributeType::file,
+                      .help = "the tree, from parvis tree texture (.tree)",
+                      .is_required = true},
+                     {.name = "height",
+                      .type = AttributeType::number,
+                      .help = "of the whole tree; else as it was photographed",
+                      .unit = "m",
+                      .minimum = 0.01,
+                      .maximum = 1000,
+                      .is_live = true}},
+      .example = "tree(file=\"oak.tree\", position=\"12 -4 0\", heading_deg=40)"};
+  for (scene::AttributeSchema& attribute : scene::placement_attributes())
+    schema.attributes.push_back(std::move(attribute));
+  schema.attributes.push_back(scene::visible_attribute());
+  return schema;
+}
+
+/// Metres above the foot.
+float height_m(const TreeLevels& tree) {
+  const CellGrid& grid = tree.levels.front().grid;
+  float top = tree.foot.z;
+  for (std::size_t i = 0; i < grid.size(); ++i) top = std::max(top, grid.bounds(i).max.z);
+  return top - tree.foot.z;
+}
+
+/// The tree, read once for all nodes. Null, with the errors in `builder`, where the file cannot be used.
+const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
+  auto& shelf = builder.scene.data<TreeShelf>().trees;
+  const std::filesystem::path file = node.file("file");
+  if (const auto found = shelf.find(file); found != shelf.end()) return &found->second;
+  Result<BillboardTree> tree = read_tree(file);
+  if (!tree) {
+    builder.fail(tree.errors(), node.where_of("file"));
+    return nullptr;
+  }
+  if (tree->views.empty() || tree->grid.size() == 0) {
+    builder.fail(error_at(node.where_of("file"),
+                          "{}: the tree has no photographs or no cells: make it again "
+                          "with parvis tree texture",
+                          file.string()));
+    return nullptr;
+  }
+  ContentHash hash;
+  for (const BillboardTextures& view : tree->views) hash.add(view.texels);
+  hash.add(tree->grid.cells()), hash.add(tree->base);
+  return &shelf
+              .emplace(file, TreeShelf::Read{std::make_shared<const TreeLevels>(levels_of(*std::move(tree))),
+                                             hash.value()})
+              .first->second;
+}
+
+void build_tree(const Node& node, SceneBuilder& builder) {
+  const TreeShelf::Read* read = tree_of(node, builder);
+  if (!read) return;
+  const float scale = node.gives("height") ? float(node.number("height")) / height_m(*read->tree) : 1.0f;
+  SceneTree tree;
+  tree.tree = read->tree, tree.content = read->content;
+  tree.world_from_tree = glm::translate(
+      glm::scale(builder.world_from_parent() * scene::placement(node), glm::vec3(scale)), -read->tree->foot);
+  tree.is_visible = builder.is_visible() && node.flag("visible");
+  builder.add(std::move(tree));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  house.get<scene::NodeRegistry>().add(tree_schema(), build_tree);
+  house.get<render::Drawables>().add(scene_trees_kind());
+}
+
+}  // namespace parvis::trees
