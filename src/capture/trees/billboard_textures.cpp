@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "capture/trees/billboard_math.h"
+#include "capture/trees/tree_light.h"
 
 namespace parvis::trees {
 namespace {
@@ -209,6 +210,7 @@ BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views
                         ? optimised_texels(tree, volume, views[i], options)
                         : selected_texels(tree, views[i], options);
   });
+  tree.light = estimated_light(tree, options.to_sun);
   return tree;
 }
 

@@ -1,6 +1,7 @@
 // Textures of a tree's billboards, one per cell and photograph (003_d5b01da2d2f805f6, section 4.5.3).
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "capture/trees/billboard_tree.h"
@@ -27,6 +28,7 @@ struct TextureOptions {
   int iterations = 10;      ///< of `optimised`
   int parent_levels = 1;    ///< billboards stand for cells that are so many levels coarser than the volume's
   std::uint64_t seed = 1;   ///< of `random_texels`
+  std::optional<glm::vec3> to_sun = std::nullopt;  ///< of the photographs; none: estimated
 };
 
 /// The billboards of a volume with their textures from the photographs.

@@ -27,11 +27,18 @@ struct BillboardTextures {
   }
 };
 
+/// The light of the photographs: tree_light.h.
+struct CapturedLight {
+  glm::vec3 to_sun{0.0f, 0.0f, 1.0f};  ///< unit
+  float sun = 0.0f, sky = 1.0f;  ///< linear brightness of a leaf that sees all of the sun, or of the sky
+};
+
 /// Cells with their billboards. Cells that are empty are not kept.
 struct BillboardTree {
   CellGrid grid;
   std::vector<glm::u8vec4> base;  ///< per cell: colour (sRGB) and opacity along its mean chord
   int texels_per_side = 4;        ///< M of the thesis
+  CapturedLight light;
   std::vector<BillboardTextures> views;
 };
 

@@ -73,7 +73,7 @@ Result<Reconstruction> reconstruct(std::span<const TreeView> all, const Reconstr
   if (options.fine_epochs > 0) {
     Result<TreeVolume> fine = subdivided(result.volume);
     if (!fine) return fine.errors();
-    fit.epochs = options.fine_epochs;
+    fit.epochs = options.fine_epochs, fit.smoothing = options.fine_smoothing;
     errors = fit_volume(*fine, *views, fit);
     result.volume = without_transparent_cells(*fine, result.cutoff);
     note(

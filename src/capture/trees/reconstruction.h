@@ -16,7 +16,9 @@ struct ReconstructionOptions {
   OpacityOptions opacity;       ///< its own cutoff is not used: `cutoff` is
   std::optional<float> cutoff;  ///< transparency above which cells are dropped; none: by held-out error
   int coarse_epochs = 3;        ///< of the fit at the grid's level
-  int fine_epochs = 2;          ///< of the fit at one level more; 0: there is none
+  int fine_epochs = 4;          ///< of the fit at one level more; 0: there is none
+  float fine_smoothing =
+      0.5f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/trees.md
   bool leaves_out_inconsistent = false;  ///< a photograph that contradicts all others; else it is an error
 };
 

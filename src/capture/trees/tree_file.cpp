@@ -12,7 +12,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr SealedKind kind{"PVTREE_1", "captured tree"}, volume_kind{"PVTVOL_1", "tree volume"};
+constexpr SealedKind kind{"PVTREE_2", "captured tree"}, volume_kind{"PVTVOL_1", "tree volume"};
 constexpr int max_billboard_side = 256;  // finer billboards than this are smaller than pixels
 constexpr int max_texels_per_side = 64, max_views = 1024;
 
@@ -66,6 +66,12 @@ bool is_finite(const Pinhole& camera) {
          finite(camera.world_from_camera[2]);
 }
 
+bool is_light(const CapturedLight& light) {
+  const float length = glm::length(light.to_sun);
+  return std::abs(length - 1.0f) < 1e-3f && light.sun >= 0.0f && light.sky >= 0.0f &&
+         std::isfinite(light.sun) && std::isfinite(light.sky);
+}
+
 /// Checks what the grid's constructor takes for granted.
 std::string grid_problem(const Bounds& box, int branching, int side, int max_side,
                          const std::vector<glm::u16vec3>& cells) {
@@ -98,7 +104,7 @@ Result<std::size_t> write_tree(const std::filesystem::path& file, const Billboar
   append_value(content, std::int32_t(tree.grid.side())),
       append_value(content, std::int32_t(tree.texels_per_side));
   append_values(content, tree.grid.cells()), append_values(content, tree.base);
-  append_value(content, std::uint32_t(tree.views.size()));
+  append_value(content, tree.light), append_value(content, std::uint32_t(tree.views.size()));
   const std::size_t bytes_per_texture =
       4 * std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
   for (const BillboardTextures& view : tree.views) {
@@ -128,12 +134,14 @@ Result<BillboardTree> read_tree(const std::filesystem::path& file) {
   std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
   BillboardTree tree;
   tree.base = taker.take_values<glm::u8vec4>();
+  tree.light = taker.take<CapturedLight>();
   const auto view_count = taker.take<std::uint32_t>();
   if (taker.has_ended_early()) return cut_short(file);
   if (const std::string problem = grid_problem(box, branching, side, max_billboard_side, cells);
       !problem.empty())
     return wrong(problem);
   if (tree.base.size() != cells.size()) return wrong("as many base colours as cells were expected");
+  if (!is_light(tree.light)) return wrong("the light of its photographs is no light");
   if (texels < 4 || texels > max_texels_per_side || texels % 4 != 0)
     return wrong(fmt::format("textures of {} texels along a side", texels));
   if (view_count > max_views)

@@ -99,10 +99,10 @@ TEST(TreeFile, EveryShorterFileIsRefused) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
   ASSERT_TRUE(write_tree(file, random_tree()).ok());
-  const std::string content = *read_sealed(file, {"PVTREE_1", "captured tree"});
+  const std::string content = *read_sealed(file, {"PVTREE_2", "captured tree"});
   for (std::size_t size = 0; size < content.size(); size += 1 + size / 20) {
     ASSERT_TRUE(
-        write_sealed(file, {"PVTREE_1", "captured tree"}, std::string_view(content).substr(0, size)).ok());
+        write_sealed(file, {"PVTREE_2", "captured tree"}, std::string_view(content).substr(0, size)).ok());
     EXPECT_FALSE(read_tree(file).ok()) << size << " of " << content.size();
   }
 }
@@ -111,14 +111,14 @@ TEST(TreeFile, RefusesImpossibleGridsAndCounts) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
   ASSERT_TRUE(write_tree(file, random_tree()).ok());
-  const std::string content = *read_sealed(file, {"PVTREE_1", "captured tree"});
+  const std::string content = *read_sealed(file, {"PVTREE_2", "captured tree"});
   // Offsets: box 24 bytes, branching, side, texels, cell count, cells.
   for (const auto& [offset, value] :
        {std::pair{24, 7}, std::pair{28, 10}, std::pair{28, 6561}, std::pair{32, 5}, std::pair{32, 4000},
         std::pair{36, 0x7fffffff}, std::pair{40, 0xffff}}) {
     std::string damaged = content;
     std::memcpy(damaged.data() + offset, &value, 4);
-    ASSERT_TRUE(write_sealed(file, {"PVTREE_1", "captured tree"}, damaged).ok());
+    ASSERT_TRUE(write_sealed(file, {"PVTREE_2", "captured tree"}, damaged).ok());
     EXPECT_FALSE(read_tree(file).ok()) << "offset " << offset;
   }
 }
@@ -132,7 +132,7 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
     const std::string content = *read_file(entry.path());
     const bool is_tree = entry.path().filename().string().starts_with("tree");
     const SealedKind kind =
-        is_tree ? SealedKind{"PVTREE_1", "captured tree"} : SealedKind{"PVTVOL_1", "tree volume"};
+        is_tree ? SealedKind{"PVTREE_2", "captured tree"} : SealedKind{"PVTVOL_1", "tree volume"};
     ASSERT_TRUE(write_sealed(file, kind, content).ok());
     EXPECT_TRUE(is_tree ? read_tree(file).ok() : read_volume(file).ok()) << entry.path();
     ++seeds;

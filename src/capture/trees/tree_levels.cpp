@@ -154,6 +154,7 @@ BillboardTree coarser(const BillboardTree& tree) {
   const Parents parents = parents_of(tree.grid);
   BillboardTree result;
   result.grid = CellGrid(tree.grid.box(), branching, tree.grid.side() / branching, parents.cells);
+  result.light = tree.light;
   result.texels_per_side = std::min(2 * tree.texels_per_side, max_texels_per_side);
   for (const auto& parts : parents.parts) result.base.push_back(base_of(tree, parts));
   result.views.resize(tree.views.size());

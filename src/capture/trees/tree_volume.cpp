@@ -106,6 +106,38 @@ struct Adam {
   }
 };
 
+/// Moves each cell toward the mean of its six neighbours, light and extinction together; where a neighbour is
+/// not stored it is empty. Few rays pass a small cell: what no photograph decides should be as it is round
+/// it.
+void smooth(TreeVolume& volume, float share) {
+  const CellGrid& grid = volume.grid;
+  std::vector<glm::vec4> means(grid.size());
+  const auto value = [&](std::size_t i) {
+    return volume.extinction_per_m[i] * glm::vec4(volume.colour[i], 1.0f);
+  };
+  parallel_for(
+      grid.size(),
+      [&](std::size_t i) {
+        glm::vec4 sum(0.0f);
+        float count = 0.0f;
+        for (int k = 0; k < 6; ++k) {
+          glm::ivec3 place(grid.cells()[i]);
+          place[k / 2] += k % 2 == 0 ? -1 : 1;
+          if (place[k / 2] < 0 || place[k / 2] >= grid.side()) continue;
+          const int neighbour = grid.cell_at(place);
+          count += 1.0f;
+          if (neighbour != no_cell) sum += value(std::size_t(neighbour));
+        }
+        means[i] = sum / count;
+      },
+      4096);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const glm::vec4 mixed = glm::mix(value(i), means[i], share);
+    volume.extinction_per_m[i] = mixed.w;
+    if (mixed.w > 1e-6f) volume.colour[i] = glm::vec3(mixed) / mixed.w;
+  }
+}
+
 }  // namespace
 
 float TreeVolume::alpha(std::size_t cell) const {
@@ -192,6 +224,7 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
           1024);
     }
     errors.push_back(std::sqrt(error / pixels));
+    if (options.smoothing > 0.0f) smooth(volume, options.smoothing);
   }
   return errors;
 }

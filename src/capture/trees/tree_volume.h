@@ -29,6 +29,7 @@ struct FitOptions {
   int epochs = 10;                ///< passes over all photographs
   float colour_rate = 0.04f;      ///< Adam's step, in sRGB
   float extinction_rate = 0.12f;  ///< Adam's step, of the logarithm of the extinction
+  float smoothing = 0.0f;         ///< after each pass: share of the neighbours' mean in each cell
   int picture_factor = 1;         ///< photographs are reduced so many times
   std::uint64_t seed = 1;         ///< of the photographs' order
 };

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)parvis::trees::read_tree(file);
   (void)parvis::trees::read_volume(file);
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  if (parvis::write_sealed(file, {"PVTREE_1", "captured tree"}, content))
+  if (parvis::write_sealed(file, {"PVTREE_2", "captured tree"}, content))
     (void)parvis::trees::read_tree(file);
   if (parvis::write_sealed(file, {"PVTVOL_1", "tree volume"}, content))
     (void)parvis::trees::read_volume(file);

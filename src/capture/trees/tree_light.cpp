@@ -1,0 +1,171 @@
+// Section 4.8 of the thesis names the way: "the existence of opacity information should allow us to
+// approximate light distribution, and perform approximate lighting or relighting calculations". Light is one
+// number per cell; its colour stays in the albedo.
+#include "capture/trees/tree_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/colour.h"
+#include "base/parallel.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr int sky_rows = 3, sky_columns = 8;  // directions of the sky
+constexpr int azimuths = 24;                  // of the search for the sun
+constexpr std::array heights_deg{15.0f, 30.0f, 45.0f, 60.0f};
+constexpr float mean_albedo =
+    0.12f;  // of foliage, in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15)
+constexpr float min_light_share = 0.15f;  // of the mean: darker is noise, divided it would shine
+constexpr float pi = 3.14159265f;
+
+glm::vec3 direction_of(float azimuth, float height) {
+  return {std::sin(azimuth) * std::cos(height), std::cos(azimuth) * std::cos(height), std::sin(height)};
+}
+
+float luminance(glm::u8vec4 srgb) {
+  return glm::dot(linear_from_srgb(glm::vec3(srgb) / 255.0f), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+std::vector<float> extinctions(const BillboardTree& tree) {
+  const float chord_m = mean_chord_m(tree.grid.cell_size_m());
+  std::vector<float> result;
+  for (const glm::u8vec4 base : tree.base)
+    result.push_back(-std::log(1.0f - std::min(float(base.w) / 255.0f, 0.998f)) / chord_m);
+  return result;
+}
+
+/// What reaches the middle of each cell along a direction.
+std::vector<float> passed(const BillboardTree& tree, const std::vector<float>& extinction_per_m,
+                          glm::vec3 direction) {
+  std::vector<float> result(tree.grid.size());
+  parallel_for(
+      tree.grid.size(),
+      [&](std::size_t cell) {
+        float depth = 0.0f;
+        tree.grid.walk({tree.grid.centre(cell), direction}, [&](std::size_t other, float enter, float leave) {
+          depth += extinction_per_m[other] * (leave - enter);
+          return depth < 8.0f;
+        });
+        result[cell] = std::exp(-depth);
+      },
+      256);
+  return result;
+}
+
+/// Least squares of brightness by the two visibilities, neither negative; and what is left of the variance.
+struct LightFit {
+  float sun = 0.0f, sky = 0.0f;
+  double residual = 0.0;
+};
+
+LightFit fitted(const BillboardTree& tree, const std::vector<float>& brightness,
+                const std::vector<float>& sun, const std::vector<float>& sky) {
+  double aa = 0.0, ab = 0.0, bb = 0.0, ay = 0.0, by = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < brightness.size(); ++i) {
+    const double w = double(tree.base[i].w), a = sun[i], b = sky[i], y = brightness[i];
+    aa += w * a * a, ab += w * a * b, bb += w * b * b, ay += w * a * y, by += w * b * y, yy += w * y * y;
+  }
+  const double determinant = aa * bb - ab * ab;
+  double s = determinant > 1e-9 * aa * bb ? (bb * ay - ab * by) / determinant : 0.0;
+  double k = determinant > 1e-9 * aa * bb ? (aa * by - ab * ay) / determinant : by / std::max(bb, 1e-9);
+  if (s < 0.0) s = 0.0, k = by / std::max(bb, 1e-9);
+  if (k < 0.0) k = 0.0, s = ay / std::max(aa, 1e-9);
+  return {float(s), float(k), yy - s * ay - k * by};
+}
+
+/// Multiplies the linear light of each cell's textures.
+void scale_light(BillboardTree& tree, const std::vector<float>& factors) {
+  const auto scale = [](std::uint8_t* texel, float factor) {
+    for (int c = 0; c < 3; ++c)
+      texel[c] = std::uint8_t(std::lround(
+          255.0f * srgb_from_linear(std::min(factor * linear_from_srgb(float(texel[c]) / 255.0f), 1.0f))));
+  };
+  const std::size_t per_texture = std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
+  for (std::size_t cell = 0; cell < tree.base.size(); ++cell) scale(&tree.base[cell].x, factors[cell]);
+  parallel_for(tree.views.size(), [&](std::size_t v) {
+    BillboardTextures& view = tree.views[v];
+    for (std::size_t cell = 0; cell < tree.grid.size(); ++cell) {
+      if (view.texture_of_cell[cell] < 0) continue;
+      std::uint8_t* texels = view.texels.data() + 4 * per_texture * std::size_t(view.texture_of_cell[cell]);
+      for (std::size_t k = 0; k < per_texture; ++k) scale(texels + 4 * k, factors[cell]);
+    }
+  });
+}
+
+std::vector<float> light_of_cells(const CapturedLight& light, const std::vector<float>& sun,
+                                  const std::vector<float>& sky) {
+  std::vector<float> result(sky.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    result[i] = light.sun * sun[i] + light.sky * sky[i];
+    mean += double(result[i]) / double(sky.size());
+  }
+  for (float& value : result) value = std::max(value, min_light_share * float(mean));
+  return result;
+}
+
+}  // namespace
+
+std::vector<float> sun_visibility(const BillboardTree& tree, glm::vec3 to_sun) {
+  return passed(tree, extinctions(tree), to_sun);
+}
+
+std::vector<float> sky_visibility(const BillboardTree& tree) {
+  const std::vector<float> extinction_per_m = extinctions(tree);
+  std::vector<float> sum(tree.grid.size(), 0.0f);
+  for (int row = 0; row < sky_rows; ++row)
+    for (int column = 0; column < sky_columns; ++column) {
+      const float height = std::asin((float(row) + 0.5f) / sky_rows);
+      const std::vector<float> one =
+          passed(tree, extinction_per_m,
+                 direction_of(2.0f * pi * (float(column) + 0.5f * float(row)) / sky_columns, height));
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i] / float(sky_rows * sky_columns);
+    }
+  return sum;
+}
+
+CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3> to_sun) {
+  std::vector<float> brightness;
+  for (const glm::u8vec4 base : tree.base) brightness.push_back(luminance(base));
+  const std::vector<float> sky = sky_visibility(tree), extinction_per_m = extinctions(tree);
+  CapturedLight best;
+  double least = std::numeric_limits<double>::max();
+  const auto attempt = [&](glm::vec3 direction) {
+    const LightFit fit = fitted(tree, brightness, passed(tree, extinction_per_m, direction), sky);
+    if (fit.residual < least) least = fit.residual, best = {direction, fit.sun, fit.sky};
+  };
+  if (to_sun) {
+    attempt(glm::normalize(*to_sun));
+    return best;
+  }
+  for (const float height : heights_deg)
+    for (int i = 0; i < azimuths; ++i)
+      attempt(direction_of(2.0f * pi * float(i) / azimuths, glm::radians(height)));
+  return best;
+}
+
+BillboardTree relit(BillboardTree tree, glm::vec3 to_sun) {
+  const std::vector<float> sky = sky_visibility(tree);
+  const std::vector<float> before = light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky);
+  const std::vector<float> after = light_of_cells(tree.light, sun_visibility(tree, to_sun), sky);
+  std::vector<float> factors(before.size());
+  for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = after[i] / std::max(before[i], 1e-6f);
+  scale_light(tree, factors);
+  tree.light.to_sun = to_sun;
+  return tree;
+}
+
+BillboardTree unlit(BillboardTree tree) {
+  const std::vector<float> light =
+      light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky_visibility(tree));
+  std::vector<float> factors;
+  for (const float value : light) factors.push_back(mean_albedo / std::max(value, 1e-6f));
+  scale_light(tree, factors);
+  tree.light = {};
+  return tree;
+}
+
+}  // namespace parvis::trees
