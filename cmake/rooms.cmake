@@ -1,7 +1,7 @@
-# parvis_room(NAME FLOOR n [USES room...] [LIBRARIES target...] [PRIVATE_LIBRARIES target...] [TEST_USES room...])
+# parvis_room(NAME FLOOR n [USES room... | USES_ALL_BELOW] [LIBRARIES target...] [PRIVATE_LIBRARIES target...] [TEST_USES room...])
 # Makes the library parvis_NAME of the *.cpp of this folder and, where *_test.cpp lie beside them, the
 # test program NAME_test. USES names the rooms whose headers may be included: script/check_floors holds
-# the room to it. LIBRARIES are seen by the rooms above, too, because headers of the room name them; PRIVATE_LIBRARIES
+# the room to it; USES_ALL_BELOW, for the list of rooms alone, names every room of a lower floor. LIBRARIES are seen by the rooms above, too, because headers of the room name them; PRIVATE_LIBRARIES
 # by its sources and tests alone. TEST_USES: rooms of any floor that its tests, fuzzers and test_*.h use beside USES.
 # GLSL files need no mention: the room gl embeds those of every room.
 set(PARVIS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wunused -Werror)
@@ -62,11 +62,28 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_precompile_headers(parvis_test_pch PRIVATE ${common_headers} <gtest/gtest.h>)
 endif()
 
+# Sets `result` to the names of all rooms of a floor below `floor`.
+function(parvis_rooms_below floor result)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/*/CMakeLists.txt ${CMAKE_SOURCE_DIR}/src/*/*/CMakeLists.txt
+                                    ${CMAKE_SOURCE_DIR}/src/*/*/*/CMakeLists.txt)
+  set(names)
+  foreach(file ${files})
+    file(STRINGS ${file} line REGEX "^parvis_room\\(")
+    if(line MATCHES "^parvis_room\\(([a-z_]+) FLOOR ([0-9]+)" AND CMAKE_MATCH_2 LESS floor)
+      list(APPEND names ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
 function(parvis_room name)
-  cmake_parse_arguments(ROOM "" "FLOOR" "USES;LIBRARIES;PRIVATE_LIBRARIES;TEST_USES" ${ARGN})
+  cmake_parse_arguments(ROOM "USES_ALL_BELOW" "FLOOR" "USES;LIBRARIES;PRIVATE_LIBRARIES;TEST_USES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  if(ROOM_USES_ALL_BELOW)
+    parvis_rooms_below(${ROOM_FLOOR} ROOM_USES)
+  endif()
   list(TRANSFORM ROOM_USES PREPEND parvis_)
   list(TRANSFORM ROOM_TEST_USES PREPEND parvis_)
 

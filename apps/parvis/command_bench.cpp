@@ -1,10 +1,6 @@
 // parvis bench: figures, as a table and as JSON.
-#include "bench/curved_bench.h"
-#include "bench/doors_bench.h"
-#include "bench/frame_bench.h"
-#include "bench/light_bench.h"
-#include "bench/mem_bench.h"
 #include "commands.h"
+#include "house/rooms.h"
 
 namespace parvis {
 namespace {
@@ -16,13 +12,10 @@ struct Arguments {
 };
 
 Status measure(const Arguments& arguments) {
-  const Result<bench::Report> report = arguments.name == "doors"    ? bench::doors_bench(arguments.is_quick)
-                                       : arguments.name == "mem"    ? bench::mem_bench(arguments.is_quick)
-                                       : arguments.name == "curved" ? bench::curved_bench(arguments.is_quick)
-                                       : arguments.name == "light"  ? bench::light_bench(arguments.is_quick)
-                                                                    : bench::frame_bench(arguments.is_quick);
-  if (!report) return report.errors();
-  return arguments.json.empty() ? Status(Done{}) : report->write(arguments.json);
+  bench::Report report(arguments.name);
+  const bench::Bench& bench = *house::benches().find(arguments.name);
+  if (Status status = bench.run({house::all_rooms(), arguments.is_quick}, report); !status) return status;
+  return arguments.json.empty() ? Status(Done{}) : report.write(arguments.json);
 }
 
 }  // namespace
@@ -30,14 +23,14 @@ Status measure(const Arguments& arguments) {
 void add_bench(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("bench", "Measures, and prints every figure");
   const auto arguments = std::make_shared<Arguments>();
-  command
-      ->add_option(
-          "name", arguments->name,
-          "frame: a frame of the paper's city, its culling, the mirrors' truth; doors: what enters "
-          "and leaves; mem: multiple environment maps, their cost and truth; curved: reflections on curved "
-          "objects against the fine mesh; light: sun, sky and hours of sun against their truths")
+  std::vector<std::string> names, summaries;
+  for (const bench::Bench& bench : house::benches().all()) {
+    names.push_back(bench.name);
+    summaries.push_back(fmt::format("{}: {}", bench.name, bench.summary));
+  }
+  command->add_option("name", arguments->name, fmt::format("{}", fmt::join(summaries, "; ")))
       ->required()
-      ->check(CLI::IsMember({"frame", "doors", "mem", "curved", "light"}));
+      ->check(CLI::IsMember(names));
   command->add_flag("--quick", arguments->is_quick, "Fewer repetitions: minutes in place of an hour");
   command->add_option("--json", arguments->json, "Also write the figures to this file");
   command->footer("Example: parvis bench frame --quick --json frame.json");

@@ -5,7 +5,7 @@
 #include "base/image_io.h"
 #include "commands.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/photographs.h"
+#include "house/stage/photographs.h"
 #include "scene_arguments.h"
 
 namespace parvis {

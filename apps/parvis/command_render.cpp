@@ -8,7 +8,7 @@
 #include "base/reduction.h"
 #include "commands.h"
 #include "graphics/render/picture_reader.h"
-#include "house/film.h"
+#include "house/stage/film.h"
 #include "scene_arguments.h"
 
 namespace parvis {

@@ -10,7 +10,7 @@
 #include "graphics/gl/context.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/sun_study.h"
-#include "house/film.h"
+#include "house/stage/film.h"
 #include "scene_arguments.h"
 
 namespace parvis {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 
 namespace parvis {
 
@@ -57,7 +58,7 @@ struct SceneArguments {
 
   /// The scene with its traffic, at the time given.
   Result<house::Play> open_play() const {
-    Result<house::Play> play = house::open_play(scene, data);
+    Result<house::Play> play = house::open_play(house::all_rooms(), scene, data);
     if (!play) return play.errors();
     scene::LiveScene& live = play->live();
     if (!method.empty())

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bench/report.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 

@@ -1,5 +1,6 @@
 #include "bench/curved_bench.h"
 
+#include "bench/benches.h"
 #include "bench/curved_bonnet.h"
 #include "bench/curved_cost.h"
 #include "bench/curved_edges.h"
@@ -12,12 +13,12 @@
 #include "bench/curved_two_bounces.h"
 
 namespace parvis::bench {
+namespace {
 
-Result<Report> curved_bench(bool is_quick) {
-  Report report("curved");
+Status measure(const BenchSetup& setup, Report& report) {
   struct Part {
     const char* name;
-    Status (*measure)(bool, Report&);
+    Status (*measure)(const BenchSetup&, Report&);
   };
   for (const Part& part : {Part{"explosion maps", measure_explosion_maps},
                            {"search", measure_search},
@@ -30,11 +31,18 @@ Result<Report> curved_bench(bool is_quick) {
                            {"two bounces", measure_two_bounces},
                            {"refraction", measure_refraction}}) {
     Status status = Done{};
-    const double ms = milliseconds([&] { status = part.measure(is_quick, report); });
+    const double ms = milliseconds([&] { status = part.measure(setup, report); });
     if (!status) return status.errors();
     report.note(fmt::format("{} took {:.0f} s", part.name, 1e-3 * ms));
   }
-  return report;
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_curved_reflectors(House& house) {
+  house.get<Benches>().add(
+      {"curved_reflectors", "reflections on curved objects against rays on the fine mesh", measure});
 }
 
 }  // namespace parvis::bench

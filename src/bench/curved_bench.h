@@ -1,10 +1,11 @@
-// The bench "curved": reflections on curved objects. What it measures stands in the files curved_*.
+// Bench `curved_reflectors`: reflections on curved objects. What it measures is in the files curved_*.
 #pragma once
 
-#include "bench/report.h"
+#include "base/house.h"
 
 namespace parvis::bench {
 
-Result<Report> curved_bench(bool is_quick);
+/// Registers the bench.
+void furnish_curved_reflectors(House& house);
 
 }  // namespace parvis::bench

@@ -80,11 +80,11 @@ reference::PixelWindow window_of_bonnet(const Camera& camera, int w, int h) {
 
 }  // namespace
 
-Status measure_bonnet(bool is_quick, Report& report) {
-  const int w = is_quick ? quick_width : width, h = is_quick ? quick_height : height;
+Status measure_bonnet(const BenchSetup& setup, Report& report) {
+  const int w = setup.is_quick ? quick_width : width, h = setup.is_quick ? quick_height : height;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(street()));
+  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(setup.house, street()));
   if (!made) return made.errors();
   house::Stage& stage = **made;
   methods::Settings near = methods::settings(stage.scene());

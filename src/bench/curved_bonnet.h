@@ -2,10 +2,10 @@
 // multiple environment maps.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
-Status measure_bonnet(bool is_quick, Report& report);
+Status measure_bonnet(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

@@ -5,7 +5,6 @@
 #include "bench/reflection_cost.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/test_room.h"
-#include "house/rooms.h"
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 #include "reflections/reflector_maps/settings.h"
@@ -116,7 +115,7 @@ struct SearchedShare {
 /// What grids save where all is done on the GPU: the corners' pass and the vertices' interpolation beside a
 /// search for each vertex.
 Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer, const Camera& camera,
-                                 bool is_quick, Report& report) {
+                                 const BenchSetup& setup, Report& report) {
   std::vector<SearchedShare> shares;
   for (const float share : {1.0f, 0.143f, grid10_share, 0.055f, 0.041f}) {
     reflector_maps::virtual_settings(scene).grid_share = share;
@@ -130,7 +129,7 @@ Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer
     renderer.prepare_main_view(camera, small_width, small_height);
     return finished_ms([&] { searched.reflections->update(renderer, scene, camera); });
   };
-  for (int turn = -1; turn < (is_quick ? quick_turns_of_grids : turns);
+  for (int turn = -1; turn < (setup.is_quick ? quick_turns_of_grids : turns);
        ++turn)  // the first makes what is made once
     for (SearchedShare& searched : shares) {
       const double without = passes_ms(searched, false), with = passes_ms(searched, true);
@@ -147,7 +146,7 @@ Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer
 
 }  // namespace
 
-Status measure_cost(bool is_quick, Report& report) {
+Status measure_cost(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) {
     for (const char* key : {"all_vertices_over_extra_draw", "grid10_over_all_time"})
@@ -155,7 +154,8 @@ Status measure_cost(bool is_quick, Report& report) {
     return Done{};
   }
   scene::Scene scene = balls_round_a_mirror();
-  Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene, house::drawables());
+  Result<std::unique_ptr<render::Renderer>> made =
+      render::Renderer::create(scene, setup.house.get<render::Drawables>());
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
   Result<std::unique_ptr<methods::Reflections>> reflections = make_virtual_objects(scene, renderer);
@@ -186,7 +186,7 @@ Status measure_cost(bool is_quick, Report& report) {
   passes_ms(true);  // makes what is made once
   ahead->run(camera);
   renderer.draw_view(plain);
-  for (int turn = 0; turn < (is_quick ? quick_turns : turns); ++turn) {
+  for (int turn = 0; turn < (setup.is_quick ? quick_turns : turns); ++turn) {
     const double without = passes_ms(false);
     const double taken = passes_ms(true) - without;
     search_ms.push_back(finished_ms([&] { ahead->run(camera); }) + taken);
@@ -197,7 +197,7 @@ Status measure_cost(bool is_quick, Report& report) {
   report.note(fmt::format(
       "{}: {} balls of {} triangles in an ellipsoid: search {:.1f} ms, a draw without light {:.1f} ms",
       gl::driver_name(), balls, 4 * ball_rings * ball_rings, median(search_ms).value, median(draw_ms).value));
-  return measure_grids_in_renderer(scene, renderer, camera, is_quick, report);
+  return measure_grids_in_renderer(scene, renderer, camera, setup, report);
 }
 
 }  // namespace parvis::bench

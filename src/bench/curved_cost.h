@@ -2,11 +2,11 @@
 // it.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
 /// Needs no OpenGL context: it makes its own.
-Status measure_cost(bool is_quick, Report& report);
+Status measure_cost(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

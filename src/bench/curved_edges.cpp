@@ -92,13 +92,13 @@ std::vector<double> pixels_off(const ReflectorMap& map, const Mesh& mesh, std::s
 
 }  // namespace
 
-Status measure_edges(bool is_quick, Report& report) {
+Status measure_edges(const BenchSetup& setup, Report& report) {
   const Result<Reflector> ball = make_reflector(scene::sphere(glm::vec3(0.0f), 1.0f, 256), "ball", map_side);
   if (!ball) return ball.errors();
   const Mesh coarse = large_polygons();
   const std::array<ReflectorBall, 1> balls{{{glm::vec3(0.0f), 1.0f}}};
   const Mesh divided = with_short_edges(coarse, glm::mat4(1.0f), balls, 100000);
-  const std::size_t count = is_quick ? quick_points : points;
+  const std::size_t count = setup.is_quick ? quick_points : points;
   const std::vector<double> before = pixels_off(ball->maps.front(), coarse, count),
                             after = pixels_off(ball->maps.front(), divided, count);
   report.add("long_edge_p99_px", percentile(after, 0.99));

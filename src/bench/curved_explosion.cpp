@@ -136,7 +136,7 @@ struct Figures {
 
 }  // namespace
 
-Status measure_explosion_maps(bool is_quick, Report& report) {
+Status measure_explosion_maps(const BenchSetup& setup, Report& report) {
   Mesh mesh;
   append(mesh, scene::sphere(glm::vec3(0.0f), 1.0f, rings), glm::scale(glm::mat4(1.0f), radii));
   Mesh fine;
@@ -147,7 +147,7 @@ Status measure_explosion_maps(bool is_quick, Report& report) {
   const Ellipsoid truth{radii};
   Figures far_map, two_maps, newton, midpoint;
   Random random(7);
-  for (std::size_t i = 0; i < (is_quick ? quick_viewers : viewers); ++i) {
+  for (std::size_t i = 0; i < (setup.is_quick ? quick_viewers : viewers); ++i) {
     const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * chance_direction(random);
     const std::vector<glm::vec3> shown = shown_vertices(viewer, random);
     /// By a method that gives the direction of each vertex's reflection point from the middle; 0: none.

@@ -2,11 +2,11 @@
 // much as its search and are less exact?
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
 /// newton_over_explosion_map_p99_angle, newton_over_explosion_map_time.
-Status measure_explosion_maps(bool is_quick, Report& report);
+Status measure_explosion_maps(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

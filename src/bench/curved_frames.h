@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/report.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 

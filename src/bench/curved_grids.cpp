@@ -136,8 +136,8 @@ double flicker_px(const std::vector<std::vector<glm::dvec2>>& off) {
   return count ? sum / double(count) : 0.0;
 }
 
-void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, bool is_quick, Report& report) {
-  const std::size_t step = is_quick ? quick_stride : stride;
+void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, const BenchSetup& setup, Report& report) {
+  const std::size_t step = setup.is_quick ? quick_stride : stride;
   std::vector<glm::vec3> watched;
   for (std::size_t i = 0; i < mesh.positions.size(); i += step) watched.push_back(mesh.positions[i]);
   std::vector<std::vector<glm::dvec2>> grid_off(frames), fixed_off(frames);
@@ -198,9 +198,9 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
 
 }  // namespace
 
-Status measure_grids(bool is_quick, Report& report) {
+Status measure_grids(const BenchSetup& setup, Report& report) {
   const Mesh mesh = whale();
-  measure_flicker(mesh, VirtualGrid(mesh.positions, grid10_share), is_quick, report);
+  measure_flicker(mesh, VirtualGrid(mesh.positions, grid10_share), setup, report);
   return measure_pictures(mesh, report);
 }
 

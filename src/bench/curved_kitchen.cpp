@@ -20,7 +20,7 @@ constexpr std::size_t quick_cameras =
 constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
 constexpr std::size_t points = 4000, quick_points = 400;  // a camera
 
-Status measure_points(const house::Stage& stage, bool is_quick, Report& report) {
+Status measure_points(const house::Stage& stage, const BenchSetup& setup, Report& report) {
   const Result<ReflectedPoints> reflected = ReflectedPoints::make(stage.scene());
   if (!reflected) return reflected.errors();
   std::vector<double> all;
@@ -28,7 +28,7 @@ Status measure_points(const house::Stage& stage, bool is_quick, Report& report) 
     const Result<Camera> camera = stage.camera(name);
     if (!camera) return camera.errors();
     const std::vector<double> errors =
-        reflected->errors_px(*camera, width, height, is_quick ? quick_points : points);
+        reflected->errors_px(*camera, width, height, setup.is_quick ? quick_points : points);
     if (errors.empty()) return error("the camera \"{}\" shows no mirror", name);
     const auto missed = std::ranges::count_if(errors, [](double px) { return px >= missed_px; });
     report.note(fmt::format(
@@ -43,30 +43,30 @@ Status measure_points(const house::Stage& stage, bool is_quick, Report& report) 
 
 }  // namespace
 
-Result<std::unique_ptr<house::Stage>> open_kitchen(const std::filesystem::path& folder,
+Result<std::unique_ptr<house::Stage>> open_kitchen(const House& house, const std::filesystem::path& folder,
                                                    const std::string& script) {
   if (Status status = city::write_kitchen(folder, 1); !status) return status.errors();
-  Result<house::Play> play = house::open_play(folder / script, {});
+  Result<house::Play> play = house::open_play(house, folder / script, {});
   if (!play) return play.errors();
   // Once for all: the points, the stage and the method that is judged each need them.
   if (const auto baked = reflector_maps::bake_reflectors(play->scene); !baked) return baked.errors();
   return house::Stage::create(*std::move(play));
 }
 
-Status measure_kitchen(bool is_quick, Report& report) {
+Status measure_kitchen(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   const ScratchFolder folder;
-  Result<std::unique_ptr<house::Stage>> stage = open_kitchen(folder.path, "kitchen.xp");
+  Result<std::unique_ptr<house::Stage>> stage = open_kitchen(setup.house, folder.path, "kitchen.xp");
   if (!stage) return stage.errors();
-  if (Status status = measure_points(**stage, is_quick, report); !status) return status;
+  if (Status status = measure_points(**stage, setup, report); !status) return status;
   if (Status status = measure_beside_rerendered(
-          **stage, std::span(cameras).first(is_quick ? quick_cameras : cameras.size()),
-          is_quick ? quick_width : width, is_quick ? quick_height : height, "kitchen_flip_over_rerendered",
-          report);
+          **stage, std::span(cameras).first(setup.is_quick ? quick_cameras : cameras.size()),
+          setup.is_quick ? quick_width : width, setup.is_quick ? quick_height : height,
+          "kitchen_flip_over_rerendered", report);
       !status)
     return status;
-  return is_quick ? Status(Done{}) : measure_frames(**stage, report);  // minutes
+  return setup.is_quick ? Status(Done{}) : measure_frames(**stage, report);  // minutes
 }
 
 }  // namespace parvis::bench

@@ -2,15 +2,15 @@
 // near their pictures come to ray tracing beside cube maps drawn anew.
 #pragma once
 
-#include "bench/report.h"
-#include "house/stage.h"
+#include "bench/benches.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 
-Status measure_kitchen(bool is_quick, Report& report);
+Status measure_kitchen(const BenchSetup& setup, Report& report);
 
 /// Writes the kitchen into a folder and opens one of its scripts. Needs a current context.
-Result<std::unique_ptr<house::Stage>> open_kitchen(const std::filesystem::path& folder,
+Result<std::unique_ptr<house::Stage>> open_kitchen(const House& house, const std::filesystem::path& folder,
                                                    const std::string& script);
 
 }  // namespace parvis::bench

@@ -2,10 +2,10 @@
 // to ray tracing beside cube maps drawn anew.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
-Status measure_refraction(bool is_quick, Report& report);
+Status measure_refraction(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

@@ -226,9 +226,10 @@ Status measure_shape(const JudgedShape& shape, std::size_t count, Report& report
 
 }  // namespace
 
-Status measure_roots(bool is_quick, Report& report) {
+Status measure_roots(const BenchSetup& setup, Report& report) {
   for (const JudgedShape& shape : {torus(), concave_ball()})
-    if (Status status = measure_shape(shape, is_quick ? quick_tasks : tasks, report); !status) return status;
+    if (Status status = measure_shape(shape, setup.is_quick ? quick_tasks : tasks, report); !status)
+      return status;
   return Done{};
 }
 

@@ -2,10 +2,10 @@
 // several times.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
-Status measure_roots(bool is_quick, Report& report);
+Status measure_roots(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

@@ -41,8 +41,8 @@ MapSearch::PatchPoint by_newton(MapSearch& search, const MapSearch::ReflectionTa
   return search.search_patch(task, search.patch_kind(), -1);
 }
 
-Result<std::vector<JudgedBody>> make_bodies(bool is_quick, Report& report) {
-  const std::size_t count = is_quick ? quick_reflections : reflections;
+Result<std::vector<JudgedBody>> make_bodies(const BenchSetup& setup, Report& report) {
+  const std::size_t count = setup.is_quick ? quick_reflections : reflections;
   std::vector<JudgedBody> bodies;
   const auto add = [&](const std::string& name, const Mesh& mesh) -> Status {
     Result<JudgedBody> body = JudgedBody::make(name, mesh, count);
@@ -79,7 +79,7 @@ struct Told {
   double percent() const { return all ? 100.0 * told / all : 0.0; }
 };
 
-void measure_maps(const std::vector<JudgedBody>& bodies, bool is_quick, Report& report) {
+void measure_maps(const std::vector<JudgedBody>& bodies, const BenchSetup& setup, Report& report) {
   std::vector<double> newton_angles, midpoint_angles, ratios;
   Told from_1_5, at_1_1;
   int silently_wrong = 0;
@@ -101,7 +101,7 @@ void measure_maps(const std::vector<JudgedBody>& bodies, bool is_quick, Report& 
         percentile(midpoint.angles_deg, 0.5), percentile(midpoint.angles_deg, 0.99), all.percent(),
         newton.microseconds, midpoint.microseconds));
   }
-  for (int turn = 0; turn < (is_quick ? quick_turns : turns); ++turn) {
+  for (int turn = 0; turn < (setup.is_quick ? quick_turns : turns); ++turn) {
     double newton_us = 0.0, midpoint_us = 0.0;
     for (const JudgedBody& body : bodies) {
       newton_us += body.judge(by_newton).microseconds;
@@ -119,7 +119,7 @@ void measure_maps(const std::vector<JudgedBody>& bodies, bool is_quick, Report& 
 
 /// Without maps: vertices anywhere about ellipsoids, hidden ones too, at 1.1 to 4 times the surface's
 /// distance.
-void measure_analytic(bool is_quick, Report& report) {
+void measure_analytic(const BenchSetup& setup, Report& report) {
   using Search = ReflectionSearch<Ellipsoid>;
   std::vector<double> newton_angles, midpoint_angles;
   for (const glm::vec3 radii : ellipsoids) {
@@ -136,7 +136,7 @@ void measure_analytic(bool is_quick, Report& report) {
       const glm::dvec3 p(point.position), r(radii);
       return degrees * bisector_angle(p, glm::normalize(p / (r * r)), task.viewer, task.vertex);
     };
-    for (std::size_t i = 0; i < (is_quick ? quick_reflections : reflections); ++i) {
+    for (std::size_t i = 0; i < (setup.is_quick ? quick_reflections : reflections); ++i) {
       const Search::ReflectionTask task{outside(1.5f, 8.0f), outside(1.1f, 4.0f), glm::vec3(0.0f)};
       const glm::vec3 start = search.first_direction(task);
       newton_angles.push_back(
@@ -155,11 +155,11 @@ void measure_analytic(bool is_quick, Report& report) {
 
 }  // namespace
 
-Status measure_search(bool is_quick, Report& report) {
-  const Result<std::vector<JudgedBody>> bodies = make_bodies(is_quick, report);
+Status measure_search(const BenchSetup& setup, Report& report) {
+  const Result<std::vector<JudgedBody>> bodies = make_bodies(setup, report);
   if (!bodies) return bodies.errors();
-  measure_maps(*bodies, is_quick, report);
-  measure_analytic(is_quick, report);
+  measure_maps(*bodies, setup, report);
+  measure_analytic(setup, report);
   return Done{};
 }
 

@@ -2,12 +2,12 @@
 // on maps of ellipsoids and of real bodies, and on ellipsoids themselves.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
 /// Real bodies come from the shared data; where it is absent, ellipsoids alone are measured, and a row says
 /// so.
-Status measure_search(bool is_quick, Report& report);
+Status measure_search(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

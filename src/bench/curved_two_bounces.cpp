@@ -76,11 +76,12 @@ reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, int
 
 }  // namespace
 
-Status measure_two_bounces(bool is_quick, Report& report) {
-  const int w = is_quick ? quick_width : width, h = is_quick ? quick_height : height;
+Status measure_two_bounces(const BenchSetup& setup, Report& report) {
+  const int w = setup.is_quick ? quick_width : width, h = setup.is_quick ? quick_height : height;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> made = house::Stage::create(house::make_play(mirrors_among_boxes()));
+  Result<std::unique_ptr<house::Stage>> made =
+      house::Stage::create(house::make_play(setup.house, mirrors_among_boxes()));
   if (!made) return made.errors();
   house::Stage& stage = **made;
   const methods::Settings twice = methods::settings(stage.scene());

@@ -1,5 +1,6 @@
 #include "bench/doors_bench.h"
 
+#include "bench/benches.h"
 #include "bench/photo_bench.h"
 #include "bench/reading_bench.h"
 #include "bench/safety_bench.h"
@@ -7,15 +8,22 @@
 #include "graphics/gl/context.h"
 
 namespace parvis::bench {
+namespace {
 
-Result<Report> doors_bench(bool is_quick) {
+Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Report report("doors");
   report.note("machine: " + gl::driver_name());
   for (const auto& measure : {measure_readers, measure_scenarios, measure_photographs, measure_safety})
-    if (Status status = measure(is_quick, report); !status) return status.errors();
-  return report;
+    if (Status status = measure(setup, report); !status) return status.errors();
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_import_export(House& house) {
+  house.get<Benches>().add(
+      {"import_export", "scripts, city models, scenarios, path-traced photographs, exported glTF", measure});
 }
 
 }  // namespace parvis::bench

@@ -1,11 +1,12 @@
-// script/bench doors: what enters and leaves the house. Each measure lies in a file of its own.
+// Bench `import_export`: reading scripts and city models, switching scenarios, path-traced photographs,
+// exported files. Each measure has a file of its own.
 #pragma once
 
-#include "bench/report.h"
+#include "base/house.h"
 
 namespace parvis::bench {
 
-/// `is_quick`: fewer repetitions and samples; every figure is measured all the same.
-Result<Report> doors_bench(bool is_quick);
+/// Registers the bench.
+void furnish_import_export(House& house);
 
 }  // namespace parvis::bench

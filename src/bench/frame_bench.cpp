@@ -5,13 +5,14 @@
 #include <filesystem>
 
 #include "base/test_data.h"
+#include "bench/benches.h"
 #include "bench/judged_method.h"
 #include "bench/mirror_check.h"
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
 #include "formats/city_models/city_json.h"
 #include "graphics/render/culling_check.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 #include "reflections/methods/settings.h"
 
@@ -88,27 +89,25 @@ void measure_denhaag(Report& report) {
   report.add("load_ms_denhaag", median(samples));
 }
 
-}  // namespace
-
-Result<Report> frame_bench(bool is_quick) {
+Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Report report("frame");
   report.note("machine: " + gl::driver_name());
   const ScratchFolder folder;
   Status written = Done{};
   const double generated_ms = milliseconds([&] { written = city::write_paper_city(folder.path, 1); });
   if (!written) return written.errors();
   const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper.xp", house::node_registry());
+      scene::load_scene(folder.path / "paper.xp", setup.house.get<scene::NodeRegistry>());
   if (!loaded) return loaded.errors();
   report.add("triangles", double(loaded->scene.static_triangle_count()));
   report.add("city_generate_ms", generated_ms);
 
-  if (Status kept = keep_maps(loaded->scene, mem); !kept) return kept.errors();
-  const int repeats = is_quick ? 7 : 21;
+  if (Status kept = keep_maps(setup.house, loaded->scene, mem); !kept) return kept.errors();
+  const int repeats = setup.is_quick ? 7 : 21;
   for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
-    Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(loaded->scene, cars));
+    Result<std::unique_ptr<house::Stage>> stage =
+        house::Stage::create(play_with(setup.house, loaded->scene, cars));
     if (!stage) return stage.errors();
     const Result<Camera> camera = view_of_cars(**stage, least, most, width, height, report);
     if (!camera) return camera.errors();
@@ -118,11 +117,11 @@ Result<Report> frame_bench(bool is_quick) {
       return status.errors();
     if (cars < 30) continue;
     report.add("rerendered_ms_per_car", (medians[1].value - medians[0].value) / std::max(seen, 1));
-    measure_occlusion(**stage, is_quick ? 80 : 400, report);
+    measure_occlusion(**stage, setup.is_quick ? 80 : 400, report);
     measure_reference(**stage, report);
   }
   measure_denhaag(report);
-  const Result<MirrorFlips> flips = mirror_flips();
+  const Result<MirrorFlips> flips = mirror_flips(setup.house);
   if (!flips) return flips.errors();
   report.add("ball_flip", flips->ball);
   report.add("box_flip", flips->box);
@@ -130,7 +129,16 @@ Result<Report> frame_bench(bool is_quick) {
   report.note(fmt::format(
       "surroundings at 2000 radii; at 50 radii, where the map's one centre shows: ball {:.4f}, box {:.4f}",
       flips->ball_at_50_radii, flips->box_at_50_radii));
-  return report;
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_frame(House& house) {
+  house.get<Benches>().add({"frame",
+                            "a frame of the paper's city with and without reflections, its culling, mirrors "
+                            "against the ray tracer",
+                            measure});
 }
 
 }  // namespace parvis::bench

@@ -1,13 +1,12 @@
-// script/bench frame: what a frame of the paper's city costs without and with re-rendered reflections (table
-// 1 of Meyer and Loscos 2003), whether hidden cars are culled, and how fast and how right the rest of the
-// house is.
+// Bench `frame`: what a frame of the paper's city costs without and with re-rendered reflections (table 1 of
+// Meyer and Loscos 2003), whether hidden cars are culled, and the error of mirrors against the ray tracer.
 #pragma once
 
-#include "bench/report.h"
+#include "base/house.h"
 
 namespace parvis::bench {
 
-/// `is_quick`: fewer repetitions and views; every figure is measured all the same.
-Result<Report> frame_bench(bool is_quick);
+/// Registers the bench.
+void furnish_frame(House& house);
 
 }  // namespace parvis::bench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reference_maps/scene_maps.h"
 
@@ -25,10 +26,10 @@ void make_maps(house::Stage& stage, const JudgedMethod& method, const Camera& ca
 
 }  // namespace
 
-Status keep_maps(scene::Scene scene, const methods::Settings& reflection) {
+Status keep_maps(const House& house, scene::Scene scene, const methods::Settings& reflection) {
   methods::settings(scene) = reflection;
   const Result<std::unique_ptr<render::Renderer>> renderer =
-      render::Renderer::create(scene, house::drawables());
+      render::Renderer::create(scene, house.get<render::Drawables>());
   if (!renderer) return renderer.errors();
   const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
   const Result<reference_maps::ReferenceMaps> maps =
@@ -40,7 +41,8 @@ Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
                                    const methods::Settings& reflection) {
   scene::Scene scene = stage.scene();  // models are shared
   methods::settings(scene) = reflection;
-  Result<std::unique_ptr<methods::Reflections>> made = house::method_registry().make(scene, stage.renderer());
+  Result<std::unique_ptr<methods::Reflections>> made =
+      stage.house().get<methods::Registry>().make(scene, stage.renderer());
   if (!made) return made.errors();
   return JudgedMethod{std::move(name), *std::move(made), reflection.method == "time_sliced_cube_map"};
 }

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "reflections/methods/settings.h"
 
 namespace parvis::bench {
@@ -16,7 +16,7 @@ struct JudgedMethod {
 };
 
 /// Draws a scene's reference maps and keeps them beside its file, so that no method need draw them again.
-Status keep_maps(scene::Scene scene, const methods::Settings& reflection);
+Status keep_maps(const House& house, scene::Scene scene, const methods::Settings& reflection);
 
 /// Makes a method for a stage's scene; it lives no longer than the stage.
 Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,

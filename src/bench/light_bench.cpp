@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "base/test_data.h"
+#include "bench/benches.h"
 #include "bench/scratch_folder.h"
 #include "graphics/gl/context.h"
 #include "graphics/light/brute_force_sky.h"
@@ -16,7 +17,7 @@
 #include "graphics/light/sun_hours.h"
 #include "graphics/light/sun_tables.h"
 #include "graphics/light/vertex_light.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
@@ -44,16 +45,16 @@ double diffuse(const light::SkyModel& sky) {
                 std::max(sky.to_sun().z, 0.0f) * sky.sun_irradiance_xyz().y);
 }
 
-Status measure_brute_force(bool is_quick, Report& report) {
+Status measure_brute_force(const BenchSetup& setup, Report& report) {
   std::vector<double> elevations{-4, -2, 0, 5, 15, 45, 90}, turbidities{3.0};
-  if (!is_quick)
+  if (!setup.is_quick)
     elevations = {-4, -3, -2, -1, 0, 1, 2, 5, 10, 15, 25, 35, 45, 60, 75, 90}, turbidities = {2.0, 3.0, 6.0};
   double most = 0.0, max_preetham = 0.0;
   for (const double turbidity : turbidities)
     for (const double elevation : elevations) {
       const light::Air air{turbidity};
       const light::BruteForceIrradiance truth =
-          light::brute_force_diffuse(air, elevation, is_quick ? 128'000 : 512'000, 1);
+          light::brute_force_diffuse(air, elevation, setup.is_quick ? 128'000 : 512'000, 1);
       const double expected = light::xyz(truth.share).y;
       const auto sky = light::make_sky(SkyKind::atmosphere, air, sun_at(elevation));
       const auto preetham = light::make_sky(SkyKind::preetham, air, sun_at(elevation));
@@ -73,9 +74,9 @@ Status measure_brute_force(bool is_quick, Report& report) {
   return Done{};
 }
 
-Status count_negatives(bool is_quick, Report& report) {
+Status count_negatives(const BenchSetup& setup, Report& report) {
   long samples = 0, negative = 0, unclamped = 0;
-  const int directions = is_quick ? 400 : 4000;
+  const int directions = setup.is_quick ? 400 : 4000;
   for (const double turbidity : {1.0, 1.1, 2.0, 3.0, 6.0, 11.5, 20.0, 64.0})
     for (const double elevation : {-90.0, -18.0, -8.0, -4.0, -1.0, 0.0, 1.0, 5.0, 20.0, 60.0, 90.0}) {
       const double s = (90.0 - elevation) * 0.017453292519943,
@@ -105,10 +106,10 @@ Status count_negatives(bool is_quick, Report& report) {
   return Done{};
 }
 
-Status measure_gpu(bool is_quick, Report& report) {
+Status measure_gpu(const BenchSetup& setup, Report& report) {
   double most = 0.0, wrong_table = 1e9;
   for (const double elevation :
-       is_quick ? std::vector{-3.0, 10.0} : std::vector{-4.0, -1.0, 0.0, 2.0, 10.0, 40.0, 90.0}) {
+       setup.is_quick ? std::vector{-3.0, 10.0} : std::vector{-4.0, -1.0, 0.0, 2.0, 10.0, 40.0, 90.0}) {
     const Result<light::SkyGpuCheck> right = light::check_sky_on_gpu(light::Air{3.0}, elevation);
     if (!right) return right.errors();
     most = std::max(most, right->max_relative_error);
@@ -182,7 +183,7 @@ Status measure_relighting(const reference::RayScene& rays, Report& report) {
 }
 
 /// Views from eye height about the city's own cameras, under suns from 11 to 69 degrees high.
-void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays, bool is_quick,
+void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays, const BenchSetup& setup,
                      Report& report) {
   constexpr int resolution = 4096;
   Bounds casters;
@@ -191,7 +192,7 @@ void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays,
       casters.add(transformed(object.world_from_model, part.mesh.bounds()));
   Random random(4);
   light::ShadowErrors all, coarse;
-  const int cameras = is_quick ? 12 : 200, suns = is_quick ? 6 : 24;
+  const int cameras = setup.is_quick ? 12 : 200, suns = setup.is_quick ? 6 : 24;
   for (int c = 0; c < cameras; ++c) {
     Camera camera = scene.cameras[std::size_t(c) % std::min<std::size_t>(scene.cameras.size(), 5)].camera;
     const float turn = random.uniform(0.0f, 6.2831853f);
@@ -220,18 +221,18 @@ void measure_shadows(const scene::Scene& scene, const reference::RayScene& rays,
              all.percent(light::ShadowMethod::perspective) / std::max(best, 1e-9));
 }
 
-Status measure_sun_hours(bool is_quick, Report& report) {
+Status measure_sun_hours(const BenchSetup& setup, Report& report) {
   const ScratchFolder folder;
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
   const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper_day.xp", house::node_registry());
+      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
   if (!loaded) return loaded.errors();
   const reference::RayScene rays(loaded->scene);
   if (Status status = measure_relighting(rays, report); !status) return status;
-  measure_shadows(loaded->scene, rays, is_quick, report);
-  const std::vector<light::SunPoint> points = city_points(rays, is_quick ? 1000 : 10000);
+  measure_shadows(loaded->scene, rays, setup, report);
+  const std::vector<light::SunPoint> points = city_points(rays, setup.is_quick ? 1000 : 10000);
   double most = 0.0, max_hourly = 0.0;
-  for (const int day : is_quick ? std::vector{80} : std::vector{80, 172, 355}) {
+  for (const int day : setup.is_quick ? std::vector{80} : std::vector{80, 172, 355}) {
     const light::SunPeriod period{.place = {.day_of_year = day}, .first_day = day, .last_day = day};
     light::SunPeriod hourly = period;
     hourly.step_h = 1.0, hourly.bisections = 0;
@@ -254,17 +255,21 @@ Status measure_sun_hours(bool is_quick, Report& report) {
   return Done{};
 }
 
-}  // namespace
-
-Result<Report> light_bench(bool is_quick) {
+Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Report report("light");
   report.note("machine: " + gl::driver_name());
   measure_sun(report);
   for (const auto& measure : {measure_brute_force, count_negatives, measure_gpu, measure_sun_hours})
-    if (Status status = measure(is_quick, report); !status) return status.errors();
-  return report;
+    if (Status status = measure(setup, report); !status) return status.errors();
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_light(House& house) {
+  house.get<Benches>().add(
+      {"light", "sun, sky, shadows and hours of sun against their ground truths", measure});
 }
 
 }  // namespace parvis::bench

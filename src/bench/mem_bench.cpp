@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/progress.h"
+#include "bench/benches.h"
 #include "bench/map_figures.h"
 #include "bench/mem_budget.h"
 #include "bench/mem_motion.h"
@@ -59,7 +60,7 @@ std::vector<ViewFlips> those_at(const std::vector<ViewFlips>& views, bool is_at_
   return some;
 }
 
-Status measure_quality(house::Stage& stage, bool is_quick, Report& report) {
+Status measure_quality(house::Stage& stage, const BenchSetup& setup, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, {{"mem", shipped()},
                                                                  {"none", usual("none")},
                                                                  {"rerendered", usual("rerendered_cube_map")},
@@ -68,8 +69,8 @@ Status measure_quality(house::Stage& stage, bool is_quick, Report& report) {
                                                                  {"local", usual("local_environment_maps")}});
   if (!methods) return methods.errors();
   const Result<std::vector<ViewFlips>> views =
-      is_quick ? flips_of_methods(stage, *methods, 8, width / 2, height / 2)
-               : flips_of_methods(stage, *methods, 20, width, height);
+      setup.is_quick ? flips_of_methods(stage, *methods, 8, width / 2, height / 2)
+                     : flips_of_methods(stage, *methods, 20, width, height);
   if (!views) return views.errors();
   for (std::size_t m = 0; m < methods->size(); ++m) {
     std::string row = fmt::format("FLIP {}: mean {:.4f}, views", (*methods)[m].name, mean_flip(*views, m));
@@ -117,16 +118,17 @@ Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& re
   return faces;
 }
 
-Status measure_motion(house::Stage& stage, bool is_quick, Report& report) {
+Status measure_motion(house::Stage& stage, const BenchSetup& setup, Report& report) {
   methods::Settings sliced = usual("time_sliced_cube_map");
-  const Result<int> faces = faces_for_the_same_time(stage, is_quick ? 3 : 20, report);
+  const Result<int> faces = faces_for_the_same_time(stage, setup.is_quick ? 3 : 20, report);
   if (!faces) return faces.errors();
   sliced.own.get<probes::TimeSlicing>().faces_per_frame = *faces;
   const Result<std::vector<JudgedMethod>> methods = make(
       stage, {{"mem", shipped()}, {"rerendered", usual("rerendered_cube_map")}, {"time_sliced", sliced}});
   if (!methods) return methods.errors();
-  const Result<MotionErrors> errors = is_quick ? errors_in_motion(stage, *methods, 2, width / 2, height / 2)
-                                               : errors_in_motion(stage, *methods, 20, width, height);
+  const Result<MotionErrors> errors = setup.is_quick
+                                          ? errors_in_motion(stage, *methods, 2, width / 2, height / 2)
+                                          : errors_in_motion(stage, *methods, 20, width, height);
   if (!errors) return errors.errors();
   report.note(fmt::format("{} drives beside cars: true frames differ by {:.4f} inside reflections",
                           errors->drives, errors->true_difference));
@@ -157,19 +159,19 @@ Result<std::vector<ReflectionCost>> reported_costs(
   return costs;
 }
 
-Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
+Status measure_cost(const BenchSetup& setup, const scene::Scene& city, Report& report) {
   constexpr int cars_seen = 30;
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(city, 120));
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(setup.house, city, 120));
   if (!stage) return stage.errors();
   const Result<Camera> camera = view_of_cars(**stage, cars_seen, cars_seen, width, height, report);
   if (!camera) return camera.errors();
   // What costs least differs least from none, and needs most samples.
   const Result<std::vector<ReflectionCost>> cheap = reported_costs(
-      **stage, *camera, is_quick ? 20 : 60, Frames::whole,
+      **stage, *camera, setup.is_quick ? 20 : 60, Frames::whole,
       {{"none", usual("none")}, {"mem", usual("multiple_environment_maps")}, {"mem_lod", shipped()}}, report);
   if (!cheap) return cheap.errors();
   const Result<std::vector<ReflectionCost>> rerendered_costs =
-      reported_costs(**stage, *camera, is_quick ? 5 : 30, Frames::left_out,
+      reported_costs(**stage, *camera, setup.is_quick ? 5 : 30, Frames::left_out,
                      {{"none", usual("none")},
                       {"rerendered", usual("rerendered_cube_map")},
                       {"rerendered_lod", usual("rerendered_cube_map", true)},
@@ -185,20 +187,19 @@ Status measure_cost(const scene::Scene& city, bool is_quick, Report& report) {
   return Done{};
 }
 
-}  // namespace
-
-Result<Report> mem_bench(bool is_quick) {
+Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Report report("mem");
   report.note("machine: " + gl::driver_name());
   const ScratchFolder folder;
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
-  const Result<scene::LoadedScene> city = scene::load_scene(folder.path / "paper.xp", house::node_registry());
+  const Result<scene::LoadedScene> city =
+      scene::load_scene(folder.path / "paper.xp", setup.house.get<scene::NodeRegistry>());
   if (!city) return city.errors();
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(city->scene));
+  Result<std::unique_ptr<house::Stage>> stage =
+      house::Stage::create(house::make_play(setup.house, city->scene));
   if (!stage) return stage.errors();
-  const int repeats = is_quick ? 7 : 30;
+  const int repeats = setup.is_quick ? 7 : 30;
   const std::function<Status()> parts[]{
       [&]() -> Status {
         measure_memory(shipped().resolution, report);
@@ -209,22 +210,30 @@ Result<Report> mem_bench(bool is_quick) {
         measure_placement(city->scene, report);
         return Done{};
       },
-      [&] { return keep_maps(city->scene, shipped()); },
-      [&] { return measure_cost(city->scene, is_quick, report); },
-      [&] { return measure_body_count(city->scene, shipped(), repeats, report); },
-      [&] { return measure_city_size(city->scene, shipped(), repeats, report); },
-      [&] { return measure_quality(**stage, is_quick, report); },
-      [&] { return measure_motion(**stage, is_quick, report); },
+      [&] { return keep_maps(setup.house, city->scene, shipped()); },
+      [&] { return measure_cost(setup, city->scene, report); },
+      [&] { return measure_body_count(setup.house, city->scene, shipped(), repeats, report); },
+      [&] { return measure_city_size(setup.house, city->scene, shipped(), repeats, report); },
+      [&] { return measure_quality(**stage, setup, report); },
+      [&] { return measure_motion(**stage, setup, report); },
       [&] {
-        return is_quick ? measure_budget(**stage, shipped(), 6, width / 2, height / 2, report)
-                        : measure_budget(**stage, shipped(), 60, width, height, report);
+        return setup.is_quick ? measure_budget(**stage, shipped(), 6, width / 2, height / 2, report)
+                              : measure_budget(**stage, shipped(), 60, width, height, report);
       }};
   Progress progress("parts of the bench", std::size(parts));
   for (const std::function<Status()>& part : parts) {
     if (Status status = part(); !status) return status.errors();
     progress.advance();
   }
-  return report;
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_multiple_environment_maps(House& house) {
+  house.get<Benches>().add({"multiple_environment_maps",
+                            "their cost and their error against the ray tracer, beside the baselines",
+                            measure});
 }
 
 }  // namespace parvis::bench

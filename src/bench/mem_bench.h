@@ -1,12 +1,12 @@
-// Bench `mem`: what multiple environment maps cost, and how near the truth they are, beside the usual
-// methods.
+// Bench `multiple_environment_maps`: what they cost, and their error against the ray tracer beside the
+// baselines.
 #pragma once
 
-#include "bench/report.h"
+#include "base/house.h"
 
 namespace parvis::bench {
 
-/// Needs no context; takes minutes.
-Result<Report> mem_bench(bool is_quick);
+/// Registers the bench.
+void furnish_multiple_environment_maps(House& house);
 
 }  // namespace parvis::bench

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/report.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "reflections/methods/settings.h"
 
 namespace parvis::bench {

@@ -62,8 +62,8 @@ struct Timed {
   std::vector<double> ms;
 };
 
-Result<Timed> timed(const scene::Scene& scene, const methods::Settings& reflection) {
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(scene));
+Result<Timed> timed(const House& house, const scene::Scene& scene, const methods::Settings& reflection) {
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(house, scene));
   if (!stage) return stage.errors();
   Timed timed{*std::move(stage), {}, {}};
   methods::Settings none;
@@ -126,14 +126,14 @@ Status copy_maps(const maps::MapCache& of_one, std::size_t count, const scene::S
 
 }  // namespace
 
-Status measure_body_count(const scene::Scene& city, const methods::Settings& reflection, int repeats,
-                          Report& report) {
+Status measure_body_count(const House& house, const scene::Scene& city, const methods::Settings& reflection,
+                          int repeats, Report& report) {
   const Result<Camera> camera = street_camera(city);
   if (!camera) return camera.errors();
   scene::Scene with_one = without_traffic(city), with_many = with_one;
   add_balls(with_one, *camera, 1);
   add_balls(with_many, *camera, balls_per_side);
-  Result<Timed> one = timed(with_one, reflection), many = timed(with_many, reflection);
+  Result<Timed> one = timed(house, with_one, reflection), many = timed(house, with_many, reflection);
   if (!one) return one.errors();
   if (!many) return many.errors();
   if (Status status = time_in_turn(*one, *many, *camera, repeats); !status) return status;
@@ -153,16 +153,16 @@ Status measure_body_count(const scene::Scene& city, const methods::Settings& ref
   return Done{};
 }
 
-Status measure_city_size(const scene::Scene& city, const methods::Settings& reflection, int repeats,
-                         Report& report) {
-  scene::Scene small = without_traffic(house::make_play(city).scene);  // cars stand where it begins
+Status measure_city_size(const House& house, const scene::Scene& city, const methods::Settings& reflection,
+                         int repeats, Report& report) {
+  scene::Scene small = without_traffic(house::make_play(house, city).scene);  // cars stand where it begins
   methods::settings(small) = reflection;
   const maps::MapCache kept(small);
   const std::optional<maps::MapFile> first = kept.read(0);
   if (!first) return error("{}: no maps of the city are kept", kept.folder().string());
   const scene::Scene large = ten_cities(small, first->places);
   if (Status status = copy_maps(kept, first->places.size(), large); !status) return status;
-  Result<Timed> here = timed(small, reflection), there = timed(large, reflection);
+  Result<Timed> here = timed(house, small, reflection), there = timed(house, large, reflection);
   if (!here) return here.errors();
   if (!there) return there.errors();
   const Result<NearView> view = NearViews(*here->stage, width, height).next();

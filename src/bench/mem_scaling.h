@@ -1,6 +1,7 @@
 // What the cost of reflections follows: their pixels, not the number of bodies nor the size of the city.
 #pragma once
 
+#include "base/house.h"
 #include "bench/report.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/scene.h"
@@ -9,12 +10,12 @@ namespace parvis::bench {
 
 /// `cost_ratio_100_over_1` and `pixel_ns`: a mirror ball in the street, and in its place a hundred that fill
 /// as much of the picture with as many triangles. Costs are those of equally many reflective pixels.
-Status measure_body_count(const scene::Scene& city, const methods::Settings& reflection, int repeats,
-                          Report& report);
+Status measure_body_count(const House& house, const scene::Scene& city, const methods::Settings& reflection,
+                          int repeats, Report& report);
 
 /// `city_10km2_cost_over_1km2`: the same view of the same cars, where the city goes on over ten times the
 /// area with ten times the maps. Those of the city must be kept beside its file.
-Status measure_city_size(const scene::Scene& city, const methods::Settings& reflection, int repeats,
-                         Report& report);
+Status measure_city_size(const House& house, const scene::Scene& city, const methods::Settings& reflection,
+                         int repeats, Report& report);
 
 }  // namespace parvis::bench

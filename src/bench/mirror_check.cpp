@@ -6,7 +6,6 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/rooms.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
 
@@ -136,8 +135,9 @@ class SwappedFaces final : public probes::CubeMapReflections {
   methods::CubeMap map_{map_resolution};
 };
 
-Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene, house::drawables());
+Result<double> flip_of(const House& house, const scene::Scene& scene, bool swaps_faces) {
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, house.get<render::Drawables>());
   if (!renderer) return renderer.errors();
   std::unique_ptr<methods::Reflections> reflections;
   if (swaps_faces)
@@ -168,11 +168,11 @@ Result<double> flip_of(const scene::Scene& scene, bool swaps_faces) {
 
 }  // namespace
 
-Result<MirrorFlips> mirror_flips() {
+Result<MirrorFlips> mirror_flips(const House& house) {
   const Mesh box = cube(0.9f, false);
   MirrorFlips flips;
-  const auto measure = [](Mesh mirror, float radii, bool swaps_faces, double& flip) -> Status {
-    const Result<double> measured = flip_of(mirror_scene(std::move(mirror), radii), swaps_faces);
+  const auto measure = [&house](Mesh mirror, float radii, bool swaps_faces, double& flip) -> Status {
+    const Result<double> measured = flip_of(house, mirror_scene(std::move(mirror), radii), swaps_faces);
     if (!measured) return measured.errors();
     flip = *measured;
     return Done{};

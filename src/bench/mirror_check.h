@@ -2,6 +2,7 @@
 // and FLIP against the ray tracer shows whether directions, faces and filters are right.
 #pragma once
 
+#include "base/house.h"
 #include "base/result.h"
 
 namespace parvis::bench {
@@ -12,7 +13,7 @@ struct MirrorFlips {
   double ball_faces_swapped = 0.0;  ///< the same ball with two faces of its map exchanged: the check can fail
 };
 
-/// Needs a current OpenGL context.
-Result<MirrorFlips> mirror_flips();
+/// Needs a current OpenGL context; draws with the drawables of `house`.
+Result<MirrorFlips> mirror_flips(const House& house);
 
 }  // namespace parvis::bench

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/context.h"
+#include "house/rooms.h"
 
 namespace parvis::bench {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 TEST(Mirrors, CubeMapsAgreeWithTheRayTracer) {
   const Result<gl::Context> context = gl::Context::create_headless();
   ASSERT_TRUE(context) << to_string(context.errors());
-  const Result<MirrorFlips> flips = mirror_flips();
+  const Result<MirrorFlips> flips = mirror_flips(house::all_rooms());
   ASSERT_TRUE(flips) << to_string(flips.errors());
   EXPECT_LT(flips->ball, 0.02);
   EXPECT_LT(flips->box, 0.02);

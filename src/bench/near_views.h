@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "graphics/reference/tracer.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 

@@ -2,7 +2,7 @@
 
 #include "bench/scratch_folder.h"
 #include "graphics/reference/photograph.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
@@ -13,10 +13,10 @@ constexpr const char* camera_name = "crossing";
 
 }  // namespace
 
-Status measure_photographs(bool is_quick, Report& report) {
+Status measure_photographs(const BenchSetup& setup, Report& report) {
   const ScratchFolder folder;
   if (Status status = city::write_paper_city(folder.path, 1); !status) return status;
-  Result<house::Play> play = house::open_play(folder.path / "paper.xp", {});
+  Result<house::Play> play = house::open_play(setup.house, folder.path / "paper.xp", {});
   if (!play) return play.errors();
   play->advance(8.0);  // so that cars have reached the crossing
   const Result<Camera> camera = play->camera(camera_name);
@@ -26,7 +26,7 @@ Status measure_photographs(bool is_quick, Report& report) {
   const shading::SkyLight sky =
       shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
   reference::PhotographOptions options;
-  options.samples_per_pixel = is_quick ? quick_samples : samples;
+  options.samples_per_pixel = setup.is_quick ? quick_samples : samples;
   const Result<reference::Photograph> photograph =
       reference::take_photograph(rays, scene, sky, *camera, width, height, options);
   if (!photograph) return photograph.errors();

@@ -2,12 +2,12 @@
 // city takes.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
-/// Adds path_traced_mrays_s and photo_s_1280x960_64spp. `is_quick`: a photograph of 4 samples per pixel
+/// Adds path_traced_mrays_s and photo_s_1280x960_64spp. `setup.is_quick`: a photograph of 4 samples per pixel
 /// stands for that of 64, whose time is in proportion.
-Status measure_photographs(bool is_quick, Report& report);
+Status measure_photographs(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

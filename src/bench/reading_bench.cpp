@@ -4,7 +4,7 @@
 #include "base/test_data.h"
 #include "bench/scratch_folder.h"
 #include "formats/city_models/city_json.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 namespace {
@@ -25,7 +25,7 @@ std::string long_script(int groups) {
   return text;
 }
 
-Status measure_scripts(int repeats, Report& report) {
+Status measure_scripts(const House& house, int repeats, Report& report) {
   const ScratchFolder folder;
   const fs::path file = folder.path / "long.xp";
   const std::string text = long_script(5'000);
@@ -35,7 +35,8 @@ Status measure_scripts(int repeats, Report& report) {
   std::vector<double> mb_s;
   for (int i = 0; i < repeats; ++i) {
     Status checked = Done{};
-    const double ms = milliseconds([&] { checked = scene::check_scene(file, house::node_registry()); });
+    const double ms =
+        milliseconds([&] { checked = scene::check_scene(file, house.get<scene::NodeRegistry>()); });
     if (!checked) return checked;
     mb_s.push_back(1e-3 * double(text.size()) / ms);
   }
@@ -70,7 +71,7 @@ Status measure_cities(int repeats, Report& report) {
   return Done{};
 }
 
-Status measure_delft(int repeats, Report& report) {
+Status measure_delft(const House& house, int repeats, Report& report) {
   const auto data = shared_data("", fs::current_path());
   const fs::path script = fs::current_path() / "scenes/delft.xp";
   if (!data || !fs::exists(script)) {
@@ -81,7 +82,7 @@ Status measure_delft(int repeats, Report& report) {
   for (int i = 0; i < repeats; ++i) {
     Status loaded = Done{};
     samples.push_back(milliseconds([&] {
-      if (const auto scene = scene::load_scene(script, house::node_registry(), {&*data, 1}); !scene)
+      if (const auto scene = scene::load_scene(script, house.get<scene::NodeRegistry>(), {&*data, 1}); !scene)
         loaded = scene.errors();
     }));
     if (!loaded) return loaded;
@@ -92,11 +93,11 @@ Status measure_delft(int repeats, Report& report) {
 
 }  // namespace
 
-Status measure_readers(bool is_quick, Report& report) {
-  const int repeats = is_quick ? 5 : 11;
-  if (Status status = measure_scripts(repeats, report); !status) return status;
+Status measure_readers(const BenchSetup& setup, Report& report) {
+  const int repeats = setup.is_quick ? 5 : 11;
+  if (Status status = measure_scripts(setup.house, repeats, report); !status) return status;
   if (Status status = measure_cities(repeats, report); !status) return status;
-  return measure_delft(is_quick ? 3 : repeats, report);
+  return measure_delft(setup.house, setup.is_quick ? 3 : repeats, report);
 }
 
 }  // namespace parvis::bench

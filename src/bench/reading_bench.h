@@ -1,13 +1,13 @@
 // script/bench doors, the readers: scripts and city models.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
 /// Adds script_mb_s (text to checked nodes), cityjson_mb_s (files of cities to models) and load_ms_delft (the
 /// script scenes/delft.xp with all it names, to a scene ready to be drawn). Files are read from the page
 /// cache.
-Status measure_readers(bool is_quick, Report& report);
+Status measure_readers(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

@@ -7,7 +7,7 @@
 
 #include "bench/judged_method.h"
 #include "bench/report.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 

@@ -21,12 +21,12 @@ TEST(Median, LiesInTheMiddleOfItsInterval) {
 
 TEST(Report, WritesFiguresAsNumbersAndSaysWhatIsSkipped) {
   const TestFolder folder;
-  Report report("doors");
+  Report report("import_export");
   report.add("loaded_ms", 12.5);
   report.skip("errors", "node is absent");
   ASSERT_TRUE(report.write(folder.path() / "report.json"));
   const auto json = nlohmann::json::parse(*read_file(folder.path() / "report.json"));
-  EXPECT_EQ(json["bench"], "doors");
+  EXPECT_EQ(json["bench"], "import_export");
   EXPECT_EQ(json["figures"], nlohmann::json({{"loaded_ms", 12.5}}));
   EXPECT_EQ(json["rows"].back(), "errors is skipped: node is absent");
 }

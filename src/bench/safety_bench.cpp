@@ -108,13 +108,13 @@ Status measure_fuzzers(const fs::path& folder, int seconds, Report& report) {
 
 }  // namespace
 
-Status measure_safety(bool is_quick, Report& report) {
+Status measure_safety(const BenchSetup& setup, Report& report) {
   const ScratchFolder folder;
   std::error_code code;
   fs::create_directories(folder.path, code);
   if (code) return error("{}: {}", folder.path.string(), code.message());
   if (Status status = measure_validator(folder.path, report); !status) return status;
-  return measure_fuzzers(folder.path, is_quick ? 2 : 10, report);
+  return measure_fuzzers(folder.path, setup.is_quick ? 2 : 10, report);
 }
 
 }  // namespace parvis::bench

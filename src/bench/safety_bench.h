@@ -1,13 +1,13 @@
 // script/bench doors, what must not happen: files that are no glTF, readers that fail on hostile input.
 #pragma once
 
-#include "bench/report.h"
+#include "bench/benches.h"
 
 namespace parvis::bench {
 
 /// Adds gltf_validator_errors (Khronos's validator over every file of the paper's city) and fuzz_findings
 /// (inputs at which a reader fails): fuzzers run for some seconds each where script/fuzz has built them; else
 /// the readers take the inputs once found. To be run in the project's folder, whose scripts it calls.
-Status measure_safety(bool is_quick, Report& report);
+Status measure_safety(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

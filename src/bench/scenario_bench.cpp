@@ -6,7 +6,7 @@
 
 #include "base/files.h"
 #include "bench/scratch_folder.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
@@ -31,11 +31,11 @@ scenario(name="tramway") {
 
 }  // namespace
 
-Status measure_scenarios(bool is_quick, Report& report) {
+Status measure_scenarios(const BenchSetup& setup, Report& report) {
   const ScratchFolder folder;
   if (Status status = city::write_paper_city(folder.path, 1); !status) return status;
   if (Status status = write_file(folder.path / "project.xp", project); !status) return status;
-  Result<house::Play> play = house::open_play(folder.path / "project.xp", {});
+  Result<house::Play> play = house::open_play(setup.house, folder.path / "project.xp", {});
   if (!play) return play.errors();
   play->advance(8.0);
   Result<std::unique_ptr<house::Stage>> made = house::Stage::create(*std::move(play));
@@ -52,7 +52,7 @@ Status measure_scenarios(bool is_quick, Report& report) {
   for (int i = 0; i < 3; ++i) frame_ms();  // makes what is made once
 
   std::vector<double> samples;
-  const int switches = is_quick ? 8 : 24;
+  const int switches = setup.is_quick ? 8 : 24;
   for (int i = 0; i < switches; ++i) {
     Status chosen = Done{};
     const double choice_ms =

@@ -4,7 +4,8 @@
 #include "base/files.h"
 #include "bench/scratch_folder.h"
 #include "graphics/gl/context.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 
 namespace parvis::bench {
@@ -35,7 +36,7 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
   ASSERT_TRUE(write_file(folder.path / "project.xp", project));
   const Result<gl::Context> context = gl::Context::create_headless();
   ASSERT_TRUE(context) << to_string(context.errors());
-  Result<house::Play> play = house::open_play(folder.path / "project.xp", {});
+  Result<house::Play> play = house::open_play(house::all_rooms(), folder.path / "project.xp", {});
   ASSERT_TRUE(play) << to_string(play.errors());
   play->advance(2.0);
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));

@@ -44,10 +44,10 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
   return cameras;
 }
 
-house::Play play_with(const scene::Scene& scene, int vehicles) {
+house::Play play_with(const House& house, const scene::Scene& scene, int vehicles) {
   scene::Scene copy = scene;  // models are shared
   copy.data<traffic::TrafficDemand>().vehicles = vehicles;
-  return house::make_play(std::move(copy));
+  return house::make_play(house, std::move(copy));
 }
 
 int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height) {

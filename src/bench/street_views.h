@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/report.h"
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 namespace parvis::bench {
 
@@ -14,7 +14,7 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
                                  float pitch_rad, int width, int height);
 
 /// The scene with so many vehicles.
-house::Play play_with(const scene::Scene& scene, int vehicles);
+house::Play play_with(const House& house, const scene::Scene& scene, int vehicles);
 
 int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height);
 

@@ -2,7 +2,8 @@
 
 #include <cstdlib>
 
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 #include "life/traffic/demand.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/paper_script.h"

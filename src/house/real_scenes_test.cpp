@@ -5,7 +5,8 @@
 
 #include "base/test_data.h"
 #include "formats/terrain/ground_raster.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 #include "life/traffic/traffic.h"
 #include "scene/script/scene_loader.h"
 

@@ -2,6 +2,11 @@
 
 #include <array>
 
+#include "bench/curved_bench.h"
+#include "bench/doors_bench.h"
+#include "bench/frame_bench.h"
+#include "bench/light_bench.h"
+#include "bench/mem_bench.h"
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/meshes/mesh_nodes.h"
@@ -25,12 +30,27 @@ namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
 constexpr std::array rooms{
-    scene::furnish_script,  scene::furnish_gltf,     scene::furnish_city_models,
-    scene::furnish_terrain, scene::furnish_meshes,   scene::furnish_roads,
-    traffic::furnish,       scene::furnish_light,    city::furnish,
-    action::furnish,        probes::furnish,         environment_rays::furnish,
-    local_maps::furnish,    reference_maps::furnish, virtual_objects::furnish,
+    scene::furnish_script,
+    scene::furnish_gltf,
+    scene::furnish_city_models,
+    scene::furnish_terrain,
+    scene::furnish_meshes,
+    scene::furnish_roads,
+    traffic::furnish,
+    scene::furnish_light,
+    city::furnish,
+    action::furnish,
+    probes::furnish,
+    environment_rays::furnish,
+    local_maps::furnish,
+    reference_maps::furnish,
+    virtual_objects::furnish,
     refraction::furnish,
+    bench::furnish_frame,
+    bench::furnish_import_export,
+    bench::furnish_multiple_environment_maps,
+    bench::furnish_curved_reflectors,
+    bench::furnish_light,
 };
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 #include "scene/script/schema_json.h"
 #include "scene/script/script_reader.h"
 

@@ -6,7 +6,8 @@
 
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 #include "scene/action/actions.h"
 #include "scene/data/test_scene.h"
 
@@ -27,7 +28,7 @@ class NodeRowsTest : public testing::Test {
   NodeRowsTest() {
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb",
                                   *scene::model_of(scene::box(glm::vec3(0.0f), glm::vec3(1.0f)), {})));
-    Result<house::Play> play = house::open_play(folder_.write("scene.xp", script), {});
+    Result<house::Play> play = house::open_play(house::all_rooms(), folder_.write("scene.xp", script), {});
     EXPECT_TRUE(play) << to_string(play.errors());
     if (play) play_ = std::make_unique<house::Play>(*std::move(play));
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graphics/gl/context.h"
+#include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "viewer/keys.h"
 
@@ -160,7 +161,7 @@ void Panel::draw_light(Visit& visit) {
   if (rows_.drag("Exposure", &exposure, 1, {0.005f, "%.3f"}, 0.01, 100, "how bright the picture is"))
     visit.set_exposure(float(exposure));
 
-  const methods::Registry& registry = house::method_registry();
+  const methods::Registry& registry = visit.stage().house().get<methods::Registry>();
   const std::vector<std::string> names = registry.names();
   std::vector<std::string> shown = names;
   for (std::string& name : shown) std::replace(name.begin(), name.end(), '_', ' ');

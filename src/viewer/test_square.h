@@ -9,6 +9,7 @@
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/gl/test_context.h"
+#include "house/rooms.h"
 #include "scene/data/test_scene.h"
 #include "viewer/visit.h"
 
@@ -57,7 +58,7 @@ class SquareTest : public gl::ContextTest {
     write("hotel.glb", scene::box({-6, -3, 0}, {6, 3, 7}), {0.55f, 0.50f, 0.42f});
     write("tree.glb", scene::sphere({0, 0, 3}, 1.6f), {0.10f, 0.25f, 0.06f});
     write("car.glb", scene::box({-2.1f, -0.9f, 0.2f}, {2.1f, 0.9f, 1.4f}), {0.40f, 0.05f, 0.04f});
-    Result<house::Play> play = house::open_play(folder_.write("square.xp", script), {});
+    Result<house::Play> play = house::open_play(house::all_rooms(), folder_.write("square.xp", script), {});
     ASSERT_TRUE(play) << to_string(play.errors());
     Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
     ASSERT_TRUE(stage) << to_string(stage.errors());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "viewer/navigation.h"
 
 namespace parvis::viewer {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "house/stage.h"
+#include "house/stage/stage.h"
 #include "viewer/visit.h"
 
 namespace parvis::viewer {

@@ -8,11 +8,14 @@
 #include <span>
 #include <string>
 
+#include "base/house.h"
 #include "graphics/gl/pass_times.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/drawables.h"
 #include "graphics/render/picture_scale.h"
-#include "house/rooms.h"
-#include "house/scene_camera.h"
+#include "graphics/render/renderer.h"
+#include "house/stage/scene_camera.h"
+#include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
 #include "scene/action/scene_clock.h"
@@ -22,6 +25,7 @@ namespace parvis::house {
 
 /// A scene that runs: with its processes, which the clock drives.
 struct Play {
+  const House* house;  ///< not owned: the rooms whose nodes, processes, drawables and methods it uses
   scene::Scene scene;
   action::SceneClock clock;
 
@@ -39,10 +43,12 @@ struct Play {
   Result<Camera> camera(const std::string& name) const;
 };
 /// Begins the processes of a scene; `live` holds the nodes of its script. Warnings are written to standard
-/// error.
-Play make_play(scene::Scene scene, scene::LiveScene live = scene::LiveScene(node_registry()));
-/// The same of a script.
-Result<Play> open_play(const std::filesystem::path& script,
+/// error. `house` must live as long as the play.
+Play make_play(const House& house, scene::Scene scene, scene::LiveScene live);
+/// The same of a scene without a script.
+Play make_play(const House& house, scene::Scene scene);
+/// The same of a script, which may use the node types of `house`.
+Result<Play> open_play(const House& house, const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
 
 /// Draws a play with an OpenGL context that is current.
@@ -52,6 +58,8 @@ class Stage {
   Stage(const Stage&) = delete;
 
   Play& play() { return play_; }
+  /// The rooms whose nodes, processes, drawables and methods the stage uses.
+  const House& house() const { return *play_.house; }
   const scene::Scene& scene() const { return play_.scene; }
   render::Renderer& renderer() { return *renderer_; }
   const methods::Reflections& reflections() const { return *reflections_; }

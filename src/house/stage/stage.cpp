@@ -1,6 +1,7 @@
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 #include "graphics/render/frame_views.h"
+#include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 
 namespace parvis::house {
@@ -24,29 +25,36 @@ Result<Camera> Play::camera(const std::string& name) const {
   return scene_camera(scene, name);
 }
 
-Play make_play(scene::Scene scene, scene::LiveScene live) {
-  drawables().furnish(scene);
-  action::SceneClock clock(all_rooms().get<action::Processes>(), std::move(live), scene);
+Play make_play(const House& house, scene::Scene scene, scene::LiveScene live) {
+  house.get<render::Drawables>().furnish(scene);
+  action::SceneClock clock(house.get<action::Processes>(), std::move(live), scene);
   reported(clock.take_warnings());
-  return {std::move(scene), std::move(clock)};
+  return {&house, std::move(scene), std::move(clock)};
 }
 
-Result<Play> open_play(const std::filesystem::path& script,
+Play make_play(const House& house, scene::Scene scene) {
+  return make_play(house, std::move(scene), scene::LiveScene(house.get<scene::NodeRegistry>()));
+}
+
+Result<Play> open_play(const House& house, const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders) {
-  Result<scene::LoadedScene> loaded = scene::load_scene(script, node_registry(), data_folders);
+  Result<scene::LoadedScene> loaded =
+      scene::load_scene(script, house.get<scene::NodeRegistry>(), data_folders);
   if (!loaded) return loaded.errors();
   reported(loaded->warnings);
   scene::LiveScene live(std::move(loaded->script));
   if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
-  return make_play(std::move(loaded->scene), std::move(live));
+  return make_play(house, std::move(loaded->scene), std::move(live));
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
     : play_(std::move(play)), renderer_(std::move(renderer)) {}
 
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
-  if (Status status = method_registry().prepare(play.scene); !status) return status.errors();
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(play.scene, drawables());
+  if (Status status = play.house->get<methods::Registry>().prepare(play.scene); !status)
+    return status.errors();
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(play.scene, play.house->get<render::Drawables>());
   if (!renderer) return renderer.errors();
   std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
@@ -57,7 +65,8 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
 Status Stage::set_reflection(const methods::Settings& reflection) {
   methods::settings(play_.scene) = shown_reflection_ = reflection;
   renderer_->set_budget(double(reflection.budget_ms));
-  Result<std::unique_ptr<methods::Reflections>> made = method_registry().make(play_.scene, *renderer_);
+  Result<std::unique_ptr<methods::Reflections>> made =
+      house().get<methods::Registry>().make(play_.scene, *renderer_);
   if (!made) return made.errors();
   if (Status status = renderer_->set_reflection(made->get()); !status) return status;
   reflections_ = *std::move(made);

@@ -1,4 +1,4 @@
-#include "house/photographs.h"
+#include "house/stage/photographs.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 #include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/colmap_writer.h"
+#include "house/stage/colmap_writer.h"
 
 namespace parvis::house {
 namespace {

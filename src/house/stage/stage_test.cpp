@@ -1,13 +1,14 @@
 // The renderer against the ray tracer on a street that has something of everything: walls in sun and shade,
 // ground, a fence with holes, a pane that lets through, a lacquered car that reflects and darkens the road
 // below it.
-#include "house/stage.h"
+#include "house/stage/stage.h"
 
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
+#include "house/rooms.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/test_scene.h"
@@ -69,7 +70,7 @@ scene::Scene street() {
 
 TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
   constexpr int width = 480, height = 270;
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(street()));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), street()));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -112,7 +113,7 @@ TEST_F(StageTest, AGlassBallShowsItsCubeMapUpsideDown) {
   camera.world_from_camera = look_at({-4.5f, -6.5f, 1.7f}, {-3.5f, -2.0f, 1.2f});
   const auto flip_of = [&](const std::string& method) {
     methods::settings(scene).method = method;
-    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene));
     EXPECT_TRUE(stage) << to_string(stage.errors());
     (*stage)->draw(camera, width, height);
     const Image8 drawn = (*stage)->picture();
@@ -130,7 +131,7 @@ TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
   constexpr int width = 160, height = 90, frames = 12;  // times come frames later
   scene::Scene scene = street();
   methods::settings(scene).budget_ms = 0.001f;
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(scene));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -166,7 +167,7 @@ TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
   add(place, model_of(ground(40), matt(glm::vec3(0.25f))));
   scene::play(place.objects[std::size_t(add(place, falling_board()))], {.animation = 0});
   place.sun.direction_to_sun = glm::normalize(glm::vec3(-0.6f, -0.4f, 0.7f));
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(std::move(place)));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), std::move(place)));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({1.5f, -9, 2}, {1.5f, 0, 1.2f});

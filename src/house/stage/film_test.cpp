@@ -1,4 +1,4 @@
-#include "house/film.h"
+#include "house/stage/film.h"
 
 #include <gtest/gtest.h>
 

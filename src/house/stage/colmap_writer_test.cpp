@@ -1,4 +1,4 @@
-#include "house/colmap_writer.h"
+#include "house/stage/colmap_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
-#include "house/stage.h"
+#include "house/rooms.h"
+#include "house/stage/stage.h"
 
 namespace parvis::house {
 namespace {
@@ -29,7 +30,7 @@ class PlayTest : public testing::Test {
 
   /// The scene of that seed after `frames` of `frame_s`.
   Play played(int seed, int frames, double frame_s) {
-    Result<Play> play = open_play(folder_.write("scene.xp", script(seed)), {});
+    Result<Play> play = open_play(all_rooms(), folder_.write("scene.xp", script(seed)), {});
     EXPECT_TRUE(play) << to_string(play.errors());
     for (int i = 0; i < frames; ++i) play->advance(frame_s);
     return *std::move(play);
@@ -93,7 +94,8 @@ TEST_F(PlayTest, TheMethodOfTheCommandLineHoldsInAScenarioThatNamesAnother) {
     const std::string names_another =
         *own ? "override(of=\"%reflection\", method=box_projected_probe)" : "group() { camera(name=inside) }";
     Result<Play> play =
-        open_play(folder_.write("scene.xp",
+        open_play(all_rooms(),
+                  folder_.write("scene.xp",
                                 own + ("camera(name=eye)\nscenario(name=other) { " + names_another + " }\n")),
                   {});
     ASSERT_TRUE(play) << to_string(play.errors());

@@ -1,4 +1,4 @@
-#include "house/scene_camera.h"
+#include "house/stage/scene_camera.h"
 
 #include <algorithm>
 
