@@ -1,0 +1,29 @@
+#include "formats/readers/bench/import_export_bench.h"
+
+#include "bench/benches.h"
+#include "formats/readers/bench/photo_bench.h"
+#include "formats/readers/bench/reading_bench.h"
+#include "formats/readers/bench/safety_bench.h"
+#include "formats/readers/bench/scenario_bench.h"
+#include "graphics/gl/context.h"
+
+namespace parvis::bench {
+namespace {
+
+Status measure(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  for (const auto& measure : {measure_readers, measure_scenarios, measure_photographs, measure_safety})
+    if (Status status = measure(setup, report); !status) return status.errors();
+  return Done{};
+}
+
+}  // namespace
+
+void furnish_import_export(House& house) {
+  house.get<Benches>().add(
+      {"import_export", "scripts, city models, scenarios, path-traced photographs, exported glTF", measure});
+}
+
+}  // namespace parvis::bench

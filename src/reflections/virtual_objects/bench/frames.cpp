@@ -1,0 +1,73 @@
+#include "reflections/virtual_objects/bench/frames.h"
+
+#include <array>
+#include <ctime>
+
+#include "bench/judged_method.h"
+#include "reflections/reflector_maps/settings.h"
+
+namespace parvis::bench {
+namespace {
+
+/// The second also shows the bowl's concave side and its rim: each is drawn in 17 layers.
+constexpr std::array cameras{"bowl in the kettle", "at the kettle"};
+constexpr int width = 480, height = 300;
+constexpr int turns = 2;  // each frame takes seconds in software
+constexpr int baseline_faces_px = 512;
+
+std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const methods::Settings& by_area) {
+  methods::Settings every = by_area, baseline = by_area;
+  every.uses_level_of_detail = false;
+  baseline.method = "rerendered_cube_map";
+  baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
+  std::vector<std::pair<std::string, methods::Settings>> ways{{"every vertex", every}};
+  for (const float share : {0.143f, 0.096f, 0.055f, 0.041f}) {
+    methods::Settings grid = every;
+    grid.own.get<reflector_maps::VirtualObjectSettings>().grid_share = share;
+    ways.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
+  }
+  ways.emplace_back("grids by area", by_area);
+  ways.emplace_back("re-rendered cube maps", baseline);
+  return ways;
+}
+
+Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
+                    Report& report) {
+  const Result<Camera> camera = stage.camera(name);
+  if (!camera) return camera.errors();
+  std::vector<std::vector<double>> frame_s(methods.size()), processor_s(methods.size());
+  for (int turn = -1; turn < turns; ++turn)  // the first makes what is made once
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (Status status = stage.renderer().set_reflection(methods[m].reflections.get()); !status)
+        return status;
+      glFinish();
+      const std::clock_t begun = std::clock();
+      const double ms = milliseconds([&] {
+        draw_again(stage, methods[m], *camera, width, height);
+        glFinish();
+      });
+      if (turn < 0) continue;
+      frame_s[m].push_back(1e-3 * ms);
+      processor_s[m].push_back(double(std::clock() - begun) / CLOCKS_PER_SEC);
+    }
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    report.note(fmt::format("{}, {} x {}, {}: {:.2f} s a frame, {:.2f} s of processors", name, width, height,
+                            methods[m].name, median(frame_s[m]).value, median(processor_s[m]).value));
+  return Done{};
+}
+
+}  // namespace
+
+Status measure_frames(house::Stage& stage, Report& report) {
+  std::vector<JudgedMethod> methods;
+  for (const auto& [name, reflection] : ways_to_reflect(methods::settings(stage.scene()))) {
+    Result<JudgedMethod> method = judged_method(stage, name, reflection);
+    if (!method) return method.errors();
+    methods.push_back(*std::move(method));
+  }
+  for (const char* name : cameras)
+    if (Status status = measure_view(stage, methods, name, report); !status) return status;
+  return Done{};
+}
+
+}  // namespace parvis::bench

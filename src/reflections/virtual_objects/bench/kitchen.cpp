@@ -1,0 +1,72 @@
+#include "reflections/virtual_objects/bench/kitchen.h"
+
+#include <algorithm>
+#include <array>
+
+#include "bench/scratch_folder.h"
+#include "graphics/gl/context.h"
+#include "places/paper_city/kitchen.h"
+#include "reflections/reflector_maps/reflector_cache.h"
+#include "reflections/virtual_objects/bench/beside_rerendered.h"
+#include "reflections/virtual_objects/bench/frames.h"
+#include "reflections/virtual_objects/bench/reflected_points.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr std::array cameras{"at the kettle", "figure 6", "into the bowl", "at the pans", "at the spoons"};
+constexpr std::size_t quick_cameras =
+    1;  // concave mirrors are drawn in many layers, each as slow as a picture
+constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
+constexpr std::size_t points = 4000, quick_points = 400;  // a camera
+
+Status measure_points(const house::Stage& stage, const BenchSetup& setup, Report& report) {
+  const Result<ReflectedPoints> reflected = ReflectedPoints::make(stage.scene());
+  if (!reflected) return reflected.errors();
+  std::vector<double> all;
+  for (const char* name : cameras) {
+    const Result<Camera> camera = stage.camera(name);
+    if (!camera) return camera.errors();
+    const std::vector<double> errors =
+        reflected->errors_px(*camera, width, height, setup.is_quick ? quick_points : points);
+    if (errors.empty()) return error("the camera \"{}\" shows no mirror", name);
+    const auto missed = std::ranges::count_if(errors, [](double px) { return px >= missed_px; });
+    report.note(fmt::format(
+        "{}: of what its mirrors show, {:.2f} % is missed; median, 95 %, 99 % {:.3f} {:.3f} {:.2f} px", name,
+        100.0 * double(missed) / double(errors.size()), percentile(errors, 0.5), percentile(errors, 0.95),
+        percentile(errors, 0.99)));
+    all.insert(all.end(), errors.begin(), errors.end());
+  }
+  report.add("kitchen_p99_px", percentile(all, 0.99));
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<house::Stage>> open_kitchen(const House& house, const std::filesystem::path& folder,
+                                                   const std::string& script) {
+  if (Status status = city::write_kitchen(folder, 1); !status) return status.errors();
+  Result<house::Play> play = house::open_play(house, folder / script, {});
+  if (!play) return play.errors();
+  // Once for all: the points, the stage and the method that is judged each need them.
+  if (const auto baked = reflector_maps::bake_reflectors(play->scene); !baked) return baked.errors();
+  return house::Stage::create(*std::move(play));
+}
+
+Status measure_kitchen(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  const ScratchFolder folder;
+  Result<std::unique_ptr<house::Stage>> stage = open_kitchen(setup.house, folder.path, "kitchen.xp");
+  if (!stage) return stage.errors();
+  if (Status status = measure_points(**stage, setup, report); !status) return status;
+  if (Status status = measure_beside_rerendered(
+          **stage, std::span(cameras).first(setup.is_quick ? quick_cameras : cameras.size()),
+          setup.is_quick ? quick_width : width, setup.is_quick ? quick_height : height,
+          "kitchen_flip_over_rerendered", report);
+      !status)
+    return status;
+  return setup.is_quick ? Status(Done{}) : measure_frames(**stage, report);  // minutes
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,166 @@
+#include "reflections/virtual_objects/bench/search.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/random.h"
+#include "base/test_data.h"
+#include "formats/meshes/assimp_reader.h"
+#include "reflections/reflection_search/ellipsoid.h"
+#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/virtual_objects/bench/judged_body.h"
+#include "scene/data/test_scene.h"
+
+namespace parvis::bench {
+namespace {
+
+using namespace reflection_search;
+namespace fs = std::filesystem;
+
+constexpr std::array ellipsoids{glm::vec3(1.0f), glm::vec3(1.0f, 0.6f, 0.8f), glm::vec3(2.0f, 0.9f, 0.6f)};
+constexpr std::array real_bodies{"teapot", "beetle-alt", "spot", "stanford-bunny"};
+constexpr std::size_t reflections = 20000, quick_reflections = 4000;  // a body
+constexpr int turns = 9, quick_turns = 5;
+constexpr int ellipsoid_rings = 256;
+constexpr int paper_iterations = 9;
+constexpr float search_ends = 2e-9f;  // error, 0.005 degrees
+constexpr double degrees = 57.29577951308232;
+
+/// The paper's search begins where the default one does, as far as that is known beforehand.
+MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::ReflectionTask& task) {
+  const glm::vec3 start = search.reflector.is_whole_body()
+                              ? search.first_direction(task)
+                              : search.search_start(0).plane.at.position - task.centre;
+  const MapSearch::ReflectionPoint point =
+      search.search_by_midpoint(task, start, paper_iterations, search_ends);
+  return {point, kind_surface};  // no lookup more than the paper's
+}
+
+MapSearch::PatchPoint by_newton(MapSearch& search, const MapSearch::ReflectionTask& task) {
+  return search.search_patch(task, search.patch_kind(), -1);
+}
+
+Result<std::vector<JudgedBody>> make_bodies(const BenchSetup& setup, Report& report) {
+  const std::size_t count = setup.is_quick ? quick_reflections : reflections;
+  std::vector<JudgedBody> bodies;
+  const auto add = [&](const std::string& name, const Mesh& mesh) -> Status {
+    Result<JudgedBody> body = JudgedBody::make(name, mesh, count);
+    if (!body) return body.errors();
+    report.note(body->description());
+    bodies.push_back(*std::move(body));
+    return Done{};
+  };
+  for (const glm::vec3 radii : ellipsoids) {
+    Mesh mesh;
+    append(mesh, scene::sphere(glm::vec3(0.0f), 1.0f, ellipsoid_rings), glm::scale(glm::mat4(1.0f), radii));
+    if (Status status = add(fmt::format("ellipsoid {} {} {}", radii.x, radii.y, radii.z), mesh); !status)
+      return status.errors();
+  }
+  for (const char* name : real_bodies) {
+    const auto file = shared_data(fmt::format("reflectors/{}.obj", name), fs::current_path());
+    if (!file) {
+      report.note(fmt::format("{} is left out: shared data absent", name));
+      continue;
+    }
+    Errors warnings;
+    const Result<scene::Model> model = scene::read_with_assimp(*file, formats::UpAxis::file, warnings);
+    if (!model) return model.errors();
+    Mesh mesh;
+    for (const scene::Part& part : model->parts) append(mesh, part.mesh);
+    if (Status status = add(name, mesh); !status) return status.errors();
+  }
+  return bodies;
+}
+
+/// How many of the reflections whose vertex is at least, or below, 1.5 radii away the search does not find.
+struct Told {
+  int told = 0, all = 0;
+  double percent() const { return all ? 100.0 * told / all : 0.0; }
+};
+
+void measure_maps(const std::vector<JudgedBody>& bodies, const BenchSetup& setup, Report& report) {
+  std::vector<double> newton_angles, midpoint_angles, ratios;
+  Told from_1_5, at_1_1;
+  int silently_wrong = 0;
+  for (const JudgedBody& body : bodies) {
+    const SearchFigures newton = body.judge(by_newton), midpoint = body.judge(by_midpoint);
+    newton_angles.insert(newton_angles.end(), newton.angles_deg.begin(), newton.angles_deg.end());
+    midpoint_angles.insert(midpoint_angles.end(), midpoint.angles_deg.begin(), midpoint.angles_deg.end());
+    Told all;
+    for (std::size_t i = 0; i < newton.angles_deg.size(); ++i) {
+      Told& told = body.reflections()[i].reach < 1.4f ? at_1_1 : from_1_5;
+      told.told += newton.is_told[i], ++told.all;
+      all.told += newton.is_told[i], ++all.all;
+      silently_wrong += !newton.is_told[i] && newton.angles_deg[i] > 1.0;
+    }
+    report.note(fmt::format(
+        "{}: angle median and 99 % {:.4f} {:.3f} deg (midpoint-9 {:.3f} {:.1f}), {:.2f} % told, {:.2f} us "
+        "(midpoint-9 {:.2f})",
+        body.name(), percentile(newton.angles_deg, 0.5), percentile(newton.angles_deg, 0.99),
+        percentile(midpoint.angles_deg, 0.5), percentile(midpoint.angles_deg, 0.99), all.percent(),
+        newton.microseconds, midpoint.microseconds));
+  }
+  for (int turn = 0; turn < (setup.is_quick ? quick_turns : turns); ++turn) {
+    double newton_us = 0.0, midpoint_us = 0.0;
+    for (const JudgedBody& body : bodies) {
+      newton_us += body.judge(by_newton).microseconds;
+      midpoint_us += body.judge(by_midpoint).microseconds;
+    }
+    ratios.push_back(newton_us / midpoint_us);
+  }
+  report.add("newton_over_midpoint9_p99_angle",
+             percentile(newton_angles, 0.99) / percentile(midpoint_angles, 0.99));
+  report.add("newton_over_midpoint9_time", median(ratios));
+  report.add("unflagged_over_1deg", double(silently_wrong));
+  report.add("flagged_percent_from_1_5_radii", from_1_5.percent());
+  report.add("flagged_percent_at_1_1", at_1_1.percent());
+}
+
+/// Without maps: vertices anywhere about ellipsoids, hidden ones too, at 1.1 to 4 times the surface's
+/// distance.
+void measure_analytic(const BenchSetup& setup, Report& report) {
+  using Search = ReflectionSearch<Ellipsoid>;
+  std::vector<double> newton_angles, midpoint_angles;
+  for (const glm::vec3 radii : ellipsoids) {
+    const Ellipsoid ellipsoid{radii};
+    Search search{ellipsoid};
+    Random random(2);
+    const auto outside = [&](float least, float most) {
+      glm::vec3 d(0.0f);
+      while (glm::length(d) < 0.01f || glm::length(d) > 1.0f)
+        d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+      return random.uniform(least, most) * ellipsoid.surface(d).first;
+    };
+    const auto angle = [&](const Search::ReflectionPoint& point, const Search::ReflectionTask& task) {
+      const glm::dvec3 p(point.position), r(radii);
+      return degrees * bisector_angle(p, glm::normalize(p / (r * r)), task.viewer, task.vertex);
+    };
+    for (std::size_t i = 0; i < (setup.is_quick ? quick_reflections : reflections); ++i) {
+      const Search::ReflectionTask task{outside(1.5f, 8.0f), outside(1.1f, 4.0f), glm::vec3(0.0f)};
+      const glm::vec3 start = search.first_direction(task);
+      newton_angles.push_back(
+          angle(search.search_by_newton(task, start, true, search.free_growth, 12, search_ends), task));
+      midpoint_angles.push_back(
+          angle(search.search_by_midpoint(task, start, paper_iterations, search_ends), task));
+    }
+  }
+  report.add("newton_over_midpoint9_p99_angle_analytic",
+             percentile(newton_angles, 0.99) / percentile(midpoint_angles, 0.99));
+  report.note(
+      fmt::format("analytic ellipsoids: angle median and 99 % {:.5f} {:.4f} deg (midpoint-9 {:.3f} {:.1f})",
+                  percentile(newton_angles, 0.5), percentile(newton_angles, 0.99),
+                  percentile(midpoint_angles, 0.5), percentile(midpoint_angles, 0.99)));
+}
+
+}  // namespace
+
+Status measure_search(const BenchSetup& setup, Report& report) {
+  const Result<std::vector<JudgedBody>> bodies = make_bodies(setup, report);
+  if (!bodies) return bodies.errors();
+  measure_maps(*bodies, setup, report);
+  measure_analytic(setup, report);
+  return Done{};
+}
+
+}  // namespace parvis::bench
