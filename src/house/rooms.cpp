@@ -18,6 +18,7 @@
 #include "reflections/methods/registry.h"
 #include "reflections/probes/room.h"
 #include "reflections/reference_maps/room.h"
+#include "reflections/reflector_maps/room.h"
 #include "reflections/refraction/room.h"
 #include "reflections/virtual_objects/bench/curved_reflectors_bench.h"
 #include "reflections/virtual_objects/room.h"
@@ -43,6 +44,7 @@ constexpr std::array rooms{
     probes::furnish,
     environment_rays::furnish,
     local_maps::furnish,
+    reflector_maps::furnish,
     reference_maps::furnish,
     virtual_objects::furnish,
     refraction::furnish,

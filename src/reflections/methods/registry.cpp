@@ -54,6 +54,12 @@ Status Registry::prepare(scene::Scene& scene) const {
   return Done{};
 }
 
+bool Registry::reads_baked(const scene::Scene& scene, const std::string& bake_step) const {
+  const Result<const Method*> chosen = method_of(scene);
+  return !chosen ||
+         std::ranges::find((*chosen)->unused_bake_steps, bake_step) == (*chosen)->unused_bake_steps.end();
+}
+
 Result<std::unique_ptr<Reflections>> Registry::make_one(const Method& method, const scene::Scene& scene,
                                                         render::Renderer& renderer) const {
   std::unique_ptr<Reflections> below;

@@ -32,6 +32,8 @@ struct Method {
   void (*read)(const scene::Node& node, Settings& settings) = nullptr;
   /// Changes a scene before it goes to a renderer, if the method is the scene's, or the overlay is wanted.
   void (*prepare)(scene::Scene& scene) = nullptr;
+  /// Names of bake steps (render::BakeSteps) whose results a scene of this method never reads.
+  std::vector<std::string> unused_bake_steps = {};
 };
 
 /// All methods and overlays that rooms have added.
@@ -51,6 +53,8 @@ class Registry {
   /// Takes over what the node says for any method.
   void read(const scene::Node& node, Settings& settings) const;
 
+  /// Whether pictures of the scene may read what the bake step of that name keeps.
+  bool reads_baked(const scene::Scene& scene, const std::string& bake_step) const;
   /// Errors of a scene that names no method of these; the message lists those that there are.
   Status prepare(scene::Scene& scene) const;
   /// The scene's method, with the overlays that it wants. Not yet set in the renderer.

@@ -29,6 +29,8 @@ std::uint64_t maps_key(const scene::Scene& scene) {
   return hash.value();
 }
 
+fs::path baked_folder(const scene::Scene& scene) { return fs::path(scene.file).replace_extension(".baked"); }
+
 bool is_state(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name.size() == name_length && name.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -39,7 +41,7 @@ bool is_state(const fs::path& folder) {
 MapCache::MapCache(const scene::Scene& scene) {
   if (scene.file.empty()) return;
   key_ = maps_key(scene);
-  folder_ = fs::path(scene.file).replace_extension(".baked") / fmt::format("{:016x}", key_);
+  folder_ = baked_folder(scene) / fmt::format("{:016x}", key_);
 }
 
 fs::path MapCache::file(std::size_t number) const {
@@ -72,15 +74,12 @@ Status MapCache::write(MapFile map) const {
   return write_map_file(file(map.number), map);
 }
 
-void forget_other_states(const std::vector<MapCache>& kept) {
-  if (kept.empty() || kept.front().folder().empty()) return;
+void forget_other_states(const scene::Scene& scene, const std::set<fs::path>& kept) {
+  if (scene.file.empty()) return;
   std::error_code code;
   std::vector<fs::path> others;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kept.front().folder().parent_path(), code))
-    if (is_state(entry.path()) && std::ranges::none_of(kept, [&](const MapCache& cache) {
-          return cache.folder().filename() == entry.path().filename();
-        }))
-      others.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(baked_folder(scene), code))
+    if (is_state(entry.path()) && !kept.contains(entry.path())) others.push_back(entry.path());
   for (const fs::path& other : others) fs::remove_all(other, code);
 }
 

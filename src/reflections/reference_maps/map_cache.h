@@ -2,8 +2,9 @@
 // was baked (as scenarios are), in that a file for each map.
 #pragma once
 
+#include <filesystem>
 #include <optional>
-#include <vector>
+#include <set>
 
 #include "reflections/reference_maps/map_file.h"
 #include "scene/data/scene.h"
@@ -30,7 +31,7 @@ class MapCache {
   std::uint64_t key_ = 0;
 };
 
-/// Removes what is kept of states of the scene other than those of `kept`.
-void forget_other_states(const std::vector<MapCache>& kept);
+/// Removes what is kept of states of the scene, except the folders `kept`.
+void forget_other_states(const scene::Scene& scene, const std::set<std::filesystem::path>& kept);
 
 }  // namespace parvis::reference_maps

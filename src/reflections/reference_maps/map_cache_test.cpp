@@ -143,7 +143,7 @@ TEST_F(MapCacheTest, StatesThatAreNotAskedForAreForgottenAndOtherFilesStay) {
   fs::create_directories(old.folder().parent_path() / "mine");
   scene_.sky.intensity = 2.0f;
   bake(Keep::yes);
-  forget_other_states({MapCache(scene_)});
+  forget_other_states(scene_, {MapCache(scene_).folder()});
   EXPECT_FALSE(fs::exists(old.folder()));
   EXPECT_TRUE(fs::exists(MapCache(scene_).file(2)));
   EXPECT_TRUE(fs::exists(old.folder().parent_path() / "notes.txt"));

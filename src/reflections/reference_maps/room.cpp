@@ -1,6 +1,9 @@
 #include "reflections/reference_maps/room.h"
 
+#include "graphics/render/bake_steps.h"
 #include "reflections/methods/registry.h"
+#include "reflections/reference_maps/bake_step.h"
+#include "reflections/reference_maps/map_cache.h"
 #include "reflections/reference_maps/reference_map_node.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/simple_blend.h"
@@ -14,6 +17,8 @@ void furnish(House& house) {
        .make = make_simple_blend,
        .attributes = {maps_attribute()},
        .read = read_maps});
+  house.get<render::BakeSteps>().add(
+      {.name = "reference maps", .run = bake_and_plan, .forget_others = forget_other_states});
   add_reference_map_node(house.get<scene::NodeRegistry>());
 }
 

@@ -1,4 +1,4 @@
-// What this room brings to the house: the node referenceMaps, and the method simple_blend.
+// What this room registers: the node referenceMaps, the method simple_blend, the bake step of reference maps.
 #pragma once
 
 #include "base/house.h"

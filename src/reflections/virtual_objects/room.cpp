@@ -70,7 +70,8 @@ void furnish(House& house) {
                 .lies_over = "time_sliced_cube_map",
                 .attributes = virtual_object_attributes(),
                 .read = read_virtual_objects,
-                .prepare = divide_long_edges});
+                .prepare = divide_long_edges,
+                .unused_bake_steps = {"reference maps"}});
   registry.add({.name = "near virtual objects",
                 .help = "what stands near a mirror by its virtual image, over what another method shows",
                 .make = make_virtual_objects,

@@ -1,0 +1,29 @@
+#include "house/stage/baking.h"
+
+#include <fmt/format.h>
+
+#include "graphics/render/bake_steps.h"
+#include "reflections/methods/registry.h"
+
+namespace parvis::house {
+
+Status Baking::bake(const scene::Scene& state, const std::filesystem::path& plan) {
+  render::BakeInput input(state, house_.get<render::Drawables>(), plan);
+  for (const render::BakeStep& step : house_.get<render::BakeSteps>().all()) {
+    if (!house_.get<methods::Registry>().reads_baked(state, step.name)) continue;
+    Result<render::Baked> baked = step.run(input);
+    if (!baked) return baked.errors();
+    if (!baked->summary.empty()) fmt::print("{}\n", baked->summary);
+    kept_[step.name].merge(std::move(baked->kept));
+  }
+  return Done{};
+}
+
+void Baking::forget_other_states(const scene::Scene& scene) const {
+  for (const render::BakeStep& step : house_.get<render::BakeSteps>().all()) {
+    const auto kept = kept_.find(step.name);
+    step.forget_others(scene, kept == kept_.end() ? std::set<std::filesystem::path>() : kept->second);
+  }
+}
+
+}  // namespace parvis::house
