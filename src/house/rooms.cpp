@@ -1,7 +1,5 @@
 #include "house/rooms.h"
 
-#include <array>
-
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/meshes/mesh_nodes.h"
@@ -30,7 +28,7 @@ namespace parvis::house {
 namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
-constexpr std::array rooms{
+constexpr Furnish rooms[]{
     scene::furnish_script,
     scene::furnish_gltf,
     scene::furnish_city_models,
@@ -57,14 +55,17 @@ constexpr std::array rooms{
 
 }  // namespace
 
+House make_house(std::span<const Furnish> more) {
+  House house;
+  for (const Furnish furnish : rooms) furnish(house);
+  for (const Furnish furnish : more) furnish(house);
+  // The node's attributes are those of every method, so it comes last.
+  methods::add_reflection_node(house.get<scene::NodeRegistry>(), house.get<methods::Registry>());
+  return house;
+}
+
 const House& all_rooms() {
-  static const House house = [] {
-    House all;
-    for (const auto furnish : rooms) furnish(all);
-    // The node's attributes are those of every method, so it comes last.
-    methods::add_reflection_node(all.get<scene::NodeRegistry>(), all.get<methods::Registry>());
-    return all;
-  }();
+  static const House house = make_house();
   return house;
 }
 

@@ -1,6 +1,8 @@
 // All rooms of the house. A room joins by one line in rooms.cpp.
 #pragma once
 
+#include <span>
+
 #include "base/house.h"
 #include "bench/benches.h"
 #include "graphics/render/drawables.h"
@@ -8,6 +10,12 @@
 #include "scene/script/node_registry.h"
 
 namespace parvis::house {
+
+/// The function through which a room registers what it brings.
+using Furnish = void (*)(House&);
+
+/// A house of all rooms, and of `more` rooms, which come last in the list.
+House make_house(std::span<const Furnish> more = {});
 
 /// What all rooms bring; made when first asked for, then always the same.
 const House& all_rooms();

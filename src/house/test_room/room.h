@@ -1,0 +1,12 @@
+// A room that nothing names: the test that a room joins by its own folder and one line in house/rooms.cpp.
+// Balloons: mirror balls that rise when a message says so, a reflection method, a bake step and a bench.
+#pragma once
+
+#include "base/house.h"
+
+namespace parvis::test_room {
+
+/// Adds all of it to the house's registries.
+void furnish(House& house);
+
+}  // namespace parvis::test_room

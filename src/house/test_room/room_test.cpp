@@ -1,0 +1,111 @@
+// One furnish function; then scripts name the node and the method, messages reach the process, and parvis's
+// loops run the bake step and the bench.
+#include "house/test_room/room.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/test_folder.h"
+#include "bench/benches.h"
+#include "graphics/gl/test_context.h"
+#include "house/rooms.h"
+#include "house/stage/baking.h"
+#include "house/stage/stage.h"
+
+namespace parvis::house {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* script = R"(
+camera(name=front, position="0 -8 2", target="0 0 2", fov_deg=30)
+balloon(name=red, position="0 0 2", radius=1)
+timer(onTime="0.5, red, rise 2")
+reflection(method=balloon_glow, glow=0.5)
+scenario(name=small) {
+  override(of=red, radius=0.5)
+}
+)";
+
+class TestRoomTest : public gl::ContextTest {
+ protected:
+  Result<Play> play() { return open_play(house_, folder_.write("scene.xp", script), {}); }
+
+  const House house_ = make_house(std::array{Furnish(test_room::furnish)});
+  TestFolder folder_;
+};
+
+TEST_F(TestRoomTest, AMessageReachesItsProcess) {
+  Result<Play> play = this->play();
+  ASSERT_TRUE(play) << to_string(play.errors());
+  const auto height = [&] { return play->scene.objects.at(0).world_from_model[3].z; };
+  play->advance(0.25);
+  EXPECT_EQ(height(), 2.0f);
+  play->advance(1.25);
+  EXPECT_NEAR(height(), 4.0f, 0.05f) << "a second at 2 m/s";
+  EXPECT_EQ(play->clock.find("balloons")->status(), "1 rise");
+}
+
+TEST_F(TestRoomTest, ItsReflectionMethodIsDrawnAndCanBeChanged) {
+  Result<Play> play = this->play();
+  ASSERT_TRUE(play) << to_string(play.errors());
+  Result<std::unique_ptr<Stage>> stage = Stage::create(*std::move(play));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  const Result<Camera> camera = (*stage)->camera("front");
+  ASSERT_TRUE(camera) << to_string(camera.errors());
+  (*stage)->draw(*camera, 64, 64);
+  const ImageF glowing = (*stage)->renderer().read_radiance();
+  EXPECT_NEAR(glowing.at(32, 32)[0], 0.0f, 1e-3f);
+  EXPECT_NEAR(glowing.at(32, 32)[1], 0.5f, 5e-3f);
+
+  methods::Settings none = methods::settings((*stage)->scene());
+  none.method = "none";
+  ASSERT_TRUE((*stage)->set_reflection(none));
+  (*stage)->draw(*camera, 64, 64);
+  EXPECT_GT((*stage)->renderer().read_radiance().at(32, 32)[0], 0.01f) << "the mean light of the sky";
+}
+
+TEST_F(TestRoomTest, ItsBakeStepRunsForEachStateAndForgetsOthers) {
+  Result<Play> play = this->play();
+  ASSERT_TRUE(play) << to_string(play.errors());
+  const auto volumes = [&] {
+    std::set<std::string> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path() / "scene.baked/balloons"))
+      found.insert(*read_file(entry.path()));
+    return found;
+  };
+  Baking both(house_);
+  ASSERT_TRUE(both.bake(play->scene));
+  ASSERT_TRUE(play->live().choose(play->scene, "small"));
+  play->advance(0.1);
+  ASSERT_TRUE(both.bake(play->scene));
+  both.forget_other_states(play->scene);
+  EXPECT_EQ(volumes(), (std::set<std::string>{"0.524\n", "4.189\n"}));
+
+  Baking small_alone(house_);
+  ASSERT_TRUE(small_alone.bake(play->scene));
+  small_alone.forget_other_states(play->scene);
+  EXPECT_EQ(volumes(), std::set<std::string>{"0.524\n"});
+}
+
+TEST_F(TestRoomTest, ItsBenchIsRunByName) {
+  const bench::Bench* found = house_.get<bench::Benches>().find("balloons");
+  ASSERT_TRUE(found);
+  bench::Report report(found->name);
+  ASSERT_TRUE(found->run({house_, true}, report));
+  ASSERT_TRUE(report.write(folder_.path() / "report.json"));
+  const Result<std::string> json = read_file(folder_.path() / "report.json");
+  ASSERT_TRUE(json);
+  EXPECT_NE(json->find(fmt::format("\"node_types\": {}", node_registry().types().size() + 1)),
+            std::string::npos)
+      << *json;
+}
+
+TEST_F(TestRoomTest, WithoutItNothingOfItIsKnown) {
+  const Result<Play> play = open_play(all_rooms(), folder_.write("scene.xp", script), {});
+  ASSERT_FALSE(play);
+  EXPECT_NE(to_string(play.errors()).find("balloon"), std::string::npos);
+  EXPECT_EQ(benches().find("balloons"), nullptr);
+}
+
+}  // namespace
+}  // namespace parvis::house
