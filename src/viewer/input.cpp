@@ -73,10 +73,10 @@ void Input::press(int key) {
       visit_.show_next_scenario();
       break;
     case GLFW_KEY_SPACE:
-      visit_.pause_traffic(!visit_.traffic_is_paused());
+      visit_.halt(!visit_.is_halted());
       break;
     case GLFW_KEY_N:
-      visit_.step_traffic();
+      visit_.step_halted();
       break;
     case GLFW_KEY_P:
       visit_.take_picture();

@@ -1,6 +1,7 @@
 #include "viewer/panel.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -78,7 +79,7 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
       draw_visit(visit);
       draw_scenarios(visit);
       draw_light(visit);
-      draw_traffic(visit);
+      draw_processes(visit);
     });
     page(page_of_nodes, [&] { nodes_.draw(visit, rows_); });
     page("Statistics", [&] { draw_statistics(visit, statistics); });
@@ -172,15 +173,19 @@ void Panel::draw_light(Visit& visit) {
     visit.set_reflection(names[std::size_t(*method)]);
 }
 
-void Panel::draw_traffic(Visit& visit) {
-  rows_.heading("Traffic");
-  const std::string vehicles = visit.traffic() ? visit.traffic()->status() : "";
-  if (vehicles.empty()) return rows_.remark("The scene has none.");
-  const bool is_paused = visit.traffic_is_paused();
-  rows_.remark(fmt::format("{}{}", vehicles, is_paused ? ", halted" : ""));
-  const auto pressed = rows_.buttons({is_paused ? "Go on" : "Halt", "Step 0.1 s"}, is_paused ? 0 : 2);
-  if (pressed == 0u) visit.pause_traffic(!is_paused);
-  if (pressed == 1u) visit.step_traffic();
+void Panel::draw_processes(Visit& visit) {
+  const bool is_halted = visit.is_halted();
+  const std::vector<action::Process*> processes = visit.processes();
+  for (const action::Process* process : processes) {
+    std::string name = process->name();
+    name[0] = char(std::toupper(static_cast<unsigned char>(name[0])));
+    rows_.heading(name.c_str());
+    rows_.remark(fmt::format("{}{}", process->status(), is_halted ? ", halted" : ""));
+  }
+  if (processes.empty()) return;
+  const auto pressed = rows_.buttons({is_halted ? "Go on" : "Halt", "Step 0.1 s"}, is_halted ? 0 : 2);
+  if (pressed == 0u) visit.halt(!is_halted);
+  if (pressed == 1u) visit.step_halted();
 }
 
 void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {

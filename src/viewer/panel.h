@@ -37,7 +37,7 @@ class Panel {
   void draw_visit(Visit& visit);
   void draw_scenarios(Visit& visit);
   void draw_light(Visit& visit);
-  void draw_traffic(Visit& visit);
+  void draw_processes(Visit& visit);
   void draw_statistics(Visit& visit, const FrameStatistics& statistics);
   void draw_keys() const;
   void draw_notices(const Visit& visit) const;

@@ -152,7 +152,7 @@ class PanelTest : public SquareTest {
 };
 
 TEST_F(PanelTest, ThePageOfTheVisitIsGolden) {
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   expect_golden("panel-visit");
 }
 
@@ -160,7 +160,7 @@ TEST_F(PanelTest, AScenarioIsSwitchedByAClick) {
   click("scenario green");
   EXPECT_EQ(visit_->live().scenario(), "green");
   EXPECT_TRUE(sees("plane"));
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   expect_golden("panel-scenario");
   click("scenario base");
   EXPECT_EQ(visit_->live().scenario(), "");
@@ -197,7 +197,7 @@ TEST_F(PanelTest, LightIsDraggedAndWritten) {
 
 TEST_F(PanelTest, TrafficIsHaltedAndMovedOn) {
   click("Halt");
-  EXPECT_TRUE(visit_->traffic_is_paused());
+  EXPECT_TRUE(visit_->is_halted());
   const auto vehicle = [this] {
     return visit_->scene().objects[std::size_t(visit_->vehicles()[0])].world_from_model;
   };
@@ -205,7 +205,7 @@ TEST_F(PanelTest, TrafficIsHaltedAndMovedOn) {
   click("Step 0.1 s");
   EXPECT_NE(vehicle(), halted);
   click("Go on");
-  EXPECT_FALSE(visit_->traffic_is_paused());
+  EXPECT_FALSE(visit_->is_halted());
 }
 
 TEST_F(PanelTest, NodesAreFoundHiddenAndChanged) {
@@ -227,7 +227,7 @@ TEST_F(PanelTest, NodesAreFoundHiddenAndChanged) {
   EXPECT_FALSE(sees("oak"));
   click("visible");
 
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   point_at(ImVec2(300, 300));
   expect_golden("panel-scene");
 }
@@ -239,7 +239,7 @@ TEST_F(PanelTest, WhatIsOutOfRangeIsAnsweredAndChangesNothing) {
   write("elevation", "200");
   EXPECT_EQ(visit_->scene().sun.direction_to_sun, before);
   EXPECT_NEAR(glm::degrees(node("%sun").angle("elevation_deg")), 42.0, 1e-3);
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   point_at(ImVec2(300, 300));
   expect_golden("panel-refusal");
   write("elevation", "20");
@@ -265,7 +265,7 @@ TEST_F(PanelTest, StatisticsAreGolden) {
         0.001 * (16.0 + 5.0 * ((i * 7) % 10 == 0) + 0.1 * (i % 13)),
         std::vector<gl::PassTime>{
             {"shadows", 0.0021}, {"reflections", 0.0052}, {"picture", 0.0064}, {"display", 0.0003}});
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   click("Statistics");
   point_at(ImVec2(300, 300));
   if (!gl::is_software()) GTEST_SKIP() << "skipped: the driver's name stands in the picture";
@@ -273,7 +273,7 @@ TEST_F(PanelTest, StatisticsAreGolden) {
 }
 
 TEST_F(PanelTest, TheKeysAreShownOnDemand) {
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   click("Keys  F1");
   EXPECT_TRUE(panel_->shows_keys);
   point_at(ImVec2(5, 5));
@@ -283,7 +283,7 @@ TEST_F(PanelTest, TheKeysAreShownOnDemand) {
 }
 
 TEST_F(PanelTest, WhatIsClickedInThePictureIsChosenInTheTree) {
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   stage_->draw(visit_->camera(), 320, 240);
   const render::ObjectPicture objects = stage_->renderer().pick(visit_->camera(), 320, 240, false);
   const auto node_of = [&](const std::string& object) -> const scene::Node* {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double notice_s = 5.0, error_notice_s = 12.0;
 constexpr std::size_t max_notices = 4;
-constexpr float traffic_step_s = 0.1f;
+constexpr float halted_step_s = 0.1f;
 constexpr float longest_step_s = 0.1f;
 
 }  // namespace
@@ -122,17 +122,27 @@ void Visit::set_exposure(float exposure) { set("exposure", "value", double(expos
 
 void Visit::set_reflection(const std::string& method) { set("reflection", "method", method); }
 
-action::Process* Visit::traffic() const { return stage_.play().clock.find("traffic"); }
-
-bool Visit::traffic_is_paused() const { return traffic() && stage_.play().clock.is_paused(*traffic()); }
-
-void Visit::pause_traffic(bool pauses) {
-  if (traffic()) stage_.play().clock.pause(*traffic(), pauses);
+std::vector<action::Process*> Visit::processes() const {
+  std::vector<action::Process*> all = stage_.play().clock.processes();
+  std::erase_if(all, [](const action::Process* process) { return process->status().empty(); });
+  return all;
 }
 
-void Visit::step_traffic() {
-  pause_traffic(true);
-  if (traffic()) stage_.play().clock.step_alone(scene(), *traffic(), traffic_step_s);
+bool Visit::is_halted() const {
+  const std::vector<action::Process*> all = processes();
+  return !all.empty() && std::ranges::all_of(all, [&](const action::Process* process) {
+    return stage_.play().clock.is_paused(*process);
+  });
+}
+
+void Visit::halt(bool halts) {
+  for (const action::Process* process : processes()) stage_.play().clock.pause(*process, halts);
+}
+
+void Visit::step_halted() {
+  halt(true);
+  for (action::Process* process : processes())
+    stage_.play().clock.step_alone(scene(), *process, halted_step_s);
 }
 
 void Visit::take_picture() {

@@ -62,12 +62,14 @@ class Visit {
   void set_exposure(float exposure);
   void set_reflection(const std::string& method);
 
-  /// The process that drives vehicles; null where no room brings one.
-  action::Process* traffic() const;
-  bool traffic_is_paused() const;
-  void pause_traffic(bool pauses);
-  /// Moves paused traffic on by a tenth of a second.
-  void step_traffic();
+  /// The processes that say what they do (Process::status): traffic, a crowd. They are halted together.
+  std::vector<action::Process*> processes() const;
+  /// True if there are such processes and all are halted.
+  bool is_halted() const;
+  /// Halts these processes, or lets them go on; all others go on.
+  void halt(bool halts);
+  /// Halts them and moves them on by a tenth of a second.
+  void step_halted();
 
   /// Writes what was drawn last, without the panel, into a new file.
   void take_picture();

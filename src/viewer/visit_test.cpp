@@ -114,16 +114,16 @@ TEST_F(VisitTest, TrafficHaltsAndMovesByAStep) {
     return all;
   };
   wait(0.5f);
-  visit_->pause_traffic(true);
+  visit_->halt(true);
   wait();
   const auto halted = places();
   wait(0.5f);
   EXPECT_EQ(places(), halted);
-  visit_->step_traffic();
+  visit_->step_halted();
   wait();
   const auto stepped = places();
   EXPECT_NE(stepped, halted);
-  visit_->pause_traffic(false);
+  visit_->halt(false);
   wait(0.5f);
   EXPECT_NE(places(), stepped);
 }

@@ -1,5 +1,5 @@
-// Photographs with known cameras as a COLMAP text model (cameras.txt, images.txt, points3D.txt):
-// https://colmap.github.io/format.html. The world stays as it is: metres, z up.
+// Path-traced pictures with known cameras as a COLMAP model, written by the room photographs. The world stays
+// as it is: metres, z up.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,11 @@
 #include "base/result.h"
 #include "scene/data/taken_picture.h"
 
-namespace parvis::scene {
+namespace parvis::house {
 
-/// Writes the three files into `folder`. Pictures of one size and field of view share a COLMAP camera.
-Status write_colmap(const std::filesystem::path& folder, const std::vector<TakenPicture>& pictures,
-                    const std::vector<SeenPoint>& points);
+/// Writes cameras.txt, images.txt, points3D.txt into `folder`. Pictures of one size and field of view share a
+/// COLMAP camera.
+Status write_colmap(const std::filesystem::path& folder, const std::vector<scene::TakenPicture>& pictures,
+                    const std::vector<scene::SeenPoint>& points);
 
-}  // namespace parvis::scene
+}  // namespace parvis::house

@@ -10,8 +10,10 @@
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_cameras.h"
 
-namespace parvis::scene {
+namespace parvis::house {
 namespace {
+
+using scene::SeenPoint, scene::TakenPicture, scene::write_gltf_cameras;
 
 std::vector<TakenPicture> two_pictures() {
   TakenPicture a{"a.png", {}, 1280, 960}, b{"b.png", {}, 1280, 960};
@@ -112,4 +114,4 @@ TEST(GltfCameras, StandWhereTheyStoodWithYUp) {
 }
 
 }  // namespace
-}  // namespace parvis::scene
+}  // namespace parvis::house

@@ -104,7 +104,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
   }
   if (!job.colmap_folder.empty()) {
     const auto points = reference::seen_points(rays, taken, displays, std::max(job.width / points_across, 1));
-    if (Status status = scene::write_colmap(job.colmap_folder, taken, points); !status) return status;
+    if (Status status = write_colmap(job.colmap_folder, taken, points); !status) return status;
   }
   if (!job.gltf_cameras.empty())
     if (Status status = scene::write_gltf_cameras(job.gltf_cameras, taken); !status) return status;

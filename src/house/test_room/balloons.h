@@ -32,7 +32,9 @@ struct Glow {
 class BalloonProcess final : public action::Process {
  public:
   std::string name() const override { return "balloons"; }
-  std::string status() const override { return fmt::format("{} rise", speeds_.size()); }
+  std::string status() const override {
+    return speeds_.empty() ? "" : fmt::format("{} rise", speeds_.size());
+  }
   void begin(scene::Scene& scene, action::SharedByProcesses& shared) override;
   void step(const scene::Scene& scene) override;
   void present(scene::Scene& scene, double ahead_s) override;

@@ -35,7 +35,7 @@ class Process {
 
   /// One word, by which a panel calls it.
   virtual std::string name() const = 0;
-  /// What it does now, in a few words: "30 vehicles".
+  /// What it does now, in a few words: "30 vehicles". Where it says something, a window can halt the process.
   virtual std::string status() const { return ""; }
 
   /// Once, before the scene is drawn: objects that it moves are added, or marked as dynamic, here.

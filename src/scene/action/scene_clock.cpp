@@ -75,6 +75,12 @@ Status SceneClock::send(const scene::Node& target, const std::string& text) {
   return Done{};
 }
 
+std::vector<Process*> SceneClock::processes() const {
+  std::vector<Process*> all;
+  for (const Entry& entry : entries_) all.push_back(entry.process.get());
+  return all;
+}
+
 Process* SceneClock::find(const std::string& name) const {
   for (const Entry& entry : entries_)
     if (entry.process->name() == name) return entry.process.get();

@@ -35,6 +35,8 @@ class SceneClock {
       if (P* process = dynamic_cast<P*>(entry.process.get())) return process;
     return nullptr;
   }
+  /// All processes, in the order in which they step.
+  std::vector<Process*> processes() const;
   /// By its name; null where there is none.
   Process* find(const std::string& name) const;
 
