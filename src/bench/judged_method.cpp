@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reference_maps/scene_maps.h"
@@ -14,14 +15,6 @@ Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
   for (int y = 0; y < window.height; ++y)
     std::copy_n(picture.at(window.x, window.y + y), window.width * picture.channels, part.at(0, y));
   return part;
-}
-
-void make_maps(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
-               render::Subjects subjects) {
-  render::Renderer& renderer = stage.renderer();
-  renderer.begin_frame(stage.scene(), camera);
-  renderer.prepare_main_view(camera, width, height, subjects);
-  method.reflections->update(renderer, stage.scene(), camera);
 }
 
 }  // namespace
@@ -49,21 +42,25 @@ Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
 
 Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
   if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
-  make_maps(stage, method, camera, width, height, render::Subjects::all);
+  render::Renderer& renderer = stage.renderer();
+  renderer.begin_frame(stage.scene(), camera);
+  renderer.prepare_main_view(camera, width, height);
+  method.reflections->update(renderer, stage.scene(), camera);
   return Done{};
 }
 
 Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
             render::Subjects subjects) {
   if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
-  draw_again(stage, method, camera, width, height, subjects);
-  return Done{};
+  return draw_again(stage, method, camera, width, height, subjects);
 }
 
-void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
-                render::Subjects subjects) {
-  make_maps(stage, method, camera, width, height, subjects);
-  stage.renderer().draw_main_view();
+Status draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+                  int height, render::Subjects subjects) {
+  render::FrameSteps steps;
+  steps.subjects = subjects;
+  return methods::draw_frame(stage.renderer(), stage.scene(), method.reflections.get(),
+                             {camera, width, height}, steps);
 }
 
 Result<Image8> picture_of(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,

@@ -27,8 +27,8 @@ Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camer
             render::Subjects subjects = render::Subjects::all);
 
 /// A frame by the method that was drawn by last: what is timed.
-void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,
-                render::Subjects subjects = render::Subjects::all);
+Status draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width,
+                  int height, render::Subjects subjects = render::Subjects::all);
 
 /// Lets a method make what it makes for a frame, of which no picture is wanted.
 Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height);

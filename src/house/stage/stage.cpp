@@ -1,6 +1,6 @@
 #include "house/stage/stage.h"
 
-#include "graphics/render/frame_views.h"
+#include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 
@@ -90,24 +90,18 @@ void Stage::draw(const Camera& camera, int width, int height) {
   pass_times_.begin_frame();
   const glm::ivec2 drawn = scale_.drawn_size(width, height);
   render::FrameSteps steps;
-  steps.reflect = [&](const Camera& eye) { reflections_->update(*renderer_, play_.scene, eye); };
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
   const Status status =
-      render::draw_frame(*renderer_, play_.scene, render::EyeView{camera, drawn.x, drawn.y}, steps);
+      methods::draw_frame(*renderer_, play_.scene, reflections_.get(), {camera, drawn.x, drawn.y}, steps);
   assert(status.ok() && "one eye has its target");
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
-  renderer_->begin_frame(play_.scene, camera);
-  const shading::DrawnLight light = renderer_->drawn_light();
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;
-  options.drawn_light = &light;
-  options.mirror_bounces = methods::settings(play_.scene).bounces;
-  const reference::RayScene rays(play_.scene);
-  return reference::trace_picture(rays, play_.scene, renderer_->sky(), camera, width, height, options);
+  return methods::trace_frame(*renderer_, play_.scene, {camera, width, height}, options);
 }
 
 }  // namespace parvis::house

@@ -5,6 +5,7 @@
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
 #include "reflections/environment_rays/multiple_environment_maps.h"
+#include "reflections/methods/frame.h"
 #include "reflections/reference_maps/settings.h"
 
 namespace parvis::environment_rays {
@@ -69,10 +70,7 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
   const auto faces_per_frame = [&] {
     Camera camera;
     camera.world_from_camera = look_at({7, 3, 1}, {3, 0, 0});
-    (*renderer)->begin_frame(scene_, camera);
-    (*renderer)->prepare_main_view(camera, 64, 48);
-    (*reflections)->update(**renderer, scene_, camera);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(methods::draw_frame(**renderer, scene_, reflections->get(), {camera, 64, 48}));
     return (*reflections)->faces_drawn();
   };
   EXPECT_EQ(faces_per_frame(), 0);

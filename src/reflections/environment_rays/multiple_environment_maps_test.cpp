@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "graphics/gl/test_context.h"
+#include "reflections/methods/frame.h"
 #include "reflections/reference_maps/map_levels.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
@@ -145,10 +146,8 @@ TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});
   ImageF frames[2];
   for (ImageF& frame : frames) {
-    (*renderer)->begin_frame(scene, camera);
-    (*renderer)->prepare_main_view(camera, test_width, test_height);
-    (*reflections)->update(**renderer, scene, camera);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(
+        methods::draw_frame(**renderer, scene, reflections->get(), {camera, test_width, test_height}));
     frame = (*renderer)->read_radiance();
   }
   EXPECT_EQ(frames[0].pixels, frames[1].pixels);

@@ -7,6 +7,7 @@
 #include "graphics/gl/test_context.h"
 #include "reflections/local_maps/local_map_faces.h"
 #include "reflections/local_maps/local_map_settings.h"
+#include "reflections/methods/frame.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/simple_blend.h"
 #include "reflections/reference_maps/test_square.h"
@@ -52,10 +53,7 @@ class Court {
 
   /// Draws a frame; returns how many faces were made for it.
   int draw() {
-    renderer->begin_frame(scene, camera);
-    renderer->prepare_main_view(camera, 160, 120);
-    reflections->update(*renderer, scene, camera);
-    renderer->draw_main_view();
+    EXPECT_TRUE(methods::draw_frame(*renderer, scene, reflections.get(), {camera, 160, 120}));
     return reflections->faces_drawn();
   }
 

@@ -8,6 +8,7 @@
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
+#include "reflections/methods/frame.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::methods {
@@ -126,10 +127,7 @@ class RegistryTest : public gl::ContextTest {
     EXPECT_TRUE((*renderer)->set_reflection(made->get()));
     Camera camera;
     camera.world_from_camera = look_at({0, -5, 0}, glm::vec3(0.0f));
-    (*renderer)->begin_frame(scene, camera);
-    (*renderer)->prepare_main_view(camera, 32, 32);
-    (*made)->update(**renderer, scene, camera);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(draw_frame(**renderer, scene, made->get(), {camera, 32, 32}));
     const ImageF radiance = (*renderer)->read_radiance();
     const float* pixel = radiance.at(16, 16);
     return {pixel[0], pixel[1], pixel[2]};

@@ -2,6 +2,7 @@
 
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
+#include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
@@ -40,10 +41,7 @@ class Show {
 
   /// Draws a frame and returns the faces that were drawn for it.
   int draw() {
-    renderer_->begin_frame(scene_, camera_);
-    renderer_->prepare_main_view(camera_, width, height);
-    reflections_->update(*renderer_, scene_, camera_);
-    renderer_->draw_main_view();
+    EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera_, width, height}));
     return reflections_->faces_drawn();
   }
   ImageF radiance() const { return renderer_->read_radiance(); }

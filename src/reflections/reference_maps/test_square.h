@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "graphics/reference/metrics.h"
-#include "graphics/reference/tracer.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
+#include "reflections/methods/frame.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/reference_maps/settings.h"
 
@@ -62,21 +62,12 @@ inline double flip_of(const scene::Scene& scene, const MakeReflections& make, gl
     const Status set = (*renderer)->set_reflection(reflections.get());
     EXPECT_TRUE(set) << to_string(set.errors());
   }
-  (*renderer)->begin_frame(scene, camera);
-  (*renderer)->prepare_main_view(camera, test_width, test_height);
-  if (reflections) reflections->update(**renderer, scene, camera);
-  (*renderer)->draw_main_view();
-
-  reference::TraceOptions options;
-  options.mirror_bounces = methods::settings(scene).bounces;
-  const shading::DrawnLight light = (*renderer)->drawn_light();
-  options.drawn_light = &light;
-  const reference::RayScene rays(scene);
-  const reference::TracedPicture truth =
-      reference::trace_picture(rays, scene, (*renderer)->sky(), camera, test_width, test_height, options);
-  const Result<reference::Difference> difference =
-      reference::compare((*renderer)->read_picture(scene.exposure),
-                         shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
+  const render::EyeView view{camera, test_width, test_height};
+  EXPECT_TRUE(methods::draw_frame(**renderer, scene, reflections.get(), view));
+  const Image8 drawn = (*renderer)->read_picture(scene.exposure);
+  const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, view);
+  const Result<reference::Difference> difference = reference::compare(
+      drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
   EXPECT_TRUE(difference) << to_string(difference.errors());
   return difference->flip;
 }

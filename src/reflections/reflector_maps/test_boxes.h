@@ -7,9 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "graphics/reference/metrics.h"
-#include "graphics/reference/tracer.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
+#include "reflections/methods/frame.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reflector_maps/settings.h"
@@ -102,19 +102,10 @@ Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Mak
   EXPECT_TRUE(set) << to_string(set.errors());
   Camera camera;
   camera.world_from_camera = look_at(eye, target);
-  (*renderer)->begin_frame(scene, camera);
-  (*renderer)->prepare_main_view(camera, width, height);
-  if (*reflections) (*reflections)->update(**renderer, scene, camera);
-  (*renderer)->draw_main_view();
-  reference::TraceOptions options;
-  const shading::DrawnLight light = (*renderer)->drawn_light();
-  options.drawn_light = &light;
-  options.mirror_bounces = methods::settings(scene).bounces;
-  const reference::RayScene rays(scene);
-  const reference::TracedPicture truth =
-      reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);
-  return {(*renderer)->read_picture(scene.exposure),
-          shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask};
+  EXPECT_TRUE(methods::draw_frame(**renderer, scene, reflections->get(), {camera, width, height}));
+  const Image8 drawn = (*renderer)->read_picture(scene.exposure);
+  const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, {camera, width, height});
+  return {drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask};
 }
 
 }  // namespace parvis::reflector_maps

@@ -44,10 +44,12 @@ Status time_methods(house::Stage& stage, const Camera& camera, int cars, int rep
       if (Status status = draw(stage, methods[m], camera, width, height); !status)
         return status;  // makes what is made once
       glFinish();
+      Status drawn = Done{};
       samples[m].push_back(milliseconds([&] {
-        draw_again(stage, methods[m], camera, width, height);
+        drawn = draw_again(stage, methods[m], camera, width, height);
         glFinish();
       }));
+      if (!drawn) return drawn;
     }
   for (std::size_t m = 0; m < methods.size(); ++m) {
     medians.push_back(median(samples[m]));

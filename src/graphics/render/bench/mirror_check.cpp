@@ -4,8 +4,8 @@
 
 #include "base/random.h"
 #include "graphics/reference/metrics.h"
-#include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
+#include "reflections/methods/frame.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
 
@@ -147,21 +147,15 @@ Result<double> flip_of(const House& house, const scene::Scene& scene, bool swaps
   if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
   Camera camera;
   camera.world_from_camera = look_at({1.2f, -3.0f, 0.9f}, {0, 0, 0});
-  (*renderer)->begin_frame(scene, camera);
-  (*renderer)->prepare_main_view(camera, width, height);
-  reflections->update(**renderer, scene, camera);
-  (*renderer)->draw_main_view();
-
+  const render::EyeView view{camera, width, height};
+  if (Status status = methods::draw_frame(**renderer, scene, reflections.get(), view); !status)
+    return status.errors();
+  const Image8 drawn = (*renderer)->read_picture(scene.exposure);
   reference::TraceOptions options;
   options.progress = "tracing mirrors";
-  const shading::DrawnLight light = (*renderer)->drawn_light();
-  options.drawn_light = &light;
-  const reference::RayScene rays(scene);
-  const reference::TracedPicture truth =
-      reference::trace_picture(rays, scene, (*renderer)->sky(), camera, width, height, options);
-  const Result<reference::Difference> difference =
-      reference::compare((*renderer)->read_picture(scene.exposure),
-                         shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
+  const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, view, options);
+  const Result<reference::Difference> difference = reference::compare(
+      drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
   if (!difference) return difference.errors();
   return difference->flip;
 }

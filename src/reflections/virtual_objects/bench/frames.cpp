@@ -42,10 +42,12 @@ Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& method
         return status;
       glFinish();
       const std::clock_t begun = std::clock();
+      Status drawn = Done{};
       const double ms = milliseconds([&] {
-        draw_again(stage, methods[m], *camera, width, height);
+        drawn = draw_again(stage, methods[m], *camera, width, height);
         glFinish();
       });
+      if (!drawn) return drawn;
       if (turn < 0) continue;
       frame_s[m].push_back(1e-3 * ms);
       processor_s[m].push_back(double(std::clock() - begun) / CLOCKS_PER_SEC);

@@ -1,0 +1,25 @@
+#include "reflections/methods/frame.h"
+
+#include "reflections/methods/settings.h"
+
+namespace parvis::methods {
+
+Status draw_frame(render::Renderer& renderer, const scene::Scene& scene, Reflections* reflections,
+                  const render::EyeView& eye, render::FrameSteps steps) {
+  steps.reflect = [&](const Camera& camera) {
+    if (reflections) reflections->update(renderer, scene, camera);
+  };
+  return render::draw_frame(renderer, scene, eye, steps);
+}
+
+reference::TracedPicture trace_frame(render::Renderer& renderer, const scene::Scene& scene,
+                                     const render::EyeView& eye, reference::TraceOptions options) {
+  renderer.begin_frame(scene, eye.camera);
+  const shading::DrawnLight light = renderer.drawn_light();
+  options.drawn_light = &light;
+  options.mirror_bounces = settings(scene).bounces;
+  const reference::RayScene rays(scene);
+  return reference::trace_picture(rays, scene, renderer.sky(), eye.camera, eye.width, eye.height, options);
+}
+
+}  // namespace parvis::methods
