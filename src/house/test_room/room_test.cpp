@@ -54,8 +54,9 @@ TEST_F(TestRoomTest, ItsReflectionMethodIsDrawnAndCanBeChanged) {
   ASSERT_TRUE(camera) << to_string(camera.errors());
   (*stage)->draw(*camera, 64, 64);
   const ImageF glowing = (*stage)->renderer().read_radiance();
-  EXPECT_NEAR(glowing.at(32, 32)[0], 0.0f, 1e-3f);
-  EXPECT_NEAR(glowing.at(32, 32)[1], 0.5f, 5e-3f);
+  const float* middle = glowing.at(32, 32);
+  EXPECT_LT(glm::distance(glm::vec3(middle[0], middle[1], middle[2]), glm::vec3(0, 0.5f, 0)), 0.01f)
+      << "the glow, and what a white metal reflects of the sun";
 
   methods::Settings none = methods::settings((*stage)->scene());
   none.method = "none";
