@@ -6,7 +6,7 @@
 
 namespace parvis::facades {
 
-Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model) {
+Status write_meshes(const std::filesystem::path& file, const std::vector<NamedMesh>& meshes) {
   scene::Model out;
   out.name = file.stem().string();
   scene::Material grey;
@@ -14,18 +14,22 @@ Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& 
   grey.base_colour = glm::vec3(0.6f);
   grey.is_double_sided = true;
   out.materials.push_back(grey);
-  for (NamedMesh& named : meshes_of(model)) {
+  for (const NamedMesh& named : meshes) {
     scene::ModelNode node;
     node.name = named.name;
     node.parent = 0;
     scene::Part part;
     part.object = named.name;
-    part.mesh = std::move(named.mesh);
+    part.mesh = named.mesh;
     part.node = int(out.nodes.size());
     out.nodes.push_back(std::move(node));
     out.parts.push_back(std::move(part));
   }
   return scene::write_gltf(file, out);
+}
+
+Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model) {
+  return write_meshes(file, meshes_of(model));
 }
 
 }  // namespace parvis::facades

@@ -10,4 +10,7 @@ namespace parvis::facades {
 /// Writes `file` (.glb): a node and a mesh per surface, named after it, grey, seen from both sides.
 Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model);
 
+/// The same of any named meshes.
+Status write_meshes(const std::filesystem::path& file, const std::vector<NamedMesh>& meshes);
+
 }  // namespace parvis::facades

@@ -17,7 +17,8 @@ namespace parvis::facades {
 namespace {
 
 constexpr int max_grid_side = 400;  ///< points of a rectified plane; larger ones are sampled more coarsely
-constexpr int min_hole_pixels = 4;  ///< holes of fewer pixels on a plane are not worth a search
+constexpr float max_fill_contradiction = 0.15f;  ///< of photographs that are to say what is hidden
+constexpr int min_hole_pixels = 4;               ///< holes of fewer pixels on a plane are not worth a search
 
 std::uint8_t& source_of(Filled& filled, std::size_t layer, int x, int y) {
   return *filled.sources[layer].at(x, y);
@@ -81,7 +82,8 @@ std::vector<PreparedPhoto> others_of(std::span<const PreparedPhoto> photos, std:
 
 void fill_from_photographs(const LayersOfModel& layers, const std::vector<std::vector<LayerPixel>>& covered,
                            std::span<const PreparedPhoto> others, Filled& filled) {
-  const BlendSettings settings;
+  BlendSettings settings;
+  settings.max_contradiction = max_fill_contradiction;
   for (std::size_t l = 0; l < covered.size(); ++l) {
     const PixelBox& box = layers.layered.layers[l].box;
     parallel_for(

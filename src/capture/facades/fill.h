@@ -14,7 +14,7 @@ namespace parvis::facades {
 enum class Filling : std::uint8_t { none, proposal, accepted, refused };
 
 /// Where a filled pixel came from.
-enum class FillSource : std::uint8_t { none, seen, photographs, patches, smooth };
+enum class FillSource : std::uint8_t { none, seen, photographs, patches, smooth, painted };
 
 struct Filled {
   LayerPixels pixels;           ///< with the proposals

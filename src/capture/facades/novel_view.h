@@ -18,8 +18,8 @@ struct BlendSettings {
   float depth_tolerance = 0.01f;   ///< see not_hidden
   bool uses_trust = true;          ///< photographs count as far as their trust map says
   /// Points about which the photographs contradict each other more are left out: there the model has a
-  /// surface where the place has none (sky between chimneys, leaves). 1: none is.
-  float max_contradiction = 0.15f;
+  /// surface where the place has none (sky between chimneys, leaves). 1: none is, as display wants it.
+  float max_contradiction = 1.0f;
 };
 
 /// What one photograph says about a point.

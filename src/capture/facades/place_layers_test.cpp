@@ -2,56 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "base/colour.h"
-#include "base/image_io.h"
-#include "base/test_folder.h"
 #include "capture/facades/rephotography.h"
-#include "capture/facades/test_model.h"
+#include "capture/facades/test_street.h"
 
 namespace parvis::facades {
 namespace {
-
-glm::vec3 pattern(glm::dvec3 p) {
-  return {0.4 + 0.2 * std::sin(2.0 * p.x), 0.4 + 0.2 * std::sin(3.0 * p.z + p.x), 0.05 * p.y};
-}
-
-std::vector<NamedMesh> street() {
-  return {wall("far", 6, -12, 12, -8, 8), wall("near", 4, -0.7f, 0.7f, -2, 2),
-          wall("post", 3, 1.5f, 1.8f, -2, 2)};
-}
-
-/// What a view sees of the street, as a PNG file, each with an exposure of its own.
-photographs::Photograph photograph(const TestFolder& folder, const std::string& name, const View& view,
-                                   float exposure) {
-  const LayerModel model = model_of(street());
-  const ItemBuffer seen = item_buffer(model, view);
-  ImageF picture(view.width, view.height, 4, 1.0f);
-  for (int y = 0; y < view.height; ++y)
-    for (int x = 0; x < view.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        picture.at(x, y)[c] =
-            exposure * pattern(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]))[c];
-  photographs::Photograph photo;
-  photo.name = name, photo.file = folder.path() / name;
-  EXPECT_TRUE(write_image(photo.file, srgb8_from_linear(picture)));
-  photo.lens = photographs::pinhole_lens(view.width, view.height, view.fx, view.fy, view.cx, view.cy);
-  glm::dmat4 opencv_from_world(view.camera_from_world);
-  opencv_from_world[3] = glm::dvec4(-(view.camera_from_world * view.centre), 1.0);
-  photo.world_from_camera = photographs::world_from_camera_of_opencv(opencv_from_world);
-  return photo;
-}
-
-struct Photos {
-  TestFolder folder;
-  std::vector<photographs::Photograph> photos;
-  Photos() {
-    for (int i = 0; i < 4; ++i)
-      photos.push_back(photograph(folder, fmt::format("{:04}.png", i),
-                                  test_view(160, 120, {1.3 * i - 2.0, 0, 0}), 0.8f + 0.1f * float(i)));
-  }
-};
 
 TEST(PlaceLayers, APhotographsViewIsItsCamera) {
   const TestFolder folder;
@@ -80,13 +35,7 @@ TEST(PlaceLayers, FromPhotographsToAView) {
   // From between them the pattern shows, everywhere.
   const View view = test_view(160, 120, {0.4, 0.5, 0.2});
   const ImageF picture = novel_view(place->model, view, photos, {});
-  const ItemBuffer seen = item_buffer(place->model, view);
-  ImageF truth(160, 120, 4, 1.0f);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      for (int c = 0; c < 3; ++c)
-        truth.at(x, y)[c] = pattern(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]))[c];
-  const Rephotography judged = rephotography(srgb8_from_linear(picture), srgb8_from_linear(truth));
+  const Rephotography judged = rephotography(srgb8_from_linear(picture), true_picture(view));
   EXPECT_GT(judged.covered_percent, 99.5);
   EXPECT_GT(judged.psnr_cc_db, 35.0);
 }

@@ -14,7 +14,7 @@ constexpr float max_rim_difference =
     0.02f;  ///< mean square per channel beyond which a shift does not fit at all
 constexpr float max_irregularity = 0.05f;  ///< of shifts of which little is known
 constexpr std::size_t max_sample_points = 800;
-constexpr std::size_t max_rim_points = 600;  ///< compared per shift: more cost time and decide nothing
+constexpr std::size_t max_rim_points = 200;  ///< compared per shift: more cost time and decide nothing
 constexpr std::array<glm::ivec2, 4> neighbours = {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1),
                                                   glm::ivec2(0, -1)};
 
@@ -49,16 +49,19 @@ std::vector<Group> missing_groups(const PlaneGrid& grid) {
 
 /// Known points within rim_width of the group.
 void find_rim(const PlaneGrid& grid, Group& group) {
-  std::vector<char> is_near(grid.colours.size(), 0);
+  const glm::ivec2 origin = group.low - rim_width, size = group.high - group.low + 1 + 2 * rim_width;
+  std::vector<char> is_near(std::size_t(size.x) * std::size_t(size.y), 0);
+  const auto near_at = [&](int x, int y) -> char& {
+    return is_near[std::size_t(y - origin.y) * std::size_t(size.x) + std::size_t(x - origin.x)];
+  };
   for (const glm::ivec2& p : group.points)
     for (int dy = -rim_width; dy <= rim_width; ++dy)
-      for (int dx = -rim_width; dx <= rim_width; ++dx)
-        if (grid.contains(p.x + dx, p.y + dy)) is_near[grid.index(p.x + dx, p.y + dy)] = 1;
+      for (int dx = -rim_width; dx <= rim_width; ++dx) near_at(p.x + dx, p.y + dy) = 1;
   for (int y = std::max(group.low.y - rim_width, 0); y <= std::min(group.high.y + rim_width, grid.height - 1);
        ++y)
     for (int x = std::max(group.low.x - rim_width, 0);
          x <= std::min(group.high.x + rim_width, grid.width - 1); ++x)
-      if (is_near[grid.index(x, y)] && grid.is_known[grid.index(x, y)]) group.rim.push_back({x, y});
+      if (near_at(x, y) && grid.is_known[grid.index(x, y)]) group.rim.push_back({x, y});
 }
 
 /// Mean square difference at the rim; nothing where the shift leads to unknown points.
@@ -105,15 +108,36 @@ float irregularity(const PlaneGrid& grid, const std::vector<glm::ivec2>& sample,
   return count >= 0.1f * float(sample.size()) ? sum / count : max_irregularity;
 }
 
-std::optional<glm::ivec2> best_shift(const PlaneGrid& grid, const Group& group) {
-  const std::vector<glm::ivec2> sample = sample_points(grid);
+/// The irregularity of each shift of a plane, computed when a group first asks for it.
+class Irregularities {
+ public:
+  explicit Irregularities(const PlaneGrid& grid)
+      : grid_(grid),
+        sample_(sample_points(grid)),
+        known_(std::size_t(2 * grid.width) * std::size_t(2 * grid.height), -1.0f) {}
+
+  float of(glm::ivec2 shift) {
+    float& known = known_[std::size_t(shift.y + grid_.height) * std::size_t(2 * grid_.width) +
+                          std::size_t(shift.x + grid_.width)];
+    if (known < 0.0f) known = irregularity(grid_, sample_, shift);
+    return known;
+  }
+
+ private:
+  const PlaneGrid& grid_;
+  std::vector<glm::ivec2> sample_;
+  std::vector<float> known_;
+};
+
+std::optional<glm::ivec2> best_shift(const PlaneGrid& grid, const Group& group,
+                                     Irregularities& irregularities) {
   std::optional<glm::ivec2> best;
   float least = max_rim_difference + max_irregularity;
   for (int dy = -group.low.y; dy + group.high.y < grid.height; ++dy)
     for (int dx = -group.low.x; dx + group.high.x < grid.width; ++dx) {
       const std::optional<float> rim = misfit(grid, group, {dx, dy}, std::min(least, max_rim_difference));
       if (!rim || *rim >= std::min(least, max_rim_difference)) continue;
-      if (const float all = *rim + irregularity(grid, sample, {dx, dy}); all < least)
+      if (const float all = *rim + irregularities.of({dx, dy}); all < least)
         least = all, best = glm::ivec2(dx, dy);
     }
   return best;
@@ -169,9 +193,11 @@ void finish(PlaneGrid& grid, const Group& group, const std::vector<glm::vec3>& c
 
 std::vector<char> fill_by_shifts(PlaneGrid& grid) {
   std::vector<char> filled(grid.colours.size(), 0);
+  Irregularities irregularities(grid);
   for (Group& group : missing_groups(grid)) {
     find_rim(grid, group);
-    const std::optional<glm::ivec2> shift = group.rim.empty() ? std::nullopt : best_shift(grid, group);
+    const std::optional<glm::ivec2> shift =
+        group.rim.empty() ? std::nullopt : best_shift(grid, group, irregularities);
     if (!shift) continue;
     const auto copied = [&](glm::ivec2 p) {
       return grid.colours[grid.index(p.x + shift->x, p.y + shift->y)];

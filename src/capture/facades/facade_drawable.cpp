@@ -1,0 +1,189 @@
+#include "capture/facades/facade_drawable.h"
+
+#include <algorithm>
+#include <map>
+
+#include "capture/facades/facade_textures.h"
+#include "capture/facades/placed_facade.h"
+#include "graphics/render/view_programs.h"
+#include "scene/data/scene.h"
+
+namespace parvis::facades {
+namespace {
+
+using render::Culling;
+using render::Extents;
+using render::Pass;
+using render::View;
+using render::ViewKind;
+
+/// Triangles of one surface, culled together.
+struct SurfaceRange {
+  std::size_t first = 0, count = 0;
+  Bounds bounds;  ///< in the facade's frame
+};
+
+std::vector<SurfaceRange> ranges_of(const PackedFacade& facade) {
+  std::vector<SurfaceRange> ranges;
+  for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
+    if (t == 0 || facade.surface_of_triangle[t] != facade.surface_of_triangle[t - 1])
+      ranges.push_back({t, 0, {}});
+    ++ranges.back().count;
+    for (std::size_t k = 0; k < 3; ++k) ranges.back().bounds.add(facade.corners[3 * t + k]);
+  }
+  return ranges;
+}
+
+/// What facades made of one packed file share.
+struct LoadedFacade {
+  FacadeTextures textures;
+  std::vector<SurfaceRange> ranges;
+  Bounds bounds;
+  bool has_holes = false;
+};
+
+struct ShownFacade {
+  const LoadedFacade* loaded = nullptr;
+  glm::mat4 world_from_facade{1.0f};
+  float radiance_of_exposed = 1.0f;
+  bool is_visible = true;
+};
+
+/// A run of triangles of a facade.
+struct DrawnRange {
+  std::size_t facade, first, count;
+};
+
+class FacadeDrawable final : public render::Drawable {
+ public:
+  static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
+    const auto programs_of = [](gl::Defines defines) {
+      defines.emplace_back("HAS_BACKS", "");
+      return render::ViewPrograms::create(
+          {"capture/facades/facade_vertex.glsl", "capture/facades/facade_surface.glsl", std::move(defines)});
+    };
+    Result<render::ViewPrograms> solid = programs_of({}), cutout = programs_of({{"HAS_HOLES", ""}});
+    if (!solid) return solid.errors();
+    if (!cutout) return cutout.errors();
+    std::unique_ptr<FacadeDrawable> made(
+        new FacadeDrawable(first_thing, *std::move(solid), *std::move(cutout)));
+    if (Status status = made->load(scene); !status) return status.errors();
+    made->update(scene);
+    made->change_ = {};
+    return std::unique_ptr<render::Drawable>(std::move(made));
+  }
+
+  void update(const scene::Scene& scene) override {
+    // A file that cannot be loaded was an error when the scene was read; a full graphics memory shows
+    // nothing.
+    if (!load(scene)) return;
+    const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
+    change_ = {};
+    shown_.resize(facades.size()), bounds_.resize(facades.size()), is_newcomer_.assign(facades.size(), 0);
+    for (std::size_t i = 0; i < facades.size(); ++i) {
+      const PlacedFacade& placed = facades[i];
+      const LoadedFacade& loaded = *loaded_.at(placed.facade);
+      shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure, placed.is_visible};
+      const Bounds all = transformed(placed.world_from_facade, loaded.bounds);
+      const Bounds bounds = placed.is_visible ? all : Bounds{};
+      fixed_.add(all);
+      if (bounds.min == bounds_[i].min && bounds.max == bounds_[i].max) continue;
+      is_newcomer_[i] = !bounds.empty();
+      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
+      if (!bounds.empty()) change_.come.push_back(bounds);
+      bounds_[i] = bounds;
+    }
+  }
+
+  Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+
+  void prepare(const View& view, const Culling& culling) override {
+    std::vector<DrawnRange>& list = list_of(view);
+    list.clear();
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}) ||
+          !culling.may_see(bounds_[i]))
+        continue;
+      for (const SurfaceRange& range : shown_[i].loaded->ranges) {
+        const Bounds bounds = transformed(shown_[i].world_from_facade, range.bounds);
+        if (!culling.may_see(bounds) || culling.is_hidden(bounds)) continue;
+        const bool joins =
+            !list.empty() && list.back().facade == i && list.back().first + list.back().count == range.first;
+        if (joins)
+          list.back().count += range.count;
+        else
+          list.push_back({i, range.first, range.count});
+      }
+    }
+  }
+
+  void draw(const View& view, Pass pass) override {
+    if (pass == Pass::blend) return;
+    const gl::Program* program = nullptr;
+    std::size_t bound = shown_.size();
+    for (const DrawnRange& range : list_of(view)) {
+      const ShownFacade& facade = shown_[range.facade];
+      if (facade.loaded->has_holes != (pass == Pass::cutout)) continue;
+      if (!program) program = (pass == Pass::cutout ? cutout_ : solid_).use(view);
+      if (!program) return;
+      if (bound != range.facade) bind(*program, facade, first_thing_ + int(range.facade));
+      bound = range.facade;
+      facade.loaded->textures.draw(range.first, range.count);
+    }
+  }
+
+ private:
+  FacadeDrawable(int first_thing, render::ViewPrograms solid, render::ViewPrograms cutout)
+      : first_thing_(first_thing), solid_(std::move(solid)), cutout_(std::move(cutout)) {}
+
+  /// Facades that are new in the scene; those that left it are given back.
+  Status load(const scene::Scene& scene) {
+    Loaded kept;
+    for (const PlacedFacade& placed : scene.items<PlacedFacade>()) {
+      if (kept.contains(placed.facade)) continue;
+      if (const auto known = loaded_.find(placed.facade); known != loaded_.end()) {
+        kept.emplace(placed.facade, std::move(known->second));
+        loaded_.erase(known);
+        continue;
+      }
+      Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade);
+      if (!textures) return textures.errors();
+      kept.emplace(placed.facade, std::make_unique<LoadedFacade>(
+                                      LoadedFacade{*std::move(textures), ranges_of(*placed.facade),
+                                                   placed.facade->bounds(), has_holes(*placed.facade)}));
+    }
+    loaded_ = std::move(kept);
+    return Done{};
+  }
+
+  static void bind(const gl::Program& program, const ShownFacade& facade, int thing) {
+    facade.loaded->textures.bind(program);
+    program.set("world_from_facade", facade.world_from_facade);
+    program.set("facade_from_world", glm::inverse(facade.world_from_facade));
+    program.set("facade_thing", thing);
+    program.set("radiance_of_exposed", facade.radiance_of_exposed);
+    glDisable(GL_CULL_FACE);
+  }
+
+  std::vector<DrawnRange>& list_of(const View& view) {
+    return view.kind == ViewKind::main ? main_list_ : other_list_;
+  }
+
+  using Loaded = std::map<std::shared_ptr<const PackedFacade>, std::unique_ptr<LoadedFacade>>;
+
+  int first_thing_;
+  render::ViewPrograms solid_, cutout_;
+  Loaded loaded_;
+  std::vector<ShownFacade> shown_;
+  Bounds fixed_;
+  std::vector<Bounds> bounds_;
+  std::vector<std::uint8_t> is_newcomer_;
+  render::FixedChange change_;
+  std::vector<DrawnRange> main_list_, other_list_;
+};
+
+}  // namespace
+
+render::DrawableKind facades_kind() { return {traced_facades(), &FacadeDrawable::create}; }
+
+}  // namespace parvis::facades

@@ -1,0 +1,120 @@
+// Facades on the graphics hardware against the same facades as rays see them.
+#include "capture/facades/facade_drawable.h"
+
+#include <gtest/gtest.h>
+
+#include "capture/facades/placed_facade.h"
+#include "capture/facades/test_street.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/renderer.h"
+#include "graphics/shading/sky.h"
+#include "graphics/shading/tone_curve.h"
+
+namespace parvis::facades {
+namespace {
+
+constexpr int width = 160, height = 120;
+
+class FacadeDrawableTest : public gl::ContextTest {
+ protected:
+  FacadeDrawableTest() {
+    const Photos input;
+    const Result<PlaceLayers> place = place_layers(input.photos, street());
+    placed_.facade = std::make_shared<const PackedFacade>(packed_facade(*place));
+    views_ = place->views;
+    for (const photographs::Photograph& photo : input.photos) photos_.push_back(*read_image8(photo.file));
+    scene_.sky.picture = ImageF(16, 8, 3, 0.1f);
+    drawables_.add(facades_kind());
+    drawables_.furnish(scene_);
+    camera_.vertical_fov = 2.0f * std::atan(0.5f * float(height) / (0.5f * float(width)));
+    look_from({0.4f, 0.5f, 0.2f});
+  }
+  void look_from(glm::vec3 eye) { camera_.world_from_camera = look_at(eye, eye + glm::vec3(0, 1, 0)); }
+  void place(PlacedFacade placed) { scene_.data<scene::ItemsOf<PlacedFacade>>().add(std::move(placed), 0); }
+
+  ImageF draw() {
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_, drawables_);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    (*renderer)->begin_frame(scene_, camera_);
+    (*renderer)->prepare_main_view(camera_, width, height);
+    (*renderer)->draw_main_view();
+    picked_ = (*renderer)->pick(camera_, width, height, true);
+    return (*renderer)->read_radiance();
+  }
+  ImageF trace() const {
+    const reference::RayScene rays(scene_);
+    const shading::SkyLight sky = shading::make_sky_light(scene_.sky.picture, 1.0f, 0.0f);
+    reference::TraceOptions options;
+    options.samples_per_pixel = 4;
+    return reference::trace_picture(rays, scene_, sky, camera_, width, height, options).radiance;
+  }
+  static double psnr(const Image8& a, const Image8& b) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x, count += 3)
+        for (int c = 0; c < 3; ++c) sum += std::pow(double(a.at(x, y)[c]) - double(b.at(x, y)[c]), 2);
+    return 10.0 * std::log10(255.0 * 255.0 * double(count) / sum);
+  }
+  Image8 display(const ImageF& radiance) const {
+    return shading::tone_mapped_picture(radiance, scene_.exposure);
+  }
+
+  PlacedFacade placed_;
+  std::vector<View> views_;
+  std::vector<Image8> photos_;
+  scene::Scene scene_;
+  render::Drawables drawables_;
+  render::ObjectPicture picked_;
+  Camera camera_;
+};
+
+TEST_F(FacadeDrawableTest, ItsPictureIsWhatRaysSee) {
+  scene_.exposure = 0.7f;
+  place(placed_);
+  const Image8 drawn = display(draw()), traced = display(trace());
+  EXPECT_GT(psnr(drawn, traced), 33.0) << "edges of the near walls are sampled differently";
+  EXPECT_EQ(*picked_.at(width / 2, height / 2), 1u);
+  scene_.data<scene::ItemsOf<PlacedFacade>>().items[0].brightness = 0.5f;
+  EXPECT_LT(psnr(display(draw()), traced), 25.0) << "the control: half as bright";
+}
+
+TEST_F(FacadeDrawableTest, APhotographsOwnViewpointIsThePhotograph) {
+  place(placed_);
+  look_from(glm::vec3(views_[1].centre));
+  EXPECT_GT(psnr(display(draw()), photos_[1]), 38.0);
+  EXPECT_LT(psnr(display(draw()), photos_[2]), 25.0) << "the control: another photograph";
+}
+
+TEST_F(FacadeDrawableTest, ItMayStandAnywhereAndBeHidden) {
+  place(placed_);
+  const Image8 before = display(draw());
+  const glm::mat4 moved = glm::rotate(glm::translate(glm::mat4(1.0f), {100, -50, 3}), 0.8f, {0, 0, 1});
+  PlacedFacade& placed = scene_.data<scene::ItemsOf<PlacedFacade>>().items[0];
+  placed.world_from_facade = moved;
+  camera_.world_from_camera = moved * camera_.world_from_camera;
+  EXPECT_GT(psnr(display(draw()), before), 40.0);
+  placed.is_visible = false;
+  draw();
+  EXPECT_EQ(*picked_.at(width / 2, height / 2), 0u);
+}
+
+TEST_F(FacadeDrawableTest, ItsHashIsOfItsContent) {
+  const auto hash_of = [](const PlacedFacade& placed) {
+    ContentHash hash;
+    placed.hash(hash);
+    return hash.value();
+  };
+  PlacedFacade other = placed_;
+  EXPECT_EQ(hash_of(other), hash_of(placed_));
+  other.brightness = 0.9f;
+  EXPECT_NE(hash_of(other), hash_of(placed_));
+  PackedFacade repainted = *placed_.facade;
+  repainted.blocks[0][3] ^= 1;
+  other = placed_, other.facade = std::make_shared<const PackedFacade>(repainted);
+  EXPECT_NE(hash_of(other), hash_of(placed_));
+}
+
+}  // namespace
+}  // namespace parvis::facades

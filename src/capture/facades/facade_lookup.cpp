@@ -1,0 +1,114 @@
+#include "capture/facades/facade_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "capture/facades/item_buffer.h"
+
+namespace parvis::facades {
+namespace {
+
+/// Bytes of all levels of a slot, decompressed, and where each level begins.
+constexpr std::size_t slot_bytes = 4 * (64 * 64 + 32 * 32 + 16 * 16);
+constexpr std::array<std::size_t, tile_levels> level_begin{0, 4 * 64 * 64, 4 * (64 * 64 + 32 * 32)};
+
+}  // namespace
+
+FacadeTexels::FacadeTexels(const PackedFacade& facade)
+    : texels_(facade.blocks.size() / blocks_per_slot * slot_bytes) {
+  parallel_for(facade.blocks.size() / blocks_per_slot, [&](std::size_t slot) {
+    const Bc7Block* blocks = facade.blocks.data() + slot * blocks_per_slot;
+    for (int level = 0; level < tile_levels; ++level) {
+      const int side = tile_side >> level;
+      const Image8 picture = picture_of(blocks, side, side);
+      std::ranges::copy(picture.pixels, texels_.begin() + std::ptrdiff_t(slot * slot_bytes +
+                                                                         level_begin[std::size_t(level)]));
+      blocks += side * side / 16;
+    }
+  });
+}
+
+glm::vec4 FacadeTexels::bilinear(int slot, glm::vec2 at, int level) const {
+  const int side = tile_side >> level;
+  const glm::vec2 p = at / float(1 << level) - 0.5f;
+  const glm::vec2 low = glm::floor(p), f = p - low;
+  const std::uint8_t* texels =
+      texels_.data() + std::size_t(slot) * slot_bytes + level_begin[std::size_t(level)];
+  const auto texel = [&](int x, int y) {
+    const std::uint8_t* t = texels + 4 * (std::clamp(y, 0, side - 1) * side + std::clamp(x, 0, side - 1));
+    return glm::vec4(t[0], t[1], t[2], t[3]) / 255.0f;
+  };
+  const int x = int(low.x), y = int(low.y);
+  return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
+                  glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
+}
+
+glm::vec4 FacadeTexels::at(int slot, glm::vec2 at, float level) const {
+  const int fine = std::clamp(int(level), 0, tile_levels - 1);
+  const float f = level - float(fine);
+  const glm::vec4 colour = bilinear(slot, at, fine);
+  return f <= 0.0f || fine + 1 >= tile_levels ? colour : glm::mix(colour, bilinear(slot, at, fine + 1), f);
+}
+
+FacadeLookup::FacadePhoto FacadeLookup::facade_photo(int photo) const {
+  const PhotoRow row = photo_row(facade_.photos[std::size_t(photo)]);
+  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
+}
+glm::uvec4 FacadeLookup::facade_layer(int layer) const {
+  return layer_row(facade_.layers[std::size_t(layer)]);
+}
+int FacadeLookup::facade_candidate(int index) const { return int(facade_.candidates[std::size_t(index)]); }
+glm::uvec4 FacadeLookup::facade_tile(int tile) const {
+  const std::uint32_t entry = facade_.tiles[std::size_t(tile)];
+  return {entry & 3u, entry >> 2, 0u, 0u};
+}
+glm::vec4 FacadeLookup::facade_texel(int slot, glm::vec2 at, float level) const {
+  return texels_.at(slot, at, level);
+}
+
+glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::vec3 to_eye, float pixel_m,
+                               glm::vec2 barycentric) {
+  const glm::u8vec3* corner = facade_.fallback.data() + 3 * std::size_t(triangle);
+  const glm::vec3 fallback = (glm::vec3(corner[0]) * (1.0f - barycentric.x - barycentric.y) +
+                              glm::vec3(corner[1]) * barycentric.x + glm::vec3(corner[2]) * barycentric.y) /
+                             255.0f;
+  const glm::uvec2 list = facade_.lists[triangle];
+  return facade_colour(position, to_eye, pixel_m, int(list.x), int(list.y), fallback);
+}
+
+LayerModel model_of(const PackedFacade& facade) {
+  LayerModel model;
+  for (const std::string& name : facade.surfaces) model.objects.push_back({name, false});
+  for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
+    LayerTriangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = glm::dvec3(facade.corners[3 * t + k]);
+    triangle.object = facade.surface_of_triangle[t];
+    triangle.face = triangle.source = std::uint32_t(t);
+    model.triangles.push_back(triangle);
+  }
+  model.face_count = model.source_count = std::uint32_t(facade.triangle_count());
+  return model;
+}
+
+ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view) {
+  const ItemBuffer seen = item_buffer(model_of(facade), view);
+  ImageF picture(view.width, view.height, 4);
+  parallel_for(std::size_t(view.height), [&](std::size_t row) {
+    FacadeLookup lookup(facade, texels);
+    const int y = int(row);
+    for (int x = 0; x < view.width; ++x) {
+      const std::uint32_t triangle = seen.triangles[seen.index(x, y)];
+      if (triangle == no_triangle_seen) continue;
+      const double depth = seen.depths[seen.index(x, y)];
+      const glm::dvec3 point = view.to_world({x + 0.5, y + 0.5}, depth);
+      const glm::vec4 colour =
+          lookup.colour(triangle, glm::vec3(point), glm::vec3(glm::normalize(view.centre - point)),
+                        float(depth / view.fx), glm::vec2(1.0f / 3.0f));
+      for (int c = 0; c < 4; ++c) picture.at(x, y)[c] = colour[c];
+    }
+  });
+  return picture;
+}
+
+}  // namespace parvis::facades

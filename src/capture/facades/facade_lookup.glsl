@@ -1,0 +1,113 @@
+// The colour of a point of a captured facade from its photographs' layers, in one pass (thesis 3.6): the k = 2 best
+// photographs by angle and resolution, with feathered borders; at a photograph's own viewpoint plainly its layers.
+// GLSL that is C++, too. Around it stand the functions that read the packed layers:
+//   FacadePhoto facade_photo(int photo)       a row of the table of photographs (facade_photo.glsl)
+//   uvec4 facade_layer(int layer)             x: left | top << 16 of its box in the photograph, pixels; y: tiles across |
+//                                             tiles down << 16; z: its first tile; w: its photograph
+//   int facade_candidate(int index)           a layer, of the lists of layers that hold each triangle
+//   uvec4 facade_tile(int tile)               x: 0 where nothing is stored, else a TILE_ kind; y: its slot
+//   vec4 facade_texel(int slot, vec2 at, float level)   sRGB and alpha, filtered; `at` in texels of the slot
+
+#define TILE_SEEN 1u    // the photograph sees all of it
+#define TILE_MIXED 2u   // alpha says how much of a texel the photograph sees
+#define TILE_ALPHA 3u   // seen, with an artist's alpha
+#define TILE_INNER 60.0f   // texels of a tile; 2 more on every side repeat its neighbours, for filters
+#define TILE_BORDER 2.0f
+#define TILE_LEVELS 3   // mipmaps whose filters stay within a slot of 64 texels
+
+// Confidence in what was filled over what a photograph sees: it counts where nothing else does.
+#define FILLED_CONFIDENCE 0.01f
+// Below this angle between eye and camera, radians, a photograph is shown plainly; it counts more and more from 4 times that.
+#define OWN_VIEWPOINT_ANGLE 0.002f
+#define BORDER_FEATHER 0.05f    // of the picture's width
+#define RESOLUTION_WEIGHT 0.1f  // see view_penalty
+
+// What one photograph says about a point.
+struct FacadeOpinion {
+  float key;         // the best is least; above 100: filled
+  float penalty;
+  float confidence;
+  float own;         // 1: the eye is at the photograph's own viewpoint
+  float level;
+  vec2 at;
+  int slot;
+  int photo;
+  int kind;
+};
+
+GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to_eye, float pixel_m) {
+  FacadeOpinion none = FacadeOpinion(1e9f, MAX_PENALTY, 0.0f, 0.0f, 0.0f, vec2(0.0f), 0, 0, 0);
+  uvec4 layer = facade_layer(candidate);
+  int index = int(layer.w);
+  FacadePhoto photo = facade_photo(index);
+  vec4 p = vec4(position, 1.0f);
+  float depth = dot(photo.row_z, p);
+  if (depth <= 0.0f) return none;
+  vec2 pixel = vec2(dot(photo.row_x, p), dot(photo.row_y, p)) / depth;
+  vec2 size = vec2(photo.size.x, photo.size.y);
+  vec2 in_box = pixel - vec2(float(layer.x & 65535u), float(layer.x >> 16u));
+  vec2 tiles = vec2(float(layer.y & 65535u), float(layer.y >> 16u));
+  if (min(in_box.x, in_box.y) < -1.0f || in_box.x > TILE_INNER * tiles.x || in_box.y > TILE_INNER * tiles.y) return none;
+  vec2 cell = clamp(floor(in_box / TILE_INNER), vec2(0.0f), tiles - vec2(1.0f));
+  uvec4 tile = facade_tile(int(layer.z) + int(cell.y * tiles.x + cell.x));
+  if (tile.x == 0u) return none;
+
+  vec3 to_photo = normalize(vec3(photo.centre) - position);
+  FacadeOpinion found;
+  found.kind = int(tile.x);
+  found.slot = int(tile.y);
+  found.photo = index;
+  found.at = in_box - TILE_INNER * cell + vec2(TILE_BORDER);
+  float ratio = depth / (photo.centre.w * max(pixel_m, 1e-6f));
+  found.level = clamp(log2(max(1.0f / ratio, 1.0f)), 0.0f, float(TILE_LEVELS - 1));
+  found.penalty = view_penalty(to_eye, to_photo, ratio, RESOLUTION_WEIGHT);
+  float angle = view_penalty(to_eye, to_photo, 1.0f, 0.0f);
+  found.own = 1.0f - smoothstep(OWN_VIEWPOINT_ANGLE, 4.0f * OWN_VIEWPOINT_ANGLE, angle);
+  float seen = 1.0f;
+  if (tile.x == TILE_MIXED) seen = smoothstep(0.75f, 1.0f, facade_texel(found.slot, found.at, 0.0f).w);
+  found.confidence = max(border_feather(pixel, size, BORDER_FEATHER * size.x), 1e-4f) * mix(FILLED_CONFIDENCE, 1.0f, seen);
+  found.confidence = mix(found.confidence, 1.0f, found.own);
+  found.key = found.penalty + (found.confidence > 2.0f * FILLED_CONFIDENCE ? 0.0f : 100.0f);
+  return found;
+}
+
+// Balanced sRGB with alpha. A photograph's own viewpoint shows its own colours.
+GLSL_FUNCTION vec4 facade_colour_of(FacadeOpinion opinion) {
+  vec4 texel = facade_texel(opinion.slot, opinion.at, opinion.level);
+  FacadePhoto photo = facade_photo(opinion.photo);
+  vec3 own = vec3(texel);
+  vec3 balanced = vec3(photo.scale) * own + vec3(photo.offset);
+  return vec4(mix(balanced, own, opinion.own), opinion.kind == int(TILE_ALPHA) ? texel.w : 1.0f);
+}
+
+// sRGB and alpha of a point. `count` candidates from `first` on hold its triangle; `pixel_m` is what a pixel of the display
+// covers there (0: not known); `to_eye` is of unit length; `fallback`, sRGB, stands where no photograph says anything. All in the facade's frame.
+GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int first, int count, vec3 fallback) {
+  FacadeOpinion best = FacadeOpinion(1e9f, MAX_PENALTY, 0.0f, 0.0f, 0.0f, vec2(0.0f), 0, 0, 0);
+  FacadeOpinion second = best;
+  float third_key = 1e9f;
+  for (int i = 0; i < count; ++i) {
+    FacadeOpinion found = facade_opinion(facade_candidate(first + i), position, to_eye, pixel_m);
+    if (found.key < best.key) {
+      third_key = second.key;
+      second = best;
+      best = found;
+    } else if (found.key < second.key) {
+      third_key = second.key;
+      second = found;
+    } else {
+      third_key = min(third_key, found.key);
+    }
+  }
+  if (best.key >= 1e9f) return vec4(fallback, 1.0f);
+  vec4 colour = facade_colour_of(best);
+  if (second.key >= 1e9f) return colour;
+  // Of the next photograph, which takes over when the choice changes; what is filled takes over from nothing seen.
+  bool has_third = third_key < 1e9f && (third_key < 100.0f || best.key >= 100.0f);
+  float max_penalty = has_third ? (third_key >= 100.0f ? third_key - 100.0f : third_key) : MAX_PENALTY;
+  float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);
+  float of_second = second.confidence * max(blend_weight(second.penalty, max_penalty), 1e-6f);
+  float share = of_second / (of_best + of_second);
+  if (share < 0.004f) return colour;
+  return mix(colour, facade_colour_of(second), share);
+}

@@ -1,0 +1,58 @@
+// Of a captured facade: light that photographs have recorded, as emission over a black metal.
+#include "graphics/shading/tone_curve.glsl"
+#include "capture/facades/blend.glsl"
+#include "capture/facades/recorded_light.glsl"
+#include "capture/facades/facade_photo.glsl"
+
+uniform highp sampler2D facade_photos;  // a row of 7 texels per photograph
+uniform highp usampler2D facade_layers, facade_candidates, facade_tiles;  // lists in rows of 1024
+uniform highp sampler2DArray facade_atlas;  // pages of 16 x 16 slots
+uniform mat4 facade_from_world;
+uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
+
+in vec3 position_in_facade;
+in vec3 fallback_colour;
+flat in uvec2 candidates;
+
+FacadePhoto facade_photo(int photo) {
+  return FacadePhoto(texelFetch(facade_photos, ivec2(0, photo), 0), texelFetch(facade_photos, ivec2(1, photo), 0),
+                     texelFetch(facade_photos, ivec2(2, photo), 0), texelFetch(facade_photos, ivec2(3, photo), 0),
+                     texelFetch(facade_photos, ivec2(4, photo), 0), texelFetch(facade_photos, ivec2(5, photo), 0),
+                     texelFetch(facade_photos, ivec2(6, photo), 0));
+}
+ivec2 place_in_list(int index) { return ivec2(index & 1023, index >> 10); }
+uvec4 facade_layer(int layer) { return texelFetch(facade_layers, place_in_list(layer), 0); }
+int facade_candidate(int index) { return int(texelFetch(facade_candidates, place_in_list(index), 0).x); }
+uvec4 facade_tile(int tile) {
+  uint entry = texelFetch(facade_tiles, place_in_list(tile), 0).x;
+  return uvec4(entry & 3u, entry >> 2u, 0u, 0u);
+}
+vec4 facade_texel(int slot, vec2 at, float level) {
+  vec2 corner = 64.0f * vec2(float(slot & 15), float((slot >> 4) & 15));
+  return textureLod(facade_atlas, vec3((corner + at) / 1024.0f, float(slot >> 8)), level);
+}
+#include "capture/facades/facade_lookup.glsl"
+
+vec3 linear_of_srgb(vec3 srgb) {
+  vec3 s = clamp(srgb, vec3(0.0f), vec3(1.0f));
+  return mix(pow((s + 0.055f) / 1.055f, vec3(2.4f)), s / 12.92f, vec3(lessThanEqual(s, vec3(0.04045f))));
+}
+
+Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+  float pixel_m = min(length(dFdx(position_in_facade)), length(dFdy(position_in_facade)));
+  vec3 to_eye = normalize((facade_from_world * vec4(seen.to_viewer, 0.0f)).xyz);
+  vec4 colour =
+      facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y), fallback_colour);
+  alpha = colour.a;
+  Surface s;
+  s.normal = seen.normal;
+  s.base_colour = vec3(0.0f);
+  s.metallic = 1.0f;
+  s.roughness = 1.0f;
+  s.clear_coat = 0.0f;
+  s.clear_coat_roughness = 0.03f;
+  s.translucency = 0.0f;
+  s.occlusion = 1.0f;
+  s.emission = radiance_of_exposed * tone_unmapped(linear_of_srgb(colour.rgb));
+  return s;
+}

@@ -1,0 +1,144 @@
+#include "capture/facades/facade_textures.h"
+
+#include <algorithm>
+
+#include "capture/facades/placed_facade.h"
+#include "graphics/render/bindings.h"
+
+namespace parvis::facades {
+namespace {
+
+constexpr int list_width = 1024;  ///< of the textures that hold lists, texels
+constexpr int page_side = 1024, slots_across = page_side / tile_side,
+              slots_per_page = slots_across * slots_across;
+
+struct Corner {
+  glm::vec3 position, normal;
+  glm::u8vec4 fallback;
+  glm::uvec2 list;
+};
+
+gl::Buffer corners_of(const PackedFacade& facade) {
+  const Mesh mesh = mesh_of(facade);
+  std::vector<Corner> corners(facade.corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = {mesh.positions[i], mesh.normals[i], glm::u8vec4(facade.fallback[i], 255),
+                  facade.lists[i / 3]};
+  return gl::immutable_buffer(std::span<const Corner>(corners));
+}
+
+gl::VertexArray vertices_of(const gl::Buffer& corners) {
+  gl::VertexArray array = gl::VertexArray::create();
+  const GLuint name = array.name();
+  glVertexArrayVertexBuffer(name, 0, corners.name(), 0, sizeof(Corner));
+  for (GLuint attribute = 0; attribute < 4; ++attribute) {
+    glEnableVertexArrayAttrib(name, attribute);
+    glVertexArrayAttribBinding(name, attribute, 0);
+  }
+  glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Corner, position));
+  glVertexArrayAttribFormat(name, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Corner, normal));
+  glVertexArrayAttribFormat(name, 2, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, fallback));
+  glVertexArrayAttribIFormat(name, 3, 2, GL_UNSIGNED_INT, offsetof(Corner, list));
+  return array;
+}
+
+/// A list in rows of list_width texels, read by texelFetch alone.
+template <class T>
+gl::Texture list_texture(const std::vector<T>& values, GLenum format, GLenum upload, GLenum type) {
+  std::vector<T> padded = values;
+  const int rows = std::max(int((values.size() + list_width - 1) / list_width), 1);
+  padded.resize(std::size_t(rows) * list_width, T{});
+  gl::Texture texture = gl::texture_2d(format, list_width, rows);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, list_width, rows, upload, type, padded.data());
+  return texture;
+}
+
+gl::Texture photo_texture(const PackedFacade& facade) {
+  std::vector<PhotoRow> rows;
+  for (const PackedPhoto& photo : facade.photos) rows.push_back(photo_row(photo));
+  if (rows.empty()) rows.emplace_back();
+  gl::Texture texture = gl::texture_2d(GL_RGBA32F, int(rows[0].size()), int(rows.size()));
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, int(rows[0].size()), int(rows.size()), GL_RGBA, GL_FLOAT,
+                      rows.data());
+  return texture;
+}
+
+int pages_of(const PackedFacade& facade) {
+  return std::max(int((facade.slot_count() + slots_per_page - 1) / slots_per_page), 1);
+}
+
+gl::Texture atlas_texture(const PackedFacade& facade) {
+  gl::Texture atlas = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
+  const GLuint name = atlas.name();
+  glTextureStorage3D(name, tile_levels, GL_COMPRESSED_RGBA_BPTC_UNORM, page_side, page_side,
+                     pages_of(facade));
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  const Bc7Block* blocks = facade.blocks.data();
+  for (int slot = 0; slot < int(facade.slot_count()); ++slot)
+    for (int level = 0; level < tile_levels; ++level) {
+      const int side = tile_side >> level, count = side * side / 16;
+      glCompressedTextureSubImage3D(name, level, side * (slot % slots_across),
+                                    side * (slot % slots_per_page / slots_across), slot / slots_per_page,
+                                    side, side, 1, GL_COMPRESSED_RGBA_BPTC_UNORM,
+                                    GLsizei(count * int(bc7_block_bytes)), blocks);
+      blocks += count;
+    }
+  return atlas;
+}
+
+Status check_limits(const PackedFacade& facade) {
+  GLint max_layers = 0, max_side = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_side);
+  const std::size_t longest = std::max({facade.tiles.size(), facade.layers.size(), facade.candidates.size()});
+  if (pages_of(facade) > max_layers || longest / list_width >= std::size_t(max_side) ||
+      facade.photos.size() > std::size_t(max_side))
+    return error(
+        "the captured facade needs {} pages of textures and tables of {} entries; this graphics hardware "
+        "holds {} and {}. Divide the place, or pack fewer photographs",
+        pages_of(facade), longest, max_layers, std::size_t(max_side) * list_width);
+  return Done{};
+}
+
+}  // namespace
+
+Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade) {
+  if (Status status = check_limits(facade); !status) return status.errors();
+  std::vector<glm::uvec4> layers;
+  for (const PackedLayer& layer : facade.layers) layers.push_back(layer_row(layer));
+  FacadeTextures made;
+  made.corners_ = corners_of(facade);
+  made.vertices_ = vertices_of(made.corners_);
+  made.photos_ = photo_texture(facade);
+  made.layers_ = list_texture(layers, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+  made.candidates_ = list_texture(facade.candidates, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
+  made.tiles_ = list_texture(facade.tiles, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
+  made.atlas_ = atlas_texture(facade);
+  made.bytes_ = facade.texture_bytes() + facade.corners.size() * sizeof(Corner);
+  return made;
+}
+
+void FacadeTextures::bind(const gl::Program& program) const {
+  GLuint unit = render::first_drawable_unit;
+  const auto bind_one = [&](const char* sampler, const gl::Texture& texture) {
+    glBindTextureUnit(unit, texture.name());
+    program.set(sampler, int(unit++));
+  };
+  bind_one("facade_photos", photos_), bind_one("facade_layers", layers_);
+  bind_one("facade_candidates", candidates_), bind_one("facade_tiles", tiles_);
+  bind_one("facade_atlas", atlas_);
+  glBindVertexArray(vertices_.name());
+}
+
+void FacadeTextures::draw(std::size_t first_triangle, std::size_t triangles) const {
+  glDrawArrays(GL_TRIANGLES, GLint(3 * first_triangle), GLsizei(3 * triangles));
+}
+
+}  // namespace parvis::facades

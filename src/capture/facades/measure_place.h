@@ -1,0 +1,41 @@
+// How well a captured place shows photographs that were held out, beside its baselines, and what it costs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capture/facades/place_layers.h"
+
+namespace parvis::facades {
+
+/// Means over the photographs that were held out.
+struct MethodFigures {
+  std::string method;  ///< "layers", or a baseline's name
+  double psnr_cc_db = 0.0, rephoto = 0.0, covered_percent = 0.0;
+};
+
+struct PlaceFigures {
+  std::vector<MethodFigures> methods;     ///< the layers first
+  double filled_percent = 0.0;            ///< of the model's pixels in random views
+  double from_photographs_percent = 0.0;  ///< of these, those that some photograph's tile colours
+  double layers_s_per_photo = 0.0;        ///< wall clock, all stages but packing
+  double texture_share_percent = 0.0;     ///< of the photographs' RGBA
+  double texture_over_extracted = 0.0;
+  double own_viewpoint_psnr_db = 0.0;  ///< mean over the photographs, pixels that show the model
+  std::size_t psd_roundtrip_differing_px = 0;
+  Errors warnings;
+};
+
+struct MeasureOptions {
+  int random_views = 200;
+  bool with_baselines = true;
+};
+
+/// Makes the place without the photographs named in `held_out`, and judges it by them. Fails where one of
+/// them is not there, or as place_layers does.
+Result<PlaceFigures> measured_place(const std::vector<photographs::Photograph>& photos,
+                                    const std::vector<NamedMesh>& meshes,
+                                    const std::vector<std::string>& held_out,
+                                    const MeasureOptions& options = {});
+
+}  // namespace parvis::facades

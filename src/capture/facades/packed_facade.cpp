@@ -1,0 +1,159 @@
+#include "capture/facades/packed_facade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/sealed_file.h"
+
+namespace parvis::facades {
+namespace {
+
+constexpr SealedKind kind{"PVFACE_1", "packed facade"};
+constexpr std::size_t max_photos = 4096, max_name_bytes = 4096;
+constexpr int max_side = 65535;  // boxes are kept in 16 bits
+
+void append_text(std::string& bytes, const std::string& text) {
+  append_values(bytes, std::vector<char>(text.begin(), text.end()));
+}
+std::string take_text(Taker& taker) {
+  const std::vector<char> text = taker.take_values<char>();
+  return std::string(text.begin(), text.end());
+}
+
+bool is_finite(const PackedPhoto& photo) {
+  const View& view = photo.view;
+  double sum = view.fx + view.fy + view.cx + view.cy + view.centre.x + view.centre.y + view.centre.z;
+  for (int c = 0; c < 3; ++c) {
+    sum += photo.balance.scale[std::size_t(c)] + photo.balance.offset[std::size_t(c)];
+    for (int r = 0; r < 3; ++r) sum += view.camera_from_world[c][r];
+  }
+  return std::isfinite(sum) && view.fx > 0.0 && view.fy > 0.0 && view.width > 0 && view.height > 0 &&
+         view.width <= max_side && view.height <= max_side;
+}
+
+/// Says what does not fit together; empty: all does.
+std::string problem_of(const PackedFacade& facade) {
+  const std::size_t triangles = facade.triangle_count();
+  if (facade.corners.size() != 3 * triangles || facade.fallback.size() != 3 * triangles ||
+      facade.surface_of_triangle.size() != triangles || facade.lists.size() != triangles)
+    return "its lists of triangles differ in length";
+  for (const glm::vec3& corner : facade.corners)
+    if (!std::isfinite(corner.x + corner.y + corner.z)) return "a corner is no number";
+  if (!std::ranges::all_of(facade.surface_of_triangle,
+                           [&](std::uint32_t s) { return s < facade.surfaces.size(); }))
+    return "a triangle has no surface";
+  for (const glm::uvec2& list : facade.lists)
+    if (std::uint64_t(list.x) + list.y > facade.candidates.size()) return "a list of layers is cut off";
+  if (!std::ranges::all_of(facade.candidates, [&](std::uint32_t l) { return l < facade.layers.size(); }))
+    return "a triangle has a layer that is not there";
+  for (const PackedLayer& layer : facade.layers) {
+    if (layer.photo >= facade.photos.size()) return "a layer has no photograph";
+    const View& view = facade.photos[layer.photo].view;
+    if (layer.box.empty() || layer.box.x < 0 || layer.box.y < 0 || layer.box.width > view.width ||
+        layer.box.height > view.height || layer.box.x > view.width - layer.box.width ||
+        layer.box.y > view.height - layer.box.height)
+      return "a layer lies outside of its photograph";
+    if (std::uint64_t(layer.first_tile) + std::uint64_t(layer.across()) * std::uint64_t(layer.down()) >
+        facade.tiles.size())
+      return "a layer's tiles are not all there";
+  }
+  if (facade.blocks.size() % blocks_per_slot != 0) return "its textures are cut off";
+  for (const std::uint32_t tile : facade.tiles)
+    if ((tile & 3u) != 0 && (tile >> 2) >= facade.slot_count()) return "a tile has no texture";
+  if (!std::ranges::all_of(facade.photos, is_finite)) return "a photograph's camera is none";
+  return "";
+}
+
+}  // namespace
+
+std::size_t PackedFacade::texture_bytes() const {
+  return blocks.size() * bc7_block_bytes + tiles.size() * sizeof(std::uint32_t) +
+         layers.size() * sizeof(glm::uvec4) + photos.size() * sizeof(PhotoRow) +
+         candidates.size() * sizeof(std::uint32_t);
+}
+
+std::size_t PackedFacade::photograph_bytes() const {
+  std::size_t bytes = 0;
+  for (const PackedPhoto& photo : photos)
+    bytes += 4 * std::size_t(photo.view.width) * std::size_t(photo.view.height);
+  return bytes;
+}
+
+Bounds PackedFacade::bounds() const {
+  Bounds bounds;
+  for (const glm::vec3& corner : corners) bounds.add(corner);
+  return bounds;
+}
+
+Status write_facade(const std::filesystem::path& file, const PackedFacade& facade) {
+  std::string bytes;
+  append_value(bytes, std::uint32_t(facade.surfaces.size()));
+  for (const std::string& name : facade.surfaces) append_text(bytes, name);
+  append_values(bytes, facade.corners), append_values(bytes, facade.surface_of_triangle);
+  append_values(bytes, facade.fallback), append_values(bytes, facade.lists);
+  append_values(bytes, facade.candidates);
+  append_value(bytes, std::uint32_t(facade.photos.size()));
+  for (const PackedPhoto& photo : facade.photos)
+    append_text(bytes, photo.name), append_value(bytes, photo.view), append_value(bytes, photo.balance);
+  append_values(bytes, facade.layers), append_values(bytes, facade.tiles);
+  append_values(bytes, facade.blocks);
+  return write_sealed(file, kind, bytes);
+}
+
+Result<PackedFacade> read_facade(const std::filesystem::path& file) {
+  const Result<std::string> content = read_sealed(file, kind);
+  if (!content) return content.errors();
+  return facade_of(*content, file);
+}
+
+Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::path& file) {
+  Taker taker(content);
+  PackedFacade facade;
+  const std::uint32_t surfaces = taker.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < surfaces && !taker.has_ended_early(); ++i)
+    facade.surfaces.push_back(take_text(taker));
+  facade.corners = taker.take_values<glm::vec3>();
+  facade.surface_of_triangle = taker.take_values<std::uint32_t>();
+  facade.fallback = taker.take_values<glm::u8vec3>();
+  facade.lists = taker.take_values<glm::uvec2>();
+  facade.candidates = taker.take_values<std::uint32_t>();
+  const std::uint32_t photos = taker.take<std::uint32_t>();
+  if (photos > max_photos)
+    return error("{}: it names {} photographs; at most {} are read", file.string(), photos, max_photos);
+  for (std::uint32_t i = 0; i < photos && !taker.has_ended_early(); ++i) {
+    PackedPhoto photo;
+    photo.name = take_text(taker);
+    photo.view = taker.take<View>(), photo.balance = taker.take<Balance>();
+    facade.photos.push_back(std::move(photo));
+  }
+  facade.layers = taker.take_values<PackedLayer>();
+  facade.tiles = taker.take_values<std::uint32_t>();
+  facade.blocks = taker.take_values<Bc7Block>();
+  if (!taker.is_at_end()) return cut_short(file);
+  if (const std::string problem = problem_of(facade); !problem.empty())
+    return error("{}: {}; pack the facade again (parvis facade pack)", file.string(), problem);
+  return facade;
+}
+
+PhotoRow photo_row(const PackedPhoto& photo) {
+  const View& view = photo.view;
+  const glm::dmat3 rotation_rows = glm::transpose(view.camera_from_world);  // columns are its rows
+  const glm::dvec3 rows[3]{view.fx * rotation_rows[0] + view.cx * rotation_rows[2],
+                           view.fy * rotation_rows[1] + view.cy * rotation_rows[2], rotation_rows[2]};
+  PhotoRow row{};
+  for (std::size_t i = 0; i < 3; ++i)
+    row[i] = glm::vec4(glm::dvec4(rows[i], -glm::dot(rows[i], view.centre)));
+  row[3] = glm::vec4(glm::dvec4(view.centre, view.fx));
+  row[4] = glm::vec4(view.width, view.height, 0.0f, 0.0f);
+  const auto& b = photo.balance;
+  row[5] = glm::vec4(b.scale[0], b.scale[1], b.scale[2], 0.0f);
+  row[6] = glm::vec4(b.offset[0], b.offset[1], b.offset[2], 0.0f);
+  return row;
+}
+
+glm::uvec4 layer_row(const PackedLayer& layer) {
+  return {std::uint32_t(layer.box.x) | std::uint32_t(layer.box.y) << 16,
+          std::uint32_t(layer.across()) | std::uint32_t(layer.down()) << 16, layer.first_tile, layer.photo};
+}
+
+}  // namespace parvis::facades

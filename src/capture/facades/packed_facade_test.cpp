@@ -1,0 +1,166 @@
+#include "capture/facades/packed_facade.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/random.h"
+#include "capture/facades/facade_lookup.h"
+#include "capture/facades/measure_place.h"
+#include "capture/facades/rephotography.h"
+#include "capture/facades/test_street.h"
+
+namespace parvis::facades {
+namespace {
+
+double rms(const BlockTexels& a, const BlockTexels& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(double(a[i]) - double(b[i]), 2);
+  return std::sqrt(sum / double(a.size()));
+}
+
+TEST(Bc7Blocks, OneColourAndALineOfColoursAreKept) {
+  for (const int grey : {0, 1, 77, 128, 254, 255}) {
+    BlockTexels texels;
+    for (std::size_t i = 0; i < 16; ++i)
+      texels[4 * i] = texels[4 * i + 1] = texels[4 * i + 2] = std::uint8_t(grey), texels[4 * i + 3] = 255;
+    EXPECT_LE(rms(texels_of(bc7_block(texels)), texels), 0.51) << grey;
+  }
+  BlockTexels line;
+  for (std::size_t i = 0; i < 16; ++i)
+    line[4 * i] = std::uint8_t(15 * i), line[4 * i + 1] = std::uint8_t(240 - 15 * i), line[4 * i + 2] = 90,
+             line[4 * i + 3] = std::uint8_t(10 + 15 * i);
+  EXPECT_LT(rms(texels_of(bc7_block(line)), line), 2.5);
+}
+
+TEST(Bc7Blocks, NoiseIsKeptAsFarAsALineGoes) {
+  Random random(7);
+  BlockTexels noise;
+  for (std::uint8_t& value : noise) value = std::uint8_t(255.0f * random.uniform());
+  const double error = rms(texels_of(bc7_block(noise)), noise);
+  EXPECT_LT(error, 75.0);
+  EXPECT_GT(error, 20.0) << "16 colours of noise do not lie on a line";
+}
+
+TEST(Bc7Blocks, OtherModesAreTransparent) {
+  EXPECT_EQ(texels_of(Bc7Block{}), BlockTexels{});
+  Bc7Block mode_0{};
+  mode_0.fill(0xff);
+  EXPECT_EQ(texels_of(mode_0), BlockTexels{});
+}
+
+struct Packed {
+  Photos input;
+  PlaceLayers place;
+  PackedFacade facade;
+
+  Packed() {
+    Result<PlaceLayers> made = place_layers(input.photos, street());
+    EXPECT_TRUE(made) << to_string(made ? Errors{} : made.errors());
+    place = *std::move(made);
+    facade = packed_facade(place);
+  }
+  Image8 picture(const View& view) const {
+    const ImageF shown = view_of_facade(facade, FacadeTexels(facade), view);
+    Image8 bytes(shown.width, shown.height, 4);
+    for (std::size_t i = 0; i < bytes.pixels.size(); ++i)
+      bytes.pixels[i] = std::uint8_t(std::lround(255.0f * std::clamp(shown.pixels[i], 0.0f, 1.0f)));
+    return bytes;
+  }
+};
+
+TEST(PackedFacade, AnOwnViewpointIsPlainlyThePhotograph) {
+  const Packed packed;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Image8 photograph = *read_image8(packed.input.photos[i].file);
+    const Rephotography judged = rephotography(packed.picture(packed.place.views[i]), photograph);
+    EXPECT_GT(judged.psnr_db, 45.0) << i;
+    EXPECT_EQ(judged.covered_percent, 100.0);
+  }
+  // The control: another photograph's picture is not this one.
+  EXPECT_LT(
+      rephotography(packed.picture(packed.place.views[0]), *read_image8(packed.input.photos[1].file)).psnr_db,
+      25.0);
+}
+
+TEST(PackedFacade, BetweenPhotographsItShowsThePlaceEverywhere) {
+  const Packed packed;
+  const View view = test_view(160, 120, {0.4, 0.5, 0.2});
+  const Rephotography judged = rephotography(packed.picture(view), true_picture(view));
+  EXPECT_EQ(judged.covered_percent, 100.0);
+  EXPECT_GT(judged.psnr_cc_db, 34.0);
+}
+
+TEST(PackedFacade, HiddenPartsThatOthersShowAreNotStored) {
+  const Packed packed;
+  std::size_t boxes = 0;
+  for (const PackedLayer& layer : packed.facade.layers) boxes += std::size_t(layer.across() * layer.down());
+  EXPECT_EQ(boxes, packed.facade.tiles.size());
+  EXPECT_LE(packed.facade.slot_count(), boxes);
+  EXPECT_GT(packed.facade.slot_count(), 4u * 4u) << "a picture of 160 x 120 has 3 x 2 tiles";
+  EXPECT_LT(double(packed.facade.texture_bytes()) / double(packed.facade.photograph_bytes()), 0.8);
+}
+
+TEST(MeasurePlace, EveryFigureIsThere) {
+  const Photos input;
+  const Result<PlaceFigures> figures = measured_place(input.photos, street(), {"0001.png"}, {10, true});
+  ASSERT_TRUE(figures) << to_string(figures.errors());
+  ASSERT_EQ(figures->methods.size(), 5u);
+  for (const MethodFigures& method : figures->methods) {
+    EXPECT_GT(method.psnr_cc_db, 25.0) << method.method;
+    EXPECT_GT(method.covered_percent, 90.0) << method.method;
+  }
+  EXPECT_EQ(figures->filled_percent, 100.0);
+  EXPECT_GT(figures->from_photographs_percent, 90.0);
+  EXPECT_GT(figures->own_viewpoint_psnr_db, 45.0);
+  EXPECT_EQ(figures->psd_roundtrip_differing_px, 0u);
+  EXPECT_FALSE(measured_place(input.photos, street(), {"nobody.png"}));
+}
+
+TEST(PackedFacade, AFileIsReadBackAsItWas) {
+  const Packed packed;
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.facade";
+  ASSERT_TRUE(write_facade(file, packed.facade));
+  const Result<PackedFacade> back = read_facade(file);
+  ASSERT_TRUE(back) << to_string(back.errors());
+  EXPECT_EQ(back->blocks, packed.facade.blocks);
+  EXPECT_EQ(back->tiles, packed.facade.tiles);
+  EXPECT_EQ(back->surfaces, packed.facade.surfaces);
+  EXPECT_EQ(back->photos[2].name, packed.facade.photos[2].name);
+}
+
+TEST(PackedFacade, WhatDoesNotFitTogetherIsRefused) {
+  const Packed packed;
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.facade";
+  const auto refused = [&](auto change) {
+    PackedFacade bad = packed.facade;
+    change(bad);
+    EXPECT_TRUE(write_facade(file, bad));
+    const Result<PackedFacade> back = read_facade(file);
+    return back ? std::string() : to_string(back.errors());
+  };
+  EXPECT_NE(refused([](PackedFacade& f) { f.candidates[0] = 999999; }).find("a layer that is not there"),
+            std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.tiles[0] = 1u | 999999u << 2; }).find("a tile has no texture"),
+            std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.layers[0].box.x = 500; }).find("outside of its photograph"),
+            std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.photos[0].view.fx = NAN; }).find("camera is none"),
+            std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.corners.pop_back(); }).find("differ in length"),
+            std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.lists[0].y = 77777; }).find("cut off"), std::string::npos);
+  EXPECT_EQ(refused([](PackedFacade&) {}), "");
+
+  ASSERT_TRUE(write_facade(file, packed.facade));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_FALSE(read_facade(file));
+  EXPECT_FALSE(read_facade(folder.path() / "missing.facade"));
+}
+
+}  // namespace
+}  // namespace parvis::facades

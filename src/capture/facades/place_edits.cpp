@@ -1,0 +1,187 @@
+// Which edits a folder's layered pictures hold: what differs between a picture and the copy that was kept
+// when it was written, on the model and with the cameras of that time.
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/progress.h"
+#include "capture/facades/coarse_model_file.h"
+#include "capture/facades/place_folder.h"
+#include "capture/photographs/picture.h"
+#include "capture/photographs/set_file.h"
+#include "formats/gltf/gltf_reader.h"
+
+namespace parvis::facades {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path psd_file(const fs::path& folder, const std::string& photograph) {
+  return (folder / photograph).replace_extension(".psd");
+}
+fs::path edits_file(const fs::path& folder, const std::string& photograph) {
+  return (folder / "layers" / "edits" / photograph).replace_extension(".edits");
+}
+
+bool are_equal(const fs::path& a, const fs::path& b) {
+  const Result<std::string> in_a = read_file(a), in_b = read_file(b);
+  return in_a && in_b && *in_a == *in_b;
+}
+
+/// Pictures that somebody saved after they were written.
+std::vector<std::string> edited_photographs(const fs::path& folder) {
+  std::vector<std::string> names;
+  const fs::path written = folder / "layers" / "written";
+  std::error_code code;
+  if (!fs::exists(written / "photographs.json", code)) return names;
+  const Result<photographs::LoadedSet> set = photographs::read_photograph_set(written);
+  if (!set) return names;
+  for (const photographs::Photograph& photo : set->set.photographs) {
+    const fs::path now = psd_file(folder / "layers", photo.name), then = psd_file(written, photo.name);
+    if (fs::exists(now, code) && fs::exists(then, code) && !are_equal(now, then)) names.push_back(photo.name);
+  }
+  return names;
+}
+
+/// The layers of the time when the pictures were written, of some photographs.
+struct WrittenLayers {
+  std::vector<std::string> names;
+  std::vector<View> views;
+  LayerModel model;
+  std::vector<VisibilityLayers> visibility;
+};
+
+Result<WrittenLayers> written_layers(const fs::path& folder) {
+  const fs::path written = folder / "layers" / "written";
+  const Result<photographs::LoadedSet> set = photographs::read_photograph_set(written);
+  if (!set) return set.errors();
+  Errors warnings;
+  const Result<scene::Model> model = scene::read_gltf(written / "model.glb", warnings);
+  if (!model) return model.errors();
+  Result<LayerModelResult> layers = layer_model(named_meshes(*model));
+  if (!layers) return layers.errors();
+  WrittenLayers result{{}, {}, std::move(layers->model), {}};
+  for (const photographs::Photograph& photo : set->set.photographs) {
+    const Result<View> view = view_of(photo);
+    if (!view) return view.errors();
+    result.names.push_back(photo.name), result.views.push_back(*view);
+  }
+  result.visibility = visibility_layers(result.model, result.views, result.names);
+  return result;
+}
+
+/// Transparent layers: what a picture lacks of them is in neither of two pictures that are compared.
+LayerPixels blank_layers(const LayeredView& layered) {
+  LayerPixels pixels;
+  for (const ImageLayer& layer : layered.layers) pixels.emplace_back(layer.box.width, layer.box.height, 4);
+  return pixels;
+}
+
+/// Collects one picture's edits into its file, and takes the picture for the one that was written.
+Status collect(const fs::path& folder, const WrittenLayers& written, std::size_t i, Errors& messages) {
+  const std::string& name = written.names[i];
+  const fs::path now = psd_file(folder / "layers", name),
+                 then = psd_file(folder / "layers" / "written", name);
+  const Result<PsdPicture> before = read_psd(then), after = read_psd(now);
+  if (!before) return before.errors();
+  if (!after) return after.errors();
+  const View& view = written.views[i];
+  const LayeredView layered = image_layers(written.model, view, written.visibility[i]);
+  const Result<ReadLayers> old_pixels =
+      read_layers(*before, layered, blank_layers(layered), view.width, view.height, then.string());
+  if (!old_pixels) return old_pixels.errors();
+  const Result<ReadLayers> new_pixels =
+      read_layers(*after, layered, old_pixels->pixels, view.width, view.height, now.string());
+  if (!new_pixels) return new_pixels.errors();
+  messages.insert(messages.end(), new_pixels->messages.begin(), new_pixels->messages.end());
+  const LayersOfModel layers{written.model, view, written.visibility[i], layered};
+  LayerEdits edits = edits_of(layers, old_pixels->pixels, new_pixels->pixels);
+  const fs::path file = edits_file(folder, name);
+  std::error_code code;
+  if (fs::exists(file, code)) {
+    const Result<LayerEdits> earlier = read_edits(file);
+    if (!earlier) return earlier.errors();
+    edits = joined(*earlier, edits);
+  }
+  if (Status status = write_edits(file, edits); !status) return status;
+  const Result<std::string> bytes = read_file(now);
+  if (!bytes) return bytes.errors();
+  return write_file(then, *bytes);
+}
+
+/// Collects the edits of all pictures. A picture that cannot be read is named, and left as it is.
+Errors collect_edits(const fs::path& folder) {
+  Errors messages;
+  const std::vector<std::string> edited = edited_photographs(folder);
+  if (edited.empty()) return messages;
+  const Result<WrittenLayers> written = written_layers(folder);
+  if (!written) return written.errors();
+  for (std::size_t i = 0; i < written->names.size(); ++i)
+    if (std::ranges::count(edited, written->names[i]) > 0)
+      if (const Status status = collect(folder, *written, i, messages); !status)
+        messages.insert(messages.end(), status.errors().begin(), status.errors().end());
+  return messages;
+}
+
+/// Marks what differs between two states of the layers as painted.
+void mark_painted(const LayerPixels& before, Filled& filled) {
+  for (std::size_t l = 0; l < before.size(); ++l)
+    for (std::size_t p = 0; p < before[l].pixels.size(); p += 4)
+      if (!std::equal(before[l].pixels.begin() + std::ptrdiff_t(p),
+                      before[l].pixels.begin() + std::ptrdiff_t(p + 4),
+                      filled.pixels[l].pixels.begin() + std::ptrdiff_t(p)))
+        filled.sources[l].pixels[p / 4] = std::uint8_t(FillSource::painted);
+}
+
+Status paint(const fs::path& folder, std::size_t i, PlaceLayers& place) {
+  const fs::path file = edits_file(folder, place.names[i]);
+  std::error_code code;
+  if (!fs::exists(file, code)) return Done{};
+  const Result<LayerEdits> edits = read_edits(file);
+  if (!edits) return edits.errors();
+  const LayerPixels before = place.filled[i].pixels;
+  const AppliedEdits applied = apply(*edits, place.layers(i), place.names[i], place.filled[i].pixels);
+  mark_painted(before, place.filled[i]);
+  place.warnings.insert(place.warnings.end(), applied.messages.begin(), applied.messages.end());
+  return Done{};
+}
+
+void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& settings) {
+  Errors notes = source.notes;
+  add(notes, collect_edits(source.folder));
+  Result<PlaceLayers> place = place_layers(source.photographs, source.meshes, settings);
+  if (!place) return place;
+  add(place->warnings, notes);
+  const Result<std::vector<FillingChoice>> choices = read_choices(source.folder);
+  if (!choices) return choices.errors();
+  add(place->warnings, apply_choices(*choices, *place));
+  for (std::size_t i = 0; i < place->names.size(); ++i)
+    if (const Status status = paint(source.folder, i, *place); !status) add(place->warnings, status.errors());
+  return place;
+}
+
+Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& place) {
+  const fs::path folder = source.folder / "layers", written = folder / "written";
+  Progress progress("writing layered pictures", place.names.size());
+  for (std::size_t i = 0; i < place.names.size(); ++i) {
+    const auto photo = std::ranges::find(source.photographs, place.names[i], &photographs::Photograph::name);
+    const Result<Image8> picture = photographs::read_picture(*photo);
+    if (!picture) return picture.errors();
+    const PsdPicture psd =
+        layered_picture(*picture, place.layered[i], chosen_pixels(place.filled[i], place.originals[i]),
+                        item_buffer(place.model, place.views[i]).depths);
+    if (Status status = write_psd(psd_file(folder, place.names[i]), psd); !status) return status;
+    if (Status status = write_psd(psd_file(written, place.names[i]), psd); !status) return status;
+    progress.advance();
+  }
+  photographs::PhotographSet set;
+  for (const photographs::Photograph& photo : source.photographs)
+    if (std::ranges::count(place.names, photo.name) > 0) set.photographs.push_back(photo);
+  if (Status status = write_meshes(written / "model.glb", source.meshes); !status) return status;
+  return photographs::write_photograph_set(written, set, source.folder);
+}
+
+}  // namespace parvis::facades

@@ -1,0 +1,214 @@
+#include "capture/facades/place_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/progress.h"
+#include "capture/photographs/picture.h"
+#include "capture/photographs/picture_header.h"
+#include "capture/photographs/set_file.h"
+
+namespace parvis::facades {
+namespace fs = std::filesystem;
+namespace {
+
+using photographs::Photograph;
+
+constexpr const char* state_names[] = {"none", "proposal", "accepted", "refused"};
+
+/// Margins that hold every transparent pixel of the picture's border, the same on opposite sides.
+glm::ivec2 empty_margins(const Image8& image) {
+  const auto is_full = [&](int x, int y) { return image.at(x, y)[3] > 0; };
+  glm::ivec2 margin(0);
+  const auto row_is_full = [&](int y) {
+    for (int x = margin.x; x < image.width - margin.x; ++x)
+      if (!is_full(x, y)) return false;
+    return true;
+  };
+  const auto column_is_full = [&](int x) {
+    for (int y = margin.y; y < image.height - margin.y; ++y)
+      if (!is_full(x, y)) return false;
+    return true;
+  };
+  const glm::ivec2 most(image.width / 8, image.height / 8);
+  bool is_done = false;
+  while (!is_done && margin.x < most.x && margin.y < most.y) {
+    const bool rows = row_is_full(margin.y) && row_is_full(image.height - 1 - margin.y);
+    const bool columns = column_is_full(margin.x) && column_is_full(image.width - 1 - margin.x);
+    is_done = rows && columns;
+    if (!rows) ++margin.y;
+    if (!columns) ++margin.x;
+  }
+  return margin;
+}
+
+Image8 cropped(const Image8& image, glm::ivec2 margin) {
+  Image8 part(image.width - 2 * margin.x, image.height - 2 * margin.y, 3);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) std::copy_n(image.at(x + margin.x, y + margin.y), 3, part.at(x, y));
+  return part;
+}
+
+fs::path pinhole_file(const fs::path& folder, const Photograph& photograph) {
+  fs::path name = photograph.name;
+  return (folder / "pinhole" / name).replace_extension(".png");
+}
+
+/// All that the straightened picture depends on, as text beside it.
+std::string recipe_of(const Photograph& photograph) {
+  std::error_code code;
+  std::string text = fmt::format("{} {} x {}, {} bytes\n", int(photograph.lens.model), photograph.lens.width,
+                                 photograph.lens.height, fs::file_size(photograph.file, code));
+  for (const double parameter : photograph.lens.parameters) text += fmt::format("{:.17g}\n", parameter);
+  return text;
+}
+
+/// `straight` with the lens of its picture of width x height pixels, cropped by the same margins on opposite
+/// sides.
+Photograph with_cropped_lens(Photograph straight, int width, int height) {
+  const glm::dvec2 margin(0.5 * (straight.lens.width - width), 0.5 * (straight.lens.height - height));
+  const glm::dvec2 focal = photographs::focal_px(straight.lens),
+                   centre = photographs::principal_point_px(straight.lens) - margin;
+  straight.lens = photographs::pinhole_lens(width, height, focal.x, focal.y, centre.x, centre.y);
+  return straight;
+}
+
+/// The photograph without distortion, as a file of its own unless it had none. One that is there is taken
+/// over if it was made of the same picture and lens.
+Result<Photograph> without_distortion(const fs::path& folder, const Photograph& photograph) {
+  if (photographs::is_pinhole(photograph.lens)) return photograph;
+  const fs::path file = pinhole_file(folder, photograph),
+                 recipe_file = fs::path(file).replace_extension(".txt");
+  const std::string recipe = recipe_of(photograph);
+  std::error_code code;
+  if (fs::exists(recipe_file, code))
+    if (const Result<std::string> known = read_file(recipe_file, 1 << 16); known && *known == recipe)
+      if (const auto header = photographs::read_picture_header(file)) {
+        Photograph straight = photograph;
+        straight.lens = photographs::undistorted(photograph.lens);
+        straight.file = file;
+        return with_cropped_lens(straight, header->width, header->height);
+      }
+  const Result<Image8> pixels = photographs::read_picture(photograph);
+  if (!pixels) return pixels.errors();
+  photographs::Picture straight = photographs::undistorted(photograph, *pixels);
+  const Image8 part = cropped(straight.image, empty_margins(straight.image));
+  straight.photograph.file = file;
+  if (Status status = write_image(file, part); !status) return status.errors();
+  if (Status status = write_file(recipe_file, recipe); !status) return status.errors();
+  return with_cropped_lens(straight.photograph, part.width, part.height);
+}
+
+std::vector<std::string> words(const std::string& line) {
+  // NAME "LAYER WITH SPACES" STATE
+  std::vector<std::string> found;
+  std::size_t at = 0;
+  while (at < line.size()) {
+    if (line[at] == ' ' || line[at] == '\r') {
+      ++at;
+    } else if (line[at] == '"') {
+      const std::size_t end = std::min(line.find('"', at + 1), line.size());
+      found.push_back(line.substr(at + 1, end - at - 1)), at = end + 1;
+    } else {
+      const std::size_t end = std::min(line.find(' ', at), line.size());
+      found.push_back(line.substr(at, end - at)), at = end;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<NamedMesh> named_meshes(const scene::Model& model) {
+  const std::vector<glm::mat4> pose = scene::rest_pose(model);
+  std::vector<NamedMesh> meshes;
+  for (const scene::Part& part : model.parts) {
+    const std::string name = part.object.empty() ? model.name : part.object;
+    auto known = std::ranges::find(meshes, name, &NamedMesh::name);
+    if (known == meshes.end()) known = meshes.insert(meshes.end(), {name, {}});
+    append(known->mesh, part.mesh, pose[std::size_t(part.node)]);
+  }
+  return meshes;
+}
+
+Result<PlaceSource> read_place(const fs::path& folder, std::vector<NamedMesh> meshes,
+                               const std::vector<std::string>& left_out) {
+  const Result<photographs::LoadedSet> loaded = photographs::read_photograph_set(folder);
+  if (!loaded) return loaded.errors();
+  PlaceSource source{folder, std::move(meshes), {}, loaded->problems};
+  for (const std::string& name : left_out)
+    if (!photographs::find(loaded->set, name))
+      return error("{}: there is no photograph {} to leave out", folder.string(), name);
+  Progress progress("removing distortion", loaded->set.photographs.size());
+  for (const Photograph& photograph : loaded->set.photographs) {
+    progress.advance();
+    if (std::ranges::count(left_out, photograph.name) > 0) continue;
+    const Result<Photograph> straight = without_distortion(folder, photograph);
+    if (straight)
+      source.photographs.push_back(*straight);
+    else
+      source.notes.insert(source.notes.end(), straight.errors().begin(), straight.errors().end());
+  }
+  return source;
+}
+
+Status write_choices(const fs::path& folder, const std::vector<FillingChoice>& choices) {
+  std::string text = "# photograph \"layer\" accepted|refused|proposal; * stands for all, later lines win\n";
+  Result<std::vector<FillingChoice>> all = read_choices(folder);
+  if (!all) return all.errors();
+  all->insert(all->end(), choices.begin(), choices.end());
+  for (const FillingChoice& choice : *all)
+    text += fmt::format("\"{}\" \"{}\" {}\n", choice.photograph, choice.layer,
+                        state_names[std::size_t(choice.state)]);
+  return write_file(folder / "filling.txt", text);
+}
+
+Result<std::vector<FillingChoice>> read_choices(const fs::path& folder) {
+  const fs::path file = folder / "filling.txt";
+  std::error_code code;
+  if (!fs::exists(file, code)) return std::vector<FillingChoice>();
+  const Result<std::string> text = read_file(file, 1 << 24);
+  if (!text) return text.errors();
+  std::vector<FillingChoice> choices;
+  Errors errors;
+  std::istringstream lines(*text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::vector<std::string> parts = words(line.substr(0, line.find('#')));
+    if (parts.empty()) continue;
+    const auto state = parts.size() == 3 ? std::ranges::find(state_names, parts[2]) : std::end(state_names);
+    if (state == std::end(state_names) || state == std::begin(state_names))
+      errors.push_back(error_at({file.string(), number, 0},
+                                "expected \"PHOTOGRAPH\" \"LAYER\" accepted|refused|proposal"));
+    else
+      choices.push_back({parts[0], parts[1], Filling(state - std::begin(state_names))});
+  }
+  if (!errors.empty()) return errors;
+  return choices;
+}
+
+Errors apply_choices(const std::vector<FillingChoice>& choices, PlaceLayers& place) {
+  Errors messages;
+  for (const FillingChoice& choice : choices) {
+    bool is_found = false;
+    for (std::size_t i = 0; i < place.names.size(); ++i) {
+      if (choice.photograph != "*" && choice.photograph != place.names[i]) continue;
+      for (std::size_t l = 0; l < place.layered[i].layers.size(); ++l) {
+        if (choice.layer != "*" && choice.layer != place.layered[i].layers[l].name) continue;
+        is_found = true;
+        if (place.filled[i].states[l] != Filling::none) place.filled[i].states[l] = choice.state;
+      }
+    }
+    if (!is_found)
+      messages.push_back(
+          error("filling.txt: there is no layer \"{}\" of photograph {} any more; the choice is kept",
+                choice.layer, choice.photograph));
+  }
+  return messages;
+}
+
+}  // namespace parvis::facades

@@ -1,0 +1,39 @@
+// What a scene keeps of a facade(...) node.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/content_hash.h"
+#include "base/mesh.h"
+#include "capture/facades/packed_facade.h"
+#include "scene/data/room_data.h"
+#include "scene/data/traced_scene.h"
+
+namespace parvis::facades {
+
+struct PlacedFacade {
+  static constexpr std::string_view name = "facades.facade";
+  static constexpr scene::DataRole role = scene::DataRole::static_content;
+
+  std::string called;
+  std::filesystem::path file;
+  std::shared_ptr<const PackedFacade> facade;
+  glm::mat4 world_from_facade{1.0f};
+  float brightness = 1.0f;  ///< 1: the display shows the photographs as they are, whatever the exposure
+  bool is_visible = true;
+
+  void hash(ContentHash& hash) const;
+};
+
+/// Of an artist's alpha: else nothing can be seen through.
+bool has_holes(const PackedFacade& facade);
+
+/// Its triangles in their order, each with corners and a normal of its own.
+Mesh mesh_of(const PackedFacade& facade);
+
+/// Facades as rays see them: one thing each.
+scene::TracedKind traced_facades();
+
+}  // namespace parvis::facades

@@ -1,0 +1,92 @@
+#include "capture/facades/room.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "capture/facades/facade_drawable.h"
+#include "capture/facades/placed_facade.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::facades {
+namespace {
+
+scene::NodeSchema facade_schema() {
+  using scene::AttributeType;
+  scene::NodeSchema schema{
+      .type = "facade",
+      .help =
+          "A captured place: surfaces that show photographs, chosen and blended by where they are seen from. "
+          "The file is made by parvis facade pack.",
+      .attributes = {{.name = "name", .help = "by which other nodes refer to it"},
+                     {.name = "file",
+                      .type = AttributeType::file,
+                      .help = "the packed layers (.facade)",
+                      .is_required = true},
+                     {.name = "brightness",
+                      .type = AttributeType::number,
+                      .help =
+                          "of the photographs' light; 1: they are shown as they are, whatever the exposure",
+                      .fallback = "1",
+                      .minimum = 0.0,
+                      .maximum = 1000.0,
+                      .is_live = true}},
+      .stands_in = {scene::top_level, "group", "scenario"},
+      .example = "facade(file=\"layers.facade\", position=\"0 0 0\")"};
+  const std::vector<scene::AttributeSchema> placement = scene::placement_attributes();
+  schema.attributes.insert(schema.attributes.begin() + 2, placement.begin(), placement.end());
+  schema.attributes.push_back(scene::visible_attribute());
+  return schema;
+}
+
+/// Files that scenes show now: a node that is rebuilt, or stands twice, reads none a second time.
+class SharedFiles {
+ public:
+  Result<std::shared_ptr<const PackedFacade>> read(const std::filesystem::path& file) {
+    std::error_code code;
+    const auto written = std::filesystem::last_write_time(file, code);
+    const std::lock_guard lock(mutex_);
+    Known& known = files_[file];
+    if (std::shared_ptr<const PackedFacade> held = known.facade.lock(); held && known.written == written)
+      return held;
+    Result<PackedFacade> facade = read_facade(file);
+    if (!facade) return facade.errors();
+    auto held = std::make_shared<const PackedFacade>(*std::move(facade));
+    known = {held, written};
+    return std::shared_ptr<const PackedFacade>(held);
+  }
+
+ private:
+  struct Known {
+    std::weak_ptr<const PackedFacade> facade;
+    std::filesystem::file_time_type written;
+  };
+  std::mutex mutex_;
+  std::map<std::filesystem::path, Known> files_;
+};
+
+void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& files) {
+  Result<std::shared_ptr<const PackedFacade>> facade = files.read(node.file("file"));
+  if (!facade) return builder.fail(facade.errors(), node.where_of("file"));
+  PlacedFacade placed;
+  placed.called = node.gives("name") ? node.text("name") : node.file("file").stem().string();
+  placed.file = node.file("file"), placed.facade = *std::move(facade);
+  placed.world_from_facade = builder.world_from_parent() * scene::placement(node);
+  placed.brightness = float(node.number("brightness"));
+  placed.is_visible = builder.is_visible() && node.flag("visible");
+  builder.add(std::move(placed));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  const auto files = std::make_shared<SharedFiles>();
+  house.get<scene::NodeRegistry>().add(
+      facade_schema(),
+      [files](const scene::Node& node, scene::SceneBuilder& builder) { build(node, builder, *files); });
+  house.get<render::Drawables>().add(facades_kind());
+}
+
+}  // namespace parvis::facades
