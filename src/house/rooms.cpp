@@ -18,6 +18,7 @@
 #include "reflections/reference_maps/room.h"
 #include "reflections/reflector_maps/room.h"
 #include "reflections/refraction/room.h"
+#include "reflections/traced/room.h"
 #include "reflections/virtual_objects/bench/curved_reflectors_bench.h"
 #include "reflections/virtual_objects/room.h"
 #include "scene/action/action_nodes.h"
@@ -41,6 +42,7 @@ constexpr Furnish rooms[]{
     action::furnish,
     probes::furnish,
     environment_rays::furnish,
+    traced::furnish,
     local_maps::furnish,
     reflector_maps::furnish,
     reference_maps::furnish,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <unordered_set>
 
 #include "graphics/reference/traced_hit.h"
 #include "scene/data/mip_levels.h"
@@ -125,7 +126,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     part.world_from_mesh = world_from_mesh;
     part.object = first_thing_ + placing.thing;
     part.casts_shadow = placing.casts_shadow;
-    rays_.place(part);
+    rays_.place(part, true);
     rays_.kept_.insert(rays_.kept_.end(), {std::move(mesh), std::move(surface), std::move(material)});
   }
 
@@ -136,7 +137,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       const scene::Part& part = model->parts[p];
       rays_.place(*model, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
-                  first_thing_ + placing.thing, false);
+                  first_thing_ + placing.thing, false, true);
     }
     rays_.kept_.push_back(std::move(model));
   }
@@ -147,13 +148,58 @@ class RayScene::TracedThings final : public scene::TracedScene {
 };
 
 RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
-  for (std::size_t o = 0; o < scene.objects.size(); ++o)
-    if (scene.objects[o].is_visible) add_object(scene.objects[o], int(o));
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) add_object(scene.objects[o], int(o));
+  object_places_ = places_.size();
+  trace_things(scene);
+  rtcCommitScene(top_);
+}
+
+void RayScene::trace_things(const scene::Scene& scene) {
   scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int first_thing) {
     TracedThings things(*this, first_thing);
     kind.trace(scene, things);
   });
+}
+
+/// Traced things are described as a whole for each picture: only their meshes may be those of the last one.
+void RayScene::forget_things() {
+  for (std::size_t i = object_places_; i < places_.size(); ++i) {
+    triangle_count_ -= places_[i]->mesh->triangle_count();
+    rtcDetachGeometry(top_, unsigned(i));
+  }
+  places_.resize(object_places_);
+}
+
+void RayScene::update(const scene::Scene& scene) {
+  std::size_t next = 0;
+  for (const scene::Object& object : scene.objects) {
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p, ++next) {
+      const Mesh& mesh = object.mesh(p);
+      move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
+           object.is_visible);
+      if (&mesh != &object.model->parts[p].mesh && places_[next]->is_traced) bend(next);
+    }
+  }
+  if (!scene.traced_kinds.empty()) {
+    std::vector<std::shared_ptr<const void>> last = std::move(kept_);
+    kept_.clear();
+    forget_things();
+    trace_things(scene);
+    forget_meshes_but_those_placed();
+  }
   rtcCommitScene(top_);
+}
+
+/// Embree's hierarchies of meshes that no place shows any more.
+void RayScene::forget_meshes_but_those_placed() {
+  std::unordered_set<const Mesh*> placed;
+  for (const std::unique_ptr<PlacedPart>& place : places_) placed.insert(place->mesh);
+  std::erase_if(mesh_scenes_, [&](const auto& entry) {
+    if (placed.contains(entry.first)) return false;
+    rtcReleaseScene(entry.second);
+    return true;
+  });
 }
 
 RayScene::~RayScene() {
@@ -177,11 +223,11 @@ void RayScene::add_object(const scene::Object& object, int number) {
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     place(model, p, object.mesh(p), object.world_from_model * pose[std::size_t(model.parts[p].node)], number,
-          object.takes_reflection);
+          object.takes_reflection, object.is_visible);
 }
 
 void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
-                     const glm::mat4& world_from_mesh, int number, bool takes_reflection) {
+                     const glm::mat4& world_from_mesh, int number, bool takes_reflection, bool is_visible) {
   const scene::Part& source = model.parts[p];
   PlacedPart part{};
   part.mesh = &mesh;
@@ -191,31 +237,43 @@ void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
   part.object = number;
   part.casts_shadow = source.casts_shadow;
   part.is_mirror = takes_reflection && part.material->is_mirror_like;
-  place(part);
+  place(part, is_visible);
 }
 
-void RayScene::place(PlacedPart part) {
-  const Mesh& mesh = *part.mesh;
-  const float volume = glm::determinant(glm::mat3(part.world_from_mesh));
-  if (mesh.indices.empty() || volume == 0.0f || !std::isfinite(volume)) return;  // nothing to be seen
-  part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
-  part.is_mirrored = volume < 0.0f;
+void RayScene::place(const PlacedPart& part, bool is_visible) {
   places_.push_back(std::make_unique<PlacedPart>(part));
-  triangle_count_ += mesh.triangle_count();
-
+  triangle_count_ += part.mesh->triangle_count();
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(instance, mesh_scene(*places_.back()));
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                          glm::value_ptr(part.world_from_mesh));
-  rtcCommitGeometry(instance);
   rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
+  rtcDisableGeometry(instance);
   rtcReleaseGeometry(instance);
+  move(places_.size() - 1, *part.mesh, part.world_from_mesh, is_visible);
 }
 
-RTCScene RayScene::mesh_scene(const PlacedPart& place) {
-  const auto [entry, is_new] = mesh_scenes_.try_emplace(place.mesh, nullptr);
+/// An instance stays, disabled, where nothing of it can be seen. Its mesh gets a hierarchy when it is first
+/// seen.
+void RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible) {
+  PlacedPart& part = *places_[number];
+  const float volume = glm::determinant(glm::mat3(world_from_mesh));
+  const bool is_seen = is_visible && !mesh.indices.empty() && volume != 0.0f && std::isfinite(volume);
+  const bool is_same = part.world_from_mesh == world_from_mesh && part.mesh == &mesh;
+  if (is_seen == part.is_traced && (is_same || !is_seen)) return;
+  const RTCGeometry instance = rtcGetGeometry(top_, unsigned(number));
+  part.is_traced = is_seen;
+  if (!is_seen) return rtcDisableGeometry(instance);
+  part.mesh = &mesh;
+  part.world_from_mesh = world_from_mesh;
+  part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
+  part.is_mirrored = volume < 0.0f;
+  rtcSetGeometryInstancedScene(instance, mesh_scene(mesh));
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
+  rtcEnableGeometry(instance);
+  rtcCommitGeometry(instance);
+}
+
+RTCScene RayScene::mesh_scene(const Mesh& mesh) {
+  const auto [entry, is_new] = mesh_scenes_.try_emplace(&mesh, nullptr);
   if (!is_new) return entry->second;
-  const Mesh& mesh = *place.mesh;
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(glm::vec3), mesh.positions.size());
@@ -232,6 +290,20 @@ RTCScene RayScene::mesh_scene(const PlacedPart& place) {
   rtcReleaseGeometry(geometry);
   rtcCommitScene(entry->second);
   return entry->second;
+}
+
+/// The hierarchy keeps its tree and fits it to the corners as they are bent now.
+void RayScene::bend(std::size_t place) {
+  const Mesh& mesh = *places_[place]->mesh;
+  const RTCScene scene = mesh_scene(mesh);
+  const RTCGeometry geometry = rtcGetGeometry(scene, 0);
+  void* vertices = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
+  rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+  rtcCommitGeometry(geometry);
+  rtcCommitScene(scene);
+  rtcCommitGeometry(rtcGetGeometry(top_, unsigned(place)));
 }
 
 std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {

@@ -32,6 +32,7 @@ struct PlacedPart {
   bool casts_shadow;
   bool is_mirror;    ///< takes reflections
   bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
+  bool is_traced;    ///< else rays pass it: it is hidden, empty, or flattened by its transform
 };
 
 struct Hit {
@@ -57,6 +58,10 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   ~RayScene();
 
+  /// Takes over where objects and traced things stand now, which of them are visible, and how meshes are
+  /// bent. The objects and their models must be those of the scene that this was made of.
+  void update(const scene::Scene& scene);
+
   std::optional<Hit> nearest_hit(const Ray& ray) const;
   std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
   /// True if a shadow caster lies along the ray.
@@ -71,14 +76,20 @@ class RayScene {
   bool is_blocked(const Ray& ray, Passage* passage) const;
   void add_object(const scene::Object& object, int number);
   void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
-             int number, bool takes_reflection);
-  void place(PlacedPart part);
+             int number, bool takes_reflection, bool is_visible);
+  void place(const PlacedPart& part, bool is_visible);
+  void move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
+  void trace_things(const scene::Scene& scene);
+  void forget_things();
+  void forget_meshes_but_those_placed();
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
-  RTCScene mesh_scene(const PlacedPart& place);
+  RTCScene mesh_scene(const Mesh& mesh);
+  void bend(std::size_t place);
 
   RTCDevice device_;
   RTCScene top_;
-  std::vector<std::unique_ptr<PlacedPart>> places_;
+  std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things
+  std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
   std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things

@@ -23,6 +23,7 @@ using shading::Surface;
 constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
 constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
 constexpr int max_blended_layers = 8;
+constexpr float drawn_error_m = 0.02f, drawn_error_px = 3.0f;  // of coarser meshes that are drawn far away
 
 /// Keeps a reflected ray above the surface, where interpolated normals would send it below.
 vec3 kept_above(vec3 direction, vec3 normal) {
@@ -63,6 +64,7 @@ class Tracer {
       : rays_(rays),
         sky_(sky),
         drawn_light_(options.drawn_light),
+        has_exact_shadows_(options.has_exact_shadows),
         mirror_bounces_(options.mirror_bounces),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
@@ -96,7 +98,56 @@ class Tracer {
     return sum;
   }
 
+  /// What the base and the coat of a mirror-like surface show, by mirror rays.
+  MirrorLight mirror_light(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
+                           LobePoints& lobe_points, std::uint64_t& ray_count) const {
+    const Surface& s = point.surface;
+    const auto traced = [&](vec3 direction) {
+      const vec3 away = kept_above(direction, point.geometric_normal);
+      // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
+      const float spread = cone.spread + 2.0f * point.curvature_per_m * cone.width_m;
+      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, cone.width_m, spread};
+      const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
+      return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
+    };
+    const bool needs_sharp = s.clear_coat > 0.0f || s.roughness <= sharp_roughness;
+    const vec3 sharp = needs_sharp ? traced(glm::reflect(cone.ray.direction, s.normal)) : vec3(0.0f);
+    if (s.roughness <= sharp_roughness) return {sharp, sharp};
+    vec3 sum(0.0f);
+    for (int i = 0; i < lobe_samples; ++i)
+      sum += traced(
+          glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
+    return {sum / float(lobe_samples), sharp};
+  }
+
+  /// What the mirror shows in a drawn pixel.
+  std::optional<MirrorLight> light_of_mirror(const MirrorPixel& pixel, vec3 eye, float spread,
+                                             LobePoints& lobe_points) const {
+    const float distance_m = glm::distance(eye, pixel.position);
+    const Cone cone{{eye, (pixel.position - eye) / distance_m}, 0.0f, spread};
+    const float within_m = drawn_error_m + drawn_error_px * spread * distance_m;
+    const std::optional<Hit> hit = mirror_near(cone, distance_m, within_m, pixel.object);
+    if (!hit) return std::nullopt;
+    const Cone seen = widened(cone, hit->distance_m);
+    std::uint64_t ray_count = 0;
+    return mirror_light(shading_point(*hit, cone.ray.direction, seen.width_m), *hit, seen, 0, lobe_points,
+                        ray_count);
+  }
+
  private:
+  /// The mirror-like surface of `object` near a point that the renderer has drawn, seen along the cone.
+  std::optional<Hit> mirror_near(const Cone& cone, float distance_m, float within_m, int object) const {
+    Ray ray = cone.ray;
+    ray.min_m = std::max(distance_m - within_m, ray.min_m), ray.max_m = distance_m + within_m;
+    std::optional<Hit> hit = rays_.nearest_hit(ray);
+    while (hit && (hit->place->object != object || !hit->place->is_mirror)) {
+      ray.min_m = past(hit->distance_m);
+      if (ray.min_m >= ray.max_m) return std::nullopt;
+      hit = rays_.nearest_hit(ray);
+    }
+    return hit;
+  }
+
   std::optional<Hit> nearest_hit_but(Ray ray, int hidden_object) const {
     std::optional<Hit> hit = rays_.nearest_hit(ray);
     while (hit && hit->place->object == hidden_object) {
@@ -110,39 +161,10 @@ class Tracer {
              std::uint64_t& ray_count) const {
     Surface s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
-    const vec3 mirrored = glm::reflect(cone.ray.direction, s.normal);
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
     const vec4 sky_cell = sky_cell_at(point, hit.place->object);
-    const auto sky_reflection = [&](float roughness) {
-      return shading::sky_share_of_direction(sky_cell, mirrored) *
-             sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
-    };
-    const auto traced = [&](vec3 direction) {
-      const vec3 away = kept_above(direction, point.geometric_normal);
-      // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
-      const float spread = cone.spread + 2.0f * point.curvature_per_m * cone.width_m;
-      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, cone.width_m, spread};
-      const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
-      return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
-    };
-
-    vec3 base_reflection(0.0f), coat_reflection(0.0f);
-    if (!traces) {
-      base_reflection = sky_reflection(s.roughness);
-      if (s.clear_coat > 0.0f) coat_reflection = sky_reflection(s.clear_coat_roughness);
-    } else {
-      const bool needs_sharp = s.clear_coat > 0.0f || s.roughness <= sharp_roughness;
-      const vec3 sharp = needs_sharp ? traced(mirrored) : vec3(0.0f);
-      coat_reflection = sharp;
-      base_reflection = sharp;
-      if (s.roughness > sharp_roughness) {
-        base_reflection = vec3(0.0f);
-        for (int i = 0; i < lobe_samples; ++i)
-          base_reflection += traced(glm::reflect(
-              cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
-        base_reflection /= float(lobe_samples);
-      }
-    }
+    const MirrorLight light = traces ? mirror_light(point, hit, cone, bounce, lobe_points, ray_count)
+                                     : sky_light(s, cone.ray.direction, sky_cell);
     if (hit.place->material->refracts()) {
       const vec3 ahead = cone.ray.direction;
       const vec3 through =
@@ -153,7 +175,17 @@ class Tracer {
           through;
     }
     return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count),
-                        shading::sky_share_of_normal(sky_cell, s.normal), base_reflection, coat_reflection);
+                        shading::sky_share_of_normal(sky_cell, s.normal), light.base, light.coat);
+  }
+
+  /// What a surface mirrors that no ray is traced for: the share of the sky that it sees.
+  MirrorLight sky_light(const Surface& s, vec3 direction, vec4 sky_cell) const {
+    const vec3 mirrored = glm::reflect(direction, s.normal);
+    const auto sky = [&](float roughness) {
+      return shading::sky_share_of_direction(sky_cell, mirrored) *
+             sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
+    };
+    return {sky(s.roughness), s.clear_coat > 0.0f ? sky(s.clear_coat_roughness) : vec3(0.0f)};
   }
 
   /// What enters the eye through solid glass at a point of its surface.
@@ -181,7 +213,7 @@ class Tracer {
 
   float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
     const float let_in = point.relief.light_from(light_.to_sun);
-    if (drawn_light_)
+    if (drawn_light_ && !has_exact_shadows_)
       return let_in * shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal,
                                               light_.to_sun);
     ++ray_count;
@@ -191,6 +223,7 @@ class Tracer {
   const RayScene& rays_;
   const shading::SkyLight& sky_;
   const shading::DrawnLight* drawn_light_;
+  bool has_exact_shadows_;
   int mirror_bounces_;
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
@@ -256,6 +289,23 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
   picture.rays = all_rays;
   picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return picture;
+}
+
+void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky, vec3 eye,
+                   float spread, std::span<const MirrorPixel> pixels, const TraceOptions& options,
+                   std::span<std::optional<MirrorLight>> light) {
+  constexpr std::size_t pixels_per_task = 64;
+  const Tracer tracer(rays, scene, sky, options);
+  parallel_for(
+      pixels.size(),
+      [&](std::size_t i) {
+        const MirrorPixel& pixel = pixels[i];
+        Random random(options.seed, (std::uint64_t(std::uint32_t(pixel.y)) << 32) | std::uint32_t(pixel.x));
+        LobePoints lobe_points{
+            {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
+        light[i] = tracer.light_of_mirror(pixel, eye, spread, lobe_points);
+      },
+      pixels_per_task);
 }
 
 }  // namespace parvis::reference

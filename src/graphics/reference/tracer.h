@@ -2,6 +2,9 @@
 // reflections.
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "base/camera.h"
 #include "base/image.h"
 #include "graphics/reference/ray_scene.h"
@@ -20,6 +23,7 @@ struct TraceOptions {
   std::uint64_t seed = 1;
   /// The renderer's; null: exact shadow rays, a sky open everywhere, and moving things that hide none of it.
   const shading::DrawnLight* drawn_light = nullptr;
+  bool has_exact_shadows = false;      ///< rays to the sun in place of the renderer's shadow maps
   bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
   int mirror_bounces = 1;              ///< after as many mirrors, mirror-like parts show the sky
   PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all
@@ -45,5 +49,25 @@ ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int widt
 /// give the same picture for any number of threads.
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options);
+
+/// A pixel of a drawn picture that shows a mirror-like surface.
+struct MirrorPixel {
+  int x, y;            ///< seed of its random numbers: the same pixel has the same ones in each frame
+  int object;          ///< index in the scene
+  glm::vec3 position;  ///< that was drawn, in the world; a coarser mesh may have been drawn than rays hit
+};
+
+/// Light that a mirror-like surface reflects, each over its own lobe. Linear radiance.
+struct MirrorLight {
+  glm::vec3 base;  ///< what the base layer mirrors
+  glm::vec3 coat;  ///< what the clear coat mirrors
+};
+
+/// What the mirror-like surfaces in these pixels mirror, as trace_picture has it, one sample each: a ray for
+/// the coat, and as many as the lobe needs for a rough base. `eye`: of the picture; `spread`: width of a
+/// pixel at one metre. `light` has one entry per pixel: none where rays find no such surface near `position`.
+void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+                   glm::vec3 eye, float spread, std::span<const MirrorPixel> pixels,
+                   const TraceOptions& options, std::span<std::optional<MirrorLight>> light);
 
 }  // namespace parvis::reference

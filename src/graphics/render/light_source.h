@@ -55,6 +55,8 @@ class LightSource {
 
   // What the ray tracer needs to agree with the picture.
   virtual const shading::SkyLight& sky() const = 0;
+  /// What the static scene leaves of the sky at each place.
+  virtual const shading::SkyVisibility& sky_visibility() const = 0;
   /// Waits for the GPU. Points to the source's own, and to `body_shade`: good until the next frame begins.
   virtual shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const = 0;
 };

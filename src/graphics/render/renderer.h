@@ -85,6 +85,11 @@ class Renderer {
 
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return light_->sky(); }
+  /// The same light without shadow maps, for exact shadow rays: no readback, so frames may use it. Good until
+  /// the next frame begins.
+  shading::DrawnLight drawn_light_without_shadows() const {
+    return {{}, &light_->sky_visibility(), &body_shade_};
+  }
   /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
   /// begins.
   shading::DrawnLight drawn_light() const { return light_->drawn_light(body_shade_); }

@@ -26,6 +26,7 @@ class SunAndSky final : public LightSource {
   void fill(Frame& frame) const override;
   void draw_sky(const View& view) const override { sky_.draw(view); }
   const shading::SkyLight& sky() const override { return sky_.light(); }
+  const shading::SkyVisibility& sky_visibility() const override { return sky_.visibility(); }
   shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const override {
     return {shadows_->read_back(), &sky_.visibility(), &body_shade};
   }

@@ -81,11 +81,7 @@ void MirrorPicture::bind_rays(const gl::Program& program) const {
   program.set("ray_ways", int(ways_unit));
 }
 
-/// The depth test separates pixels with a ray from others before any shader runs. Beside them, where a
-/// surface covers less than the pixel's middle, the light of neighbours stands in.
-void MirrorPicture::draw_light(
-    const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
-    const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {
+void MirrorPicture::begin_light() const {
   glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
   glViewport(0, 0, width_, height_);
   glEnable(GL_DEPTH_TEST);
@@ -93,25 +89,75 @@ void MirrorPicture::draw_light(
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
-  const auto draw_over = [&](const gl::Program& program, const VisibleReflector& reflector) {
-    bind_rays(program);
-    program.set("screen_depth", -1.0f);  // farther than any ray, of which the nearest has depth 1
-    const glm::ivec4 pixels =
-        pixels_of(renderer.main_view(), renderer.gpu().object_bounds()[std::size_t(reflector.object)]);
-    glScissor(pixels.x, pixels.y, pixels.z, pixels.w);
-    glBindVertexArray(no_attributes_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-  };
-  glDepthFunc(GL_LESS);
-  for (const VisibleReflector& reflector : reflectors) draw_over(use_program(reflector), reflector);
+}
 
+void MirrorPicture::draw_over(const render::Renderer& renderer, const gl::Program& program,
+                              const VisibleReflector& reflector) const {
+  bind_rays(program);
+  program.set("screen_depth", -1.0f);  // farther than any ray, of which the nearest has depth 1
+  const glm::ivec4 pixels =
+      pixels_of(renderer.main_view(), renderer.gpu().object_bounds()[std::size_t(reflector.object)]);
+  glScissor(pixels.x, pixels.y, pixels.z, pixels.w);
+  glBindVertexArray(no_attributes_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// The depth test separates pixels with a ray from others before any shader runs.
+void MirrorPicture::draw_light(
+    const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
+    const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {
+  begin_light();
+  glDepthFunc(GL_LESS);
+  for (const VisibleReflector& reflector : reflectors) draw_over(renderer, use_program(reflector), reflector);
+  spread_light(renderer, reflectors);
+}
+
+/// Beside pixels with a ray, where a surface covers less than the pixel's middle, the light of neighbours
+/// stands in.
+void MirrorPicture::spread_light(const render::Renderer& renderer,
+                                 const std::vector<VisibleReflector>& reflectors) const {
+  begin_light();
   glTextureBarrier();  // what is read below has been written above
   glDepthFunc(GL_EQUAL);
   spread_.use();
   bind(spread_, first_method_unit);
-  for (const VisibleReflector& reflector : reflectors) draw_over(spread_, reflector);
+  for (const VisibleReflector& reflector : reflectors) draw_over(renderer, spread_, reflector);
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
+}
+
+void MirrorPicture::read_rays(const render::Renderer& renderer,
+                              const std::vector<VisibleReflector>& reflectors, MirrorRays& rays) const {
+  glm::ivec2 low(width_, height_), high(0);
+  for (const VisibleReflector& reflector : reflectors) {
+    const glm::ivec4 pixels =
+        pixels_of(renderer.main_view(), renderer.gpu().object_bounds()[std::size_t(reflector.object)]);
+    if (pixels.z == 0 || pixels.w == 0) continue;
+    low = glm::min(low, glm::ivec2(pixels.x, pixels.y));
+    high = glm::max(high, glm::ivec2(pixels.x + pixels.z, pixels.y + pixels.w));
+  }
+  rays.pixels = {low, glm::max(high - low, glm::ivec2(0))};
+  const std::size_t count = std::size_t(rays.pixels.z) * std::size_t(rays.pixels.w);
+  rays.starts.resize(count), rays.ways.resize(count);
+  const auto read = [&](const gl::Texture& texture, std::vector<glm::vec4>& values) {
+    glGetTextureSubImage(texture.name(), 0, rays.pixels.x, rays.pixels.y, 0, rays.pixels.z, rays.pixels.w, 1,
+                         GL_RGBA, GL_FLOAT, GLsizei(values.size() * sizeof(glm::vec4)), values.data());
+  };
+  if (count == 0) return;
+  read(starts_, rays.starts);
+  read(ways_, rays.ways);
+}
+
+void MirrorPicture::put_light(const render::Renderer& renderer,
+                              const std::vector<VisibleReflector>& reflectors, const MirrorRays& rays,
+                              std::span<const glm::vec4> base, std::span<const glm::vec3> coat) const {
+  const auto put = [&](const gl::Texture& texture, GLenum format, const void* values) {
+    glTextureSubImage2D(texture.name(), 0, rays.pixels.x, rays.pixels.y, rays.pixels.z, rays.pixels.w, format,
+                        GL_FLOAT, values);
+  };
+  put(base_light_, GL_RGBA, base.data());
+  put(coat_light_, GL_RGB, coat.data());
+  spread_light(renderer, reflectors);
 }
 
 void MirrorPicture::bind(const gl::Program& program, GLuint first_unit) const {

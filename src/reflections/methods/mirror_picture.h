@@ -4,6 +4,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "graphics/gl/objects.h"
 #include "graphics/gl/program.h"
@@ -11,6 +13,15 @@
 #include "reflections/methods/reflections.h"
 
 namespace parvis::methods {
+
+/// The mirror rays of a picture, read back: of each pixel, in rows from the bottom left of `pixels`.
+struct MirrorRays {
+  glm::ivec4 pixels{0};  ///< x, y, width, height in the main view
+  /// xyz: where the ray leaves, in the world; w: roughness of the base.
+  std::vector<glm::vec4> starts;
+  /// xy: direction (octahedral); z: roughness of the coat; w: the object's index and 1; 0: no ray.
+  std::vector<glm::vec4> ways;
+};
 
 class MirrorPicture {
  public:
@@ -26,6 +37,15 @@ class MirrorPicture {
   void draw_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                   const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const;
 
+  /// For methods that compute the light on the CPU: the rays of all pixels that may show one of the
+  /// reflectors. A readback, which waits for the GPU.
+  void read_rays(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
+                 MirrorRays& rays) const;
+  /// The light along them, in place of draw_light: base (alpha 1 where there is some, else 0) and coat.
+  void put_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
+                 const MirrorRays& rays, std::span<const glm::vec4> base,
+                 std::span<const glm::vec3> coat) const;
+
   /// For programs with mirror_picture.frag; takes two texture units.
   void bind(const gl::Program& program, GLuint first_unit) const;
 
@@ -33,6 +53,10 @@ class MirrorPicture {
   MirrorPicture(render::SurfacePrograms ray_programs, gl::Program spread);
   void resize(int width, int height);
   void bind_rays(const gl::Program& program) const;
+  void begin_light() const;
+  void draw_over(const render::Renderer& renderer, const gl::Program& program,
+                 const VisibleReflector& reflector) const;
+  void spread_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors) const;
 
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures, which never shrink

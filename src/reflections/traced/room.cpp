@@ -1,0 +1,25 @@
+#include "reflections/traced/room.h"
+
+#include "reflections/methods/registry.h"
+#include "reflections/traced/traced_reflections.h"
+
+namespace parvis::traced {
+namespace {
+
+Result<std::unique_ptr<methods::Reflections>> make(const scene::Scene& scene, render::Renderer& renderer,
+                                                   std::unique_ptr<methods::Reflections>) {
+  Result<std::unique_ptr<TracedReflections>> made = TracedReflections::create(scene, renderer);
+  if (!made) return made.errors();
+  return std::unique_ptr<methods::Reflections>(*std::move(made));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  house.get<methods::Registry>().add(
+      {.name = "traced",
+       .help = "exact mirror rays through the scene for each reflecting pixel, on all cores",
+       .make = make});
+}
+
+}  // namespace parvis::traced
