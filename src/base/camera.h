@@ -7,7 +7,7 @@
 
 namespace parvis {
 
-/// Where the edges of a picture lie: tangents of their angles from the camera's axis, negative left of it and
+/// Edges of an image as tangents of their angles from the camera's axis; negative to the left of the axis and
 /// below it.
 struct FrustumTangents {
   float left, right, bottom, top;
@@ -15,27 +15,36 @@ struct FrustumTangents {
   bool operator==(const FrustumTangents&) const = default;
 };
 
+/// A perspective camera: rigid pose in the world, near and far plane in metres, and either a symmetric
+/// vertical field of view or an off-axis frustum. The aspect ratio (width / height) belongs to the image and
+/// is passed in.
 struct Camera {
   glm::mat4 world_from_camera{1.0f};  ///< rigid
   float vertical_fov = 0.8f;          ///< radians, of a frustum that is symmetric about the axis
-  /// The frustum of a display wall seen from where the eye is: it holds in place of `vertical_fov`, and of
-  /// the aspect ratio of the picture.
+  /// Off-axis frustum, as a display wall and an eye position define it. Where it is set, `vertical_fov` and
+  /// the aspect ratio of the image are ignored.
   std::optional<FrustumTangents> off_axis = std::nullopt;
   float near_m = 0.1f;
   float far_m = 4000.0f;
 
+  /// Centre of projection, metres.
   glm::vec3 position_in_world() const { return glm::vec3(world_from_camera[3]); }
+  /// Unit viewing direction: the camera's -z axis.
   glm::vec3 forward_in_world() const { return -glm::vec3(world_from_camera[2]); }
+  /// View matrix: transforms points of the world into the camera's frame.
   glm::mat4 camera_from_world() const { return glm::inverse(world_from_camera); }
+  /// Edges of the image for `aspect` = width / height; the off-axis frustum where there is one.
   FrustumTangents tangents(float aspect) const {
     if (off_axis) return *off_axis;
     const float top = glm::tan(0.5f * vertical_fov);
     return {-(top * aspect), top * aspect, -top, top};
   }
-  /// Of the picture, on a plane at 1 m.
+  /// Height of the image on a plane 1 m before the camera, metres.
   float height_at_1m() const {
     return off_axis ? off_axis->top - off_axis->bottom : 2.0f * glm::tan(0.5f * vertical_fov);
   }
+  /// OpenGL projection matrix (clip z from -1 at the near plane to 1 at the far plane), off-axis where the
+  /// camera is.
   glm::mat4 clip_from_camera(float aspect) const {
     if (!off_axis) return glm::perspective(vertical_fov, aspect, near_m, far_m);
     return glm::frustum(near_m * off_axis->left, near_m * off_axis->right, near_m * off_axis->bottom,

@@ -7,9 +7,13 @@
 
 namespace parvis {
 
+/// sRGB decoding of one value: 0..1 to linear 0..1 (IEC 61966-2-1).
 float linear_from_srgb(float srgb);
+/// sRGB encoding of one value, the inverse of `linear_from_srgb`; 0..1 is not enforced.
 float srgb_from_linear(float linear);
+/// sRGB decoding, channel by channel.
 glm::vec3 linear_from_srgb(glm::vec3 srgb);
+/// sRGB encoding, channel by channel.
 glm::vec3 srgb_from_linear(glm::vec3 linear);
 
 /// The linear colour of "#RRGGBB" or of three sRGB bytes in 0..255.

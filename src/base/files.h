@@ -33,6 +33,7 @@ class Roots {
  public:
   explicit Roots(std::filesystem::path scene_folder, std::vector<std::filesystem::path> data_folders = {});
 
+  /// The scene's own folder: the first root that `find` searches.
   const std::filesystem::path& scene_folder() const { return folders_.front(); }
 
   /// The canonical path of `name` below the first root that holds it. Errors at `where`: a name that leads

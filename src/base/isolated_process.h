@@ -29,6 +29,7 @@ struct IsolationLimits {
 /// Memory that a worker fills and its caller reads, without a copy between them.
 class IsolatedOutput {
  public:
+  /// Takes the descriptor of a memory file that worker and caller share; does not close it.
   explicit IsolatedOutput(int file) : file_(file) {}
   IsolatedOutput(const IsolatedOutput&) = delete;
   IsolatedOutput& operator=(const IsolatedOutput&) = delete;
@@ -42,7 +43,7 @@ class IsolatedOutput {
   std::span<std::byte> mapped_;
 };
 
-/// What a worker gave; unmapped at the end.
+/// The bytes that a worker has returned, mapped read-only and unmapped by the destructor.
 class IsolatedBytes {
  public:
   /// Maps the whole of a file that lies in memory, and owns it.
@@ -67,8 +68,8 @@ using IsolatedWork = Status (*)(std::string_view input, IsolatedOutput& output);
 /// first call of run_isolated does so.
 void start_isolation();
 
-/// Gives `input` to `work` in a worker, and what it made. Errors are those of `work`, or say that the reader
-/// of `subject` (a file's name) crashed, took too long or needed too much memory.
+/// Runs `work` on `input` in a worker process and returns its output. Errors are those of `work`, or say that
+/// the reader of `subject` (a file's name) crashed, took too long or needed too much memory.
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
 

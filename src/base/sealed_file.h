@@ -15,25 +15,29 @@
 
 namespace parvis {
 
+/// Identifies one kind of sealed file and its version.
 struct SealedKind {
   std::string_view magic;  ///< 8 characters, the last its version
   std::string_view name;   ///< as errors call it, "reference map"
 };
 
-/// The file appears whole or not at all.
+/// Writes header, content and checksum; the file appears completely or not at all.
 Status write_sealed(const std::filesystem::path& file, const SealedKind& kind, std::string_view content);
 
-/// The content. Errors say whether the file is missing, foreign, of another version, cut short or damaged.
+/// Returns the content. Errors say whether the file is missing, foreign, of another version, truncated or
+/// damaged.
 Result<std::string> read_sealed(const std::filesystem::path& file, const SealedKind& kind);
+/// The error for a file whose content ends early, for readers that find so while they parse it.
 Error cut_short(const std::filesystem::path& file);
 
+/// Appends the bytes of a value as they lie in memory.
 template <class T>
 requires std::is_trivially_copyable_v<T>
 void append_value(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// How many, and they.
+/// Appends the number of values (32 bits), then the values.
 template <class T>
 requires std::is_trivially_copyable_v<T>
 void append_values(std::string& bytes, const std::vector<T>& values) {
@@ -41,11 +45,14 @@ void append_values(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-/// Takes values off the front of bytes; what lies beyond their end is zero, and noted.
+/// Reads values from the front of a byte string. Reading beyond the end yields zeros and sets
+/// `has_ended_early`.
 class Taker {
  public:
+  /// `bytes` must outlive the reader.
   explicit Taker(std::string_view bytes) : bytes_(bytes) {}
 
+  /// The next value, as `append_value` has written it; zero beyond the end.
   template <class T>
   T take() {
     T value{};
@@ -53,7 +60,7 @@ class Taker {
     std::copy(part.begin(), part.end(), reinterpret_cast<char*>(&value));
     return value;
   }
-  /// As `append_values` wrote them.
+  /// The next vector, as `append_values` has written it; empty beyond the end.
   template <class T>
   std::vector<T> take_values() {
     const std::size_t count = take<std::uint32_t>();
@@ -62,7 +69,9 @@ class Taker {
     std::copy(part.begin(), part.end(), reinterpret_cast<char*>(values.data()));
     return values;
   }
+  /// True if everything has been read and nothing was missing.
   bool is_at_end() const { return bytes_.empty() && !ended_early_; }
+  /// True if more was asked for than there was.
   bool has_ended_early() const { return ended_early_; }
 
  private:
