@@ -1,5 +1,5 @@
-// Move-only owners of OpenGL's objects, named after them. They hold a name and delete it; calls stay OpenGL's
-// own (DSA).
+// Move-only owners of OpenGL objects, named after them. They hold a name and delete it; calls stay OpenGL's
+// own (direct state access).
 #pragma once
 
 #include <epoxy/gl.h>
@@ -36,54 +36,66 @@ class Owned {
   GLuint name_ = 0;
 };
 
+/// How `Owned` creates and deletes a buffer.
 struct BufferTraits {
+  /// glCreateBuffers; the buffer has no storage yet.
   static GLuint create() {
     GLuint n = 0;
     glCreateBuffers(1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteBuffers(1, &n); }
+  static void destroy(GLuint n) { glDeleteBuffers(1, &n); }  ///< commands in flight complete first
 };
+/// How `Owned` creates and deletes a texture.
 struct TextureTraits {
+  /// glCreateTextures for a `target` such as GL_TEXTURE_2D; without storage.
   static GLuint create(GLenum target) {
     GLuint n = 0;
     glCreateTextures(target, 1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteTextures(1, &n); }
+  static void destroy(GLuint n) { glDeleteTextures(1, &n); }  ///< commands in flight complete first
 };
+/// How `Owned` creates and deletes a framebuffer.
 struct FramebufferTraits {
+  /// glCreateFramebuffers; nothing is attached yet.
   static GLuint create() {
     GLuint n = 0;
     glCreateFramebuffers(1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteFramebuffers(1, &n); }
+  static void destroy(GLuint n) { glDeleteFramebuffers(1, &n); }  ///< commands in flight complete first
 };
+/// How `Owned` creates and deletes a vertex array.
 struct VertexArrayTraits {
+  /// glCreateVertexArrays; no attribute is enabled yet.
   static GLuint create() {
     GLuint n = 0;
     glCreateVertexArrays(1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteVertexArrays(1, &n); }
+  static void destroy(GLuint n) { glDeleteVertexArrays(1, &n); }  ///< commands in flight complete first
 };
+/// How `Owned` creates and deletes a sampler.
 struct SamplerTraits {
+  /// glCreateSamplers, with OpenGL's default filters and wrapping.
   static GLuint create() {
     GLuint n = 0;
     glCreateSamplers(1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteSamplers(1, &n); }
+  static void destroy(GLuint n) { glDeleteSamplers(1, &n); }  ///< commands in flight complete first
 };
 
+/// How `Owned` creates and deletes a query.
 struct QueryTraits {
+  /// glCreateQueries for a `target` such as GL_TIME_ELAPSED.
   static GLuint create(GLenum target) {
     GLuint n = 0;
     glCreateQueries(target, 1, &n);
     return n;
   }
-  static void destroy(GLuint n) { glDeleteQueries(1, &n); }
+  static void destroy(GLuint n) { glDeleteQueries(1, &n); }  ///< commands in flight complete first
 };
 
 using Buffer = Owned<BufferTraits>;
@@ -93,7 +105,8 @@ using VertexArray = Owned<VertexArrayTraits>;
 using Sampler = Owned<SamplerTraits>;
 using Query = Owned<QueryTraits>;
 
-/// A buffer of these bytes, whose size never changes; nor do the bytes, but for what `flags` allow.
+/// An immutable buffer that holds `values`. `flags` are those of glNamedBufferStorage: without any, neither
+/// size nor content can change.
 template <class T>
 Buffer immutable_buffer(std::span<const T> values, GLbitfield flags = 0) {
   Buffer buffer = Buffer::create();
@@ -103,7 +116,7 @@ Buffer immutable_buffer(std::span<const T> values, GLbitfield flags = 0) {
   return buffer;
 }
 
-/// A flat texture with `levels` of mipmaps, filtered linearly and clamped.
+/// A 2D texture with immutable storage for `levels` mipmap levels, linear filtering, clamped to its edge.
 Texture texture_2d(GLenum format, int width, int height, int levels = 1);
 
 }  // namespace parvis::gl

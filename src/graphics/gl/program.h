@@ -1,5 +1,5 @@
-// Shader programs out of the embedded files: #include once each, defines for permutations, and errors that
-// name the real file and line. The same files compile as desktop GLSL and as GLSL ES 3.00.
+// Shader programs from the embedded files: each #include is resolved once, defines select permutations, and
+// errors name the original file and line. The same files compile as desktop GLSL and as GLSL ES 3.00.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -15,8 +15,10 @@
 
 namespace parvis::gl {
 
+/// GLSL version that a shader is compiled as: `#version 450 core`, or `#version 300 es` (WebGL 2).
 enum class Dialect { desktop_450, es_300 };
 
+/// Names and values of preprocessor macros, in the order in which they are defined.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
 /// The text of a shader ready to compile: version, preamble, defines, and `path` with its includes in place.
@@ -31,6 +33,7 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
 Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
                               std::span<const std::string> includes = {});
 
+/// A linked program of a vertex and a fragment shader; owns its OpenGL name.
 class Program {
  public:
   Program() = default;
@@ -38,6 +41,7 @@ class Program {
   static Result<Program> create(const std::string& vertex_path, const std::string& fragment_path,
                                 const Defines& defines = {},
                                 std::span<const std::string> fragment_includes = {});
+  /// Takes over the OpenGL name; `other` is empty afterwards.
   Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
   Program& operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
@@ -45,18 +49,21 @@ class Program {
   }
   ~Program();
 
+  /// Makes it the current program (glUseProgram).
   void use() const { glUseProgram(name_); }
+  /// OpenGL's name of the program; 0 if it is empty.
   GLuint name() const { return name_; }
 
-  // Uniforms by name; one that the compiler removed is passed over, as OpenGL does.
-  void set(const char* uniform, int value) const;
-  void set(const char* uniform, float value) const;
-  void set(const char* uniform, glm::vec2 value) const;
-  void set(const char* uniform, glm::vec3 value) const;
-  void set(const char* uniform, glm::vec4 value) const;
-  void set(const char* uniform, const glm::mat4& value) const;
-  void set(const char* uniform, std::span<const glm::vec3> values) const;
-  void set(const char* uniform, std::span<const glm::mat4> values) const;
+  // Uniforms by name; the program need not be current. A name that the compiler has removed is ignored, as in
+  // OpenGL.
+  void set(const char* uniform, int value) const;               ///< int, bool, or sampler (texture unit)
+  void set(const char* uniform, float value) const;             ///< float
+  void set(const char* uniform, glm::vec2 value) const;         ///< vec2
+  void set(const char* uniform, glm::vec3 value) const;         ///< vec3
+  void set(const char* uniform, glm::vec4 value) const;         ///< vec4
+  void set(const char* uniform, const glm::mat4& value) const;  ///< mat4, column-major
+  void set(const char* uniform, std::span<const glm::vec3> values) const;  ///< vec3[]; at least one value
+  void set(const char* uniform, std::span<const glm::mat4> values) const;  ///< mat4[]; at least one value
 
  private:
   explicit Program(GLuint name) : name_(name) {}

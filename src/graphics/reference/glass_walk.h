@@ -1,5 +1,5 @@
-// Where light that is seen through a body of solid glass comes from: the ray that enters it, bent, and every
-// ray that leaves it after no, one, two, ... reflections inside, each with its share of the light.
+// Ray walk through a body of solid glass: the refracted ray that enters it, and every ray that leaves it
+// after zero, one, two, ... internal reflections, each with its share of the light.
 #pragma once
 
 #include <vector>
@@ -9,25 +9,27 @@
 
 namespace parvis::reference {
 
-/// A ray with the width of what its pixel sees: `width_m` at its origin, growing by `spread` a metre, or
-/// shrinking toward a focus and growing behind it.
+/// A ray with its pixel footprint (ray cone): `width_m` at its origin, growing by `spread` per metre; a
+/// negative spread converges to a focus and diverges behind it.
 struct Cone {
   Ray ray;
   float width_m, spread;
 };
 
-/// A cone so far along itself: its width stays positive, and beyond a focus it grows.
+/// The cone at a distance along its ray: the width stays positive and grows behind a focus. The ray itself is
+/// unchanged.
 Cone widened(Cone cone, float distance_m);
 
+/// A ray that leaves the glass, in the world.
 struct GlassExit {
   Cone cone;
-  glm::vec3 share;  ///< of the light along the cone that reaches the point of entry
+  glm::vec3 share;  ///< fraction, per channel, of the light along the cone that reaches the point of entry
 };
 
-/// `seen` enters at `entry`, a point of a part that refracts, seen from outside; it is as wide as there. What
-/// stands in the glass ends the ray: its cone begins before it. A body with a hole has no other side there:
-/// the ray goes straight on. The shares add up to less than 1; what they lack is absorbed, or still goes
-/// round after `max_inner_bounces`.
+/// The exits of a ray that enters the glass at `entry`, a point seen from outside; `seen` has the footprint's
+/// width there. A ray that hits another object inside the glass ends there: its cone begins before that hit.
+/// Where the body is open, the ray continues without a second refraction. The shares sum to less than 1: the
+/// rest is absorbed, or still inside after `max_inner_bounces`.
 std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const ShadingPoint& entry,
                                    const Cone& seen);
 

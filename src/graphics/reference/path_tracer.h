@@ -1,7 +1,7 @@
-// Light along paths through the scene, as a photograph gathers it: sun, sky, emission, over any number of
-// surfaces. Unbiased: the mean over all samples is the light that arrives (Veach 1997, chapters 8 to 10).
-// Shared with the renderer: surfaces and their BRDF, the sky picture, haze. Not shared: shadow maps, sky
-// visibility, baked occlusion, painted contact shadows; the scene itself throws those.
+// Path tracer for reference photographs: sun, sky and emission over any number of bounces. Unbiased: the mean
+// over all samples converges to the incident radiance (Veach 1997, chapters 8 to 10). Shared with the
+// renderer: surfaces and their BRDF, the sky image, haze. Not shared: shadow maps, sky visibility, baked
+// occlusion, painted contact shadows; here the geometry itself casts those.
 #pragma once
 
 #include <cstdint>
@@ -16,32 +16,36 @@
 
 namespace parvis::reference {
 
-/// How paths meet the sun and the sky. Each finds the same mean; both together, weighed by the power
-/// heuristic, with the least noise. (Smooth mirrors are always followed, and find no light but by their one
-/// direction.)
+/// How paths sample sun and sky: next-event estimation, BSDF sampling, or both weighted by the power
+/// heuristic, which has the least noise. All converge to the same mean. (Smooth mirrors have one direction:
+/// they are always followed and find no light by next-event estimation.)
 enum class LightStrategy : std::uint8_t { both, chosen_lights, scattered_rays };
 
+/// Limits of the paths and the sampling strategy.
 struct PathOptions {
   std::optional<int>
       bounces;  ///< maximum number of scattering surfaces; none: paths end by Russian roulette alone
-  /// The most radiance, before exposure, that one path may bring from beyond its first bounce. None:
+  /// Maximum radiance, before exposure, that one path may contribute beyond its first bounce. Unset:
   /// unbiased.
   std::optional<float> clamp;
   LightStrategy strategy = LightStrategy::both;
 };
 
+/// Estimates radiance along camera rays. Safe to use from many threads: `sample` changes only its arguments.
 class PathTracer {
  public:
-  /// All must outlive this.
+  /// `rays`, `scene` and `sky` must outlive the tracer.
   PathTracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
              const PathOptions& options);
 
+  /// Result of one path.
   struct Sample {
     glm::vec3 radiance;
-    bool meets_scene;    ///< else the sky alone
-    std::uint64_t rays;  ///< of all kinds
+    bool meets_scene;    ///< false if the camera's ray sees only the sky
+    std::uint64_t rays;  ///< camera, scattered and shadow rays
   };
-  /// One path that begins with a camera's ray; `spread` (radians) is the width of what its sample stands for.
+  /// Traces one path from a camera ray. `spread` (radians) is the angular width of the sample's footprint;
+  /// `chance_seed` seeds the random passage through blended surfaces.
   Sample sample(const Ray& ray, float spread, SampleSequence& numbers, std::uint64_t chance_seed) const;
 
  private:

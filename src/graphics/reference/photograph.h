@@ -1,4 +1,4 @@
-// A whole photograph by path tracing: light, depth and alpha, tile by tile, resumable.
+// A reference photograph by path tracing: radiance, depth and alpha, rendered tile by tile, resumable.
 #pragma once
 
 #include <atomic>
@@ -12,6 +12,7 @@
 
 namespace parvis::reference {
 
+/// Sampling, checkpoint and interruption of a photograph.
 struct PhotographOptions {
   int samples_per_pixel = 64;
   std::uint64_t seed = 1;
@@ -21,17 +22,18 @@ struct PhotographOptions {
   std::string progress = "photographing";
 };
 
+/// A finished photograph; the three images have the same size, top row first.
 struct Photograph {
-  ImageF radiance;         ///< linear RGB: the plain mean of the samples
-  Image8 alpha;            ///< share of the samples that meet the scene rather than the sky, 0..255
-  ImageF depth_m;          ///< of what the pixel's centre sees, along the camera's axis; 0: the sky
+  ImageF radiance;         ///< linear RGB: unweighted mean of the samples, W/(m2 sr) before exposure
+  Image8 alpha;            ///< fraction of the samples that hit the scene rather than the sky, 0..255
+  ImageF depth_m;          ///< depth of the pixel's centre along the camera's axis; 0 for the sky
   std::uint64_t rays = 0;  ///< of all kinds, in this run
   double seconds = 0.0;    ///< of this run
 };
 
-/// Takes the photograph. The same scene, camera and options give the same bits for any number of threads, and
-/// whether or not work was interrupted. Errors: the checkpoint cannot be written; the work was interrupted
-/// (then finished tiles lie in the checkpoint, and the same call goes on).
+/// Takes the photograph. The same scene, camera and options give the same bits for any number of threads,
+/// with or without interruption. Errors: the checkpoint cannot be written; the work was interrupted (finished
+/// tiles are in the checkpoint, and the same call resumes).
 Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& scene,
                                    const shading::SkyLight& sky, const Camera& camera, int width, int height,
                                    const PhotographOptions& options);

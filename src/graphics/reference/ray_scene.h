@@ -1,5 +1,5 @@
-// The scene as rays see it: an Embree hierarchy for each mesh, placed once for each object. Holes of cutout
-// parts and the backs of single-sided ones are passed through, as the renderer draws them.
+// The scene for ray queries: one Embree hierarchy per mesh, instanced per object. Rays pass through the holes
+// of cutout parts and the backs of single-sided ones, as the renderer draws them.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -15,6 +15,7 @@
 
 namespace parvis::reference {
 
+/// A ray in the world: a hit counts between `min_m` and `max_m` along it.
 struct Ray {
   glm::vec3 origin, direction;  ///< unit direction
   float min_m = 1e-4f, max_m = 1e30f;
@@ -35,6 +36,7 @@ struct PlacedPart {
   bool is_traced;    ///< else rays pass it: it is hidden, empty, or flattened by its transform
 };
 
+/// Nearest intersection of a ray. `place` belongs to the RayScene.
 struct Hit {
   const PlacedPart* place;
   std::uint32_t triangle;
@@ -42,14 +44,15 @@ struct Hit {
   float distance_m;
 };
 
-/// How light travels in a photograph, as against the renderer's picture: every part stops it, from both
-/// sides; blended parts stop it at random, with a probability of their alpha. Contact shadows painted for
-/// the renderer (blended parts that cast no shadow) are left out.
+/// How light passes surfaces in a photograph, in contrast to the renderer: every part blocks it from both
+/// sides; blended parts block it at random with a probability of their alpha. Contact shadows painted for the
+/// renderer (blended parts that cast no shadow) are ignored.
 struct Passage {
   Random random;
   bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
 };
 
+/// Ray queries against the scene. Queries are const and may run on many threads.
 class RayScene {
  public:
   /// Takes the scene as it stands now, with what rooms draw by themselves (Scene::traced_kinds); it must
@@ -62,12 +65,15 @@ class RayScene {
   /// bent. The objects and their models must be those of the scene that this was made of.
   void update(const scene::Scene& scene);
 
+  /// The nearest surface that the renderer would draw along the ray; none: the sky.
   std::optional<Hit> nearest_hit(const Ray& ray) const;
+  /// The nearest surface under the rules of a photograph; `passage` supplies the random numbers.
   std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
   /// True if a shadow caster lies along the ray.
   bool is_blocked(const Ray& ray) const;
+  /// True if a surface blocks the ray under the rules of a photograph.
   bool is_blocked(const Ray& ray, Passage& passage) const;
-  std::size_t triangle_count() const { return triangle_count_; }
+  std::size_t triangle_count() const { return triangle_count_; }  ///< summed over all placements of a mesh
 
  private:
   class TracedThings;

@@ -13,15 +13,17 @@
 
 namespace parvis::reference {
 
-/// A part of a picture, in pixels from its top left.
+/// A rectangle of an image in pixels, from the top left.
 struct PixelWindow {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// Sampling and light of a ground truth image.
 struct TraceOptions {
   int samples_per_pixel = 16;  ///< rounded up to a square number
   std::uint64_t seed = 1;
-  /// The renderer's; null: exact shadow rays, a sky open everywhere, and moving things that hide none of it.
+  /// Shadow maps and sky visibility of the renderer. Null: exact shadow rays, a fully visible sky, and no
+  /// occlusion of the sky by dynamic objects.
   const shading::DrawnLight* drawn_light = nullptr;
   bool has_exact_shadows = false;      ///< rays to the sun in place of the renderer's shadow maps
   bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
@@ -30,6 +32,7 @@ struct TraceOptions {
   std::string progress = "tracing";    ///< what the progress bar says
 };
 
+/// A ground truth image of the window's size, top row first.
 struct TracedPicture {
   ImageF radiance;         ///< linear RGB, mean of the samples by shading::sample_weight
   Image8 mirror_mask;      ///< a channel: share of the pixel's samples that fell on mirror-like parts, 0..255
@@ -39,14 +42,14 @@ struct TracedPicture {
 
 /// The object that each pixel's centre shows, counted from 1; 0: the sky.
 using ObjectPicture = BasicImage<std::uint32_t>;
+/// Traces one ray through each pixel's centre: the ground truth of the renderer's picking view.
 ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int width, int height);
 
-/// Traces one picture. Solid glass shows what its refracted rays hit, with Fresnel's share at each surface
-/// and reflections inside; in mirrors, and on objects that take no reflections, the sky straight through it.
-/// It casts no shadow. Mirror-like parts of objects that take reflections show what their mirror rays hit,
-/// shaded by the same recipe; after `mirror_bounces` mirrors they reflect the sky, as all
-/// other surfaces do. The same options
-/// give the same picture for any number of threads.
+/// Traces one image. Solid glass is traced with Fresnel reflectance at each surface and internal reflections;
+/// seen in mirrors, and on objects that take no reflections, it shows the sky straight through instead. Glass
+/// casts no shadow. Mirror-like parts of objects that take reflections show the surfaces that their mirror
+/// rays hit, shaded in the same way; after `mirror_bounces` mirrors they reflect the sky, as all other
+/// surfaces do. The result does not depend on the number of threads.
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options);
 

@@ -1,6 +1,6 @@
-// What a room puts into pictures. The renderer asks every drawable in every kind of view; its counterpart in
-// the ray tracer is a scene::TracedKind of the same name (drawables.h), and the two are tested against each
-// other.
+// Interface of everything that is rendered. The renderer calls every drawable in every kind of view; its
+// counterpart in the ray tracer is a scene::TracedKind of the same name (drawables.h), and the two are tested
+// against each other.
 #pragma once
 
 #include <span>
@@ -24,8 +24,8 @@ struct FixedChange {
   bool empty() const { return gone.empty() && come.empty(); }
 };
 
-/// What a drawable covers after its last update, in the world: shadow maps and the visibility of the sky are
-/// made for it. Valid until the next update.
+/// World bounds of a drawable after its last update; shadow maps and sky visibility are computed from them.
+/// Valid until the next update.
 struct Extents {
   Bounds fixed;                           ///< of all static things, hidden ones included
   std::span<const Bounds> moving;         ///< of each visible dynamic thing: it casts a shadow every frame
@@ -34,11 +34,14 @@ struct Extents {
   const FixedChange* fixed_change = nullptr;  ///< of the last update; null: none
 };
 
+/// Something that is rendered into every kind of view. Needs a current OpenGL context from creation to
+/// destruction.
 class Drawable {
  public:
   virtual ~Drawable() = default;
   /// Once a frame, before any view: takes over what changed in the scene.
   virtual void update(const scene::Scene&) {}
+  /// Bounds after the last update; see Extents.
   virtual Extents extents() const = 0;
 
   /// What it wants of the frame's time for the main view: levels of detail, each with its cost and its worth.

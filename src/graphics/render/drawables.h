@@ -1,5 +1,5 @@
-// The kinds of things that rooms draw by themselves: each with its drawable and its counterpart in the ray
-// tracer.
+// Registry of the kinds of things that rooms draw themselves: each with its drawable and its counterpart in
+// the ray tracer.
 #pragma once
 
 #include <functional>
@@ -12,20 +12,24 @@
 
 namespace parvis::render {
 
+/// One registered kind of drawable.
 struct DrawableKind {
   /// Name, number of things in a scene, and what rays see of them. Needs no OpenGL.
   scene::TracedKind traced;
-  /// The drawable of all things of this kind in a scene that has some. `first_thing` is the number of thing
-  /// 0: Culling::shows takes it, picking views get it and 1. Needs a current OpenGL 4.5 context as long as it
-  /// lives.
+  /// Makes the drawable for all things of this kind in a scene that has some. `first_thing` is the number of
+  /// thing 0: Culling::shows takes it, picking views write that number plus 1. Needs a current OpenGL 4.5
+  /// context for its lifetime.
   std::function<Result<std::unique_ptr<Drawable>>(const scene::Scene& scene, int first_thing)> make;
 };
 
+/// The kinds of drawables that the program has; their names are unique.
 class Drawables {
  public:
-  /// Names differ. The functions must be there: no ground truth, no drawable.
+  /// Registers a kind. Asserts that its name is new and that `make`, `count` and `trace` are set: no drawable
+  /// without ground truth.
   void add(DrawableKind kind);
-  const DrawableKind* find(std::string_view name) const;
+  const DrawableKind* find(std::string_view name) const;  ///< null if no kind has that name
+  /// In the order in which they were added.
   const std::vector<DrawableKind>& kinds() const { return kinds_; }
 
   /// To be called for each scene that is loaded: from then on renderers and ray tracers show these kinds.

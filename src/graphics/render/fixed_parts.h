@@ -1,4 +1,4 @@
-// What is static and lets no light through: occluders, and the heights that hide the sky.
+// Static, opaque geometry: occluders, and the height field from which sky visibility is computed.
 #pragma once
 
 #include <functional>
@@ -7,13 +7,13 @@
 
 namespace parvis::render {
 
-/// A static mesh without holes, where it stands.
+/// A static opaque mesh at its place in the world.
 struct FixedPart {
   const Mesh& mesh;
   glm::mat4 world_from_mesh;
   int object;       ///< index in the scene; beyond them: scene::for_each_traced_kind
-  bool is_visible;  ///< now
-  bool has_backs;   ///< it is there when seen from behind, too
+  bool is_visible;  ///< at present
+  bool has_backs;   ///< double-sided
 };
 
 /// Calls `visit(part)` for every such mesh of the scene's objects, hidden ones included.
@@ -32,10 +32,11 @@ void for_each_fixed_object_part(const scene::Scene& scene, Visit&& visit) {
   }
 }
 
-/// The same of what rooms draw by themselves.
+/// The same for static opaque meshes that rooms draw themselves.
 void for_each_fixed_traced_part(const scene::Scene& scene,
                                 const std::function<void(const FixedPart&)>& visit);
 
+/// Calls `visit(part)` for every static opaque mesh: first those of the scene's objects, then those of rooms.
 template <class Visit>
 void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
   for_each_fixed_object_part(scene, visit);

@@ -1,5 +1,5 @@
-// The triangles of a scene in one vertex and one index buffer. Meshes that bend lie behind all others and are
-// written anew, in one piece, in every frame.
+// All triangles of a scene in one vertex and one index buffer. Deforming meshes follow all rigid ones and are
+// uploaded together, in one range, every frame.
 #pragma once
 
 #include <cstdint>
@@ -10,36 +10,43 @@
 
 namespace parvis::render {
 
-/// A mesh in the shared buffers.
+/// Range of a mesh in the shared buffers.
 struct MeshRange {
   std::uint32_t first_index, index_count;
   std::int32_t base_vertex;
 };
 
+/// The shared vertex and index buffer of a scene: meshes are added, uploaded once, and deforming ones updated
+/// every frame.
 class GpuGeometry {
  public:
+  /// Layout of the vertex buffer; mesh frame.
   struct Vertex {
     glm::vec3 position, normal;
     glm::vec2 uv;
   };
 
-  /// Meshes that stay as they are, before all that bend.
+  /// Appends a rigid mesh; all of them come before the first deforming one.
   MeshRange add(const Mesh& mesh);
-  /// Other triangles of the vertices of a mesh that was added.
+  /// Appends further triangles over the vertices of `mesh` (a coarser level of detail).
   MeshRange add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices);
+  /// Appends a mesh that deforms; no rigid mesh may follow.
   MeshRange add_bending(const Mesh& mesh);
-  /// Makes the buffers: nothing can be added from now on.
+  /// Creates the buffers: nothing can be added afterwards.
   void upload();
 
-  /// Takes over positions and normals of a mesh that bends; the GPU has them after `upload_bent`.
+  /// Copies positions and normals of a deformed mesh, which has as many vertices as the one added;
+  /// `upload_bent` sends them to the GPU.
   void bend(const MeshRange& range, const Mesh& mesh);
+  /// Uploads all deforming vertices in one call; does nothing where there are none.
   void upload_bent();
 
-  GLuint vertex_buffer() const { return vertex_buffer_.name(); }
+  GLuint vertex_buffer() const { return vertex_buffer_.name(); }  ///< interleaved Vertex; 0 before `upload`
+  /// Buffer of 32-bit indices relative to MeshRange::base_vertex.
   GLuint index_buffer() const { return index_buffer_.name(); }
 
  private:
-  std::vector<Vertex> vertices_;  ///< after `upload`: of those that bend alone
+  std::vector<Vertex> vertices_;  ///< after `upload`: only those of deforming meshes
   std::vector<std::uint32_t> indices_;
   std::size_t rigid_vertices_ = 0;
   gl::Buffer vertex_buffer_, index_buffer_;

@@ -1,5 +1,5 @@
-// The scene's models on the GPU: their triangles, a texture for each picture, a block for each material; and
-// its items: every part of every object, with bounds and transform, in flat arrays.
+// The scene's models on the GPU: triangles, one texture per image, one uniform block per material; and its
+// items: every part of every object, with bounds and transform, in flat arrays.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace parvis::render {
 
-/// A part's mesh with fewer triangles.
+/// Index range of a part at a coarser level of detail.
 struct LevelRange : MeshRange {
   float error_m;  ///< in the node's frame
 };
 
-/// A part of a model, or of one object where it bends.
+/// A part of a model, or of one object whose mesh deforms.
 struct PartRange : MeshRange {
   int material;  ///< of the GPU scene
   int node;
@@ -31,7 +31,7 @@ struct PartRange : MeshRange {
   int first_level, level_count;  ///< of the scene's `levels`, coarser and coarser
 };
 
-/// What the surface shader must look up for a material.
+/// Features that the surface shader is compiled for, by material.
 enum SurfaceFeature : std::uint16_t {
   surface_has_normal_map = 1,
   surface_has_surface_map = 2,
@@ -45,10 +45,11 @@ enum SurfaceFeature : std::uint16_t {
 };
 inline constexpr std::size_t surface_feature_combinations = 512;
 
-/// Is the hardware's anisotropic filter worth its time? Mesa's processor renderer takes 30 times as long with
-/// it.
+/// True if hardware anisotropic filtering is affordable: on Mesa's software renderer it takes 30 times as
+/// long.
 bool has_fast_anisotropy();
 
+/// A material as the GPU scene draws it; textures belong to the GPU scene.
 struct GpuMaterial {
   GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
   Pass pass;
@@ -56,8 +57,9 @@ struct GpuMaterial {
   std::uint16_t features;  ///< of SurfaceFeature
 };
 
-/// One part of one object. `record` is what the vertex shader reads for it.
+/// One part of one object. `record` is its per-instance vertex data.
 struct Item {
+  /// Per-instance data of the vertex shader, as it lies in the buffer.
   struct Record {
     glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;
@@ -70,44 +72,53 @@ struct Item {
   bool is_mirror;  ///< takes the scene's reflection method
 };
 
+/// The scene on the GPU. Needs a current OpenGL context from creation to destruction.
 class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
 
-  /// Takes over where objects are and which are hidden. The scene has as many objects as at first.
+  /// Copies transforms, poses and visibility from the scene, which must have the same objects as at creation.
   void update(const scene::Scene& scene);
-  /// Of the last update.
+  /// Static objects that appeared, vanished or moved in the last update.
   const FixedChange& fixed_change() const { return fixed_change_; }
-  /// Did a fixed object come in the last update?
+  /// True if a static object appeared or was moved in the last update.
   bool is_newcomer(int object) const { return is_newcomer_[std::size_t(object)] != 0; }
 
+  /// All parts: first those of the models, then those of deforming objects.
   const std::vector<PartRange>& parts() const { return parts_; }
+  /// Coarser levels of detail of a part, coarser from one to the next; empty where it has none.
   std::span<const LevelRange> levels_of(const PartRange& part) const {
     return std::span(levels_).subspan(std::size_t(part.first_level), std::size_t(part.level_count));
   }
+  /// All materials; PartRange::material is an index into them.
   const std::vector<GpuMaterial>& materials() const { return materials_; }
-  /// Of all items that are mirrors.
+  /// The materials of all items that are mirrors.
   std::vector<GpuMaterial> mirror_materials() const;
-  const std::vector<Item>& items() const { return items_; }
-  /// An item for each part of the object's model follows, in their order.
+  const std::vector<Item>& items() const { return items_; }  ///< ordered by object, then by part of its model
+  /// Index of an object's first item; its other parts follow in the order of the model.
   std::uint32_t first_item(int object) const { return first_item_[std::size_t(object)]; }
-  /// Of all parts of an object, in the world.
+  /// World bounds of each object, over all its parts.
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
+  /// Transform of an object as of the last update.
   const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }
-  /// Of all that does not move, hidden things included.
+  /// World bounds of all static objects, hidden ones included.
   Bounds fixed_bounds() const;
-  /// Of each object that moves and is seen.
+  /// World bounds of every visible dynamic object.
   const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
-  /// What of them hides the sky from others.
+  /// Shapes of those objects that occlude the sky for surfaces near them.
   const std::vector<shading::Body>& bodies() const { return bodies_; }
+  /// True if the object is dynamic.
   bool is_moving(int object) const { return is_moving_[std::size_t(object)] != 0; }
+  /// True if the object was visible at the last update.
   bool is_visible(int object) const { return is_visible_[std::size_t(object)] != 0; }
 
   /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
   void bind_material(int material) const;
+  /// Enables or disables back-face culling in OpenGL.
   static void cull_faces(bool culls);
+  /// Buffer of GpuGeometry::Vertex, for vertex arrays of drawables.
   GLuint vertex_buffer() const { return geometry_.vertex_buffer(); }
-  GLuint index_buffer() const { return geometry_.index_buffer(); }
+  GLuint index_buffer() const { return geometry_.index_buffer(); }  ///< 32-bit indices
 
  private:
   void add_models(const scene::Scene& scene);

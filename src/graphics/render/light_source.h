@@ -27,6 +27,7 @@ class ShadowMethod {
                       const DrawView& draw) = 0;
   /// At `shadow_unit`.
   virtual void bind() const = 0;
+  /// Matrices and texel sizes for the shaders' uniform block.
   virtual const shading::ShadowMaps& maps() const = 0;
   /// A copy for the ray tracer; waits for the GPU.
   virtual shading::SunShadow read_back() const = 0;
@@ -54,6 +55,7 @@ class LightSource {
   virtual void draw_sky(const View& view) const = 0;
 
   // What the ray tracer needs to agree with the picture.
+  /// Sky radiance, its mipmap levels and its irradiance, as the renderer uses them.
   virtual const shading::SkyLight& sky() const = 0;
   /// What the static scene leaves of the sky at each place.
   virtual const shading::SkyVisibility& sky_visibility() const = 0;

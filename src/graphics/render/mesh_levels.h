@@ -11,13 +11,14 @@ namespace parvis::render {
 
 inline constexpr int max_mesh_levels = 7;  ///< one triangle in 128
 
+/// A mesh simplified over its own vertices.
 struct MeshLevel {
   std::vector<std::uint32_t> indices;
-  float error_m;  ///< about how far its surface lies from the mesh's; in places up to three times that
+  float error_m;  ///< estimated distance between the two surfaces; locally up to three times as large
 };
 
-/// Coarser and coarser, each of half the triangles of the one before or at most three quarters; none where
-/// the mesh has few triangles.
+/// Levels of detail, each with half (at most three quarters) of the triangles of the level before it; empty
+/// where the mesh has few triangles.
 std::vector<MeshLevel> coarser_levels(const Mesh& mesh);
 
 }  // namespace parvis::render

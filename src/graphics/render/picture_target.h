@@ -11,30 +11,37 @@
 
 namespace parvis::render {
 
+/// MSAA samples of the main view.
 inline constexpr int samples_per_pixel = 4;
 
+/// The main view's multisampled render target, its resolved radiance and its tone-mapped image. Call `resize`
+/// before drawing.
 class PictureTarget {
  public:
+  /// Compiles the resolve and tone-mapping shaders; fails only if one does not compile.
   static Result<PictureTarget> create();
 
-  /// Its textures grow with it and never shrink: a size that changes from frame to frame allocates nothing.
+  /// Sets the size in pixels. Textures grow and never shrink, so a size that changes from frame to frame
+  /// allocates nothing.
   void resize(int width, int height);
-  int width() const { return width_; }
-  int height() const { return height_; }
+  int width() const { return width_; }    ///< pixels in use; the textures may be larger
+  int height() const { return height_; }  ///< pixels in use
 
-  /// To draw into: RGBA16F and depth, multisampled.
+  /// Framebuffer to draw into: RGBA16F and depth, multisampled.
   GLuint framebuffer() const { return multisampled_.name(); }
-  /// Brings the samples together to linear radiance, one value a pixel, weighed for a picture of this
-  /// exposure.
+  /// Resolves the samples to one linear radiance per pixel, each sample weighted by shading::sample_weight at
+  /// this exposure.
   void resolve(float exposure);
-  /// Tone-maps into the first `size` pixels of a framebuffer, enlarged where there are more than were drawn.
+  /// Tone-maps into the first `size` pixels of a framebuffer, enlarging where `size` exceeds the render
+  /// target.
   void display(GLuint framebuffer, glm::ivec2 size, float exposure) const;
 
   // Readbacks wait for the GPU: for stills and tests. Films read through render/picture_reader.h.
-  /// Tone-maps and lets the GPU copy the picture, bottom row first, RGBA, into the bound pixel pack buffer.
+  /// Tone-maps and starts an asynchronous copy of the image (RGBA, bottom row first) into the bound pixel
+  /// pack buffer.
   void start_reading(float exposure, GLsizeiptr bytes) const;
-  Image8 read_picture(float exposure) const;
-  ImageF read_radiance() const;
+  Image8 read_picture(float exposure) const;  ///< tone-mapped sRGB, RGBA, top row first
+  ImageF read_radiance() const;               ///< resolved linear RGBA, before exposure, top row first
 
  private:
   PictureTarget(gl::Program resolve, gl::Program display);
@@ -47,7 +54,7 @@ class PictureTarget {
   gl::Framebuffer multisampled_, resolved_, displayed_;
 };
 
-/// Turns what OpenGL reads back (bottom row first) upright.
+/// Reverses the rows of an image: OpenGL reads back the bottom row first.
 template <class Image>
 void flip_rows(Image& image) {
   const std::ptrdiff_t row = std::ptrdiff_t(image.width) * image.channels;

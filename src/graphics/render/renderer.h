@@ -57,8 +57,9 @@ class Renderer {
   /// Culls for the main view: afterwards `visible_objects` lists the objects that may need reflections. A
   /// bench may leave out the static scene.
   void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
+  /// Indices of the scene objects in the main view, ascending.
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
-  const View& main_view() const { return main_view_; }
+  const View& main_view() const { return main_view_; }  ///< of the selected eye, as prepared last
   /// Draws the view that was prepared, four samples per pixel.
   void draw_main_view();
   /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
@@ -70,21 +71,23 @@ class Renderer {
   void display(GLuint framebuffer, glm::ivec2 size, float exposure) const {
     target().display(framebuffer, size, exposure);
   }
+  /// Tone-maps the main view and starts its copy into the bound pixel pack buffer; see PictureTarget.
   void start_reading(float exposure, GLsizeiptr bytes) const { target().start_reading(exposure, bytes); }
+  /// Tone-mapped image, RGBA; waits for the GPU.
   Image8 read_picture(float exposure) const { return target().read_picture(exposure); }
-  ImageF read_radiance() const { return target().read_radiance(); }
+  ImageF read_radiance() const { return target().read_radiance(); }  ///< linear RGBA; waits for the GPU
 
-  int width() const { return target().width(); }
-  int height() const { return target().height(); }
-  float exposure() const { return exposure_; }
-  const DrawStatistics& statistics() const { return scene_.main_statistics(); }
-  const GpuScene& gpu() const { return scene_.gpu(); }
+  int width() const { return target().width(); }    ///< of the selected eye's main view, pixels
+  int height() const { return target().height(); }  ///< of the selected eye's main view, pixels
+  float exposure() const { return exposure_; }      ///< the scene's, as of the last frame
+  const DrawStatistics& statistics() const { return scene_.main_statistics(); }  ///< of the main view
+  const GpuScene& gpu() const { return scene_.gpu(); }  ///< the scene's objects on the GPU
   /// How often fixed things have appeared, vanished or moved, or the sky has changed: what is kept of their
   /// pictures is then out of date.
   int fixed_changes() const { return fixed_changes_; }
 
   // The light that the ray tracer needs to agree with the picture.
-  const shading::SkyLight& sky() const { return light_->sky(); }
+  const shading::SkyLight& sky() const { return light_->sky(); }  ///< sky of the present frame
   /// The same light without shadow maps, for exact shadow rays: no readback, so frames may use it. Good until
   /// the next frame begins.
   shading::DrawnLight drawn_light_without_shadows() const {

@@ -1,4 +1,4 @@
-// Draws the scene's items: culled for each view, gathered by material, many items a call.
+// Draws the scene's objects: culled per view, sorted by material, submitted by multi-draw indirect.
 #pragma once
 
 #include <array>
@@ -15,19 +15,23 @@
 
 namespace parvis::render {
 
-/// What one view drew.
+/// Counters of one view.
 struct DrawStatistics {
-  int items_in_frustum = 0;  ///< of a mirrored view: that the mirror may show
-  int items_hidden = 0;      ///< in the frustum, behind occluders
+  int items_in_frustum = 0;  ///< in a mirrored view: items that the mirror may show
+  int items_hidden = 0;      ///< within the frustum, culled by occlusion
   int draws = 0;
   std::size_t triangles = 0;
 };
 
+/// The drawable of Scene::objects.
 class SceneDrawable final : public Drawable {
  public:
+  /// Uploads the scene and compiles its shaders; fails only if a shader does not compile. Needs a current
+  /// OpenGL context.
   static Result<SceneDrawable> create(const scene::Scene& scene);
 
-  /// null: all reflect the sky alone. What was set before is set again at once.
+  /// Sets how mirror-like parts are shaded; null: they reflect the sky alone. Replaces the previous shader at
+  /// once.
   Status set_reflection(SurfaceShader* shader);
 
   void update(const scene::Scene& scene) override { gpu_.update(scene); }
@@ -35,10 +39,11 @@ class SceneDrawable final : public Drawable {
   void prepare(const View& view, const Culling& culling) override;
   void draw(const View& view, Pass pass) override;
 
-  /// Objects that the main view shows: what reflections are worth making for.
+  /// Indices of the objects in the main view, ascending: those that reflections should be computed for.
   const std::vector<int>& visible_objects() const { return visible_objects_; }
+  /// Of the main view as prepared last.
   const DrawStatistics& main_statistics() const { return main_list_.statistics; }
-  const GpuScene& gpu() const { return gpu_; }
+  const GpuScene& gpu() const { return gpu_; }  ///< the scene's models and items on the GPU
 
  private:
   struct Command {  // DrawElementsIndirectCommand

@@ -1,5 +1,4 @@
-// The surface shader in the variants that a scene's materials need: a texture that a material lacks is not
-// looked up.
+// Permutations of the surface shader for a scene's materials: a texture that a material lacks is not sampled.
 #pragma once
 
 #include <array>
@@ -14,8 +13,7 @@
 
 namespace parvis::render {
 
-/// What a surface shader is compiled from. Rooms above contribute files, defines and expressions of their
-/// own.
+/// Sources of a surface shader. Rooms above contribute files, defines and expressions.
 struct SurfaceSource {
   /// Includes render/surface_body.glsl and defines `look_along` and `reflected_radiance`.
   std::string fragment = "graphics/render/surface.frag";
@@ -23,28 +21,29 @@ struct SurfaceSource {
   gl::Defines defines = {};
   gl::Defines mesh_defines = {};  ///< of the scene's meshes alone: rooms that draw by themselves lack them
   std::vector<std::string> includes = {};  ///< before `fragment`: files that define what the expressions call
-  /// GLSL over `radiance`, which `reflected_radiance` has found for a layer of that `roughness`: what
-  /// overlays make of it.
+  /// GLSL expression over `radiance`, the result of `reflected_radiance` for a layer of that `roughness`: how
+  /// overlays modify it.
   std::string reflection = "radiance";
-  /// GLSL over `radiance`, the sky straight through solid glass: what overlays show through it.
+  /// GLSL expression over `radiance`, the sky straight through solid glass: what overlays show instead.
   std::string transmission = "radiance";
 };
 
+/// Linked surface programs by material features, and those of surfaces that rooms draw themselves.
 class SurfacePrograms {
  public:
-  /// Links the shaders for each combination of features among `materials`, for views of many samples per
-  /// pixel and of one.
+  /// Links a program for each combination of features among `materials`; for materials with holes two: for
+  /// multisampled views and for views with one sample per pixel.
   static Result<SurfacePrograms> create(const SurfaceSource& source,
                                         const std::vector<GpuMaterial>& materials);
 
-  /// For a material that was among them.
+  /// The program of a material that was given to `create`.
   const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {
     const bool discards = (material.features & surface_has_holes) && !is_multisampled;
     return (discards ? one_sample_ : programs_)[material.features];
   }
 
-  /// The same shaders for a surface that a room draws by itself, for views of many samples per pixel; linked
-  /// when it is asked for first. Null, with a message on standard error, where it does not link.
+  /// The program of a surface that a room draws itself, for multisampled views; linked on first use. Null,
+  /// with a message on standard error, if it does not link.
   const gl::Program* of(const DrawableShader& shader);
 
  private:

@@ -1,5 +1,5 @@
-// The second drawable, for the tests of all rooms that show or trace one: textured quads with holes, whose
-// colour depends on the direction from which they are seen.
+// The second drawable, for the tests of all rooms that show or trace drawables: textured quads with holes,
+// whose colour depends on the viewing direction.
 #pragma once
 
 #include "base/image.h"
@@ -10,12 +10,13 @@
 
 namespace parvis::render {
 
+/// One quad of the scene.
 struct TestQuad {
   glm::mat4 world_from_quad{1.0f};  ///< the quad is -1..1 in x and y, seen from +z
   bool is_dynamic = false, is_visible = true;
 };
 
-/// What a scene has of them; kept by whoever made the kind, who may change it while the scene is shown.
+/// The quads of a scene. They belong to the test, which may change them while the scene is shown.
 using TestQuads = std::vector<TestQuad>;
 
 namespace test_quads_shared {
@@ -23,7 +24,8 @@ using namespace parvis::shading;
 #include "graphics/render/test_quads_shared.glsl"
 }  // namespace test_quads_shared
 
-/// 8x8 texels, sampled as they are: red and green rise with x and y; alpha cuts out the four corners.
+/// The quads' texture, 8x8 texels without filtering: red and green increase with x and y; alpha cuts out the
+/// four corners.
 inline Image8 test_quad_texture() {
   Image8 image(8, 8, 4);
   for (int y = 0; y < 8; ++y)
@@ -36,7 +38,8 @@ inline Image8 test_quad_texture() {
   return image;
 }
 
-/// In its own frame, of small triangles: curved mirrors place vertices, and straight edges between them.
+/// The quad in its own frame, finely tessellated: curved mirrors reflect vertices and connect them by
+/// straight edges.
 inline Mesh test_quad_mesh() {
   constexpr int cells = 24;
   Mesh mesh;
@@ -56,6 +59,7 @@ inline Mesh test_quad_mesh() {
   return mesh;
 }
 
+/// The quad's surface for the ray tracer.
 class TestQuadSurface final : public scene::TracedSurface {
  public:
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
@@ -78,8 +82,10 @@ class TestQuadSurface final : public scene::TracedSurface {
   Image8 texture_ = test_quad_texture();
 };
 
+/// The quads' drawable; all are drawn in the cutout pass.
 class TestQuadDrawable final : public Drawable {
  public:
+  /// `quads` must outlive the drawable; fails only if a shader does not compile.
   static Result<std::unique_ptr<Drawable>> create(const TestQuads& quads, int first_thing) {
     Result<ViewPrograms> programs = ViewPrograms::create({"graphics/render/test_quads_vertex.glsl",
                                                           "graphics/render/test_quads_surface.glsl",
@@ -132,7 +138,7 @@ class TestQuadDrawable final : public Drawable {
     }
   }
 
-  /// Of the main view.
+  /// Indices of the quads that the main view drew.
   const std::vector<std::size_t>& drawn() const { return main_list_; }
 
  private:
@@ -175,7 +181,7 @@ class TestQuadDrawable final : public Drawable {
   std::vector<std::size_t> main_list_, other_list_;
 };
 
-/// The kind of `quads`, which outlive all that is made of it.
+/// The registered kind; `quads` must outlive everything made of it.
 inline DrawableKind test_quads_kind(const TestQuads& quads) {
   DrawableKind kind;
   kind.traced.name = "test quads";

@@ -1,4 +1,4 @@
-// Views: from where, of what and onto which target a picture is drawn. Every drawable draws into every view.
+// A view: camera, selection of objects, and render target. Every drawable draws into every view.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -15,6 +15,7 @@ namespace parvis::render {
 class SurfacePrograms;
 class VirtualVertices;
 
+/// Purpose of a view, which decides the shaders and the output.
 enum class ViewKind : std::uint8_t {
   main,       ///< what a person sees
   cube_face,  ///< surroundings of a reflector
@@ -33,7 +34,8 @@ enum class Subjects : std::uint8_t {
   newcomers  ///< fixed things that appeared, or were put where they are, in this frame
 };
 
-/// One picture to be drawn: from where, through what, onto which target.
+/// One image to be rendered: camera, selection and target. The pointers must stay valid while the view is
+/// drawn.
 struct View {
   ViewKind kind = ViewKind::main;
   glm::mat4 clip_from_world{1.0f};    ///< depth -1 near, 1 far; the renderer turns it round
@@ -56,12 +58,14 @@ struct View {
   bool clears = true;         ///< depth; else it draws over what is there
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
+  /// True if `shown_objects` selects this object or thing; all are selected where there is no list.
   bool shows(int object) const {
     return !shown_objects ||
            (std::size_t(object) < shown_objects->size() && (*shown_objects)[std::size_t(object)]);
   }
+  /// True if only a rectangle of the target is drawn.
   bool has_part() const { return part.z > 0 && part.w > 0; }
-  /// Spreads the part's share of the clip square over the whole square: what is to be drawn lies within.
+  /// Crop matrix, applied after projection: maps the rectangle `part` of clip space to the whole of it.
   glm::mat4 clip_of_part() const;
 };
 
@@ -76,6 +80,7 @@ inline glm::mat4 View::clip_of_part() const {
   return crop;
 }
 
+/// The main view of a camera onto a framebuffer of the given size in pixels.
 inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int height) {
   View view;
   view.clip_from_world = camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
@@ -86,7 +91,7 @@ inline View camera_view(const Camera& camera, GLuint framebuffer, int width, int
   return view;
 }
 
-/// In the order in which a view draws them. Shadow and picking views have no blend pass.
+/// Passes of a view, in drawing order. Shadow and picking views have no blend pass.
 enum class Pass : std::uint8_t { opaque, cutout, blend };
 inline constexpr int pass_count = 3;
 
