@@ -8,16 +8,17 @@
 
 namespace parvis::scene {
 
-/// What each byte of a picture stands for, 0 to 1 in linear light.
+/// Value of each possible byte of an image, 0 to 1, linear.
 using ByteTable = std::array<float, 256>;
+/// The table of sRGB-encoded or of linear bytes.
 const ByteTable& values_of_bytes(bool is_srgb);
 
-/// For each texture of a model: is it the colour of a material that is cut out by its alpha?
+/// For each texture of a model: true if it is the colour of a cutout material.
 std::vector<char> cutout_textures(const Model& model);
 
-/// The picture and its halves down to one texel, averaged over 2 x 2 texels in linear light. Where alpha cuts
-/// out, that of each level is scaled so that the share of texels at 0.5 and above stays the picture's own
-/// (Castano 2010, Computing Alpha Mipmaps): leaves neither thin out nor swell far away.
+/// All mipmap levels of a texture, box-filtered over 2 x 2 texels in linear light. For cutout textures, alpha
+/// of each level is scaled so that the fraction of texels at 0.5 and above is that of level 0 (Castano 2010,
+/// Computing Alpha Mipmaps): distant leaves neither thin out nor swell.
 std::vector<Image8> mip_levels(const Texture& texture, bool is_cutout);
 
 }  // namespace parvis::scene

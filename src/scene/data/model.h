@@ -1,5 +1,5 @@
-// What a model file gives: parts (a mesh and a material each) under a tree of nodes, with pictures and
-// animations. Plain data in flat arrays; the GPU scene and the ray tracer both read it.
+// The content of a model file: parts (a mesh and a material each) under a tree of nodes, with textures and
+// animations. Plain data in flat arrays, read by the GPU scene and the ray tracer.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace parvis::scene {
 
 inline constexpr int no_index = -1;
 
-/// An RGBA picture with how it is sampled: always trilinear and anisotropic.
+/// An RGBA image with its sampling state; filtering is always trilinear and anisotropic.
 struct Texture {
   std::string name;     ///< as errors name it
   Image8 image;         ///< 4 channels
@@ -28,10 +28,11 @@ struct Texture {
   bool repeats = true;  ///< else clamped to its edge
 };
 
+/// How a material uses its alpha.
 enum class Alpha : std::uint8_t {
   opaque,
   cutout,  ///< leaves, railings: visible where alpha >= 0.5; alpha to coverage on the GPU
-  blend    ///< drawn after the opaque parts, from back to front: contact shadows, panes
+  blend    ///< contact shadows, panes: drawn after the opaque parts, back to front
 };
 
 /// The metallic-roughness surface of glTF 2.0, with a clear coat and translucent leaves. The index of a
@@ -51,11 +52,11 @@ struct Material {
   int surface_texture = no_index;  ///< glTF's: G roughness, B metallic; R ambient occlusion (1 = open)
   int emission_texture = no_index;
   float normal_scale = 1.0f;
-  /// Of solid glass: how much slower light is in it. Above 1 the surface bounds a closed body that light
-  /// enters, bent; it has no colour of its own then.
+  /// Refractive index. Above 1 the surface bounds a closed body of solid glass, which refracts light and has
+  /// no colour of its own.
   float ior = 1.0f;
-  glm::vec3 absorption_per_m{0.0f};  ///< of that body
-  float thickness_m = 0.005f;        ///< of that glass where its surface bounds no body: a pane's
+  glm::vec3 absorption_per_m{0.0f};  ///< of the glass body
+  float thickness_m = 0.005f;        ///< of the glass where its surface is not closed: a pane
   float relief_m = 0.0f;  ///< depth below the surface where the normal texture's alpha is 0; 0: it is flat
   glm::mat3 texture_from_mesh_uv{1.0f};  ///< KHR_texture_transform
   Alpha alpha_mode = Alpha::opaque;
@@ -63,10 +64,11 @@ struct Material {
   bool is_mirror_like =
       false;  ///< paint, glass, chrome of movable things: takes the scene's reflection method
 
+  /// True if the material is solid glass.
   bool refracts() const { return ior > 1.0f; }
 };
 
-/// Triangles of one material that hang on one node.
+/// Triangles of one material that are attached to one node.
 struct Part {
   std::string object;  ///< name of the object or group in the file: what material(target=...) matches
   Mesh mesh;           ///< in the node's frame, at rest
@@ -76,6 +78,7 @@ struct Part {
   std::shared_ptr<const Deformation> deformation = nullptr;  ///< null: the mesh is rigid
 };
 
+/// A node of the transform tree, at rest.
 struct ModelNode {
   std::string name;
   int parent = no_index;  ///< always less than the node's own index
@@ -84,7 +87,7 @@ struct ModelNode {
   glm::vec3 scale{1.0f};
 };
 
-/// In metres, z up. Node 0 always exists.
+/// A model in metres, z up. Node 0, the root, always exists.
 struct Model {
   std::string name;
   std::vector<Texture> textures;
@@ -92,9 +95,10 @@ struct Model {
   std::vector<ModelNode> nodes{ModelNode{}};
   std::vector<Part> parts;
   std::vector<Animation> animations;
-  std::vector<Road> roads;  ///< that the file gives as centre lines, in the model's frame
+  std::vector<Road> roads;  ///< centre lines of roads that the file contains, in the model's frame
   glm::dvec3 origin{0.0};   ///< georeferenced coordinates of the local origin, zero where there are none
 
+  /// Number of triangles in all parts.
   std::size_t triangle_count() const;
 };
 

@@ -1,6 +1,5 @@
-// Polylines on the ground: places along them, parts of them, parallels to them, and the round curves that
-// vehicles can follow. Lengths are measured along the line in space; directions and offsets lie in plan (seen
-// from above).
+// Polylines on the ground: points and sections along them, parallels, and curves that vehicles can follow.
+// Lengths are 3D arc lengths; directions and offsets are in plan (seen from above).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,6 +8,7 @@
 
 namespace parvis::scene {
 
+/// Points of a polyline, metres, in the world.
 using Path = std::vector<glm::vec3>;
 
 /// A polyline of at least two points with its arc length.
@@ -17,14 +17,15 @@ class MeasuredPath {
   MeasuredPath() = default;
   explicit MeasuredPath(Path points);
 
-  const Path& points() const { return points_; }
+  const Path& points() const { return points_; }  ///< as given
+  /// Arc length, metres; 0 without points.
   float length() const { return distances_.empty() ? 0.0f : distances_.back(); }
 
-  /// The point at `distance` from the start; beyond the ends the end segments go straight on.
+  /// The point at arc length `distance`; beyond the ends the end segments are extended.
   glm::vec3 at(float distance) const;
   /// Unit vector of travel at `distance`.
   glm::vec3 direction_at(float distance) const;
-  /// The points between two distances, both ends included; `from` < `to`.
+  /// The section between two arc lengths, both end points included; `from` < `to`.
   Path part(float from, float to) const;
 
  private:
@@ -34,15 +35,15 @@ class MeasuredPath {
   std::vector<float> distances_;  ///< of each point from the start
 };
 
-/// Without points that lie within a millimetre, in plan, of the one before.
+/// The path without points that are within a millimetre, in plan, of the preceding one.
 Path without_repeats(std::span<const glm::vec3> path);
 
-/// The path with its corners replaced by arcs of `radius_m`, smaller where the segments are too short, and
-/// sampled so that no arc's chord turns by more than 6 degrees.
+/// The path with its corners replaced by arcs of radius `radius_m`, smaller where the segments are too short;
+/// sampled so that the direction changes by at most 6 degrees per chord.
 Path rounded(const Path& path, float radius_m);
 
-/// The parallel at `distance_m` to the right (negative: left). Where the bend is tighter than the distance
-/// the parallel would run backward: those points are left out.
+/// The parallel at `distance_m` to the right (negative: left). Points are left out where the curve is tighter
+/// than the distance and the parallel would run backward.
 Path parallel(const Path& path, float distance_m);
 
 /// A smooth curve from `start` to `end` that leaves and arrives in the given unit directions: close to a

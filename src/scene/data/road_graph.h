@@ -1,4 +1,4 @@
-// Where vehicles may drive: lanes as polylines, joined at their ends. Generated, scripted, or taken from a
+// The lanes on which vehicles drive: polylines joined at their ends. Generated, scripted, or imported from a
 // city model.
 #pragma once
 
@@ -19,23 +19,27 @@ struct Lane {
   int crossing = -1;          ///< the crossing that a turning lane passes through, else -1
 };
 
+/// The lanes of a scene; Lane::next holds indices into `lanes`.
 struct RoadGraph {
   std::vector<Lane> lanes;
 
+  /// True if there are no lanes.
   bool empty() const { return lanes.empty(); }
 };
 
-/// The part of the town in which vehicles drive: they keep to the streets within `radius_m` of `centre`,
-/// where these lead on.
+/// The part of the city in which vehicles drive: streets within `radius_m` of `centre` (metres, in plan) that
+/// lead on.
 struct DrivingArea {
   static constexpr std::string_view name = "roads.driving_area";
   static constexpr DataRole role = DataRole::settings;
   glm::vec2 centre{0.0f};
   float radius_m = std::numeric_limits<float>::max();
 
+  /// True if the point is less than `radius_m` + `beyond_rim_m` from the centre.
   bool contains(glm::vec2 point, float beyond_rim_m = 0.0f) const {
     return glm::distance(point, centre) < radius_m + beyond_rim_m;
   }
+  /// Adds all members; see SceneData.
   void hash(ContentHash& hash) const {
     hash.add(centre);
     hash.add(radius_m);

@@ -1,5 +1,5 @@
-// What rooms keep in a scene: one plain value per type, found by the type. A room that needs something in a
-// scene declares a struct of its own and touches no other file.
+// Data that rooms keep in a scene: one plain value per type, looked up by the type. A room that needs data in
+// a scene declares a struct of its own and changes no other file.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace parvis::scene {
 
-/// Which pictures of a scene depend on a room's data, beside its objects.
+/// Which rendered images of a scene depend on a room's data, beside its objects.
 enum class DataRole : std::uint8_t {
-  static_content,   ///< all: it is drawn and does not move
-  dynamic_content,  ///< those that show dynamic objects
-  settings          ///< none: how something is computed, or what objects of the scene show already
+  static_content,   ///< all images: the data is rendered and static
+  dynamic_content,  ///< images that show dynamic objects
+  settings          ///< none: parameters of an algorithm, or data whose result is among the objects
 };
 
-/// A type that a scene can keep: copyable, with a default that stands for "nobody has set it", a `name` that
-/// no other such type has (`room.thing`), a `role`, and `hash`, which adds all of its content.
+/// A type that a scene can keep: copyable, with a default that means "not set", a unique `name`
+/// (`room.thing`), a `role`, and `hash`, which adds all of its content.
 template <class T>
 concept SceneData = std::copyable<T> && std::default_initializable<T> &&
     requires(const T& value, ContentHash& hash) {
@@ -37,21 +37,22 @@ struct NodeRange {
   int first = 0, last = -1;
 };
 
-/// A room's value without its type.
+/// Type-erased value of a room.
 struct RoomData {
   virtual ~RoomData() = default;
-  virtual std::unique_ptr<RoomData> clone() const = 0;
-  virtual void hash(ContentHash& hash) const = 0;
-  /// Equal content to a value that nobody has set.
+  virtual std::unique_ptr<RoomData> clone() const = 0;  ///< a deep copy
+  virtual void hash(ContentHash& hash) const = 0;       ///< adds all content
+  /// True if the content equals the type's default.
   virtual bool is_default() const = 0;
-  virtual DataRole role() const = 0;
-  /// Of items that nodes made: moves those of these nodes into a value of their own. Null: nothing was moved.
+  virtual DataRole role() const = 0;  ///< T::role of the value
+  /// Moves the items that these nodes have made into a value of their own. Null: there were none, or the
+  /// value has no items.
   virtual std::unique_ptr<RoomData> take_made_by(const NodeRange& nodes) = 0;
-  /// Puts back what `take_made_by` of the same type of value returned.
+  /// Puts back what `take_made_by` has removed from a value of the same type.
   virtual void put_back(RoomData& taken) = 0;
 };
 
-/// A type of which nodes make any number of items in a scene: as SceneData, whose hash is of one item.
+/// A type of which nodes make any number of items in a scene: as SceneData, with a hash of one item.
 template <class T>
 concept SceneItem = SceneData<T>;
 
@@ -63,18 +64,19 @@ struct ItemsOf {
   std::vector<T> items;
   std::vector<int> makers;  ///< of each item: the number of its node; ascending
 
+  /// Adds the items' content, but not who made them.
   void hash(ContentHash& hash) const {
     for (const T& item : items) item.hash(hash);
   }
 
-  /// Behind the items of the same node and of those before it.
+  /// Inserts after the items of the same node and of the nodes before it.
   void add(T item, int maker) {
     const auto place = std::upper_bound(makers.begin(), makers.end(), maker) - makers.begin();
     items.insert(items.begin() + place, std::move(item));
     makers.insert(makers.begin() + place, maker);
   }
 
-  /// Moves what these nodes made out of the others.
+  /// Removes and returns the items that these nodes have made.
   ItemsOf take(const NodeRange& nodes) {
     const auto first = std::lower_bound(makers.begin(), makers.end(), nodes.first) - makers.begin();
     const auto last = std::upper_bound(makers.begin(), makers.end(), nodes.last) - makers.begin();
@@ -87,11 +89,13 @@ struct ItemsOf {
   }
 };
 
+/// True for ItemsOf.
 template <class T>
 inline constexpr bool is_items = false;
 template <class T>
 inline constexpr bool is_items<ItemsOf<T>> = true;
 
+/// The value of type T behind the type-erased interface.
 template <SceneData T>
 struct RoomDataOf final : RoomData {
   T value{};

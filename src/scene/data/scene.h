@@ -1,5 +1,5 @@
-// The place as plain data: what the script reader builds, simulation moves, and both the GPU scene and the
-// ray tracer read. Rooms that do not know each other meet here.
+// A scene as plain data: built by the script reader, changed by simulation, read by the GPU scene and the ray
+// tracer. Rooms that do not know each other exchange data here.
 #pragma once
 
 #include <array>
@@ -32,19 +32,20 @@ struct Object {
   std::shared_ptr<const Model> model;
   glm::mat4 world_from_model{1.0f};
   std::vector<glm::mat4> pose;    ///< model_from_node of each node; empty: the model's rest pose
-  bool is_dynamic = false;        ///< moves: has no part in baked things, casts its own shadow
+  bool is_dynamic = false;        ///< excluded from baked data; its shadow is re-rendered every frame
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
-  bool is_visible = true;         ///< is drawn, casts shadows, stands in reflections; may change at any time
-  PlayedAnimation played = {};    ///< `animate` writes the pose and bends the meshes
-  std::vector<Mesh> bent_meshes = {};  ///< of each part: as it is bent now; empty: the model's
+  bool is_visible = true;         ///< rendered, casts shadows, appears in reflections; may change at any time
+  PlayedAnimation played = {};    ///< `animate` computes the pose and the deformed meshes
+  std::vector<Mesh> bent_meshes = {};  ///< deformed mesh of each part; empty: the model's meshes
 
-  /// Of one of the model's parts, as it is now.
+  /// The present mesh of one of the model's parts: deformed, or the model's.
   const Mesh& mesh(std::size_t part) const {
     const bool is_bent = !bent_meshes.empty() && model->parts[part].deformation;
     return is_bent ? bent_meshes[part] : model->parts[part].mesh;
   }
 };
 
+/// The sun as a directional light.
 struct Sun {
   glm::vec3 direction_to_sun{0.45f, -0.55f, 0.70f};  ///< unit length after loading
   glm::vec3 irradiance{3.0f, 2.75f, 2.35f};          ///< on a plane that faces it, W/m2 in each channel
@@ -52,6 +53,7 @@ struct Sun {
   bool operator==(const Sun&) const = default;
 };
 
+/// The sky as an environment map.
 struct Sky {
   ImageF picture;  ///< equirectangular, linear, top row = zenith; x = 0.5 looks north (+y); empty: plain blue
   float intensity = 1.0f;      ///< multiplies the picture
@@ -60,6 +62,7 @@ struct Sky {
   int version = 0;             ///< of a picture that is computed: counted up whenever it changes
 };
 
+/// A camera of the scene, which may follow an object.
 struct NamedCamera {
   std::string name;
   Camera camera;
@@ -67,6 +70,7 @@ struct NamedCamera {
   glm::vec3 offset_m{0.0f};  ///< from the followed object: forward, left, up
 };
 
+/// Everything that is rendered and simulated; a plain value that can be copied.
 struct Scene {
   std::vector<Object> objects;
   std::vector<NamedCamera> cameras;
@@ -77,30 +81,31 @@ struct Scene {
   RoadGraph roads;
   glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
   std::filesystem::path file;  ///< the script; empty: the scene was made in memory
-  /// What rooms draw by themselves, beside the objects; of those rooms that the program has.
+  /// Kinds of things that rooms render themselves, beside the objects: those that the program has registered.
   std::vector<TracedKind> traced_kinds;
   RoomDataSet room_data;  ///< `data` finds what a room keeps here
 
-  /// What a room keeps in the scene; reading one that nobody has set gives the type's default.
+  /// The data of type T that a room keeps in the scene, for changing.
   template <SceneData T>
   T& data() {
     return room_data.get<T>();
   }
+  /// The same for reading; the type's default if it was not set.
   template <SceneData T>
   const T& data() const {
     return room_data.get<T>();
   }
 
-  /// What nodes made of this type, in the order of the script: `SceneBuilder::add` adds to it.
+  /// The items of type T in the order of the nodes that made them; `SceneBuilder::add` adds to them.
   template <SceneItem T>
   const std::vector<T>& items() const {
     return data<ItemsOf<T>>().items;
   }
 
-  const NamedCamera* find_camera(const std::string& name) const;
-  /// Where a camera is now: it may stay with an object, which must be there to be seen.
+  const NamedCamera* find_camera(const std::string& name) const;  ///< null if there is none
+  /// The present camera: one that follows an object moves with it. Fails if no visible object has that name.
   Result<Camera> camera_now(const NamedCamera& named) const;
-  std::size_t static_triangle_count() const;
+  std::size_t static_triangle_count() const;  ///< objects that are not dynamic
 };
 
 }  // namespace parvis::scene

@@ -1,5 +1,6 @@
-// What a room draws by itself, as rays see it: the ground truth of its drawable. Plain geometry and
-// functions, without OpenGL and without a ray tracer, so that any room above can describe what it shows.
+// The ray tracer's view of things that a room renders itself: the ground truth of its drawable. Plain
+// geometry and functions, independent of OpenGL and of the ray tracer, so that any room above can describe
+// its things.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,7 @@ namespace parvis::scene {
 
 struct Scene;
 
-/// A point of a surface, as a ray finds it. All in the world.
+/// A ray's intersection with a surface, in the world.
 struct TracedHit {
   glm::vec3 position;
   glm::vec3 to_viewer;  ///< unit, toward where the ray comes from; of a shadow ray: toward the sun, for a
@@ -27,8 +28,8 @@ struct TracedHit {
   bool is_back;           ///< the triangle is seen from behind: its corners are clockwise
 };
 
-/// What light finds there: the surface of graphics/shading/surface.glsl. Light that a photograph has recorded
-/// goes into `emission`, with a black metal below it (base colour 0, metallic 1) that adds none.
+/// Material at an intersection: the surface of graphics/shading/surface.glsl. Radiance recorded by a
+/// photograph goes into `emission`, with a black metal below it (base colour 0, metallic 1) that adds none.
 struct TracedPoint {
   glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< unit, on the viewer's side
   glm::vec3 base_colour{0.8f};         ///< linear
@@ -41,21 +42,23 @@ struct TracedPoint {
   glm::vec3 emission{0.0f};  ///< radiance toward `TracedHit::to_viewer`
 };
 
-/// A surface given by functions of the point and of the direction from which it is seen: textures that depend
-/// on the view, alpha that no texture holds. Asked from many threads at a time.
+/// A surface given by functions of the point and the viewing direction: view-dependent textures, procedural
+/// alpha. Called from many threads at once.
 class TracedSurface {
  public:
   virtual ~TracedSurface() = default;
+  /// The material at an intersection.
   virtual TracedPoint point(const TracedHit& hit) const = 0;
-  /// 0..1. A cutout surface is there where it is at least 0.5; one that blends covers that share of what lies
-  /// behind it.
+  /// Opacity, 0..1. A cutout surface exists where it is at least 0.5; a blended one covers this fraction of
+  /// what is behind it.
   virtual float alpha(const TracedHit&) const { return 1.0f; }
+  /// How `alpha` is used; the same for the whole surface.
   virtual Alpha alpha_mode() const { return Alpha::opaque; }
-  /// Else its back is passed through, as face culling does.
+  /// False: rays pass through its back, as with face culling.
   virtual bool is_double_sided() const { return true; }
 };
 
-/// How something that is traced stands in the scene.
+/// Identity and visibility of a traced thing.
 struct TracedPlacing {
   int thing = 0;            ///< of the drawable's things, from 0: what picking gives
   bool is_dynamic = false;  ///< as Object::is_dynamic: it has no part in what is baked of the surroundings
@@ -63,24 +66,25 @@ struct TracedPlacing {
   bool casts_shadow = true;
 };
 
-/// Receives what a drawable shows. Rays, heights for the visibility of the sky and occluders are made of it.
+/// Receives the geometry of a drawable; ray hierarchies, the height field of sky visibility and occluders are
+/// built from it.
 class TracedScene {
  public:
   virtual ~TracedScene() = default;
-  /// Triangles with a surface of their own. The mesh has normals and uvs.
+  /// Adds triangles with a surface of their own. The mesh has normals and uvs.
   virtual void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const TracedSurface> surface,
                    const glm::mat4& world_from_mesh, const TracedPlacing& placing) = 0;
-  /// A model at rest, with its own materials and textures.
+  /// Adds a model at rest, with its own materials and textures.
   virtual void add(std::shared_ptr<const Model> model, const glm::mat4& world_from_model,
                    const TracedPlacing& placing) = 0;
 };
 
-/// One kind of thing that a room draws by itself, as rays see it.
+/// One kind of thing that a room renders itself, for the ray tracer.
 struct TracedKind {
   std::string name;
-  /// Of things in a scene that can be picked; 0: the scene has nothing of this kind.
+  /// Number of pickable things of this kind in a scene; 0: the scene has none.
   std::function<int(const Scene&)> count;
-  /// Adds all of them as they stand now; `TracedPlacing::thing` is below `count`.
+  /// Adds all of them in their present state; `TracedPlacing::thing` is below `count`.
   std::function<void(const Scene&, TracedScene&)> trace;
 };
 

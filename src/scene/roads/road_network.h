@@ -1,4 +1,4 @@
-// Roads as a network: streets that run from crossing to crossing. The first half of the road builder.
+// Roads as a network: streets between crossings. The first half of the road builder.
 #pragma once
 
 #include <span>
@@ -18,6 +18,7 @@ struct Street {
   int end_node = 0;
 };
 
+/// Streets and the nodes that they connect; nodes are numbered from 0.
 struct RoadNetwork {
   std::vector<Street> streets;
   int node_count = 0;  ///< crossings, joints and dead ends
@@ -26,8 +27,8 @@ struct RoadNetwork {
 /// Half of a road's width over all its lanes.
 float half_width_m(const Road& road);
 
-/// Finds where roads meet and cuts them there; places closer together than the roads are wide become one
-/// node. Errors as build_road_graph says.
+/// Intersects the roads and cuts them at crossings; crossings closer together than the roads are wide are
+/// merged into one node. Errors: see build_road_graph.
 Result<RoadNetwork> connect_roads(std::span<const Road> roads);
 
 }  // namespace parvis::scene

@@ -11,12 +11,13 @@ namespace parvis::scene {
 /// Adds the node types, and the step that makes lanes of roads.
 void furnish_roads(House& house);
 
-/// A road of the script, in the world, of which lanes are made when all nodes are built.
+/// A road of the script, in the world. Its lanes are built by the finish step.
 struct PlannedRoad {
   static constexpr std::string_view name = "roads.planned_road";
   static constexpr DataRole role = DataRole::settings;  // pictures show its paving, which is an object
   Road road;
 
+  /// Adds the road's geometry and lanes; see SceneData.
   void hash(ContentHash& hash) const {
     hash.add(road.path);
     for (const float value : {road.lane_width_m, road.speed_limit}) hash.add(value);
@@ -24,12 +25,13 @@ struct PlannedRoad {
   }
 };
 
-/// Whether carriageways are laid where lanes are.
+/// Whether carriageways are generated along the lanes.
 struct Paving {
   static constexpr std::string_view name = "roads.paving";
   static constexpr DataRole role = DataRole::settings;
   bool is_laid = false;
 
+  /// Adds `is_laid`; see SceneData.
   void hash(ContentHash& hash) const { hash.add(is_laid); }
 };
 

@@ -13,57 +13,59 @@
 
 namespace parvis::scene {
 
-/// Stands for the scene without a scenario, unless one is called so.
+/// The name that selects the scene without a scenario, unless a scenario has this name.
 inline const std::string base_scene = "base";
 
-/// Keeps the nodes of one Scene, which its functions take. A moved one goes on as it was.
+/// The nodes of one running Scene, which its functions take as an argument. Moving it keeps all nodes at
+/// their addresses.
 class LiveScene {
  public:
   LiveScene() = default;  ///< without nodes
   explicit LiveScene(Script script);
-  /// Of a scene without a script; `unique_node` makes its nodes. The registry must outlive it.
+  /// For a scene without a script; `unique_node` creates its nodes. The registry must outlive it.
   explicit LiveScene(const NodeRegistry& registry) { script_.registry = &registry; }
 
+  /// The top-level nodes of the script; included files' nodes are in place.
   const std::vector<Node>& nodes() const { return script_.nodes; }
-  /// By its name, or as %TYPE; null where there is none.
+  /// The node of this name, or of a unique type written %TYPE; null if there is none.
   const Node* find(const std::string& name) const;
-  /// The objects of the scene that the node and those inside it have made, hidden ones included.
+  /// Indices of the scene's objects made by the node and those inside it, hidden ones included.
   std::vector<int> objects_of(const Node& node) const;
-  /// The node that made an object of the scene, or that has vehicles made of this name; null where there is
-  /// none.
+  /// The node that made an object of the scene, or whose vehicles have this name; null if there is none.
   const Node* maker_of(const Scene& scene, int object) const;
-  /// The node that it stands in; null at the top level.
+  /// The node that encloses it; null at the top level.
   const Node* parent_of(const Node& node) const;
+  /// The frame in which the node was built; the world's for a node that is part of another.
   const NodeFrame& frame_of(const Node& node) const;
-  /// False for a node that is part of another's: a material, the key of a path, a kind of vehicle. It stays
-  /// as it was when the scene was loaded; but scenarios change the materials of models.
+  /// False for a node that is part of another: a material, a key of a path, a kind of vehicle. Such a node
+  /// does not change after loading, except that scenarios change the materials of models.
   bool is_built(const Node& node) const { return script_.frames.count(&node) != 0; }
 
-  /// Gives an attribute of the node another value of its type, in place of those that it replaces; seen after
-  /// the next `refresh`.
+  /// Gives an attribute of the node a new value of its type and clears the attributes that it replaces. Takes
+  /// effect with the next `refresh`.
   void set(const Node& node, const std::string& attribute, AttributeValue value);
-  /// The node of a unique type: the script's, or one without attributes that stands for it from now on.
+  /// The node of a unique type: the script's, or a new one without attributes.
   const Node& unique_node(const std::string& type);
-  /// Gives the attribute the value that `text` writes, in every scenario: what the command line says. Errors
-  /// say what is expected, and nothing has changed then.
+  /// Gives the attribute the value that `text` spells, for every scenario (command line). On an error, which
+  /// says what is expected, nothing changes.
   Status hold(const Node& node, const std::string& attribute, const std::string& text);
-  /// Does what a message that every node type of its kind takes says: sets a live attribute, shows or hides.
-  /// False where the message is none of these.
+  /// Applies the messages that are common to all node types: set a live attribute, show or hide. Returns
+  /// false for any other message.
   bool receive(const Node& node, const Message& message);
 
-  /// The scenarios in the order written.
+  /// The scenarios in the order of the script.
   std::vector<const Node*> scenarios() const;
-  /// The chosen one's name; empty: none, the base scene.
+  /// Name of the active scenario; empty: none, the base scene.
   const std::string& scenario() const { return scenario_; }
-  /// Changes to another scenario (empty, or `base_scene`: to none): nodes of the old one get back their
-  /// attributes as written. Fails where there is no such scenario, or where what it asks for cannot be built.
+  /// Activates another scenario (empty or `base_scene`: none): attributes that the previous one changed are
+  /// restored. Fails if there is no such scenario, or if its nodes cannot be built.
   Status choose(Scene& scene, const std::string& name);
-  /// Builds what every scenario needs, hidden, so that choosing one loads nothing; then chooses the one that
-  /// begins. All errors are reported. To be called before the scene is drawn: it adds objects.
+  /// Builds, hidden, everything that any scenario needs, so that switching loads nothing; then activates the
+  /// initial scenario. Reports all errors. Call it before the scene is rendered: it adds objects.
   Status prepare_scenarios(Scene& scene);
 
-  /// Builds again what changed. A node that cannot be built gets back the attributes that it had; errors tell
-  /// which.
+  /// Rebuilds the nodes that changed. A node that cannot be built gets its previous attributes back and is
+  /// named in the errors.
   Errors refresh(Scene& scene);
 
  private:

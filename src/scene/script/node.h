@@ -1,5 +1,5 @@
-// A node of a checked script: its attributes have values of their schema's types, its references name nodes
-// that exist, its files lie where a scene may read.
+// A node of a checked script: attribute values have their schema's types, references name existing nodes, and
+// files lie in folders that the scene may read.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 
 namespace parvis::scene {
 
+/// An attribute as given by the script, or set at run time.
 struct NodeAttribute {
   const AttributeSchema* schema = nullptr;
   AttributeValue value;
@@ -20,8 +21,8 @@ struct NodeAttribute {
   FileLocation where;
 };
 
-/// The getters take the name of an attribute of the node's schema and assert that it has that type; where the
-/// script does not give it they return its default.
+/// A checked node. The getters take an attribute name of the node's schema and assert its type; if the script
+/// does not give the attribute, they return its default.
 struct Node {
   const NodeSchema* schema = nullptr;
   FileLocation where;
@@ -29,20 +30,20 @@ struct Node {
   std::vector<Node> children;             ///< included files put their nodes in place
   std::vector<NodeAttribute> overrides;   ///< of the node that `schema->takes_attributes_of` names
 
-  /// Changes the attribute from now on. The value must be of the attribute's type.
+  /// Sets an attribute to a value of its type.
   void set(const std::string& name, AttributeValue new_value);
 
-  /// The script gives the attribute.
+  /// True if the script gives the attribute, or it was set.
   bool gives(const std::string& name) const { return find(name) != nullptr; }
-  /// Where the attribute's value stands; the node's own place if the script does not give it.
+  /// Location of the attribute's value; the node's own if the script does not give it.
   const FileLocation& where_of(const std::string& name) const;
 
   std::string text(const std::string& name) const;  ///< text, choice; empty where there is no default
-  double number(const std::string& name) const;
-  float angle(const std::string& name) const;  ///< radians
-  long integer(const std::string& name) const;
-  bool flag(const std::string& name) const;
-  glm::vec3 vec3(const std::string& name) const;  ///< vec3, colour
+  double number(const std::string& name) const;     ///< in the attribute's unit; 0 where there is no default
+  float angle(const std::string& name) const;       ///< radians
+  long integer(const std::string& name) const;      ///< 0 where there is no default
+  bool flag(const std::string& name) const;         ///< false where there is no default
+  glm::vec3 vec3(const std::string& name) const;    ///< vec3, colour
   /// path, points; those of a repeated attribute follow each other.
   std::vector<glm::vec3> points(const std::string& name) const;
   /// All values of a repeatable event, in the order written.

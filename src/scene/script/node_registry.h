@@ -1,4 +1,5 @@
-// The node types that scripts may use, and what is done when all nodes are built. Each room adds its own.
+// Registry of the node types that scripts may use, and of the steps after all nodes are built. Each room adds
+// its own.
 #pragma once
 
 #include <deque>
@@ -14,48 +15,52 @@ namespace parvis::scene {
 class SceneBuilder;
 struct Model;
 
-/// Adds what the node stands for to the scene. Bad data goes to builder.fail() or builder.warn().
+/// Builds what a node describes into the scene. Bad data is reported by builder.fail() or builder.warn().
 using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
 
-/// Changes the model that the node's parent has read.
+/// Changes the model that the node's parent has loaded.
 using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuilder& builder)>;
 
-/// What is left to do when all nodes of a scene are built: lanes out of roads, ... Bad data goes to
+/// A step after all nodes of a scene are built, for example lanes from roads. Bad data is reported by
 /// builder.fail().
 using FinishStep = std::function<void(SceneBuilder& builder)>;
 
-/// Builds something, or stands in a `model` and changes it, or is a part that the node around it reads.
+/// A node type: it builds something, or changes the `model` that encloses it, or is a part that its parent
+/// reads.
 struct NodeType {
   NodeSchema schema;
   BuildNode build;
   ChangeModel change;
   bool is_part = false;
 
-  /// A change of such a node is a change of what the node around it makes.
+  /// True if a change of such a node requires its parent to be rebuilt.
   bool is_of_parent() const { return change != nullptr || is_part; }
 };
 
-/// The checker puts the nodes of a file in the place of this node.
+/// The checker replaces a node of this type by the nodes of the file that it names.
 inline const std::string include_type = "include";
 
-/// Nodes point into the registry that checked them: it must outlive them.
+/// The node types of the program. Nodes point into the registry that checked them: it must outlive them.
 class NodeRegistry {
  public:
-  /// Types are added once, with defaults that are values of their attribute's type.
+  /// Adds a type that builds something. Asserts that the type is new; defaults must be values of their
+  /// attribute's type.
   void add(NodeSchema schema, BuildNode build);
+  /// Adds a type that changes the model around it. Asserts that the type is new.
   void add_change(NodeSchema schema, ChangeModel change);
-  /// A node type that the build function of its parent reads.
+  /// Adds a type that the build function of its parent reads. Asserts that the type is new.
   void add_part(NodeSchema schema);
-  /// Lets nodes of the type `child`, which is added already, stand in those of another room's type.
+  /// Allows nodes of the type `child`, which must have been added, inside another room's type.
   void allow(const std::string& child, const std::string& parent);
-  /// Steps are done in the order added, once, when a scene is loaded.
+  /// Adds a step; steps run in the order in which they were added, once per loaded scene.
   void add_finish_step(FinishStep step) { finish_steps_.push_back(std::move(step)); }
+  /// In the order in which they run.
   const std::vector<FinishStep>& finish_steps() const { return finish_steps_; }
 
-  const NodeType* find(const std::string& type) const;
-  /// In the order added: those of a family stand together.
+  const NodeType* find(const std::string& type) const;  ///< null if there is no such type
+  /// All types in the order in which they were added: related types stand together.
   const std::deque<NodeType>& types() const { return types_; }
-  std::vector<std::string> type_names() const;
+  std::vector<std::string> type_names() const;  ///< in the order in which they were added
   /// The types of nodes that may stand in one of `parent`.
   std::vector<std::string> children_of(const std::string& parent) const;
 

@@ -1,4 +1,5 @@
-// What the build functions of nodes work on: the scene so far, the frame they stand in, and what went wrong.
+// The state of a scene under construction, as the build functions of nodes see it: the scene so far, the
+// current frame, and the errors.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,17 +16,18 @@
 
 namespace parvis::scene {
 
-/// Where the nodes of a group stand, and whether they are to be seen.
+/// Frame and visibility that a group gives to its nodes.
 struct NodeFrame {
   glm::mat4 world_from_nodes{1.0f};
   bool is_visible = true;
   int number = -1;  ///< of a node that was built: in the order of the script, a node before those inside it
 };
 
-/// Models by what they were made of: objects that look alike share one.
+/// Models by a key that describes how they were made: equal objects share one.
 using SharedModels = std::map<std::string, std::shared_ptr<const Model>>;
 
-/// What a scene that runs keeps of its script. Nodes stay where they are in memory when it is moved.
+/// The nodes of a scene and what each of them made, kept for a running scene. Moving it keeps nodes at their
+/// addresses.
 struct Script {
   const NodeRegistry* registry = nullptr;  ///< must outlive it
   std::vector<Node> nodes;
@@ -35,64 +37,70 @@ struct Script {
   SharedModels models;
 };
 
-/// A scene, and what its author should know about it: missing textures that a placeholder stands for, ...
+/// A loaded scene with its warnings, for example textures replaced by a placeholder.
 struct LoadedScene {
   Scene scene;
   Errors warnings;
   Script script;
 };
 
+/// Builds a scene from checked nodes.
 class SceneBuilder {
  public:
   explicit SceneBuilder(const NodeRegistry& registry, SharedModels models = {})
       : registry_(registry), models_(std::move(models)) {}
 
-  /// What stands in it once (light, rooms' data) is written here; what nodes make any number of is added
-  /// below.
+  /// The scene so far. Values that exist once (light, data of rooms) are written here directly; anything that
+  /// nodes make in numbers goes through `add`.
   Scene scene;
 
-  /// Adds what the node that is being built makes. It is recorded with the node: when the node is built
-  /// again, this and nothing else is replaced.
+  /// Adds an object and records it with the node that is being built: when that node is rebuilt, only its own
+  /// objects, cameras and items are replaced.
   void add(Object object);
+  /// Adds a camera, recorded in the same way.
   void add(NamedCamera camera);
+  /// Adds an item of room data (Scene::items), recorded in the same way.
   template <SceneItem T>
   void add(T item) {
     scene.data<ItemsOf<T>>().add(std::move(item), node_number_);
   }
 
-  /// Builds nodes that stand in a frame inside the present one; hidden ones are built, too.
+  /// Builds nodes inside the current frame; hidden ones are built, too.
   void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
              bool is_visible = true);
-  /// Builds one node again, in the frame in which it stood. What is laid out once is left out. `frames`: in
-  /// which each node stood, for those inside it.
+  /// Rebuilds one node in its former frame; types that are laid out once are skipped. `frames` holds the
+  /// frame of each node, for those inside it.
   void build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames);
 
-  /// Lets a node that stands in a `model` change it.
+  /// Applies a node that stands inside a `model` to that model.
   void change(Model& model, const Node& node) {
     registry_.find(node.schema->type)->change(node, model, *this);
   }
 
-  /// The frame in which the node that is being built stands.
+  /// Frame of the node that is being built: world from the node's parent.
   const glm::mat4& world_from_parent() const { return frame_.world_from_nodes; }
-  /// None of the groups around that node is hidden.
+  /// True if no enclosing group is hidden.
   bool is_visible() const { return frame_.is_visible; }
 
-  /// The model that `make` gave when `key` was first asked for: objects that look alike share one. Null if it
+  /// The model made by `make` when `key` was first requested, so that equal objects share one. Null if `make`
   /// fails.
   std::shared_ptr<const Model> shared_model(const std::string& key,
                                             const std::function<std::shared_ptr<const Model>()>& make);
 
+  /// Records an error: the scene will not load.
   void fail(Error error) { errors_.push_back(std::move(error)); }
+  /// Records several errors.
   void fail(const Errors& errors) { errors_.insert(errors_.end(), errors.begin(), errors.end()); }
-  /// Errors of a file that the node at `where` asked for.
+  /// Records errors of a file that the node at `where` refers to.
   void fail(const Errors& errors, const FileLocation& where);
+  /// Records a warning; the scene still loads.
   void warn(Error warning) { warnings_.push_back(std::move(warning)); }
 
-  /// The scene, when everything is built and the registry's finish steps are done; or all that went wrong.
+  /// Runs the finish steps and returns the scene, or all errors.
   Result<LoadedScene> finish() &&;
 
-  const Errors& errors() const { return errors_; }
-  /// What it noted while it built: all but the nodes.
+  const Errors& errors() const { return errors_; }  ///< recorded so far
+  /// The record of frames and makers, without the nodes.
   Script take_script() &&;
 
  private:

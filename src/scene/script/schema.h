@@ -1,5 +1,5 @@
-// What a node type is to the script's reader: its attributes with types, units, limits and defaults, and the
-// messages that it takes. Errors, `parvis check` and docs/scene-reference.md all come from here.
+// Schemas of node types: attributes with types, units, limits and defaults, and messages. The reader's
+// errors, `parvis check` and docs/scene-reference.md are generated from them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,6 +12,7 @@
 
 namespace parvis::scene {
 
+/// Type of an attribute's value; AttributeValue lists the C++ types.
 enum class AttributeType : unsigned char {
   text,
   number,
@@ -33,6 +34,7 @@ enum class AttributeType : unsigned char {
 /// Limit of one path or points attribute.
 inline constexpr std::size_t max_points = 100'000;
 
+/// One attribute of a node type.
 struct AttributeSchema {
   std::string name = {};
   AttributeType type = AttributeType::text;
@@ -46,25 +48,26 @@ struct AttributeSchema {
   AttributeType source = AttributeType::choice;
   std::vector<std::string> refers_to = {};  ///< types of the nodes that a reference may name; empty: any name
   std::vector<std::string> spellings = {};  ///< other names that are understood
-  bool is_live = false;                     ///< changes while the scene runs: a message of its name sets it
-  std::vector<std::string> in_place_of = {};  ///< attributes that it replaces: a message takes them back
+  bool is_live = false;  ///< may change while the scene runs: a message of its name sets it
+  std::vector<std::string> in_place_of = {};  ///< attributes that a message to this one clears
   bool is_required = false;
   bool is_repeatable = false;
 };
 
-/// What a node can be told while the scene runs: "name argument argument". The last argument takes all the
-/// words that are left.
+/// A message that a node accepts while the scene runs: "name argument argument". The last argument takes all
+/// remaining words.
 struct MessageSchema {
   std::string name = {};
   std::string help = {};                        ///< one line
   std::vector<AttributeSchema> arguments = {};  ///< only the last may be left out
 };
 
-/// The parent of nodes that stand in no other.
+/// Stands for the parent of top-level nodes.
 inline const std::string top_level = "scene";
 
 struct Node;
 
+/// One node type, as the reader, the checker and the reference know it.
 struct NodeSchema {
   std::string type = {};
   std::string help = {};  ///< one line or two
@@ -79,17 +82,17 @@ struct NodeSchema {
   /// Names of the things that the node makes when the scene runs: others may refer to them.
   std::vector<std::string> (*names_made)(const Node& node) = nullptr;
 
-  /// By its name or another spelling.
+  /// The attribute of this name or alternative spelling; null if there is none.
   const AttributeSchema* find(const std::string& name) const;
   const MessageSchema* find_message(const std::string& name) const;  ///< without regard to case
-  /// What it makes may be replaced while the scene runs.
+  /// True if the node's objects may be replaced while the scene runs.
   bool can_be_built_again() const { return !is_laid_out_once || find("visible") != nullptr; }
-  /// Adds what every node type takes: a message for each live attribute; show, hide and toggle where there is
-  /// `visible`.
+  /// Adds the messages that are common to all node types: one for each live attribute; show, hide and toggle
+  /// where there is `visible`.
   void complete_messages();
 };
 
-/// What happens to which node when: the value of an event attribute.
+/// Value of an event attribute: what happens to which node, and when.
 struct Event {
   std::string source, target, message;
   double delay_s = 0.0;
@@ -100,12 +103,11 @@ struct Event {
 using AttributeValue = std::variant<std::string, double, long, bool, glm::vec3, std::vector<glm::vec3>,
                                     std::filesystem::path, Event>;
 
-/// The value that `text` writes. Errors at `where` say what the attribute expects.
+/// Parses a value. Errors at `where` say what the attribute expects.
 Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
                                    const FileLocation& where);
 
-/// What a script writes for the value: `parse_value` reads it back as the same value, as far as seven digits
-/// go.
+/// The value as a script would spell it: `parse_value` reads it back with seven significant digits.
 std::string written_value(const AttributeSchema& schema, const AttributeValue& value);
 
 /// What the attribute expects, in words: `a number in m from 0 to 10`.
@@ -114,8 +116,7 @@ std::string expectation(const AttributeSchema& schema);
 /// How an event is written: "SECONDS, TARGET, MESSAGE, DELAY".
 std::string event_pattern(const AttributeSchema& schema);
 
-/// Numbers parted by white space or commas; nothing where something else stands among them or one is not
-/// finite.
+/// Numbers separated by white space or commas; empty if there is anything else or a number is not finite.
 std::vector<double> parse_numbers(std::string_view text);
 
 }  // namespace parvis::scene

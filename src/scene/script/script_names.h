@@ -1,5 +1,5 @@
-// Names in a scene script, once all its files are read: what nodes refer to, what events send, what scenarios
-// override. A node may refer to one that comes later.
+// Name resolution for a scene script, after all its files are read: references, events and scenario
+// overrides. A node may refer to a later one.
 #pragma once
 
 #include <functional>
@@ -14,18 +14,19 @@
 
 namespace parvis::scene {
 
-/// A node's place, to be looked up by: file, line, column.
+/// Location of a node as a map key: file, line, column.
 using NodePlace = std::pair<std::string, std::pair<int, int>>;
+/// The key of a location.
 inline NodePlace place_of(const FileLocation& where) { return {where.file, {where.line, where.column}}; }
 
-/// What was noted while the files were read.
+/// Names collected while the script's files were read.
 struct ScriptNames {
   std::map<std::string, FileLocation> given;  ///< names, of nodes and of what they make
-  /// Attributes that another node's type must explain, by the place of the node that gives them.
+  /// Attributes that only another node's type can interpret, by the location of the node that gives them.
   std::map<NodePlace, std::vector<ScriptAttribute>> unexplained;
 };
 
-/// Checks every name that the nodes use, and reads their overrides by the schema of the node they override.
+/// Resolves every name that the nodes use, and parses overrides by the schema of the node that they override.
 /// Reports each mistake to `fail`.
 void resolve_names(std::vector<Node>& nodes, const ScriptNames& names, const Roots& roots,
                    const std::function<void(Error)>& fail);

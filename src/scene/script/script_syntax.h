@@ -1,4 +1,4 @@
-// The syntax tree of a scene script: what was written, and where, before anything is known about node types.
+// The syntax tree of a scene script: text and locations, before node types are looked up.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@ struct TextPlace {
   int column = 1;
 };
 
+/// An attribute as written: `name=value`.
 struct ScriptAttribute {
   std::string name;
   std::string value;  ///< without quotes, escapes resolved
   TextPlace name_place;
   TextPlace value_place;
   bool is_quoted = false;
-  std::vector<std::size_t> joints;           ///< where in the value one written text ended and the next began
+  std::vector<std::size_t> joints;           ///< offsets in the value where adjacent strings were joined
   std::vector<std::string> comments_before;  ///< each from its "//" or "#" to the end of its line
   std::vector<std::string> comments_behind;  ///< on the attribute's own line
 };

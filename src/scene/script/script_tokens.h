@@ -1,5 +1,5 @@
-// The words of a scene script (thesis, appendix A): brackets, commas, equals signs, bare words, quoted
-// strings. White space and the comments `// ...` and `# ...` lie between them.
+// Tokens of a scene script (thesis, appendix A): brackets, commas, equals signs, bare words, quoted strings.
+// White space and the comments `// ...` and `# ...` separate them.
 #pragma once
 
 #include <string>
@@ -13,39 +13,42 @@ namespace parvis::scene {
 
 enum class TokenKind : unsigned char { word, string, symbol, end };
 
+/// A comment between tokens.
 struct Comment {
   std::string text;  ///< from its "//" or "#" to the end of its line
   bool begins_line = false;
-  bool has_blank_before = false;  ///< a blank line
+  bool has_blank_before = false;  ///< a blank line stands before it
 };
 
+/// A token with its location and the comments before it.
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;  ///< a string without its quotes; one of ( ) { } , = for a symbol
   TextPlace place = {};
-  bool begins_line = false;              ///< nothing but white space stands before it on its line
-  std::vector<std::size_t> joints = {};  ///< of a string: where in the text its written pieces meet
-  std::vector<Comment> comments = {};    ///< since the token before
-  bool has_blank_before = false;         ///< a blank line, behind its comments
+  bool begins_line = false;              ///< only white space stands before it on its line
+  std::vector<std::size_t> joints = {};  ///< of a string: offsets where adjacent strings were joined
+  std::vector<Comment> comments = {};    ///< since the previous token
+  bool has_blank_before = false;         ///< a blank line stands directly before it
 
+  /// True if the token is this bracket, comma or equals sign.
   bool is(char symbol) const { return kind == TokenKind::symbol && text.front() == symbol; }
 };
 
 /// After this many errors reading stops: more would only repeat them.
 inline constexpr std::size_t max_script_errors = 20;
 
-/// The token as errors quote it: short, and without bytes that a terminal would obey.
+/// The token as errors quote it: shortened, without control characters.
 std::string quoted(const Token& token);
 
-/// Hands out one token after the other in time linear in the text.
+/// Splits a text into tokens, one per call, in linear time.
 class TokenReader {
  public:
-  /// `text` must outlive the reader. Errors in strings are added to `errors` at places in `file`.
+  /// `text` must outlive the reader. Errors in strings are added to `errors` with locations in `file`.
   TokenReader(std::string_view text, std::string file, Errors& errors);
 
-  /// A word ends at white space, a bracket, a comma, '=', a quote or a comment. A string ends on its line; it
-  /// may hold \" \\ \n \t; strings that follow each other join into one. After the last token: `end` for
-  /// ever.
+  /// The next token. A word ends at white space, a bracket, a comma, '=', a quote or a comment. A string ends
+  /// on its line and may contain \" \\ \n \t; adjacent strings are joined. After the last token it returns
+  /// `end`.
   Token next();
 
  private:
