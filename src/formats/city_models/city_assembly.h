@@ -1,5 +1,5 @@
-// A city as one model: polygons of any city format, in the file's own coordinates, become parts in metres
-// about a local origin. CityJSON and CityGML share it.
+// Assembles the polygons of a city model, given in the file's coordinates, into one model in metres about a
+// local origin. Shared by CityJSON and CityGML.
 #pragma once
 
 #include <array>
@@ -16,24 +16,25 @@
 
 namespace parvis::scene {
 
-/// What a surface belongs to.
+/// The city object that a surface belongs to.
 struct CityObject {
   std::string name;
   std::string type;  ///< "Building", "Road", "+Extension"; CityJSON's names
-  std::string use;   ///< what a road is for ("voetpad"), or empty
+  std::string use;   ///< function of a road ("voetpad"), or empty
 };
 
-/// One polygon.
+/// One polygon of a city object.
 struct CitySurface {
   std::vector<std::vector<glm::dvec3>> rings;  ///< the outer one, then holes; m, x east, y north, z up
-  std::string semantics;                       ///< "RoofSurface", or empty
-  int material = no_index;                     ///< of add_material()
-  int picture = no_index;                      ///< of add_picture()
-  std::vector<glm::vec2> picture_uv;  ///< of all points, ring after ring, v downward; empty: not pictured
-  bool is_of_solid = false;           ///< its back is never seen
+  std::string semantics;                       ///< semantic surface type, "RoofSurface"; may be empty
+  int material = no_index;                     ///< index from add_material()
+  int picture = no_index;                      ///< index from add_picture()
+  /// Texture coordinates of all points, ring by ring, v downward; empty: untextured.
+  std::vector<glm::vec2> picture_uv;
+  bool is_of_solid = false;  ///< part of a closed solid: its back is never visible
 };
 
-/// A material as city formats give it, after X3D.
+/// A material as city formats describe it, after X3D.
 struct CityMaterial {
   glm::vec3 diffuse{0.8f};   ///< sRGB, 0..1
   glm::vec3 emissive{0.0f};  ///< sRGB, 0..1
@@ -41,26 +42,30 @@ struct CityMaterial {
   std::optional<float> shininess;  ///< 0..1
 };
 
+/// Collects surfaces, materials and textures of one city file; `finish` builds the model.
 class CityAssembly {
  public:
-  /// `origin`: the file's coordinates of what becomes the model's (0, 0, 0).
+  /// `origin`: the point in the file's coordinates that becomes the model's (0, 0, 0). `warnings` must
+  /// outlive the assembly.
   CityAssembly(const std::filesystem::path& file, const glm::dvec3& origin, Errors& warnings)
       : file_(file), origin_(origin), warnings_(warnings) {}
 
-  /// Materials that look alike are one.
+  /// Index of the material; equal materials get the same index.
   int add_material(const CityMaterial& material);
-  /// A picture file beside the city's, or below its folder.
+  /// Index of a texture; `file` lies beside the city's file, or below its folder.
   int add_picture(const std::string& file, bool repeats);
-  /// Slivers are dropped. Grounds that are no solids are turned to face up.
+  /// Triangulates and adds a surface. Slivers are dropped; ground surfaces that belong to no solid are turned
+  /// to face upward. A surface too far from the origin is left out with a warning.
   void add(const CityObject& object, const CitySurface& surface);
 
+  /// Number of surfaces added, without those left out.
   std::size_t polygon_count() const { return polygon_count_; }
-  /// The first 20 are kept.
+  /// Records a warning about the file; after the first 20, further ones are only counted.
   void warn(const std::string& message);
 
-  /// Parts by tile, name and material. Objects and materials are named after their surfaces ("WallSurface");
-  /// roads' objects add their use. A missing picture is a warning, and a checker stands for it. An error
-  /// where there is no polygon at all (`object_count` objects were looked at), or a coordinate is not finite.
+  /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
+  /// ("WallSurface"); roads' objects add their function. A missing texture is a warning and replaced by a
+  /// checkerboard. Errors: no polygon at all (in `object_count` objects), or a coordinate that is not finite.
   Result<Model> finish(std::size_t object_count);
 
  private:

@@ -9,30 +9,33 @@
 
 namespace parvis::scene {
 
-/// Keyframes in the file, and what of a model they move.
+/// One animation channel: its keyframes in the file, and the node and property of the model that they
+/// animate.
 struct WrittenChannel {
   GltfChunk::Json sampler;
   const char* path = "translation";
-  int node = 0;             ///< of the model; of "weights" the node whose meshes take them
-  std::size_t targets = 0;  ///< how many weights a key has
+  int node = 0;             ///< of the model; for "weights" the node whose meshes are morphed
+  std::size_t targets = 0;  ///< number of morph weights per key
 };
 
+/// The keyframes of one animation of a model, shared by all objects of that model.
 struct WrittenAnimation {
   std::string name;
   std::vector<WrittenChannel> channels;
 };
 
-/// Writes the keyframes of all animations of `model`; objects that share it share them.
+/// Writes the keyframes of all animations of `model` into the chunk, once for all objects that share the
+/// model.
 std::vector<WrittenAnimation> write_keyframes(const Model& model, GltfChunk& chunk);
 
-/// An object of a model, as its nodes stand in the file.
+/// An object and the numbers of its nodes in the file.
 struct WrittenObject {
   std::string name;
-  int first_node = 0;             ///< the file's node of the model's node 0; the others follow
-  std::vector<int> node_of_mesh;  ///< the file's node that each WrittenMesh hangs on
+  int first_node = 0;             ///< file index of the model's node 0; the others follow in order
+  std::vector<int> node_of_mesh;  ///< file index of the node that carries each WrittenMesh
 };
 
-/// The animation as one object plays it.
+/// The glTF animation of one object.
 GltfChunk::Json animation_json(const WrittenAnimation& animation, const WrittenObject& object,
                                const std::vector<WrittenMesh>& meshes);
 

@@ -1,4 +1,4 @@
-// Values out of the JSON of a glTF file, with its defaults; what is of the wrong kind is refused.
+// Typed values from the JSON of a glTF file with their defaults; vectors of the wrong length are refused.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,11 +13,14 @@ template <class... Args>
   throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
 }
 
+/// The number `name` of an object; `otherwise` where it is absent or no number.
 inline float gltf_number(const GltfFile::Json& object, const char* name, float otherwise) {
   const auto found = object.find(name);
   return found != object.end() && found->is_number() ? found->get<float>() : otherwise;
 }
 
+/// The vector of N numbers `name` of an object; `otherwise` where it is absent. Throws GltfProblem where it
+/// is no array of N.
 template <int N>
 glm::vec<N, float> gltf_vector(const GltfFile::Json& object, const char* name, glm::vec<N, float> otherwise) {
   const auto found = object.find(name);
@@ -28,20 +31,21 @@ glm::vec<N, float> gltf_vector(const GltfFile::Json& object, const char* name, g
   return otherwise;
 }
 
-/// The morph targets of a primitive; an empty list where it has none.
+/// The morph targets of a primitive; an empty list if it has none.
 inline const GltfFile::Json& gltf_targets(const GltfFile::Json& primitive) {
   static const GltfFile::Json nothing = GltfFile::Json::array();
   const auto found = primitive.find("targets");
   return found != primitive.end() && found->is_array() ? *found : nothing;
 }
 
-/// The object `name` inside `object`; an empty one where it is absent.
+/// The object `name` inside `object`; an empty one if it is absent.
 inline const GltfFile::Json& gltf_member(const GltfFile::Json& object, const char* name) {
   static const GltfFile::Json nothing = GltfFile::Json::object();
   const auto found = object.find(name);
   return found != object.end() && found->is_object() ? *found : nothing;
 }
 
+/// The extension `name` of an object; an empty one if it is absent.
 inline const GltfFile::Json& gltf_extension(const GltfFile::Json& object, const char* name) {
   return gltf_member(gltf_member(object, "extensions"), name);
 }

@@ -1,4 +1,4 @@
-// A right .glb about a stream of compressed bytes, so that a fuzzer's bytes reach the decoders.
+// A valid .glb around a compressed byte stream, so that a fuzzer's bytes reach the decoders.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,7 +6,8 @@
 
 namespace parvis::scene {
 
-/// One mesh whose positions and indices lie in the bytes of `binary`, in a way that the caller describes.
+/// The JSON of one mesh with float positions and 32-bit indices; the caller adds the compressed buffer views
+/// in `binary`.
 inline nlohmann::json packed_gltf(std::size_t vertices, std::size_t indices) {
   return {{"asset", {{"version", "2.0"}}},
           {"scenes", {{{"nodes", {0}}}}},
@@ -17,6 +18,7 @@ inline nlohmann::json packed_gltf(std::size_t vertices, std::size_t indices) {
             {{"componentType", 5125}, {"count", indices}, {"type", "SCALAR"}}}}};
 }
 
+/// The bytes of a .glb file (glTF 2.0, section 4.4) with the JSON and the binary chunk.
 inline std::string glb(const nlohmann::json& json, std::string binary) {
   std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
