@@ -1,4 +1,4 @@
-// The vehicles of a road graph, moved step by step.
+// Simulation of the vehicles on a road graph, in fixed time steps.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,25 @@
 
 namespace parvis::traffic {
 
+/// Time step of the simulation, seconds.
 inline constexpr float step_s = float(action::step_s);
 
+/// All vehicles on one road graph. The same road graph, shapes, area and seed give the same motion.
 class Simulation {
  public:
   Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> shapes, const Area& area);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Puts up to `wanted` vehicles on the streets of the area, at rest, with room between them, and returns
-  /// how many found room.
+  /// Places up to `wanted` vehicles at rest on the streets of the area, with room between them, and returns
+  /// how many fitted.
   std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
-  /// Lets `step_s` pass. Allocates nothing.
+  /// Advances the simulation by `step_s`. Allocates no memory.
   void step();
 
+  /// Of the road graph, after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
+  /// In the order in which they were placed.
   const std::vector<Vehicle>& vehicles() const { return vehicles_; }
 
  private:

@@ -1,5 +1,5 @@
-// Streets cut before their crossings. A large vehicle that turns swings across the last metres of the streets
-// beside its own; cut off, these metres are shared with it, and the rest of the street is not.
+// Cuts streets before their crossings. A large vehicle that turns sweeps over the last metres of adjacent
+// streets; cut off, only these metres are shared with it, and the rest of the street is not.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,16 @@
 
 namespace parvis::traffic {
 
+/// Role of a lane after cutting.
 enum class LanePart { street, turn, first_metres, last_metres };
 
+/// A road graph with its streets cut.
 struct CutStreets {
-  scene::RoadGraph roads;       ///< lanes that were there keep their index; a cut one is now its first metres
+  scene::RoadGraph roads;       ///< existing lanes keep their index; a cut one becomes its first metres
   std::vector<LanePart> parts;  ///< of each lane
 };
 
-/// Cuts `end_m` off both ends of each street that is long enough to wait on between them.
+/// Cuts `end_m` off both ends of every street of at least six times that length.
 CutStreets cut_streets(const scene::RoadGraph& roads, float end_m);
 
 }  // namespace parvis::traffic

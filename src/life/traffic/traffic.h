@@ -1,6 +1,6 @@
-// Cars, vans and buses on a scene's road graph: they keep to their lanes and their distance, give way at
-// crossings, slow down for bends. From a seed and at a fixed step, so that the same scene gives the same
-// traffic everywhere.
+// Cars, vans and buses on a scene's road graph: they keep their lane and their distance, give way at
+// crossings, and slow down in curves. Seeded and with a fixed time step, so that the same scene gives the
+// same traffic everywhere.
 #pragma once
 
 #include <memory>
@@ -13,28 +13,30 @@
 
 namespace parvis::traffic {
 
-/// "vehicle 1" of the vehicle 0, and so on: cameras follow vehicles by these names.
+/// Name of the object of a vehicle, counted from 1 ("vehicle 1"): cameras follow vehicles by these names.
 inline std::string vehicle_name(std::size_t vehicle) { return fmt::format("vehicle {}", vehicle + 1); }
 
+/// The traffic of one scene.
 class Traffic {
  public:
-  /// Reads the scene's roads and traffic demand. Vehicles start spread over the streets and have driven for a
+  /// Reads the scene's roads and traffic demand. Vehicles are spread over the streets and have driven for a
   /// while.
   explicit Traffic(const scene::Scene& scene);
 
-  /// Appends one object per vehicle ("vehicle 1", "vehicle 2", ...) to the scene, where it stands; once.
+  /// Appends one object per vehicle to the scene at its present place. Call it once.
   void add_vehicles(scene::Scene& scene);
-  /// Lets `step_s` pass. Allocates nothing.
+  /// Advances the simulation by `step_s`. Allocates no memory.
   void step() { simulation_->step(); }
-  /// Moves the objects that add_vehicles appended to where they were `ahead_s`, from 0 to `step_s`, after the
-  /// last step but one: between the last two.
+  /// Places the objects of `add_vehicles` `ahead_s` (0 to `step_s`) after the last step but one: interpolated
+  /// between the last two steps.
   void place(scene::Scene& scene, double ahead_s) const;
 
-  /// What the demand asked for and did not get: no roads, no models, more vehicles than room.
+  /// Parts of the demand that could not be met: no roads, no models, more vehicles than room.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// Number of objects that `add_vehicles` appends.
   std::size_t vehicle_count() const { return simulation_->vehicles().size(); }
-  const Simulation& simulation() const { return *simulation_; }
+  const Simulation& simulation() const { return *simulation_; }  ///< for tests and benches
 
  private:
   std::unique_ptr<Simulation> simulation_;

@@ -1,4 +1,4 @@
-// What driving needs to know of a vehicle's model: its length, where its axles are, which nodes are wheels.
+// Properties of a vehicle's model that driving needs: length, axles, wheels.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 namespace parvis::traffic {
 
+/// A wheel of the model.
 struct Wheel {
   int node = 0;  ///< of the model; its descendants turn with it
   glm::vec3 centre_in_model{0.0f};
@@ -16,7 +17,7 @@ struct Wheel {
   bool is_front = false;  ///< steers
 };
 
-/// A model that drives along its +x. Lengths along x are measured from the model's origin.
+/// A model that drives along its +x axis. Lengths along x are measured from the model's origin.
 struct VehicleShape {
   std::shared_ptr<const scene::Model> model;
   std::vector<glm::mat4> rest_pose;
@@ -27,21 +28,25 @@ struct VehicleShape {
   float middle_y_m = 0.0f;
   float ground_z_m = 0.0f;  ///< lowest point of the model
 
+  /// Length over the bumpers, metres.
   float length_m() const { return front_m - rear_m; }
+  /// Distance between the axles, metres.
   float wheelbase_m() const { return front_axle_m - rear_axle_m; }
+  /// Distance from the front axle to the front bumper, metres.
   float front_overhang_m() const { return front_m - front_axle_m; }
 
-  /// The vehicle with its axles at two points of the ground.
+  /// Transform of the vehicle when its axles are at two points on the ground.
   glm::mat4 world_from_model(glm::vec3 rear_axle_in_world, glm::vec3 front_axle_in_world) const;
+  /// Outline on the ground when its axles are at two points.
   Footprint footprint(glm::vec3 rear_axle_in_world, glm::vec3 front_axle_in_world) const;
 
-  /// Writes model_from_node of every node: wheels turned by `travelled_m`, front wheels steered by `steering`
-  /// (radians, positive to the left). `pose` has one entry a node.
+  /// Writes model_from_node of every node: wheels rotated by `travelled_m`, front wheels steered by
+  /// `steering` (radians, positive to the left). `pose` has one entry per node.
   void set_pose(double travelled_m, float steering, std::vector<glm::mat4>& pose) const;
 };
 
-/// Reads the shape off the model. Wheels are the nodes whose names contain "wheel" (any case) and whose
-/// parent's name does not; a model without wheels gets axles at 30 % of its length from the middle.
+/// Derives the shape from a model. Wheels are nodes whose names contain "wheel" (any case) and whose parents'
+/// names do not; a model without wheels gets axles at 30 % of its length from the middle.
 VehicleShape vehicle_shape(std::shared_ptr<const scene::Model> model);
 
 }  // namespace parvis::traffic
