@@ -1,5 +1,5 @@
-// What a person does in a window: GLFW's keys, mouse and controller, as controls of the visit, happenings of
-// the scene and words to the panel.
+// User input from a GLFW window (keyboard, mouse, controller), translated into navigation, scene events and
+// panel actions.
 #pragma once
 
 #include <array>
@@ -11,20 +11,25 @@ struct GLFWwindow;
 
 namespace parvis::viewer {
 
-/// Listens to one window. Dear ImGui's own callbacks are to be installed after it: they pass on what they
-/// hear. What the panel is pointed at or written into does not reach the visit.
+/// Handles the input of one window. Install Dear ImGui's callbacks after it: they chain to these. Input that
+/// the panel captures does not reach the visit.
 class Input {
  public:
   Input(GLFWwindow* window, Visit& visit, Panel& panel);
   Input(const Input&) = delete;
   ~Input();
 
-  /// Lets things happen, and gives the controls since the last call.
+  /// Processes pending events and returns the controls since the last call.
   Controls poll();
 
+  /// Handles a GLFW key event: an event of the scene, else a command of the viewer.
   void on_key(int key, int action);
+  /// Handles a GLFW mouse button event: an event of the scene, else dragging or selecting with the left
+  /// button.
   void on_button(int button, int action);
+  /// Handles cursor motion, in the window's units: dragging turns the view.
   void on_cursor(double x, double y);
+  /// Handles the mouse wheel, unless the panel captures it.
   void on_wheel(double steps);
 
  private:

@@ -1,5 +1,5 @@
-// How a visitor moves: walks on the ground, flies, or stays with an object. Pure motion, without a window, so
-// that tests can drive it.
+// Motion of the visitor: walks on the ground, flies, or follows an object. Independent of the window, so that
+// tests can drive it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,9 +9,10 @@
 
 namespace parvis::viewer {
 
+/// How the visitor moves.
 enum class Mode { walk, fly, follow };
 
-/// What the visitor's hands do, summed since the last step.
+/// User input, accumulated since the last step.
 struct Controls {
   glm::vec3 move{0.0f};  ///< forward, left, up: -1..1
   glm::vec2 turn{0.0f};  ///< radians: to the left, upward
@@ -19,20 +20,22 @@ struct Controls {
   bool hurries = false;
 };
 
-/// A visitor in the world: z up, heading 0 looks along +x, counter-clockwise from above.
+/// Pose of the visitor in the world: z up; heading 0 looks along +x, counter-clockwise from above.
 class Navigation {
  public:
   explicit Navigation(const Camera& start);
 
-  /// Goes on from another place.
+  /// Jumps to a camera's pose and takes over its field of view; ends following.
   void go_to(const Camera& camera);
+  /// Changes how the visitor moves; resets the speed that the wheel has set.
   void set_mode(Mode mode);
-  Mode mode() const { return mode_; }
+  Mode mode() const { return mode_; }  ///< at present
 
-  /// Moves for `seconds`. When following, `target` is the followed object's world_from_model; walking keeps
-  /// the eye's height over the ground at which walking began.
+  /// Moves for `seconds`. When following, `target` is world_from_model of the followed object; walking keeps
+  /// the present eye height.
   void step(const Controls& controls, float seconds, const glm::mat4& target);
 
+  /// The present camera; looks at the followed object when following.
   Camera camera() const;
 
  private:

@@ -1,5 +1,5 @@
-// What the panel shows of a scene's nodes, as plain rows out of their schemas, and how an edit becomes a
-// message. Without a window: panel_nodes.cpp draws the rows.
+// The panel's rows for a scene's nodes, as plain data derived from their schemas, and the message that an
+// edit sends. Independent of the window: panel_nodes.cpp draws the rows.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace parvis::viewer {
 
-/// A node in the tree, or of what is found in it.
+/// A node in the tree or in the search result.
 struct NodeRow {
   const scene::Node* node = nullptr;
   int depth = 0;
@@ -23,15 +23,15 @@ struct NodeRow {
   std::string says;         ///< the first that the script gives it: distinguishes unnamed nodes
 };
 
-/// The nodes from the top on; those inside a node follow it where it is in `open`. With a `filter`: those
-/// whose kind or name holds it, without regard to case, and those around them.
+/// The rows of the tree: children follow a node that is in `open`. With a `filter`: the nodes whose kind or
+/// name contains it (any case), and their ancestors.
 std::vector<NodeRow> node_rows(const scene::LiveScene& live, const std::set<const scene::Node*>& open,
                                const std::string& filter = "");
 
-/// How a value is edited.
+/// Kind of widget for a value.
 enum class Editor : unsigned char { text, number, whole_number, flag, choice, three_numbers, colour };
 
-/// One attribute of a node, as it is now.
+/// The present state of one attribute of a node.
 struct AttributeRow {
   const scene::AttributeSchema* schema = nullptr;
   Editor editor = Editor::text;
@@ -42,18 +42,19 @@ struct AttributeRow {
   std::string fixed_because;        ///< why it cannot be changed while the scene runs; empty: it can
 };
 
-/// In the schema's order.
+/// The attributes of a node in the order of its schema.
 std::vector<AttributeRow> attribute_rows(const scene::LiveScene& live, const scene::Node& node);
 
-/// How a drag over a number goes.
+/// Sensitivity and format of a number that is edited by dragging.
 struct DragStyle {
-  float speed = 0.01f;  ///< a pixel, in the script's units
-  std::string format;   ///< of printf: "%.2f m"
+  float speed = 0.01f;  ///< per pixel, in the script's units
+  std::string format;   ///< printf format: "%.2f m"
 };
+/// The style for an attribute's type and unit.
 DragStyle drag_style(const scene::AttributeSchema& schema);
 
-/// The message that gives the attribute what the row holds: its numbers, or its text where it is edited as
-/// such. "position 1 2 0".
+/// The message that sets the attribute to the row's content (its numbers, or its text where text is edited):
+/// "position 1 2 0".
 std::string edit_message(const AttributeRow& row);
 
 }  // namespace parvis::viewer

@@ -1,4 +1,4 @@
-// Rows of a panel: a name on the left, what shows or changes it on the right. Thin over Dear ImGui.
+// Rows of a panel: label on the left, value or widget on the right. A thin layer over Dear ImGui.
 #pragma once
 
 #include <array>
@@ -12,43 +12,49 @@
 
 namespace parvis::viewer {
 
-/// Where something was drawn, in the window: for those who point at things (tests, a tutor).
+/// Rectangle in the window where a widget was drawn; for tests and tutorials that point at it.
 struct Place {
   ImVec2 low, high;
 };
+/// Widgets by name.
 using Places = std::map<std::string, Place>;
 
-/// Lives longer than a frame: it remembers what a person drags.
+/// Draws rows. Lives longer than a frame: it keeps the number that is being dragged.
 class PanelRows {
  public:
+  /// `fonts` must outlive the rows.
   explicit PanelRows(const Fonts& fonts) : fonts_(fonts) {}
 
-  /// Of what was drawn since `forget_places`.
+  /// Rectangles of the widgets drawn since `forget_places`.
   const Places& places() const { return places_; }
+  /// Call at the start of a frame.
   void forget_places() { places_.clear(); }
 
+  /// A section heading.
   void heading(const char* text);
-  /// Small words below or between rows.
+  /// Small text below or between rows.
   void remark(const std::string& text, const ImVec4& colour = dim_text);
 
+  /// A read-only value; a tooltip shows it in full if it is cut off.
   void value(const std::string& name, const std::string& text);
-  /// The chosen one's index, when a person chooses. `current` may be none of them.
+  /// A drop-down list. Returns the index when the user chooses; `current` need not be among the choices.
   std::optional<std::size_t> choice(const std::string& name, const std::vector<std::string>& choices,
                                     const std::string& current, const std::string& help = "");
+  /// A check box. Returns true when the user changes it.
   bool flag(const std::string& name, bool& is_on, const std::string& help = "");
-  /// One number or three, dragged; or written, after a double click. True when changed.
+  /// One number or three, edited by dragging, or by typing after a double click. Returns true when changed.
   bool drag(const std::string& name, double* numbers, int count, const DragStyle& style, double least,
             double most, const std::string& help = "");
-  /// A linear colour of any strength: its hue and its strength apart. True when changed.
+  /// A linear colour of any intensity: hue and intensity are edited separately. Returns true when changed.
   bool colour(const std::string& name, std::array<double, 3>& linear, const DragStyle& style,
               const std::string& help = "");
-  /// True when a person ends the text with Enter.
+  /// A text field. Returns true when the user presses Enter.
   bool text(const std::string& name, std::string& text, const std::string& help = "");
 
-  /// Buttons beside each other over the whole width; the pressed one's index.
+  /// A row of buttons over the whole width; returns the index of the one pressed.
   std::optional<std::size_t> buttons(const std::vector<std::string>& names, std::size_t lit);
 
-  /// Notes where the last thing of ImGui was drawn.
+  /// Records the rectangle of ImGui's last item.
   void note_place(const std::string& name);
 
  private:

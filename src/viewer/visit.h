@@ -1,5 +1,5 @@
-// One visit to a stage: where the visitor stands, what they follow and have chosen, which notices they see.
-// All that keys and the panel can do, without a window.
+// One visit to a stage: the visitor's pose, the followed object, the selection, the notices. The operations
+// behind keys and panel, independent of the window.
 #pragma once
 
 #include <filesystem>
@@ -11,55 +11,63 @@
 
 namespace parvis::viewer {
 
-/// A notice that a visitor sees for a while.
+/// A message that is displayed for a while.
 struct Notice {
   std::string text;
   bool is_error = false;
   double ends_s = 0.0;  ///< in the visit's time
 };
 
-/// Where pictures go, and what their names begin with.
+/// Folder and name prefix of saved pictures.
 struct PicturePlace {
   std::filesystem::path folder;
   std::string name;
 };
 
+/// State and operations of one visit. Failures become notices, unless they are returned.
 class Visit {
  public:
-  /// The stage outlives the visit.
+  /// The stage must outlive the visit.
   Visit(house::Stage& stage, const Camera& start, PicturePlace pictures);
 
-  /// Lets `passed_s` pass, for the scene and the visitor's motion at most a tenth of a second: after a halt,
-  /// life goes on where it stopped.
+  /// Advances scene and visitor by `passed_s`, but at most by a tenth of a second: after a pause of the
+  /// program the scene continues where it stopped.
   void step(const Controls& controls, float passed_s);
-  Camera camera() const { return navigation_.camera(); }
+  Camera camera() const { return navigation_.camera(); }  ///< the visitor's present view
 
-  Mode mode() const { return navigation_.mode(); }
-  /// To follow without a vehicle to follow flies.
+  Mode mode() const { return navigation_.mode(); }  ///< walk, fly or follow
+  /// Changes the mode and ends a tour. Following without an object to follow becomes flying.
   void set_mode(Mode mode);
-  /// The objects that can be followed: those that move and are to be seen.
+  /// Indices of the objects that can be followed: visible dynamic ones.
   std::vector<int> vehicles() const;
-  /// Index of the object; -1 where none has been followed yet.
+  /// Index of the followed object; -1 if none has been followed yet.
   int followed() const { return followed_; }
+  /// Follows an object of the scene by its index.
   void follow(int object);
+  /// Follows the next of `vehicles`, cyclically.
   void follow_next_vehicle();
 
+  /// Goes to a camera of the scene by name.
   void look_from(const std::string& camera);
+  /// Starts a tour of the scene by name; any motion of the visitor ends it.
   void start_tour(const std::string& name);
-  /// Empty: the base scene.
+  /// Activates a scenario; empty: the base scene.
   void show_scenario(const std::string& name);
-  /// Through the scene's scenarios in their order, then the base scene.
+  /// Cycles through the scenarios in their order, then the base scene.
   void show_next_scenario();
 
-  /// The node that made what stands at a pixel of the picture drawn last; null where it is the sky, or what
-  /// no node made.
+  /// The node that made the object at a pixel of the last picture; null for the sky and for objects that no
+  /// node made.
   const scene::Node* node_at(glm::ivec2 pixel);
-  /// Sends a message to a node; errors say what it expects, and nothing has changed then. What cannot be
-  /// built is a notice, a step later.
+  /// Sends a message to a node. An error says what the node expects; nothing changes then. If the changed
+  /// node cannot be built, a notice says so one step later.
   Status tell(const scene::Node& node, const std::string& message);
-  // Light and reflections: attributes of the nodes that stand for them, seen with the next step.
+  // Light and reflections: attributes of their nodes; visible with the next step.
+  /// Sets the sun's compass direction (0 north, 90 east) and elevation, degrees.
   void set_sun(float azimuth_deg, float elevation_deg);
+  /// Sets the factor on radiance before the tone curve.
   void set_exposure(float exposure);
+  /// Selects a reflection method by its name in the registry.
   void set_reflection(const std::string& method);
 
   /// The processes that say what they do (Process::status): traffic, a crowd. They are halted together.
@@ -71,18 +79,20 @@ class Visit {
   /// Halts them and moves them on by a tenth of a second.
   void step_halted();
 
-  /// Writes what was drawn last, without the panel, into a new file.
+  /// Saves the last picture, without the panel, as a new file.
   void take_picture();
 
+  /// Displays a message for a few seconds.
   void notice(std::string text);
+  /// Displays an error, for longer.
   void notice_error(std::string text);
-  /// Those that are to be read now, the oldest first.
+  /// The notices to be displayed now, oldest first.
   const std::vector<Notice>& notices() const { return notices_; }
 
-  house::Stage& stage() { return stage_; }
-  const scene::Scene& scene() const { return stage_.scene(); }
-  action::Actions& actions() { return stage_.play().actions(); }
-  scene::LiveScene& live() { return stage_.play().live(); }
+  house::Stage& stage() { return stage_; }                        ///< as given
+  const scene::Scene& scene() const { return stage_.scene(); }    ///< the stage's
+  action::Actions& actions() { return stage_.play().actions(); }  ///< events, messages and tours
+  scene::LiveScene& live() { return stage_.play().live(); }       ///< nodes and scenarios
 
  private:
   void set(const char* type, const char* attribute, scene::AttributeValue value);

@@ -1,5 +1,5 @@
-// A scene in motion: script, traffic, renderer and reflections put together. What every command that shows
-// something uses.
+// A running scene and its renderer: script, traffic, reflections and rendering combined. Used by every
+// command that renders.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@
 
 namespace parvis::house {
 
-/// A scene that runs: with its processes, which the clock drives.
+/// A running scene: data and the clock that drives its processes.
 struct Play {
   const House* house;  ///< not owned: the rooms whose nodes, processes, drawables and methods it uses
   scene::Scene scene;
@@ -33,16 +33,16 @@ struct Play {
   const scene::LiveScene& live() const { return clock.live(); }
   action::Actions& actions() const { return *clock.find<action::Actions>(); }
 
-  /// Lets `seconds` pass. `visitor` is where the eye is, for what happens near it. Returns the warnings,
-  /// which it also prints on standard error.
+  /// Advances all processes by `seconds`. `visitor` is the eye's position, for processes near it. Returns the
+  /// warnings, which are also printed on standard error.
   Errors advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
 
-  /// The camera of that name where it is now (it may follow an object); an unnamed one: that of a tour that
-  /// runs, or the one that a message chose, or the scene's first, or a view of the whole where it has none.
-  /// Errors name the cameras that there are.
+  /// The present pose of the named camera (it may follow an object). Without a name: that of a running tour,
+  /// else the one chosen by a message, else the scene's first, else an overview. Errors list the existing
+  /// cameras.
   Result<Camera> camera(const std::string& name) const;
 };
-/// Begins the processes of a scene; `live` holds the nodes of its script. Warnings are written to standard
+/// Starts the processes of a scene; `live` holds the nodes of its script. Warnings are written to standard
 /// error. `house` must live as long as the play.
 Play make_play(const House& house, scene::Scene scene, scene::LiveScene live);
 /// The same of a scene without a script.
@@ -51,46 +51,48 @@ Play make_play(const House& house, scene::Scene scene);
 Result<Play> open_play(const House& house, const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders);
 
-/// Draws a play with an OpenGL context that is current.
+/// Renders a play. Needs a current OpenGL context.
 class Stage {
  public:
+  /// Prepares the scene's reflection method, uploads the scene and compiles the shaders. Errors: those of the
+  /// method's preparation, or of a shader.
   static Result<std::unique_ptr<Stage>> create(Play play);
   Stage(const Stage&) = delete;
 
-  Play& play() { return play_; }
+  Play& play() { return play_; }  ///< the running scene
   /// The rooms whose nodes, processes, drawables and methods the stage uses.
   const House& house() const { return *play_.house; }
-  const scene::Scene& scene() const { return play_.scene; }
-  render::Renderer& renderer() { return *renderer_; }
-  const methods::Reflections& reflections() const { return *reflections_; }
-  /// Of the passes of a frame: shadows, reflections, picture; those who draw more add theirs.
+  const scene::Scene& scene() const { return play_.scene; }  ///< as of the last step
+  render::Renderer& renderer() { return *renderer_; }        ///< for other views and readbacks
+  const methods::Reflections& reflections() const { return *reflections_; }  ///< the active reflection method
+  /// Times of the passes of a frame: shadows, reflections, picture; callers may add passes.
   gl::PassTimes& pass_times() { return pass_times_; }
 
-  /// Shows another scenario (empty: the base scene) from the next frame on; loads nothing.
+  /// Activates another scenario (empty: the base scene) from the next frame on; loads nothing.
   Status choose_scenario(const std::string& name) { return play_.live().choose(play_.scene, name); }
-  /// Changes the method of reflection.
+  /// Replaces the reflection method. Fails if its shaders or its data cannot be prepared.
   Status set_reflection(const methods::Settings& reflection);
 
-  /// Holds the scene's budget by how long the passes of a frame took: by the levels of reflections, and by
-  /// the size at which the picture is drawn. For windows: pictures that follow a clock cannot be repeated.
+  /// Keeps the frame within the scene's time budget, by measured times of the passes: through the levels of
+  /// detail of reflections and the resolution of the picture. For windows: the result depends on the machine.
   void follow_clock();
 
   /// See Play::camera.
   Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
 
-  /// Draws the frame of now: shadows, reflections, picture. Takes over what scenarios and messages have
-  /// changed.
+  /// Renders the present frame: shadows, reflections, picture. Applies the changes of scenarios and messages
+  /// first.
   void draw(const Camera& camera, int width, int height);
-  /// Shows what was drawn last in a framebuffer (0: the window's).
+  /// Displays the last frame in a framebuffer (0: the window's).
   void display(GLuint framebuffer) const {
     renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
   }
-  /// Of the picture that was drawn last, as it is shown.
+  /// Width of the last frame as displayed, pixels.
   int width() const { return width_; }
-  int height() const { return height_; }
-  /// What was drawn last, tone-mapped with the scene's exposure.
+  int height() const { return height_; }  ///< of the last frame as displayed, pixels
+  /// The last frame, tone-mapped with the scene's exposure.
   Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
-  /// The same by the ray tracer, with the renderer's own shadow maps; all of it or a window.
+  /// The same view by the ray tracer, with the renderer's shadow maps; completely or a window of it.
   reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                  const reference::PixelWindow& window = {});
 
