@@ -1,4 +1,4 @@
-// A vehicle's body as meshes, one for each thing it is made of.
+// A vehicle's body as meshes, one per material.
 #pragma once
 
 #include <array>
@@ -9,11 +9,13 @@
 
 namespace parvis::city {
 
+/// One mesh for each CarSurface.
 using CarMeshes = std::array<Mesh, std::size_t(CarSurface::count)>;
 
+/// The spline surface of one side of the body, with the sections as columns of its control net.
 SplineSurface body_surface(const CarShape& shape);
 
-/// The whole body with wheel arches and underside; closed but for the seams between its surfaces.
+/// The complete body with wheel arches and underside; closed except for seams between its surfaces.
 CarMeshes body_meshes(const CarShape& shape);
 
 }  // namespace parvis::city

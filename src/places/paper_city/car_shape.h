@@ -1,5 +1,5 @@
-// The shapes of the city's vehicles as tables: sections of the body, what its surface is made of where, and
-// its wheels. Metres; x forward, y left, z up, the road at z = 0.
+// The shapes of the city's vehicles as tables: sections of the body, regions of materials, and wheels.
+// Metres; x forward, y left, z up, the road at z = 0.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace parvis::city {
 
-/// One column of the body's control net, from the sill up to the middle of the roof. Bonnet and boot lie
-/// between `belt` and `top` like the roof does: where there is no cabin, these are low.
+/// One column of the body's control net, from the sill to the middle of the roof. Bonnet and boot lie between
+/// `belt` and `top` like the roof: where there is no cabin, these are low.
 struct BodySection {
   float x = 0.0f, x_belt = 0.0f, x_top = 0.0f;  ///< of the side, of the foot of the windows, of the roof
   float half_width = 0.0f, half_belt = 0.0f, half_top = 0.0f;
@@ -18,15 +18,17 @@ struct BodySection {
         top = 0.0f;  ///< heights; edge: of the roof's side
 };
 
+/// Materials of a vehicle's body.
 enum class CarSurface : std::uint8_t { paint, glass, black, chrome, lamp, tail_lamp, indicator, count };
 
-/// A rectangle of the body's parameters, in columns and rows of its net, with what it is made of. Later ones
-/// cover earlier ones.
+/// A rectangle in the parameters of the body's surface (columns and rows of its net) with its material. Later
+/// rectangles cover earlier ones.
 struct BodyRegion {
   float u0 = 0.0f, u1 = 0.0f, v0 = 0.0f, v1 = 0.0f;
   CarSurface surface = CarSurface::paint;
 };
 
+/// A vehicle's dimensions, metres.
 struct CarShape {
   std::string name;
   std::vector<BodySection> sections;
@@ -38,9 +40,9 @@ struct CarShape {
   float plate_height = 0.45f;
 };
 
-CarShape saloon_shape();
-CarShape hatchback_shape();
-CarShape van_shape();
-CarShape bus_shape();
+CarShape saloon_shape();     ///< four-door car with a boot
+CarShape hatchback_shape();  ///< small car with a tailgate
+CarShape van_shape();        ///< delivery van
+CarShape bus_shape();        ///< city bus
 
 }  // namespace parvis::city

@@ -1,4 +1,4 @@
-// The materials of the generated city: one table of textures and surfaces that all its parts share.
+// The materials of the generated city: one table that all its parts share.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@ namespace parvis::city {
 
 inline constexpr int wall_tints = 2;  ///< paints of each facade style
 
+/// Index of a material in the city's model.
 enum class CityMaterial : std::uint8_t {
   first_wall = 0,  ///< style * wall_tints + tint
   ground_floor = facade_style_count * wall_tints,
@@ -33,9 +34,10 @@ enum class CityMaterial : std::uint8_t {
   count
 };
 
+/// The wall material of a facade style (below facade_style_count) in one of its paints (below wall_tints).
 CityMaterial wall_material(int style, int tint);
 
-/// Paints all textures, in parallel, and fills `model`'s tables: material i is CityMaterial(i).
+/// Paints all textures in parallel and fills `model`'s tables: material i is CityMaterial(i).
 void add_city_materials(scene::Model& model, std::uint64_t seed);
 
 }  // namespace parvis::city

@@ -1,5 +1,5 @@
-// Gathers the triangles of the city by block and material, so that what is not seen can be left out in one
-// step.
+// Collects the triangles of the city by group and material, so that groups outside the view are culled as a
+// whole.
 #pragma once
 
 #include <map>
@@ -17,20 +17,22 @@ struct Corner {
   glm::vec2 uv{0.0f};
 };
 
+/// Triangles of the city under construction.
 class CityMesh {
  public:
-  /// What follows belongs to the part of the city of this name.
+  /// Starts a group: subsequent triangles belong to it.
   void begin_group(std::string name) { group_ = std::move(name); }
 
-  /// Counter-clockwise seen from outside; one flat normal.
+  /// Adds a triangle, counter-clockwise seen from outside, with a flat normal.
   void triangle(CityMaterial material, const Corner& a, const Corner& b, const Corner& c);
+  /// Adds a planar quad in the same way, as two triangles.
   void quad(CityMaterial material, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
-  /// A quad whose corner `a` has texture coordinates `foot`, and `c` across has `top`.
+  /// Adds a quad whose corner `a` has texture coordinates `foot`, and the opposite corner `c` has `top`.
   void quad(CityMaterial material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec2 foot,
             glm::vec2 top);
 
-  std::size_t triangle_count() const { return triangles_; }
-  /// Moves everything into parts of `model`, named "group material", on node 0.
+  std::size_t triangle_count() const { return triangles_; }  ///< of all groups
+  /// Moves all meshes into parts of `model`, named "group material", on node 0.
   void move_into(scene::Model& model);
 
  private:

@@ -1,4 +1,4 @@
-// The upper floors of houses: a sheet of four bays by three floors in each of eight styles, repeated over a
+// Textures of upper floors: for each of eight styles a sheet of four bays by three floors, repeated over a
 // facade.
 #pragma once
 
@@ -11,6 +11,7 @@
 
 namespace parvis::city {
 
+/// Wall, windows and ornament of a facade.
 struct FacadeStyle {
   std::string name;
   Wall wall = Wall::plaster;
@@ -25,9 +26,10 @@ inline constexpr int facade_bays = 4, facade_floors = 3;  // on one sheet
 inline constexpr float facade_bay_m = 3.2f,
                        facade_floor_m = 3.4f;  // as painted; buildings stretch them a little
 
-/// The styles, made of the palette of a town of the south.
+/// The styles, in the palette of a southern city.
 const std::array<FacadeStyle, facade_style_count>& facade_styles();
 
+/// Paints the sheet of a style.
 SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed);
 
 }  // namespace parvis::city

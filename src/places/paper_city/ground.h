@@ -1,5 +1,5 @@
-// Roads, crossings, pavements with their kerbs, courtyards, parks, lamps and bollards: exactly what the
-// paper's count leaves.
+// Roads, crossings, pavements with kerbs, courtyards, parks, lamps and bollards, with exactly the number of
+// triangles that the paper's total leaves.
 #pragma once
 
 #include "places/paper_city/city_mesh.h"
@@ -9,6 +9,7 @@ namespace parvis::city {
 
 inline constexpr std::size_t ground_triangles = 1600;  // 500,000 less buildings and trees
 
+/// Adds the ground and the street furniture of the plan: exactly `ground_triangles` triangles.
 void add_ground(CityMesh& mesh, const StreetPlan& plan);
 
 }  // namespace parvis::city

@@ -1,4 +1,4 @@
-// What is painted in the kitchen: tiles, stone, wood, cloth, skins of fruit.
+// Textures of the kitchen: tiles, stone, wood, cloth, skins of fruit.
 #pragma once
 
 #include <cstdint>
@@ -7,21 +7,22 @@
 
 namespace parvis::city {
 
-/// Metres that a sheet covers, square.
+/// Side of the square that each sheet covers, metres.
 inline constexpr float floor_sheet_m = 1.2f, front_sheet_m = 0.6f, wood_sheet_m = 0.6f, cloth_sheet_m = 0.24f;
 
+/// The tiled wall behind the worktop, as one sheet of 3.6 m x 0.6 m.
 SurfacePictures wall_tile_pictures(std::uint32_t seed);
-SurfacePictures floor_pictures(std::uint32_t seed);
-SurfacePictures worktop_pictures(std::uint32_t seed);
-SurfacePictures front_pictures(std::uint32_t seed);
-SurfacePictures wood_pictures(std::uint32_t seed);
-SurfacePictures cloth_pictures(std::uint32_t seed);
-/// Of things turned on a lathe: once round, from the top down.
+SurfacePictures floor_pictures(std::uint32_t seed);    ///< dark and light tiles in a checkerboard
+SurfacePictures worktop_pictures(std::uint32_t seed);  ///< terrazzo; one sheet of 3.6 m x 0.66 m
+SurfacePictures front_pictures(std::uint32_t seed);    ///< painted fronts of cupboards, brushed
+SurfacePictures wood_pictures(std::uint32_t seed);     ///< grain along x
+SurfacePictures cloth_pictures(std::uint32_t seed);    ///< white with red checks
+/// Skin of an orange: u once around, v from the top down.
 SurfacePictures orange_pictures(std::uint32_t seed);
-SurfacePictures apple_pictures(std::uint32_t seed);
-SurfacePictures banana_pictures(std::uint32_t seed);
+SurfacePictures apple_pictures(std::uint32_t seed);   ///< red and yellow; layout of orange_pictures
+SurfacePictures banana_pictures(std::uint32_t seed);  ///< yellow with brown spots, green toward the ends
 
-/// Black, with an alpha that fades from the middle outward: under things that stand.
+/// A contact shadow: black, with alpha fading from the centre outward; for objects that stand on a surface.
 Image8 shade_picture();
 
 }  // namespace parvis::city

@@ -1,4 +1,4 @@
-// Sprays of leaves and bark.
+// Textures of trees: sprays of leaves, and bark.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,12 @@
 
 namespace parvis::city {
 
-/// A twig with its leaves, cut out by alpha. The twig grows from the middle of the sheet's foot.
+/// A twig with its leaves, cut out by alpha. The twig grows from the middle of the bottom edge.
 SurfacePictures leaf_pictures(glm::vec3 colour, std::uint32_t seed);
 
+/// Width of the bark sheet around the trunk, metres; it is twice as high.
 inline constexpr float bark_sheet_m = 1.0f;
+/// Bark of one colour; the sheet tiles.
 SurfacePictures bark_pictures(glm::vec3 colour, std::uint32_t seed);
 
 }  // namespace parvis::city

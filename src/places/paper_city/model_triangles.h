@@ -1,4 +1,4 @@
-// Triangles of a city model on their way to another material.
+// Moves triangles of a city model to other materials.
 #pragma once
 
 #include <array>
@@ -13,24 +13,27 @@
 
 namespace parvis::city {
 
+/// A triangle taken out of a model.
 struct ModelTriangle {
   std::array<glm::vec3, 3> corners;  ///< in the model's frame
   glm::vec3 normal{0.0f};            ///< unit
   int node = 0;
   std::array<glm::vec3, 3> corners_in_node;
-  std::size_t building = 0;  ///< triangles that hang together have the same
+  std::size_t building = 0;  ///< number of its building: equal for connected triangles
 };
 
-/// Takes the triangles with a wanted normal out of the parts that match the pattern `target`, and numbers the
-/// buildings.
+/// Removes the triangles whose normals are wanted from the parts that match the pattern `target`, and numbers
+/// the buildings.
 std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view target,
                                           const std::function<bool(glm::vec3 normal)>& is_wanted);
 
-/// Puts triangles back as parts of one name, by node and material.
+/// Adds triangles to a model as parts with one object name, one for each node and material.
 class DressedParts {
  public:
+  /// `model` must outlive this; `object` is the name of the parts.
   DressedParts(scene::Model& model, std::string object) : model_(model), object_(std::move(object)) {}
 
+  /// Adds a triangle with flat normal and its texture coordinates to the part of its node and this material.
   void add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs);
 
  private:
@@ -39,7 +42,7 @@ class DressedParts {
   std::map<std::pair<int, int>, std::size_t> parts_;
 };
 
-/// Adds a picture and returns its index.
+/// Adds a texture and returns its index.
 int add_texture(scene::Model& model, const std::string& name, Image8 image, bool is_srgb);
 
 }  // namespace parvis::city

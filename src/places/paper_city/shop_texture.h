@@ -1,5 +1,5 @@
-// The ground floors of houses: one sheet with two strips, shop fronts below and houses' doors and barred
-// windows above.
+// Texture of ground floors: one sheet with strips of shop fronts, and a strip of house doors and barred
+// windows.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,10 @@ inline constexpr float shop_module_m = 5.12f;  // width of a shop, and of a door
 inline constexpr int shop_modules = 5;         // in a strip
 inline constexpr int shop_strips = 3, house_strip = shop_strips, ground_floor_strips = 4;
 
-/// Texture coordinates v of a strip: (foot, top).
+/// Texture coordinates v of a strip: (bottom, top).
 glm::vec2 ground_floor_strip(int strip);
 
+/// Paints the sheet of all strips.
 SurfacePictures ground_floor_pictures(std::uint32_t seed);
 
 }  // namespace parvis::city

@@ -1,5 +1,5 @@
-// A sheet on which materials are painted in metres: colour, relief, gloss and openness together, so that the
-// pictures of a material (colour, normal, surface) always agree.
+// A canvas in metres on which materials are painted: colour, relief, roughness and occlusion together, so
+// that the textures of a material (colour, normal, surface) always agree.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -20,48 +20,52 @@ struct Texel {
   float alpha = 1.0f;
 };
 
-/// In metres; x to the right, y up from the foot of the sheet.
+/// A rectangle in metres; x to the right, y up from the bottom of the sheet.
 struct Rect {
   float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
 
-  float width() const { return x1 - x0; }
-  float height() const { return y1 - y0; }
+  float width() const { return x1 - x0; }   ///< metres
+  float height() const { return y1 - y0; }  ///< metres
+  /// The rectangle with each side moved inward by `by` metres.
   Rect inset(float by) const { return {x0 + by, y0 + by, x1 - by, y1 - by}; }
 };
 
-/// How deep the relief of a normal picture goes: its alpha is 0 so far below the sheet, 1 at it.
+/// Depth of relief in a normal texture: its alpha is 0 this far below the sheet, 1 on it.
 inline constexpr float canvas_relief_m = 0.25f;
 
-/// The three pictures of glTF's metallic-roughness surface.
+/// The three textures of glTF's metallic-roughness material.
 struct SurfacePictures {
   Image8 colour, normal, surface;
 };
 
+/// The sheet under construction.
 class SurfaceCanvas {
  public:
-  /// Every pixel starts as `ground`. Painting wraps round all four edges: the sheet tiles.
+  /// Fills the sheet with `ground`. Painting wraps around all four edges, so the sheet tiles.
   SurfaceCanvas(int width_px, int height_px, float width_m, float height_m, const Texel& ground = {});
 
-  float width_m() const { return width_m_; }
-  float height_m() const { return height_m_; }
+  float width_m() const { return width_m_; }    ///< of the sheet
+  float height_m() const { return height_m_; }  ///< of the sheet
 
-  /// Calls paint(x_m, y_m, texel) for the pixels whose centre lies in `rect`; x_m and y_m are not wrapped.
+  /// Calls paint(x_m, y_m, texel) for the texels whose centres lie in `rect`; x_m and y_m are not wrapped.
   template <class Paint>
   void paint(const Rect& rect, Paint&& paint);
+  /// Calls paint(x_m, y_m, texel) for all texels.
   template <class Paint>
   void paint_all(Paint&& body) {
     paint(Rect{0.0f, 0.0f, width_m_, height_m_}, body);
   }
 
-  /// Covers a rectangle with a material; pixels at its edges are mixed by their covered share.
+  /// Fills a rectangle with a material; texels on its edges are blended by coverage.
   void fill(const Rect& rect, const Texel& material);
-  /// Darkens the ambient light in a rectangle by `amount` at its top, fading to nothing at its foot.
+  /// Adds ambient occlusion in a rectangle: `amount` at its top, fading to zero at its bottom.
   void shade_below(const Rect& rect, float amount);
-  /// The same from the left edge to the right (or back, for a negative amount).
+  /// Adds ambient occlusion from the left edge to the right (right to left for a negative amount).
   void shade_beside(const Rect& rect, float amount);
 
-  /// Colour (sRGB, with alpha), normals from the relief with its depth as alpha, and
-  /// occlusion-roughness-metallic. `normal_shrink` and `surface_shrink` divide the size of those pictures.
+  /// The textures: colour (sRGB, with alpha), normals from the relief with its depth as alpha, and
+  /// occlusion-roughness-metallic. `normal_shrink` and `surface_shrink` divide the resolution of the latter
+  /// two.
   SurfacePictures pictures(int normal_shrink, int surface_shrink) const;
 
  private:

@@ -1,5 +1,5 @@
-// Trees of exactly the paper's 59,100 triangles, and small ones for places with many: branches as tubes,
-// leaves as cut-out quads that light shines through.
+// Trees of exactly the paper's 59,100 triangles, and small ones for scenes with many: branches as tubes,
+// leaves as cutout quads with translucency.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,13 @@ inline constexpr std::size_t tree_triangles = 59100;  // the paper, section 7
 /// Species 0: a slender street tree; 1: a wide park tree. The foot is at the origin.
 scene::Model make_tree(int species, std::uint64_t seed);
 
+/// Position and height of a small tree.
 struct TreeSpot {
   glm::vec3 foot;  ///< in the model's frame
   float height_m;
 };
 
-/// Plants trees of about a thousand triangles each, every one its own, in the root of a model's nodes.
+/// Plants trees of about a thousand triangles each, all different, on the root node of a model.
 void plant_small_trees(scene::Model& model, std::span<const TreeSpot> places, std::uint64_t seed);
 
 }  // namespace parvis::city

@@ -1,4 +1,4 @@
-// The meshes of a tree: tubes round its branches, and sprays of leaves.
+// Meshes of a tree: tubes around its branches, and sprays of leaves.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@ namespace parvis::city {
 
 inline constexpr int leaf_bearing_order = 2;  ///< branches of this order and later ones carry sprays
 
-/// A tube round a branch with smooth normals; the trunk flares at its foot.
+/// Adds a tube around a branch with smooth normals; the trunk flares at its foot.
 void add_tube(Mesh& mesh, const Branch& branch, int sides);
 
+/// Number and size of a tree's sprays of leaves.
 struct Sprays {
   std::size_t count;
   float size_m;  ///< mean
 };
 
-/// Sprays spread over the thin branches by their length; they face away from the middle of the crown.
+/// Sprays distributed over the thin branches by their length, facing away from the middle of the crown.
 Mesh foliage(const std::vector<Branch>& tree, const Sprays& sprays, glm::vec3 crown_middle, Random& random);
 
 }  // namespace parvis::city

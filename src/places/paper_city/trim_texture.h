@@ -1,5 +1,5 @@
-// One sheet of strips that repeat to the right, for everything small: cornices, awnings, chimneys, dormers,
-// signs; and the sheets of roofs and blank walls.
+// Textures of small parts: one sheet of horizontal strips (cornices, awnings, chimneys, dormers, signs); and
+// sheets of roofs and blank walls.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 namespace parvis::city {
 
+/// Strips of the trim sheet.
 enum class Trim : std::uint8_t {
   cornice,     ///< mouldings and dentils
   soffit,      ///< the cornice from below, with brackets
@@ -15,26 +16,31 @@ enum class Trim : std::uint8_t {
   chimney,     ///< bricks
   awning_red,  ///< striped cloth
   awning_green,
-  dormer,  ///< the front of a dormer, one every dormer_module_m
+  dormer,  ///< front of a dormer, repeated every dormer_module_m
   metal    ///< painted iron: lamps, lead, signs
 };
 inline constexpr int trim_strips = 8;
 inline constexpr float trim_sheet_m = 10.24f;    // the sheet's width
 inline constexpr float dormer_module_m = 1.28f;  // eight on the sheet
 
-/// Texture coordinates v of a strip: (foot, top).
+/// Texture coordinates v of a strip: (bottom, top).
 glm::vec2 trim_strip(Trim trim);
+/// Paints the sheet of all strips; each repeats to the right.
 SurfacePictures trim_pictures(std::uint32_t seed);
 
 inline constexpr float roof_sheet_m = 5.12f;  // roof sheets cover this square; courses run to the right
+/// Clay tiles.
 SurfacePictures roof_tile_pictures(std::uint32_t seed);
+/// Zinc sheets with standing seams.
 SurfacePictures roof_zinc_pictures(std::uint32_t seed);
 
 inline constexpr float blank_wall_sheet_m = 10.24f;
+/// Plaster with streaks, for side walls.
 SurfacePictures blank_wall_pictures(std::uint32_t seed);
 
-/// Bars between a foot and a hand rail, cut out by alpha; one metre high, `railing_sheet_m` wide.
+/// Width of the railing sheet, metres; it is one metre high.
 inline constexpr float railing_sheet_m = 2.0f;
+/// A railing: bars between a base and a hand rail, cut out by alpha.
 SurfacePictures railing_pictures();
 
 }  // namespace parvis::city

@@ -1,5 +1,5 @@
-// A window as it stands in a wall: reveal, frame, panes with a little of the room behind, sill, surround,
-// shutters, railing. No two are alike: curtains, blinds and shutters come from the random numbers.
+// Windows painted into facade textures: reveal, frame, panes with a hint of the room behind, sill, surround,
+// shutters, railing. Curtains, blinds and shutters are random, so windows differ.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,10 @@
 
 namespace parvis::city {
 
+/// Moulding above a window.
 enum class Hood : std::uint8_t { none, flat, keystone };
 
+/// Dimensions and colours of a facade's windows.
 struct WindowStyle {
   float width_m = 1.1f, height_m = 1.9f;
   float foot_m = 0.9f;  ///< of the opening, above the floor
@@ -21,16 +23,17 @@ struct WindowStyle {
   glm::vec3 trim{0.6f}, frame{0.65f}, shutter{0.2f};  ///< linear
 };
 
+/// A texel of a non-metallic material.
 Texel matt(glm::vec3 colour, float height_m, float roughness = 0.8f);
 
-/// Glass before a room: dark, smooth, with curtains or a blind in some windows.
+/// Glass in front of a room: dark and smooth, in some windows with curtains or a blind.
 void paint_glass(SurfaceCanvas& canvas, const Rect& rect, Random& random);
 
-/// Panes in a frame, set back by `depth_m`, with the shade of the reveal.
+/// Panes in a frame, set back by `depth_m`, with occlusion by the reveal.
 void paint_casement(SurfaceCanvas& canvas, const Rect& opening, int panes_across, int panes_up,
                     glm::vec3 frame, float depth_m, Random& random);
 
-/// The window whose bay has its foot's middle at `(x_m, floor_m)`.
+/// A window centred above `(x_m, floor_m)`, the middle of its bay at floor level.
 void paint_window(SurfaceCanvas& canvas, const WindowStyle& style, float x_m, float floor_m, Random& random);
 
 }  // namespace parvis::city
