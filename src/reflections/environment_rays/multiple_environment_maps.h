@@ -1,7 +1,7 @@
-// Multiple environment maps, pixel by pixel: each reflecting pixel traces its own ray through the city's
-// heights and looks the point that it meets up in the reference maps that see it. No map is drawn for a
-// reflector, so that a hundred cars cost what their pixels cost, and a body shows the parallax that a map
-// with one centre lacks.
+// Multiple environment maps, per pixel (Meyer and Loscos 2003, sections 4.1 to 4.3): each reflecting pixel
+// traces its mirror ray through the city's height field and looks the hit point up in the reference maps that
+// see it. No map is rendered per reflector, so the cost of a hundred cars is that of their pixels, and
+// reflections have the parallax that a map with one centre lacks.
 #pragma once
 
 #include <array>
@@ -16,13 +16,16 @@
 namespace parvis::environment_rays {
 using namespace reference_maps;
 
-/// Makes the method for a scene: bakes the reference maps, which takes some seconds.
+/// Creates the method for a scene; baking the reference maps takes a few seconds. Errors: a shader, or the
+/// baking.
 Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
 
+/// The method's maps, textures and shaders.
 class MultipleEnvironmentMaps final : public methods::Reflections {
  public:
+  /// See make_multiple_environment_maps; scene and renderer must outlive it.
   static Result<std::unique_ptr<MultipleEnvironmentMaps>> create(const scene::Scene& scene,
                                                                  render::Renderer& renderer);
 
@@ -32,15 +35,16 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
   void bind(const gl::Program& program, int object) override;
 
-  const ReferenceMaps& maps() const { return maps_; }
+  const ReferenceMaps& maps() const { return maps_; }  ///< as baked or re-rendered last
 
+  /// Level of detail of one reflector; the numbers are those of multiple_environment_maps.frag.
   enum Detail : int {  // as multiple_environment_maps.frag has it
-    nearest_map,       ///< no ray is traced: what the nearest map has that way, at the distance it has there
+    nearest_map,       ///< no ray: direct lookup in the nearest map, at the distance stored there
     one_map,           ///< a ray against the static scene, looked up in the best map
     all,
     detail_count
   };
-  /// With which an object was drawn last.
+  /// Level of detail at which an object was shaded last.
   Detail detail_of(int object) const { return details_[std::size_t(object)]; }
 
  private:

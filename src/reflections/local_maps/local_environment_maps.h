@@ -1,6 +1,6 @@
-// Local maps (Meyer and Loscos 2003, section 4.4): each reflecting body has an environment map of its own,
-// computed for its position from the two reference maps that it lies between, and looked up like a cube map.
-// Dynamic objects are drawn over it in a second pass (section 6).
+// Local maps (Meyer and Loscos 2003, section 4.4): each reflecting body has its own environment map, computed
+// for its position from the two reference maps between which it lies, and looked up like a cube map. Dynamic
+// objects are drawn over it in a second pass (section 6).
 #pragma once
 
 #include <optional>
@@ -15,14 +15,16 @@
 namespace parvis::local_maps {
 using namespace reference_maps;
 
-/// Makes the method for a scene: bakes the reference maps, which takes some
-/// seconds.
+/// Creates the method for a scene; baking the reference maps takes a few seconds. Errors: a shader, or the
+/// baking.
 Result<std::unique_ptr<methods::Reflections>> make_local_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
 
+/// The method's reference maps and local maps.
 class LocalEnvironmentMaps final : public methods::Reflections {
  public:
+  /// See make_local_environment_maps; scene and renderer must outlive it.
   static Result<std::unique_ptr<LocalEnvironmentMaps>> create(const scene::Scene& scene,
                                                               render::Renderer& renderer);
 
@@ -32,9 +34,10 @@ class LocalEnvironmentMaps final : public methods::Reflections {
   void bind(const gl::Program& program, int object) override;
   void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
 
-  const ReferenceMaps& maps() const { return maps_; }
-  const LocalMapPicture& picture() const { return picture_; }
-  /// Where in it a body's map lies; nothing: the body is simply blended, or was not shown.
+  const ReferenceMaps& maps() const { return maps_; }          ///< from which local maps are computed
+  const LocalMapPicture& picture() const { return picture_; }  ///< the texture of all local maps
+  /// Place of an object's local map in that texture; empty if the object is shaded by simple blending, or was
+  /// not visible.
   std::optional<LocalMapPlace> place_of(int object) const { return used_[std::size_t(object)].place; }
 
  private:

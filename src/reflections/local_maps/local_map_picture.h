@@ -1,5 +1,5 @@
-// The picture that holds all local maps: each has a slot of three by two tiles, drawn by the meshes of its
-// six faces, all maps of a frame in one call.
+// The texture that holds all local maps: each has a slot of three by two tiles, one per cube face. The meshes
+// of all maps of a frame are drawn in one call.
 #pragma once
 
 #include <span>
@@ -15,29 +15,32 @@
 namespace parvis::local_maps {
 using namespace reference_maps;
 
-/// A local map's place: a slot's tiles may be smaller than the largest.
+/// Place of a local map in the texture; its tiles may be smaller than the slot's.
 struct LocalMapPlace {
   int slot;
   int tile;  ///< texels a side, border included
 };
 
+/// Colour, depth and mipmap levels of all local maps.
 class LocalMapPicture {
  public:
-  /// `max_texels`: a side of the largest tile, a power of two. Fails only if a shader does.
+  /// `max_texels`: side of the largest tile, a power of two. Fails only if a shader does not compile.
   static Result<LocalMapPicture> create(int max_texels, LocalMapView shown);
 
-  /// Makes room for so many slots, or for as many as the largest texture holds. True: what was drawn is lost.
+  /// Provides this many slots, or as many as the largest texture holds. Returns true if the content was lost.
   bool reserve(int slots);
-  int slots() const { return slots_; }
-  glm::vec2 corner(int slot) const;  ///< south-west, in texels
+  int slots() const { return slots_; }  ///< number available
+  glm::vec2 corner(int slot) const;     ///< south-west, in texels
+  /// Size of the texture in texels.
   glm::ivec2 size() const { return size_; }
-  GLuint texture() const { return colours_.name(); }
+  GLuint texture() const { return colours_.name(); }  ///< colour; OpenGL's name
 
-  /// Draws meshes with colour and depth; `cell_m` is that of the heights they were traced in.
+  /// Draws meshes with colour and depth; `cell_m` is the cell size of the height field in which they were
+  /// traced.
   void draw(std::span<const FaceMesh> meshes, const ReferenceMaps& maps, float cell_m);
-  /// The view of one face as `draw` left it, to draw dynamic objects over it.
+  /// The view of one face as `draw` left it, for drawing dynamic objects over it.
   render::View face_view(LocalMapPlace place, int face, glm::vec3 centre) const;
-  /// To be called when all is drawn: the coarser levels of these maps.
+  /// Computes the coarser mipmap levels of these maps; call it after all drawing.
   void update_levels(std::span<const LocalMapPlace> places);
 
  private:

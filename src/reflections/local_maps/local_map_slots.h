@@ -1,5 +1,5 @@
-// Which slot of the picture of local maps each body uses, and when a map that is there already will do (Meyer
-// and Loscos 2003, section 8, ask for maps that serve several frames and several bodies).
+// Assignment of slots to bodies, and reuse of maps that are still valid (Meyer and Loscos 2003, section 8,
+// propose maps that serve several frames and several bodies).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,35 +8,36 @@
 
 namespace parvis::local_maps {
 
-/// A local map as a body wants it.
+/// A local map as a body requests it.
 struct LocalMapWish {
   glm::vec3 centre{0.0f};
   float body_radius_m = 0.0f;
   int tile = 0;                  ///< texels a side, border included
   float smallest_texels = 1.0f;  ///< of its mesh's quads
-  bool shows_others = false;     ///< bodies that move are to be drawn over it
+  bool shows_others = false;     ///< dynamic objects are drawn over it
 };
 
-/// How far, in texels of a map of `tile` texels, what lies `nearest_m` or farther away is shifted at most
-/// when the map's centre moves by `moved_m`.
+/// Largest shift, in texels of a map of `tile` texels, of geometry at least `nearest_m` away when the map's
+/// centre moves by `moved_m`.
 float shift_texels(float moved_m, float nearest_m, int tile);
 
+/// The slots and the maps in them.
 class LocalMapSlots {
  public:
-  /// A map whose directions are off by no more than this serves another centre, too: half a texel is what its
+  /// A map serves another centre if its directions are off by no more than this: half a texel, as much as its
   /// filter blurs.
   static constexpr float max_shift_texels = 0.5f;
 
-  /// More slots than before, all empty, or the same ones.
+  /// Begins a frame. `are_new`: the texture was reallocated, so that all slots are empty.
   void begin_frame(int slots, bool are_new);
+  /// Empties all slots: the surroundings have changed.
   void forget();
 
-  /// A slot whose map will do, used from now on in this frame.
+  /// A slot whose map satisfies the request, now used in this frame; empty if there is none.
   std::optional<int> find(const LocalMapWish& wish);
-  /// One that is not used in this frame, the one unused for longest; its map will be this. Nothing: all are
-  /// used.
+  /// The least recently used slot, for a new map; empty if all are used in this frame.
   std::optional<int> take(const LocalMapWish& wish);
-  /// What the rays for a slot's new map have met.
+  /// Stores the distance of the nearest geometry that the rays for a slot's new map have hit.
   void set_nearest(int slot, float nearest_m);
 
  private:

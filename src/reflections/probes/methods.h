@@ -1,5 +1,5 @@
-// Baseline reflection methods: cube maps that differ in where and when they are rendered. Scripts name them
-// as room.cpp does.
+// Baseline reflection methods: cube maps that differ in where and when they are rendered. room.cpp gives them
+// their names in scripts.
 #pragma once
 
 #include <deque>
@@ -16,12 +16,13 @@ struct TimeSlicing {
   static constexpr std::string_view name = "probes.time_slicing";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
-  int faces_per_frame = 0;  ///< over all reflectors; 0: one for each of them
+  int faces_per_frame = 0;  ///< over all reflectors; 0: one per reflector
 
+  /// Adds `faces_per_frame`; see SceneData.
   void hash(ContentHash& hash) const { hash.add(faces_per_frame); }
 };
 
-/// The paper's "no reflection": shading by the lights alone.
+/// The paper's "no reflection": lighting alone.
 class NoReflection final : public methods::Reflections {
  public:
   explicit NoReflection(const scene::Scene&) {}
@@ -35,10 +36,11 @@ class NoReflection final : public methods::Reflections {
                    const std::vector<methods::VisibleReflector>&) override {}
 };
 
-/// A map for each reflector, drawn anew every frame. With level of detail its resolution follows the
-/// reflector's size on the screen, and those that are far share one map.
+/// One cube map per reflector, re-rendered every frame. With level of detail its resolution follows the
+/// reflector's size in the image, and distant reflectors share one map.
 class RerenderedCubeMap final : public CubeMapReflections {
  public:
+  /// Reads the common settings of reflection methods.
   explicit RerenderedCubeMap(const scene::Scene& scene) : settings_(methods::settings(scene)) {}
   void bind(const gl::Program& program, int object) override;
   const methods::CubeMap* surroundings_of(int object) const override { return map_of_object_.at(object); }
@@ -53,8 +55,8 @@ class RerenderedCubeMap final : public CubeMapReflections {
   std::map<int, const methods::CubeMap*> map_of_object_;
 };
 
-/// A map for each reflector, of which a face is drawn a frame; or so many faces a frame in all as the script
-/// says, those first that have waited longest.
+/// One cube map per reflector, of which one face is re-rendered per frame; or as many faces per frame in all
+/// as the script sets, the oldest first.
 class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
   explicit TimeSlicedCubeMap(const scene::Scene& scene)
@@ -81,9 +83,10 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
   std::vector<methods::VisibleReflector> waiting_;  ///< reflectors whose maps were there before this frame
 };
 
-/// One map for all reflectors, drawn every frame about the one that is largest on the screen.
+/// One cube map for all reflectors, re-rendered every frame around the one that is largest in the image.
 class SharedCubeMap final : public CubeMapReflections {
  public:
+  /// Allocates a map of the resolution that the scene sets.
   explicit SharedCubeMap(const scene::Scene& scene) : map_(methods::settings(scene).resolution) {}
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
   const methods::CubeMap* surroundings_of(int) const override { return &map_; }
@@ -95,8 +98,8 @@ class SharedCubeMap final : public CubeMapReflections {
   methods::CubeMap map_;
 };
 
-/// Maps at fixed places along the roads, drawn once without dynamic objects, each looked up as the inside of
-/// a box fitted to the street around it.
+/// Cube maps at fixed places along the roads, rendered once without dynamic objects; lookups are corrected by
+/// a box fitted to the street around each.
 class BoxProjectedProbe final : public CubeMapReflections {
  public:
   explicit BoxProjectedProbe(const scene::Scene& scene);

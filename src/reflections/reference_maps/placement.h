@@ -1,4 +1,4 @@
-// Where reference maps are taken. The paper (section 3) leaves it open and asks for it in section 8: "REMs
+// Placement of reference maps. The paper (section 3) leaves it open and asks for it in section 8: "REMs
 // should be automatically positioned in the environment".
 #pragma once
 
@@ -11,38 +11,38 @@
 
 namespace parvis::reference_maps {
 
-/// When there are maps enough.
+/// When placement stops.
 struct PlacementGoal {
-  int most = 54;              ///< maps
-  float share_shown = 0.99f;  ///< of what vehicles mirror; above 1: all the maps that add anything
-  /// Of `shows`. Where there are several a point counts once for each of them; the share is of the last.
+  int most = 54;              ///< maximum number of maps
+  float share_shown = 0.99f;  ///< of the points that vehicles mirror; above 1: all maps that add anything
+  /// Thresholds for `shows`. With several, a point counts once for each; `share_shown` refers to the last.
   std::vector<float> sharpness{any_sharpness};
   std::uint64_t seed = 1;
 };
 
+/// Chosen places and how much they show.
 struct Placement {
   std::vector<glm::vec3> places;  ///< metres, in the world
-  float share_shown = 0.0f;       ///< of points that the choice did not see
+  float share_shown = 0.0f;       ///< measured on points that the choice did not use
 };
 
-/// Places over the streets that show what vehicles will mirror. None is nearer than `min_apart_m` to
-/// another. Takes some seconds in a city; the same goal gives the same places.
+/// Chooses places over the streets that show what vehicles will mirror, at least `min_apart_m` apart. Takes a
+/// few seconds in a city; the same goal gives the same places.
 Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
                             const PlacementGoal& goal);
 
-/// Up to `most` maps that show all they can, sharply rather than only just: the default.
+/// Up to `most` places, chosen by how sharply they show it: the default.
 Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int most);
 
-/// Distance below which a second map adds nothing.
+/// Minimum distance between maps, metres: closer, a second map adds nothing.
 inline constexpr float min_apart_m = 8.0f;
 
-/// At most `most` places over the streets that the scene's traffic uses, as even a spread as can be: each
-/// next one where a street lies farthest from all before it, none nearer than `min_apart_m` to another.
-/// Where there are no streets: a spread over the open ground. Metres, in the world. What placement by
-/// coverage is compared with.
+/// At most `most` places spread evenly over the streets that the scene's traffic uses (farthest point
+/// sampling), at least `min_apart_m` apart; where there are no streets, over the open ground. Metres, in the
+/// world. The baseline for placement by coverage.
 std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most);
 
-/// The same over all of the scene's roads, driven on or not: figure 8 of the paper has 54 on 8 km.
+/// The same over all roads of the scene, whether driven on or not: figure 8 of the paper has 54 on 8 km.
 std::vector<glm::vec3> spread_over_roads(const scene::Scene& scene, const HeightPyramid& heights, int most);
 
 }  // namespace parvis::reference_maps

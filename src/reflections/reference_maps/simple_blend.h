@@ -1,6 +1,5 @@
-// Simple blending (Meyer and Loscos 2003, sections 3 and 5; figure 9a): two reference maps looked up by the
-// direction alone and mixed half and half. What local maps fall back on far away, and what they are judged
-// by.
+// Simple blending (Meyer and Loscos 2003, sections 3 and 5; figure 9a): two reference maps looked up by
+// direction alone and averaged. Local maps fall back to it in the distance and are compared with it.
 #pragma once
 
 #include "reflections/methods/reflections.h"
@@ -9,13 +8,15 @@
 
 namespace parvis::reference_maps {
 
-/// Makes the method for a scene: bakes the reference maps.
+/// Creates the method for a scene; bakes the reference maps. Errors: a shader, or the baking.
 Result<std::unique_ptr<methods::Reflections>> make_simple_blend(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
 
+/// The reference maps, and the pair that each object uses in this frame.
 class SimpleBlend final : public methods::Reflections {
  public:
+  /// `choice` selects the pair of maps for a position.
   SimpleBlend(ReferenceMaps maps, MapChoice choice) : maps_(std::move(maps)), choice_(std::move(choice)) {}
 
   render::SurfaceSource source() const override {

@@ -1,5 +1,5 @@
-// Where searches over a reflector map may begin: places spread over its patch, and how the surface bends
-// about each.
+// Starting points for searches over a reflector map: points spread over its patch, with the surface's
+// curvature at each.
 #pragma once
 
 #include <array>
@@ -15,13 +15,14 @@ inline constexpr std::size_t layer_start_count = 16, starts_beside = 8,
                              start_count =
                                  layer_start_count * (1 + starts_beside);  ///< as in patch_search.glsl
 
-/// A place, and how the surface bends about it, in the tangent plane of `normal` and `u` (patch_search.glsl).
+/// A surface point and the curvature there, in the tangent plane spanned by `normal` and `u`
+/// (patch_search.glsl).
 struct MapStart {
   glm::vec3 position, normal, u, bend;
 };
 
-/// All of a map, number by number, so that processors weigh several at once. The first 16 are spread over the
-/// patch, the first of all near its middle; then eight that lie beside the first, eight beside the second,
+/// All starting points of a map, as a structure of arrays for vectorised evaluation. The first 16 are spread
+/// over the patch, the very first near its middle; then eight neighbours of the first, eight of the second,
 /// and so on.
 class MapStarts {
  public:
@@ -31,6 +32,7 @@ class MapStarts {
     };
     return {vector(0), vector(3), vector(6), vector(9)};
   }
+  /// Stores the starting point number `i`, below `start_count`.
   void set(std::size_t i, const MapStart& start);
   bool operator==(const MapStarts&) const = default;
 
@@ -38,7 +40,7 @@ class MapStarts {
   std::array<std::array<float, start_count>, 12> numbers_{};
 };
 
-/// The map has all but its starts.
+/// Computes the starting points of a map that is otherwise complete.
 MapStarts spread_starts(const ReflectorMap& map, const ReflectorMesh& mesh, const ReflectorPatch& patch);
 
 }  // namespace parvis::reflector_maps

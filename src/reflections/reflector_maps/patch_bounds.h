@@ -1,5 +1,5 @@
-// What a patch of a reflector cannot show, told from a ball about it and a cone about its normals, without
-// looking at a vertex: patches that face away, and meshes that no ray mirrored in the patch can meet.
+// Conservative visibility of a reflector's patch, from its bounding box and the cone of its normals, without
+// visiting vertices: back-facing patches, and meshes that no mirrored ray can reach.
 #pragma once
 
 #include "base/bounds.h"
@@ -7,20 +7,22 @@
 
 namespace parvis::reflector_maps {
 
+/// Bounding box and normal cone of a patch, in the mesh's frame, as are all arguments.
 struct PatchBounds {
-  Bounds box;               ///< of its own triangles, in the mesh's frame, as all here
-  glm::vec3 axis{0, 0, 1};  ///< of the cone
-  float spread = 4.0f;      ///< radians between the axis and any normal, at most
+  Bounds box;               ///< of the patch's own triangles
+  glm::vec3 axis{0, 0, 1};  ///< of the normal cone
+  float spread = 4.0f;      ///< maximum angle between the axis and a normal, radians
 
-  /// False only where every normal points away from the viewer.
+  /// False only if every normal faces away from the viewer.
   bool may_be_seen(glm::vec3 viewer) const;
-  /// False only where nothing within `radius` of `centre` can be mirrored to the viewer.
+  /// False only if nothing within `radius` of `centre` can be mirrored to the viewer.
   bool may_show(glm::vec3 viewer, glm::vec3 centre, float radius) const;
-  /// About how wide the viewer sees the image of a ball of `radius` about `centre`, as the tangent of an
-  /// angle: as in a mirror ball that bends as the patch does as a whole, and no wider than the patch itself.
+  /// Approximate angular width (as a tangent) of the reflection of a sphere of `radius` around `centre`, as
+  /// in a spherical mirror with the patch's mean curvature; at most that of the patch itself.
   float image_width(glm::vec3 viewer, glm::vec3 centre, float radius, bool is_convex) const;
 };
 
+/// Computes the bounds of a patch.
 PatchBounds patch_bounds(const ReflectorMesh& mesh, const ReflectorPatch& patch);
 
 }  // namespace parvis::reflector_maps

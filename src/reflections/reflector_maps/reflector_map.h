@@ -1,4 +1,4 @@
-// Reflector maps: one for each patch of a reflector.
+// Reflector maps: the surface of each patch of a reflector as a texture over directions.
 #pragma once
 
 #include <string>
@@ -13,42 +13,45 @@
 namespace parvis::reflector_maps {
 using namespace reflection_search;
 
-/// What a map holds along a direction.
+/// A lookup in a map.
 struct MapPoint {
   glm::vec3 position, normal;
-  float kind;  ///< the surface, a crease, or what closes it; see reflector_map.glsl
+  float kind;  ///< surface, crease, or the closing surface; see reflector_map.glsl
 };
 
-/// Position and normal of a patch by direction from its centre; see reflector_map.glsl.
+/// Position and normal of a patch by direction from its centre, in the mesh's frame; see reflector_map.glsl.
 struct ReflectorMap {
   MapWindow window = all_directions;
   bool is_convex = true;
-  bool shows_once = true;  ///< as its patch; else a vertex is searched for layer by layer (patch_search.glsl)
+  bool shows_once = true;  ///< as its patch; if not, vertices are searched layer by layer (patch_search.glsl)
   MapStarts starts;
   ImageF texels;  ///< square, 4 channels: as reflector_map.glsl has them
 
-  /// Does the centre see surface all around?
+  /// True if the centre sees surface in all directions.
   bool is_whole_body() const { return window.extent == 1.0f; }
-  /// Where a ray from the centre meets the surface, or what closes it; `direction` has any length.
+  /// Intersection of a ray from the centre with the surface, or with its closure; `direction` has any length.
   MapPoint sample(glm::vec3 direction) const;
+  /// Position and unit normal of `sample`.
   std::pair<glm::vec3, glm::vec3> surface(glm::vec3 direction) const;
+  /// `kind` of `sample`.
   float surface_kind(glm::vec3 direction) const;
 };
 
-/// Of a patch with a centre (reflector_patches), `side` texels wide; 512 hold a teapot's to a hundredth of a
-/// degree, most of it.
+/// The map of a patch that has a centre (reflector_patches), `side` texels wide. 512 texels hold most of a
+/// teapot's normals to a hundredth of a degree.
 ReflectorMap reflector_map(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side);
 
-/// A reflector ready to be searched: cut into patches, each with its map, the largest first.
+/// A reflector prepared for searching: cut into patches, the largest first, each with its map.
 struct Reflector {
   ReflectorMesh mesh;
   std::vector<ReflectorPatch> patches;
-  std::vector<ReflectorMap> maps;    ///< of the first patches
-  std::vector<std::string> remarks;  ///< what was wrong with the mesh, and what was done about it
+  std::vector<ReflectorMap> maps;    ///< of the first patches; later ones have none
+  std::vector<std::string> remarks;  ///< defects of the mesh and how they were repaired
 };
 
-/// Errors name the mesh (see reflector_mesh); a reflector of more than `max_patches` patches keeps its
-/// largest, and says what share of the surface has none: there an environment map stands in.
+/// Prepares a reflector. Errors name the mesh (see reflector_mesh). Beyond `max_patches` patches only the
+/// largest are kept; a remark states the share of the surface without one, where an environment map is shown
+/// instead.
 Result<Reflector> make_reflector(const Mesh& mesh, const std::string& name, int side,
                                  std::size_t max_patches = 200);
 

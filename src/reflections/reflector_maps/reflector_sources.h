@@ -1,5 +1,4 @@
-// What of a scene's objects reflectors are made of: the parts of a model that mirror, and its bodies of
-// glass.
+// Geometry of a scene from which reflectors are made: mirror-like parts of a model, and its bodies of glass.
 #pragma once
 
 #include "base/mesh.h"
@@ -7,28 +6,29 @@
 
 namespace parvis::reflector_maps {
 
-/// A reflector depends on nothing else.
+/// All inputs of a reflector, so that equal sources give equal reflectors (ReflectorCache).
 struct ReflectorSource {
-  std::string name;  ///< as warnings have it
+  std::string name;  ///< for warnings
   Mesh mesh;         ///< in the model's frame, at rest
-  int side;          ///< of its maps, in texels
+  int side;          ///< texels per side of its maps
 };
 
-/// The mirror-like parts of an object; maps as wide as the scene's options ask for.
+/// The mirror-like parts of an object; the scene's settings determine the resolution of its maps.
 ReflectorSource mirror_source(const scene::Scene& scene, const scene::Object& object);
 
-/// A body of solid glass, one of those that an object has.
+/// One body of solid glass of an object.
 struct GlassSource {
   ReflectorSource outside;
   const scene::Material* material;
-  std::vector<std::size_t> parts;  ///< of the model, those that have any of it
+  std::vector<std::size_t> parts;  ///< parts of the model to which its triangles belong
   bool is_closed;
-  float thickness;  ///< as a pane, in the model's unit
+  float thickness;  ///< when treated as a pane, in the model's unit
 };
-/// Has it solid glass that shows more than the sky?
+/// True if the model has solid glass that shows more than the sky.
 bool has_glass(const scene::Model& model);
+/// True if an object of the scene that takes reflections has such glass.
 bool has_glass(const scene::Scene& scene);
-/// Of all bodies of glass of an object; of several, the smaller have smaller maps.
+/// All bodies of glass of an object; of several, smaller ones get smaller maps.
 std::vector<GlassSource> glass_sources(const scene::Object& object);
 
 }  // namespace parvis::reflector_maps

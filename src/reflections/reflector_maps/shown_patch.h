@@ -1,4 +1,4 @@
-// A patch of a reflector where it stands in a frame.
+// A patch of a reflector with its pose in the present frame.
 #pragma once
 
 #include <optional>
@@ -9,40 +9,45 @@
 
 namespace parvis::reflector_maps {
 
-/// Angles stay as they are; else normals of the maps would be wrong.
+/// True for a uniform scale without mirroring: the transform keeps angles, so that the maps' normals stay
+/// valid.
 bool is_scaled_evenly(const glm::mat4& world_from_reflector);
 
+/// Transforms a point from the world into the reflector's frame.
 glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point);
 
+/// A patch that the main view shows.
 struct ShownPatch {
   int object;
-  int near;  ///< the list of objects that stand near, all that it is to show; below 0: all objects
+  int near;  ///< index of the list of nearby objects that it shows; negative: it shows all objects
   const GpuReflector* reflector;
   const GpuReflector::Patch* patch;
   glm::mat4 world_from_reflector;
   glm::vec3 viewer;  ///< in the reflector's frame
 };
 
-/// What to draw a patch in: layers, as patch_search.glsl numbers them; from the first up to the end.
+/// Range of layers in which a patch is drawn, numbered as in patch_search.glsl; `end` is excluded.
 struct Layers {
   int first, end;
 };
+/// The layers of a patch: one without a number (-1) if it shows every vertex at most once.
 Layers layers_of(const GpuReflector::Patch& patch);
 
-/// Is any of the patches one of this object?
+/// True if one of the patches belongs to this object.
 bool is_shown(std::span<const ShownPatch> patches, int object);
 
-/// The rectangle of the view, from the lower left, that holds all of a patch's pixels.
+/// Bounding rectangle of a patch's pixels in the view: x, y, width, height from the lower left.
 glm::ivec4 pixels_of(const ShownPatch& patch, const render::View& view);
 
-/// Between them what is drawn changes, where it is nearest, the stencil, too. Its colour is that of a patch
-/// that shows nothing yet (patch_pixels.frag).
+/// Starts drawing marks: the nearest fragment writes the stencil. Its colour is that of a patch that shows
+/// nothing yet (patch_pixels.frag).
 void begin_marks(const render::View& view);
+/// Ends it: the stencil is only tested from now on.
 void end_marks();
 
-/// Each pixel of the view's stencil gets the number of the nearest patch there, counted from 1; or all of
-/// them get `number`. What was marked before stays where it is nearer. `patch_pixels`: patch_pixels.vert and
-/// .frag. The view's stencil test is on.
+/// Writes the number of the nearest patch, counted from 1, into each pixel of the view's stencil; or `number`
+/// for all patches. Earlier marks stay where they are nearer. `patch_pixels` is linked from patch_pixels.vert
+/// and .frag; the stencil test must be enabled.
 void mark_patches(const gl::Program& patch_pixels, const render::View& view,
                   std::span<const ShownPatch> patches, std::optional<int> number = {});
 

@@ -1,5 +1,5 @@
-// The fine mesh itself, by rays from a centre: what maps are made of, and what they and searches on them are
-// judged by.
+// Ray casting against the original mesh: maps are computed from it, and they and their searches are verified
+// against it.
 #pragma once
 
 #include <memory>
@@ -11,17 +11,19 @@
 
 namespace parvis::reflector_maps {
 
+/// Intersection of a ray with the mesh.
 struct MetSurface {
   glm::vec3 position;
   glm::vec3 normal;  ///< interpolated, unit length
 };
 
+/// A ray hierarchy over some triangles of a reflector's mesh.
 class SurfaceRays {
  public:
-  /// Of some of the mesh's triangles. The mesh may go.
+  /// Copies the given triangles of the mesh.
   SurfaceRays(const ReflectorMesh& mesh, std::span<const std::uint32_t> triangles);
 
-  /// The nearest triangle along a ray, from whichever side. `direction` has any length.
+  /// Nearest intersection of a ray, with either side of a triangle; `direction` has any length.
   std::optional<MetSurface> along(glm::vec3 origin, glm::vec3 direction) const;
 
  private:

@@ -1,5 +1,5 @@
-// A floor of squares and boxes of several colours about one body, drawn by a method and by the ray tracer:
-// for tests of what mirrors and glass show.
+// A chequered floor and coloured boxes around one body, rendered by a method and by the ray tracer: for tests
+// of reflections and refraction.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace parvis::reflector_maps {
 
 inline constexpr int width = 320, height = 240;
 
-/// Each triangle in `parts` squared ones: only corners are mirrored exactly.
+/// Each triangle divided into `parts` squared triangles: only vertices are reflected exactly.
 inline Mesh divided(const Mesh& mesh, int parts) {
   Mesh fine;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -46,7 +46,7 @@ inline Mesh divided(const Mesh& mesh, int parts) {
   return fine;
 }
 
-/// `body` is the last object.
+/// The scene; `body` is its last object.
 inline scene::Scene among_boxes(const Mesh& body, const scene::Material& material,
                                 const glm::mat4& world_from_body) {
   scene::Scene scene;
@@ -76,13 +76,14 @@ inline scene::Scene among_boxes(const Mesh& body, const scene::Material& materia
   return scene;
 }
 
+/// A translation.
 inline glm::mat4 placed(glm::vec3 at) { return glm::translate(glm::mat4(1.0f), at); }
 
-/// A picture of a scene, and what ray tracing makes of it.
+/// A rendered image, its ground truth, and the mask of mirror-like pixels.
 struct Compared {
   Image8 ours, traced, mirrors;
 
-  /// FLIP inside what mirrors.
+  /// Mean FLIP error over mirror-like pixels.
   double flip() const {
     const Result<reference::Difference> difference = reference::compare(ours, traced, mirrors);
     EXPECT_TRUE(difference) << to_string(difference.errors());
@@ -90,7 +91,8 @@ struct Compared {
   }
 };
 
-/// `make(scene, renderer)` gives the method; null: mirrors show the sky.
+/// Renders the scene with the method that `make(scene, renderer)` returns (null: mirrors show the sky), and
+/// traces it.
 template <class Make>
 Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Make make,
                  const render::Drawables& drawables = {}) {

@@ -1,4 +1,4 @@
-// What the room's tests search over.
+// Reflectors for the room's tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,19 +11,22 @@
 
 namespace parvis::reflector_maps {
 
+/// An ellipsoid centred at the origin.
 inline Mesh ellipsoid_mesh(glm::vec3 radii, int rings = 96) {
   Mesh mesh;
   append(mesh, scene::sphere(glm::vec3(0.0f), 1.0f, rings), glm::scale(glm::mat4(1.0f), radii));
   return mesh;
 }
 
-/// Its maps are 128 texels wide, or as their patches ask for.
+/// The reflector of a mesh that must be valid. Its maps are 128 texels wide, or as wide as their patches
+/// require.
 inline Reflector reflector(const Mesh& mesh) {
   Result<Reflector> made = make_reflector(mesh, "kettle", 128);
   EXPECT_TRUE(made) << to_string(made.errors());
   return *std::move(made);
 }
 
+/// A uniformly distributed unit vector.
 inline glm::vec3 chance_direction(Random& random) {
   glm::vec3 d;
   do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};

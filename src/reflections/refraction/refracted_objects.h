@@ -1,8 +1,9 @@
-// What bodies of solid glass let through, over any method of reflection: a picture, as large as the main
-// view, that their pixels look up. Behind the glass lies the cube map of its surroundings, if the method has
-// one, else the sky; before it, where virtual objects are wanted (reflection(method="virtual_objects") or
-// virtual_within), the scene drawn once more with every vertex where the glass shows it
-// (refraction_search.glsl). What light cannot be followed through is a pane: the scene straight through it.
+// Refraction through bodies of solid glass, over any reflection method: an image as large as the main view
+// that their pixels look up. The background is the cube map of the glass's surroundings, if the method has
+// one, else the sky. In front of it, where virtual objects are requested
+// (reflection(method="virtual_objects") or virtual_within), the scene is drawn once more with every vertex at
+// its refracted position (refraction_search.glsl). Glass that refraction cannot handle is drawn as a pane:
+// the scene straight through it.
 #pragma once
 
 #include <array>
@@ -23,10 +24,11 @@ namespace parvis::refraction {
 using namespace reflection_search;
 using namespace reflector_maps;
 
+/// The overlay that renders refraction, and the vertex shader's search for it.
 class RefractedObjects final : public methods::Overlay, public render::VirtualVertices {
  public:
-  /// Makes the maps of all bodies of glass; reports on standard error those that light cannot be followed
-  /// through (open, not convex): they are drawn as panes. `reflections` is what all surfaces mirror by.
+  /// Builds the maps of all bodies of glass; reports on standard error those that refraction cannot handle
+  /// (open, not convex): they are drawn as panes. `reflections` is the method that surfaces reflect by.
   static Result<std::unique_ptr<RefractedObjects>> create(const scene::Scene& scene,
                                                           const render::Renderer& renderer,
                                                           std::unique_ptr<methods::Reflections> reflections);
@@ -81,7 +83,7 @@ class RefractedObjects final : public methods::Overlay, public render::VirtualVe
   int foci_ = 0;                          ///< that the light of its layer has passed
 };
 
-/// See RefractedObjects::create; scene and renderer outlive it.
+/// See RefractedObjects::create; scene and renderer must outlive it.
 Result<std::unique_ptr<methods::Reflections>> make_refracted_objects(
     const scene::Scene& scene, render::Renderer& renderer, std::unique_ptr<methods::Reflections> reflections);
 

@@ -1,5 +1,5 @@
-// C++ face of glass_rays.glsl and refraction_search.glsl: the shaders' own search through any convex body;
-// and the rays that it begins with.
+// C++ side of glass_rays.glsl and refraction_search.glsl: the shaders' search through any convex body, and
+// its starting rays.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ using namespace reflection_search;
 
 inline constexpr std::size_t refraction_ray_count = 37;  ///< as in refraction_search.glsl
 
-/// A convex body of glass: position and outward unit normal where a ray from its centre meets its surface.
+/// A convex body of glass: position and outward unit normal of the surface along a ray from its centre.
 struct GlassBody {
   std::function<std::pair<glm::vec3, glm::vec3>(glm::vec3 direction)> surface;
   glm::vec3 centre{0.0f};
-  float reach = 1.0f;  ///< the surface's greatest distance from the centre
+  float reach = 1.0f;  ///< maximum distance of the surface from the centre
   float ior = 1.5f;
 };
 
-/// Rays from a viewer outside through the body, spread over all that is seen of it: what searches begin with,
-/// as `refraction_start` of refraction_search.glsl has them. They change with the viewer alone.
+/// Rays from an outside viewer through the body, spread over its visible surface: starting points of searches
+/// (`refraction_start` of refraction_search.glsl). They depend on the viewer alone.
 std::array<glm::mat4, refraction_ray_count> refraction_rays(const GlassBody& body, glm::vec3 viewer);
 
-/// `Body::surface(vec3 direction)` as of a GlassBody.
+/// The search of the shaders; `Body::surface(vec3 direction)` as in GlassBody.
 template <class Body>
 struct RefractionSearch {
   const Body& body;
@@ -43,6 +43,7 @@ struct RefractionSearch {
     const auto [position, normal] = body.surface(direction);
     return {position, normal, kind_surface};
   }
+  /// Starting ray number `i`; called by the included shader code.
   mat4 refraction_start(int i) { return rays[std::size_t(i)]; }
 };
 

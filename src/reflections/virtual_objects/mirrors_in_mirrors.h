@@ -1,6 +1,6 @@
-// What a mirror shows in a mirror (Estalella and others 2005, section 8, "multiple reflections"): for each
-// pair of patches the scene is drawn with every vertex where the first shows the second's image of it
-// (two_bounce_search.glsl), into the pixels where the first shows the second.
+// Mirrors seen in mirrors (Estalella and others 2005, section 8, "multiple reflections"): for each pair of
+// patches the scene is drawn with every vertex at its position after both reflections
+// (two_bounce_search.glsl), into the pixels in which the first patch shows the second.
 #pragma once
 
 #include <array>
@@ -16,17 +16,18 @@ namespace parvis::virtual_objects {
 using namespace reflection_search;
 using namespace reflector_maps;
 
+/// Renders the second reflections of a frame into one image.
 class MirrorsInMirrors final : public render::VirtualVertices {
  public:
-  /// `map_defines`: for map_window.glsl.
+  /// `map_defines`: for map_window.glsl. Fails only if a shader does not compile.
   static Result<std::unique_ptr<MirrorsInMirrors>> create(const render::Renderer& renderer,
                                                           gl::Defines map_defines);
 
-  /// `first`: what the main view shows, ordered by size; `second`: all patches there are. Left out are all
-  /// beyond the first fifteen of each, and a concave mirror in a concave one.
+  /// Draws all pairs. `first`: patches in the main view, ordered by size; `second`: all patches. Of each,
+  /// those after the first fifteen are left out, and a concave mirror in a concave one.
   void draw(render::Renderer& renderer, const gl::Program& patch_pixels, std::span<const ShownPatch> first,
             std::span<const ShownPatch> second);
-  /// As large as the main view; coverage in alpha.
+  /// The image: as large as the main view, coverage in alpha.
   GLuint texture() const { return picture_.texture(); }
 
   void bind(const gl::Program& program) override;

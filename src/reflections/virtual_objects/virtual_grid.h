@@ -1,6 +1,6 @@
-// Virtual grids (Estalella and others 2005, section 5): reflection points are searched for the corners of a
-// grid about a mesh alone, and the mesh's virtual vertices interpolated between those. The search costs what
-// the grid has corners, and smooth interpolation does not flicker.
+// Virtual grids (Estalella and others 2005, section 5): reflection points are searched only for the corners
+// of a grid around a mesh; the mesh's virtual vertices are interpolated between them. The cost depends on the
+// number of corners, and smooth interpolation does not flicker.
 #pragma once
 
 #include <array>
@@ -12,26 +12,28 @@
 
 namespace parvis::virtual_objects {
 
-/// A corner or a vertex where a reflector shows it; what is lost is not drawn.
+/// Virtual position of a corner or vertex; lost ones are not drawn.
 struct VirtualPoint {
   glm::vec3 position{0.0f};
   bool is_lost = false;
 };
 
-/// Cells of one size that fill the box of a mesh.
+/// A regular grid over the bounding box of a mesh.
 struct GridLayout {
-  glm::vec3 origin{0.0f}, cell{1.0f};  ///< cell: its edges
-  glm::ivec3 count{1};                 ///< of cells
+  glm::vec3 origin{0.0f}, cell{1.0f};  ///< cell: lengths of its edges
+  glm::ivec3 count{1};                 ///< number of cells
 
-  /// In cells from the origin: the sum that grid_interpolation.glsl does, to the last bit.
+  /// Position in cells from the origin: computed exactly as in grid_interpolation.glsl, to the last bit.
   glm::vec3 place_of(glm::vec3 vertex) const { return (vertex - origin) * (1.0f / cell); }
+  /// The cell that contains a vertex.
   glm::ivec3 cell_of(glm::vec3 vertex) const {
     return glm::clamp(glm::ivec3(glm::floor(place_of(vertex))), glm::ivec3(0), count - 1);
   }
-  /// Corners of the whole box, used or not, and the place of one among them; x changes fastest.
+  /// Number of corners of the whole box, used or not.
   std::size_t box_size() const {
     return std::size_t(count.x + 1) * std::size_t(count.y + 1) * std::size_t(count.z + 1);
   }
+  /// Index of a corner in the box; x changes fastest.
   std::size_t place_in_box(glm::ivec3 corner) const {
     return (std::size_t(corner.z) * std::size_t(count.y + 1) + std::size_t(corner.y)) *
                std::size_t(count.x + 1) +
@@ -39,22 +41,23 @@ struct GridLayout {
   }
 };
 
+/// A sparse grid: the corners of those cells that contain a vertex.
 class VirtualGrid {
  public:
   static constexpr std::uint32_t no_corner = 0xffffffff;
 
-  /// A grid with at most `share` (0..1) as many corners as there are vertices, at least one cell: its cells
-  /// are as near to cubes as the vertices' box lets them be, and only those that hold a vertex are kept.
+  /// Creates a grid with at most `share` (0..1) as many corners as there are vertices, at least one cell,
+  /// with cells as close to cubes as the bounding box allows.
   VirtualGrid(std::span<const glm::vec3> vertices, float share);
 
-  /// Where reflection points must be searched for, in the vertices' frame.
+  /// Corners for which reflection points are searched, in the vertices' frame.
   const std::vector<glm::vec3>& corners() const { return corners_; }
-  const GridLayout& layout() const { return layout_; }
-  /// The number of each corner of the layout's box, in its order, among `corners()`; or `no_corner`.
+  const GridLayout& layout() const { return layout_; }  ///< of the whole box
+  /// For each corner of the layout's box its index in `corners()`, or `no_corner`.
   const std::vector<std::uint32_t>& numbers_in_box() const { return numbers_; }
 
-  /// Trilinear, out of `corners()` as they are shown, of the vertices that the grid was made for. A vertex is
-  /// lost with any corner of its cell.
+  /// Trilinear interpolation from virtual corners to the vertices for which the grid was made. A vertex is
+  /// lost if any corner of its cell is.
   void interpolate(std::span<const glm::vec3> vertices, std::span<const VirtualPoint> corners,
                    std::span<VirtualPoint> shown) const;
 
@@ -64,12 +67,12 @@ class VirtualGrid {
   std::vector<std::uint32_t> numbers_;
 };
 
-/// The shares of the paper's figure 7, from fine to coarse.
+/// Shares of the paper's figure 7, from fine to coarse.
 inline constexpr std::array grid_shares{0.143f, 0.096f, 0.055f, 0.041f};
 
-/// Which of a mesh's grids, given by how many corners each has, from fine to coarse, serves an image of about
-/// so many pixels: the coarsest that has a corner for each square of 8 pixels, else the finest. None where
-/// the mesh itself has too few vertices for that: then all of them are searched for.
+/// Chooses one of a mesh's grids (`corner_counts`, from fine to coarse) for an image of about `area_px`
+/// pixels: the coarsest with one corner per square of 8 pixels, else the finest. Empty if the mesh itself has
+/// too few vertices for that: then every vertex is searched for.
 std::optional<std::size_t> grid_level(std::span<const std::uint32_t> corner_counts, std::size_t vertex_count,
                                       float area_px);
 

@@ -1,7 +1,7 @@
-// Reflections on curved objects by virtual objects: the scene is drawn once more for each patch of each
-// reflector, every vertex where the patch shows it, into a picture that the reflector's own pixels then look
-// up: reflection(method="virtual_objects"). Or only what stands near: reflection(virtual_within=...), over
-// what another method shows.
+// Reflections on curved objects by virtual objects (Estalella and others 2005): for each patch of each
+// reflector the scene is drawn once more, every vertex at its virtual position, into an image that the
+// reflector's pixels look up: reflection(method="virtual_objects"). Or only nearby objects:
+// reflection(virtual_within=...), over another method.
 #pragma once
 
 #include <memory>
@@ -19,14 +19,15 @@ namespace parvis::virtual_objects {
 using namespace reflection_search;
 using namespace reflector_maps;
 
-/// Null: what the model is made of can not be searched on.
+/// Reflectors by model; null: the model's mesh cannot be used as a reflector.
 using ReflectorsByModel = std::unordered_map<const scene::Model*, std::unique_ptr<GpuReflector>>;
 
+/// The overlay that renders virtual objects, and the vertex shader's search for it.
 class VirtualObjects final : public methods::Overlay, public render::VirtualVertices {
  public:
-  /// Makes the maps of all reflecting objects; reports on standard error what is wrong with their meshes. One
-  /// whose mesh cannot be used mirrors the sky alone.
-  /// `surroundings` is what shows where no virtual object does; null: the sky.
+  /// Builds the maps of all reflecting objects; reports defects of their meshes on standard error. Objects
+  /// whose mesh cannot be used reflect the sky alone. `surroundings` is shown where there is no virtual
+  /// object; null: the sky.
   static Result<std::unique_ptr<VirtualObjects>> create(const scene::Scene& scene, render::Renderer& renderer,
                                                         std::unique_ptr<methods::Reflections> surroundings);
 
@@ -72,7 +73,7 @@ class VirtualObjects final : public methods::Overlay, public render::VirtualVert
   int layer_ = -1;                                           ///< of it, if it may show a vertex several times
 };
 
-/// See VirtualObjects::create; scene and renderer outlive it.
+/// See VirtualObjects::create; scene and renderer must outlive it.
 Result<std::unique_ptr<methods::Reflections>> make_virtual_objects(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> surroundings = nullptr);
