@@ -1,13 +1,13 @@
-// The fragment shader of all surfaces: how the point is seen, what the surface is like there, what light comes to it, and
-// what of that goes to the viewer. A file that includes it defines
-//   void look_along(vec3 position, vec3 direction)   finds what lies in the mirror direction
-//   vec3 reflected_radiance(float roughness, int layer)   what comes from there, blurred; asked for each layer of a surface
-// They may use `surface_sky_cell`, what the place sees of the sky. The define SURFACE names the file that says what the
-// surface is like: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY are expressions of rooms
-// above (SurfaceSource in surface_programs.h). In place of light a view may be given:
-//   WRITES_SURFACE  what the including file makes of it: void write_surface(Surface surface, vec3 to_viewer)
-//   WRITES_OBJECT   the object's number and 1
-//   WRITES_DEPTH    nothing but depth
+// Fragment shader of all surfaces, in four steps: viewing geometry, material, incident light, radiance toward the viewer.
+// The including file defines
+//   void look_along(vec3 position, vec3 direction)   evaluates the mirror direction
+//   vec3 reflected_radiance(float roughness, int layer)   radiance from there, prefiltered; called for each layer of a surface
+// Both may use `surface_sky_cell`, the sky visibility of the point. The define SURFACE names the file that evaluates the
+// material: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY are expressions of rooms
+// above (SurfaceSource in surface_programs.h). A view may ask for other output than radiance:
+//   WRITES_SURFACE  void write_surface(Surface surface, vec3 to_viewer) of the including file
+//   WRITES_OBJECT   the object's number plus 1
+//   WRITES_DEPTH    depth alone
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"
@@ -28,8 +28,8 @@ in vec4 leaf_sky_cell;
 #endif
 flat in int object_of_surface;
 #ifdef IS_MIRRORED
-in vec3 seen_from;  // where the reflector shows it
-const float seen_back = 0.1f;  // cosine: smooth normals turn away a little before their triangles do
+in vec3 seen_from;  // origin of the mirrored ray
+const float seen_back = 0.1f;  // cosine: interpolated normals face away slightly before their triangles do
 #else
 #define seen_from viewer_position.xyz
 #endif
@@ -48,12 +48,12 @@ out vec4 radiance;
 vec4 surface_sky_cell;
 
 #ifdef IS_MIRRORED
-bool is_mirrored_here();  // does the reflector show this point of the surface at all?
+bool is_mirrored_here();  // true if the reflector shows this point of the surface
 #endif
 void look_along(vec3 at, vec3 direction);
 vec3 reflected_radiance(float roughness, int layer);
 
-// A point of a surface as it is seen.
+// Viewing geometry of a surface point.
 struct SeenPoint {
   vec3 to_viewer;    // unit; in shadow maps toward the sun
   float distance_m;  // to the viewer
@@ -63,11 +63,11 @@ struct SeenPoint {
 #include SURFACE "graphics/render/material_surface.glsl"
 
 #ifndef surface_mirrors
-#define surface_mirrors 0.0f  // 1: takes the scene's reflection method on things that do
+#define surface_mirrors 0.0f  // 1: uses the scene's reflection method on objects that take reflections
 #endif
 
 #ifdef IS_GLASS
-// What comes through glass; where no overlay follows it, the sky straight through it.
+// Radiance through glass: the sky straight through it, unless an overlay refracts the ray.
 vec3 light_through(vec3 ahead) {
   vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
   return TRANSMISSION_OVERLAY(sky);
@@ -96,8 +96,8 @@ SeenPoint seen_point() {
   return seen;
 }
 
-// Where there are many samples in a pixel, alpha covers some of them: sharpened to a pixel's width, so that leaves neither
-// swell nor thin out far away. (A shader that discards nothing is faster.)
+// Coverage by alpha, for multisampled targets sharpened to the width of a pixel, so that distant leaves neither swell nor thin
+// out. (A shader without discard is faster.)
 float covered(float alpha) {
 #if defined(HAS_HOLES) && defined(ONE_SAMPLE)
   if (alpha < 0.5f) discard;
@@ -119,7 +119,7 @@ SceneLight scene_light() {
   return light;
 }
 
-// What the place sees of the sky, in `surface_sky_cell`, and of the sun.
+// Visibility of the sky, stored in `surface_sky_cell`, and of the sun, returned.
 float visible_light(SeenPoint seen) {
 #ifdef IS_LEAF
   surface_sky_cell = leaf_sky_cell;
@@ -131,8 +131,8 @@ float visible_light(SeenPoint seen) {
 #endif
 }
 
-#ifndef WRITES_SURFACE  // a file that writes something else has no reflections to ask for: references would not link
-// Radiance toward the viewer, through the haze; `sun`: what the surface's own shape lets in.
+#ifndef WRITES_SURFACE  // a file that writes the surface has no reflected_radiance: references would not link
+// Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   SceneLight light = scene_light();
   sun *= visible_light(seen);

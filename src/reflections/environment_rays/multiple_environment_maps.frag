@@ -1,6 +1,8 @@
-// Reflections out of reference maps (Meyer and Loscos 2003, sections 4.1 to 4.3), for each pixel: the mirror ray is traced
-// through the city's heights from the surface itself, moved from there onto the surface that the maps saw, and looked up
-// in the two maps that see it best.
+// Reflections from reference maps (Meyer and Loscos 2003, sections 4.1 to 4.3), per pixel. The mirror ray is traced from the
+// surface through the city's height field; the hit is moved onto the surface that the maps have recorded, and looked up in the
+// two maps that show it best:
+//   radiance = shade * sum_k w_k map_k(hit - place_k, footprint),   w_k ~ validity_k / (0.5 + d_k^2 + 0.2 a_k^2)
+// d_k: distance of map k from the ray, a_k: along the ray, metres.
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"
@@ -10,7 +12,7 @@
 #include "graphics/shading/lighting.glsl"
 #include "reflections/reference_maps/map_levels.glsl"
 
-layout(location = 0) out vec4 base_radiance;  // alpha: there is one
+layout(location = 0) out vec4 base_radiance;  // alpha 1: the pixel reflects
 layout(location = 1) out vec3 coat_radiance;
 
 uniform highp sampler2D ray_starts;  // xyz; w: roughness of the base
@@ -21,21 +23,21 @@ uniform highp sampler2D heights;
 uniform highp sampler2DArray map_colours;
 uniform highp sampler2DArray map_glosses;
 uniform highp sampler2DArray map_distances;
-uniform highp usampler2D map_choice;  // four maps a cell of the ground
+uniform highp usampler2D map_choice;  // four maps per ground cell
 uniform highp sampler2D map_places;
-uniform vec4 height_grid;   // south-west corner, metres a cell, top level
+uniform vec4 height_grid;   // south-west corner, metres per cell, top level
 uniform vec2 height_cells;
-uniform vec3 choice_grid;   // south-west corner, metres a cell
-uniform vec2 layer_size;    // texels a side, and of its border
+uniform vec3 choice_grid;   // south-west corner, metres per cell
+uniform vec2 layer_size;    // texels per side, and of its border
 
 const float reach_m = 1000.0f;
-const float max_move_m = 2.5f;  // of a hit onto what the maps saw: heights are known to a cell
+const float max_move_m = 2.5f;  // of a hit onto the recorded surface: heights have the resolution of a cell
 const float max_taps = 4.0f;
-const float first_step_m = 2.0f;     // through what a map saw
+const float first_step_m = 2.0f;     // when marching through a map's depth
 const float step_growth = 1.4f;      // to 30 m
 const int max_steps = 9;
-const float max_crossing_m = 2.0f;  // of the map's distance, where a ray hits what it saw: at an edge it jumps
-const int max_cells_under = 8;      // what spans the ground: a ray goes on under it by that many cells
+const float max_crossing_m = 2.0f;  // depth difference of a hit: at silhouettes the recorded depth jumps by more
+const int max_cells_under = 8;      // maximum number of cells that a ray passes under a bridge or an arch
 #ifndef DETAIL
 #define DETAIL 2
 #endif
@@ -43,12 +45,12 @@ const int detail = DETAIL;           // MultipleEnvironmentMaps::Detail
 const int one_map = 1;
 const int all_detail = 2;
 const int max_maps = detail == all_detail ? 2 : 1;
-const float max_radiance = 30000.0f;  // the picture holds half floats
+const float max_radiance = 30000.0f;  // the target holds half floats
 const float min_wide_lobe = 0.3f;  // roughness
 const float share_over_ground = 0.4f;
-const float min_weight = 0.05f;    // of a second map: what is less is left out
-const float shade_reach_m = 25.0f;   // ground nearer than this may lie in the shade of moving bodies
-const float max_ground_error_m = 0.2f;  // a cell has one height: beside a kerb its point may lie in the pavement
+const float min_weight = 0.05f;    // a second map with less is skipped
+const float shade_reach_m = 25.0f;   // ground up to this distance is shaded by dynamic objects
+const float max_ground_error_m = 0.2f;  // a cell has one height: beside a kerb a hit may lie inside the pavement
 
 float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, level).r; }
 
@@ -56,18 +58,18 @@ float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, leve
 #include "reflections/reference_maps/validity.glsl"
 #include "reflections/environment_rays/mirrored_bodies.glsl"
 
-// What the pixel's ray hits, as two maps show it.
+// The hit of the pixel's ray, as two maps show it.
 struct Sight {
   vec3 to_met[2];    // from each map
   float map[2];
   float weight[2];
   float distance;
-  vec3 across;       // how far the pixel's cone reaches there, the way that it is widest
-  float narrow;      // and the other way, metres
+  vec3 across;       // major axis of the pixel's footprint at the hit, metres
+  float narrow;      // length of its minor axis, metres
   vec3 direction;    // of the mirror ray
-  bool is_ground;    // that is hit
-  vec3 shade;        // what moving bodies leave of its light
-  bool is_body;      // of those that move, which no map shows
+  bool is_ground;    // the ray hits the top of a cell
+  vec3 shade;        // fraction of its light that dynamic objects leave
+  bool is_body;      // the ray hits a dynamic object, which no map shows
   vec3 body_radiance;
 };
 Sight sight;
@@ -76,7 +78,8 @@ float seen_distance(vec3 to_point, float map) {
   return textureLod(map_distances, vec3(layer_uv(to_point, layer_size.x, layer_size.y), map), 0.0f).r;
 }
 
-// Of the texels that the filter mixes: it hangs curtains from the edges of what is near to what lies beyond, in colours, too.
+// Minimum distance over the bilinear footprint. Filtering distances across a silhouette invents surfaces between foreground and
+// background; colour lookups suffer the same.
 float min_seen_distance(vec3 to_point, float map) {
   vec2 texel = layer_uv(to_point, layer_size.x, layer_size.y) * layer_size.x - 0.5f;
   ivec3 low = ivec3(ivec2(clamp(texel, vec2(0.0f), layer_size.xx - 2.0f)), int(map));
@@ -86,8 +89,8 @@ float min_seen_distance(vec3 to_point, float map) {
   return min(least.x, least.y);
 }
 
-// Two steps of the secant method (Szirmay-Kalos and others 2005, distance impostors) from the hit on the heights to where
-// the ray hits what the map saw.
+// Intersection of the ray with the surface that a map has recorded: two steps of the secant method from the hit on the height
+// field (distance impostors, Szirmay-Kalos and others 2005).
 float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map) {
   float near = distance;
   vec3 to_near = at + near * direction - place;
@@ -108,14 +111,15 @@ float hit_on_map(vec3 at, vec3 direction, float distance, vec3 place, float map)
   return max(far, 0.0f);
 }
 
-// Shadow of the static scene. Beside a wall that casts one its map leaks light by a texel or two; a step toward the sun is a
-// step into the wall.
+// Visibility of the sun without dynamic objects. Beside a wall the shadow map leaks light by a texel or two; a second lookup, a
+// step toward the sun, is inside the wall.
 float visible_sun_without_bodies(vec3 met, vec3 normal) {
   vec2 step_m = 2.0f * frame_shadow_texel.x * frame_to_sun.xy / max(length(frame_to_sun.xy), 1e-4f);
   return min(visible_fixed_sun(met, normal), visible_fixed_sun(met + vec3(step_m, 0.0f), normal));
 }
 
-// Cars darken the street about them, but no map saw a car. Of walls the heights tell too little.
+// Ratio of the ground's irradiance with and without dynamic objects: no map shows the shadows of cars. Walls are left out, because
+// the height field is too coarse for them.
 vec3 share_left_by_bodies(vec3 met) {
   const vec3 normal = vec3(0.0f, 0.0f, 1.0f);
   vec3 sh[9];
@@ -129,7 +133,7 @@ vec3 share_left_by_bodies(vec3 met) {
   return (sky_share * sky + sun_share * sun) / max(sky + fixed_sun * sun, vec3(1e-4f));
 }
 
-// A body in its light: its colour, and under a coat what the map nearest to it mirrors.
+// Radiance of a dynamic object: diffuse colour below a clear coat, which reflects the map nearest to it.
 vec3 radiance_of_body(BodyHit body, vec3 met, vec3 direction, float map) {
   vec3 sh[9];
   for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
@@ -148,11 +152,11 @@ uvec4 maps_about(vec3 at) {
   return texelFetch(map_choice, cell, 0);
 }
 
-// A map's place; w: its layer.
+// Position of a map; w: its layer.
 vec4 place_of(uint map) { return vec4(texelFetch(map_places, ivec2(int(map), 0), 0).xyz, float(map)); }
 
-// For what is small on the screen: the nearest map has a distance the way that the ray runs, and so far away the ray is
-// said to meet something.
+// For reflectors that are small in the image: the hit is assumed at the distance that the nearest map has recorded in the ray's
+// direction.
 void look_into_nearest_map(vec3 at, vec3 direction) {
   vec4 place = place_of(maps_about(at).x);
   sight.distance = seen_distance(direction, place.w);
@@ -161,7 +165,7 @@ void look_into_nearest_map(vec3 at, vec3 direction) {
   sight.weight[0] = 1.0f;
 }
 
-// The two of the maps about the reflecting point that best show the point that the ray hit.
+// The two of the four maps around the reflecting point that show the hit best.
 void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out float weights[2]) {
   uvec4 maps = maps_about(at);
   weights = float[2](-1.0f, -1.0f);
@@ -170,11 +174,11 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
     vec3 to_met = met - place.xyz;
     float distance_m = length(to_met);
     float valid = validity(min_seen_distance(to_met / distance_m, place.w), distance_m, height_grid.z);
-    // The nearer a map stands to the ray, the less it shows at another place what is not quite where it is thought to be.
+    // The closer a map is to the ray, the less an error in the hit's distance displaces the lookup.
     vec3 away = place.xyz - at;
     float along = dot(away, direction);
     float off_ray = dot(away, away) - along * along;
-    // Section 4.3: where no map sees the point, the one that would count most.
+    // Section 4.3: where no map sees the hit, the one with the largest weight otherwise.
     float weight = (valid + 1e-4f) / (0.5f + off_ray + 0.2f * along * along);
     if (weight > weights[0]) {
       weights[1] = weights[0];
@@ -188,15 +192,15 @@ void choose_maps(vec3 at, vec3 direction, vec3 met, out vec4 places[2], out floa
   }
 }
 
-// True if a map sees on through a point; else something is there, or in front of it.
+// True if a map has recorded a surface behind the point; else there is one at the point or in front of it.
 bool is_seen_through(vec3 point, vec4 place) {
   vec3 to_point = point - place.xyz;
   float distance_m = length(to_point);
   return seen_distance(to_point / distance_m, place.w) > distance_m + slack_m(distance_m, height_grid.z);
 }
 
-// Heights have no air under bridges, balconies and arches. Where the ray hits the side of a cell and the map that shows it
-// best sees on through it, the ray goes on to the next cell.
+// The height field is solid below bridges, balconies and arches. Where the ray hits the side of a cell and the best map has
+// recorded a surface behind it, the ray continues with the next cell.
 HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2]) {
   HeightHit hit = walk_pyramid(grid, at, direction, reach);
   choose_maps(at, direction, at + hit.distance * direction, places, weights);
@@ -211,9 +215,9 @@ HeightHit walk_under(HeightGrid grid, vec3 at, vec3 direction, float reach, out 
   return hit;
 }
 
-// Trees with holes and railings are not among the heights. Where the nearest map sees something in front of the hit, or the
-// ray reached the sky, before which a map sees a crown elsewhere, the ray is followed through what that map saw, in growing steps,
-// to where it first passes behind it (relief mapping). Edges, behind which rays pass, too, are no hits.
+// Intersection with geometry that the height field lacks: trees and railings. Where the nearest map has recorded a surface in front
+// of the hit, or the ray reached the sky, the ray marches through the map's depth, in growing steps, to the first point behind
+// the recorded surface (relief mapping). Passing behind a silhouette is not a hit.
 float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   vec3 to_met = at + distance * direction - place.xyz;
   float met_m = length(to_met);
@@ -280,7 +284,7 @@ void trace(vec3 at, vec3 direction) {
     sight.shade = share_left_by_bodies(met);
 }
 
-// How the way changes to the next pixel: of the two beside it the one that changes it less, so that no edge counts.
+// Derivative of the mirror direction by pixels: the smaller of the two one-sided differences, so that silhouettes do not count.
 vec3 change_of_way(vec3 way, ivec2 here, ivec2 step) {
   vec3 least = vec3(2.0f);
   for (int side = -1; side <= 1; side += 2) {
@@ -311,7 +315,8 @@ void look_along(vec3 at, vec3 direction) {
   sight.narrow *= sight.distance;
 }
 
-// The footprint of a curved mirror is long and thin: lookups along it, each as wide as it is thin.
+// Anisotropic filtering: the footprint of a curved mirror is long and thin; lookups along its major axis, each as wide as its
+// minor axis.
 vec3 sharp_radiance(int k, float lobe) {
   float texels_a_m = layer_size.x / layer_rad / length(sight.to_met[k]);
   float wide = length(sight.across) * texels_a_m;
@@ -335,12 +340,13 @@ vec3 glossy_radiance(int k, vec3 direction, float roughness) {
   return mix(sharper, rougher, tiles.z);
 }
 
-// `over_ground`: of the lobe, the share that passes over the ground that its middle meets, to what stands beyond.
+// Radiance of the hit, prefiltered for a roughness. `over_ground`: the share of the lobe that passes above the ground hit by its
+// centre, to surfaces behind it.
 vec3 reflected_radiance(float roughness, float over_ground) {
   vec3 sum = vec3(0.0f);
   for (int k = 0; k < max_maps; ++k) {
     if (sight.weight[k] == 0.0f) continue;
-    // A lobe that ends near the surface is narrow for a map that is farther away.
+    // A lobe that hits near the reflector is narrow as seen from a map farther away.
     float seen_roughness = roughness * sqrt(min(sight.distance / length(sight.to_met[k]), 1.0f));
     vec3 to_met = normalize(sight.to_met[k]);
     vec3 seen = seen_roughness < min_gloss ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))

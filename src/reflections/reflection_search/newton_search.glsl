@@ -1,42 +1,45 @@
-// The reflection point as the shortest way over the reflector (Fermat): where |OP| + |PV| is stationary, found by Newton's
-// method in the tangent plane. The ways' second derivatives are exact; how the surface bends is measured (surface_bend.glsl).
-// Steps stay in a region that shrinks when one fails (over bands and concave places the curvature is measured once more); after two
-// failures the paper's direction is followed instead. Along a thin rim the way is a narrow valley, in which every step climbs a
-// little: there a step is right, too, if Newton's method, where it began, has less way to go afterwards (Deuflhard 1974).
-// Hidden vertices need nothing of their own: a vertex and its mirror image have the same tangential part.
-// From the host, beside surface_at:
-//   MapWindow map_window()   what its centre sees of the reflector
+// Reflection point by Fermat's principle: the length |OP| + |PV| of the path from the viewer O over the surface point P to the
+// vertex V is stationary. Newton's method in the tangent plane of P:
+//   step = -H^-1 g,   g: gradient of the length,   H = H_plane + (cos(O) + cos(V)) B
+// The second derivatives H_plane over a plane are exact; the curvature B of the surface is measured (surface_bend.glsl).
+// Steps are limited to a trust region, which shrinks when one fails; on bands and concave patches B is then measured again.
+// After two failures the step follows the negative gradient, the paper's direction. Along a thin rim the length is a narrow
+// valley in which every step increases the error a little: a step is accepted there, too, if the Newton step that remains,
+// with the derivatives at the step's start, is shorter than before (natural monotonicity test, Deuflhard 1974).
+// Hidden vertices need no special case: a vertex and its mirror image have the same tangential component.
+// Required from the host, beside surface_at:
+//   MapWindow map_window()   the part of the sphere of directions in which the centre sees the reflector
 // Needs reflection_point.glsl and map_window.glsl.
 #include "reflections/reflection_search/surface_bend.glsl"
 
-const float first_region = 0.25f;      // the longest first step: radians seen from the centre; on bands the normal turns by no more
-const float min_curvature = 1e-3f;   // of a way over a convex reflector, relative to its greatest
+const float first_region = 0.25f;      // maximum first step: radians seen from the centre; on bands also radians of the normal
+const float min_curvature = 1e-3f;     // of the length over a convex reflector, relative to its maximum curvature
 const float near_error = 2e-7f;        // 0.05 degrees
-const float near_step = 2e-3f;         // of the distance from the centre, for a body seen all around: about a texel
-const float seen_error = 0.25f;        // beyond it, 60 degrees, the viewer may look at the surface's back
+const float near_step = 2e-3f;         // relative to the distance from the centre: about a texel of a whole body's map
+const float seen_error = 0.25f;        // 60 degrees; with a larger error the viewer may see the surface's back
 
-// What a step may make of the error. Its valleys bend: who may climb a little finds more points, but neighbouring vertices then
-// end less often in the same.
+// Maximum growth of the error per step. Error valleys are curved, so allowing a small increase finds more reflection points, at the
+// price of neighbouring vertices converging to different ones.
 const float free_growth = 1.1f;
 const float steady_growth = 0.95f;
 
-// A place where searches may begin.
+// Starting point of searches.
 struct SearchStart {
   TangentPlane plane;
-  vec3 bend;  // of the surface, about as far as half the way to the next such place
+  vec3 bend;  // curvature of the surface, measured about half as far as the next starting point
 };
 
-// A place of the search: the surface there, its tangent plane, and the way over it.
+// State of the search: a surface point, its tangent plane, and the path over it.
 struct Way {
   TangentPlane plane;
-  vec2 slope;   // of the way's length
-  vec3 bend;    // its second derivatives for a flat surface: uu, uv, vv
-  float lift;   // what the surface's own bend counts for
+  vec2 slope;   // gradient of the path's length
+  vec3 bend;    // second derivatives of the length over a plane: uu, uv, vv
+  float lift;   // factor of the surface's own curvature: the sum of both cosines
   float length_m;
   float error;
 };
 
-// Equation 1 from the sum of the two directions: how far it leans in the tangent plane, and how high it stands on it.
+// Error of equation 1, from the sum of the two unit directions: its component in the tangent plane and its height above it.
 GLSL_FUNCTION float leaning_error(vec2 slope, float height) {
   float across = dot(slope, slope), size = sqrt(across + height * height);
   if (size < 1e-6f) return 1.0f;
@@ -63,12 +66,12 @@ GLSL_FUNCTION Way way_over(ReflectionTask task, TangentPlane plane) {
   return way;
 }
 
-// `u`: about where the tangent frame is to point.
+// The path over the surface point along `direction` from the centre; `u`: approximate direction of the tangent frame's first axis.
 GLSL_FUNCTION Way way_at(ReflectionTask task, vec3 direction, vec3 u) {
   return way_over(task, tangent_plane(surface_at(direction), window_frame(map_window(), direction, u)));
 }
 
-// To where the slope vanishes. Over a convex reflector the way is shortest there, so it must bend upward everywhere.
+// Newton's step, to where the gradient vanishes. Over a convex reflector H is made positive definite: the length has a minimum.
 GLSL_FUNCTION vec2 newton_step(Way way, vec3 surface, bool is_convex) {
   vec3 bend = way.bend + way.lift * surface;
   float middle = 0.5f * (bend.x + bend.z);
@@ -84,29 +87,28 @@ GLSL_FUNCTION vec2 newton_step(Way way, vec3 surface, bool is_convex) {
   return vec2(way.slope.y * bend.y - way.slope.x * bend.z, way.slope.x * bend.y - way.slope.y * bend.x) / determinant;
 }
 
-// What Newton's method has to go where its slope would be another.
+// Length of the Newton step for another gradient with the same second derivatives.
 GLSL_FUNCTION float way_to_go(Way way, vec2 slope, vec3 surface, bool is_convex) {
   way.slope = slope;
   return length(newton_step(way, surface, is_convex));
 }
 
-// When a search ends, and what its steps may do.
+// Termination and acceptance of steps.
 struct SearchBounds {
-  bool is_convex;     // believe that the way is shortest at the point
-  float max_growth;  // of the error, in a step
+  bool is_convex;    // assume that the length has a minimum at the reflection point
+  float max_growth;  // of the error per step
   int max_steps;
-  int max_failures;  // steps that lead nowhere
+  int max_failures;  // rejected steps
   float min_error;
-  bool stays_on_surface;  // not even for a while over what closes it
+  bool stays_on_surface;  // never passes over the surface that closes an open patch
 };
 
 struct SearchEnd {
   PatchPoint found;
-  SearchStart last;  // looked up: a search may go on from there
+  SearchStart last;  // the last point looked up, from which a search may continue
 };
 
-// Near the point the last step needs no look: where it leads is known from how
-// the surface bends.
+// Near the reflection point the last step needs no lookup: the curvature predicts the surface there.
 GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, SearchBounds bounds) {
   Way way = way_over(task, start.plane);
   vec3 surface = start.bend;
@@ -166,7 +168,7 @@ GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, Sear
                    SearchStart(way.plane, surface));
 }
 
-// Where a ray from the centre meets the surface.
+// Starting point where a ray from the centre hits the surface.
 GLSL_FUNCTION SearchStart start_along(ReflectionTask task, vec3 direction) {
   TangentPlane plane = tangent_plane(surface_at(direction), window_frame(map_window(), direction, vec3(0.0f)));
   return SearchStart(plane, surface_bend(plane, task.centre, window_breadth(map_window())));
