@@ -25,7 +25,7 @@ Result<std::string> read_file(const std::filesystem::path& file, std::uint64_t m
 /// fails or the disk is full.
 Status write_atomically(const std::filesystem::path& file,
                         const std::function<Status(const std::filesystem::path& temporary)>& write);
-/// The same with bytes that are there already.
+/// Writes `text` in the same way.
 Status write_file(const std::filesystem::path& file, std::string_view text);
 
 /// The folders that a scene may read from and write to: its own, and those given by --data.

@@ -23,7 +23,7 @@ struct Ray {
 
 /// A part of an object in the world, or a mesh that a room draws by itself.
 struct PlacedPart {
-  const Mesh* mesh;  ///< the part's, or the object's where it bends
+  const Mesh* mesh;  ///< the part's, or the object's deformed one
   const scene::Material* material;
   const std::vector<MipTexture>* textures;  ///< of its model
   const scene::TracedSurface* surface;      ///< in place of material and textures; null: they hold

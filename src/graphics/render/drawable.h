@@ -15,11 +15,11 @@
 
 namespace parvis::render {
 
-/// Static things that appeared, vanished or were put elsewhere in one update.
+/// Static things that appeared, vanished or were moved in one update.
 struct FixedChange {
-  std::vector<Bounds> gone;  ///< where one stood
-  std::vector<Bounds> come;  ///< where one stands now
-  bool has_moved = false;    ///< one stood elsewhere before
+  std::vector<Bounds> gone;  ///< former bounds
+  std::vector<Bounds> come;  ///< new bounds
+  bool has_moved = false;    ///< at least one was moved
 
   bool empty() const { return gone.empty() && come.empty(); }
 };
@@ -27,10 +27,11 @@ struct FixedChange {
 /// World bounds of a drawable after its last update; shadow maps and sky visibility are computed from them.
 /// Valid until the next update.
 struct Extents {
-  Bounds fixed;                           ///< of all static things, hidden ones included
-  std::span<const Bounds> moving;         ///< of each visible dynamic thing: it casts a shadow every frame
-  std::span<const shading::Body> bodies;  ///< of those, what hides the sky from what is near it
-  std::span<const Bounds> things;         ///< of all, in the order of their numbers; empty where hidden
+  Bounds fixed;                    ///< union of all static things, hidden ones included
+  std::span<const Bounds> moving;  ///< each visible dynamic thing: a shadow caster of every frame
+  std::span<const shading::Body>
+      bodies;                      ///< shapes of dynamic things that occlude the sky for surfaces near them
+  std::span<const Bounds> things;  ///< every thing by its number; empty bounds where hidden
   const FixedChange* fixed_change = nullptr;  ///< of the last update; null: none
 };
 
@@ -39,24 +40,23 @@ struct Extents {
 class Drawable {
  public:
   virtual ~Drawable() = default;
-  /// Once a frame, before any view: takes over what changed in the scene.
+  /// Called once per frame, before any view: takes over changes of the scene.
   virtual void update(const scene::Scene&) {}
   /// Bounds after the last update; see Extents.
   virtual Extents extents() const = 0;
 
-  /// What it wants of the frame's time for the main view: levels of detail, each with its cost and its worth.
-  /// The renderer writes into `level` what each gets (the best where it has no budget), before
-  /// `prepare`. The span stays valid until then.
+  /// Its levels of detail for the main view, each with cost and worth. Before `prepare` the renderer writes
+  /// the chosen level into `level` (the best if there is no budget); the span must stay valid until then.
   virtual std::span<QualityWish> quality_wishes(const View& /*main_view*/, const Culling&) { return {}; }
 
-  /// Once for each view, before its passes: choose what it shows (`culling`) and how finely, and upload that.
-  /// Other views are prepared and drawn between the main view's preparation and its drawing, so the main
-  /// view's list must be kept apart.
+  /// Called once per view, before its passes: selects what the view shows (`culling`) and at which detail,
+  /// and uploads it. Other views are prepared and drawn between the preparation of the main view and its
+  /// drawing, so the main view's list must be kept separately.
   virtual void prepare(const View& view, const Culling& culling) = 0;
-  /// Draws one pass of the view prepared last (or of the main view): the target is bound, the uniform block
-  /// of frame.glsl is filled, depth is reversed but in shadow views. Light is bound in views that have
+  /// Draws one pass of the view prepared last (or of the main view). The target is bound and the uniform
+  /// block of frame.glsl is filled; depth is reversed except in shadow views; light is bound in views with
   /// colour. ViewPrograms has a program for every kind of view. Views of mirrors (ViewKind::mirrors) show
-  /// reflectors alone.
+  /// reflectors only.
   virtual void draw(const View& view, Pass pass) = 0;
 };
 

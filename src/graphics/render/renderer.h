@@ -37,16 +37,16 @@ class Renderer {
                                                   const MakeLight& make_light = sun_and_sky);
   Renderer(const Renderer&) = delete;
 
-  /// One more drawable, after the scene's in every view. Not owned.
+  /// Adds a drawable, drawn after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
-  /// How mirror-like parts of objects that take reflections are shaded; null: they reflect the sky alone. Not
-  /// owned.
+  /// Sets how mirror-like parts of objects that take reflections are shaded; null: they reflect the sky
+  /// alone. Not owned.
   Status set_reflection(SurfaceShader* shader) { return scene_.set_reflection(shader); }
 
-  /// Time of a frame (ms) that levels of detail of drawables must keep to; 0: each gets its best.
+  /// Time budget of a frame (ms) for the drawables' levels of detail; 0: none, all use their best.
   void set_budget(double budget_ms) { budget_ms_ = budget_ms; }
 
-  /// Takes over transforms and light from the scene, and draws the shadow maps for a viewer.
+  /// Takes over transforms and light from the scene and renders the shadow maps for a viewer.
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
   /// The same for pictures of the static scene: dynamic objects cast no shadow.
   void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
@@ -60,9 +60,9 @@ class Renderer {
   /// Indices of the scene objects in the main view, ascending.
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }  ///< of the selected eye, as prepared last
-  /// Draws the view that was prepared, four samples per pixel.
+  /// Draws the prepared main view, four samples per pixel.
   void draw_main_view();
-  /// Draws a view of another room: a cube face, say, in linear radiance, with sky.
+  /// Draws a view for another room, for example a cube face: linear radiance, with sky.
   void draw_view(const View& view);
   /// A readback: for tools and tests, not for frames.
   ObjectPicture pick(const Camera& camera, int width, int height, bool culls_hidden);

@@ -19,7 +19,7 @@ struct SurfaceSource {
   std::string fragment = "graphics/render/surface.frag";
   std::string vertex = "graphics/render/surface.vert";
   gl::Defines defines = {};
-  gl::Defines mesh_defines = {};  ///< of the scene's meshes alone: rooms that draw by themselves lack them
+  gl::Defines mesh_defines = {};           ///< for the scene's meshes only, not for surfaces that rooms draw
   std::vector<std::string> includes = {};  ///< before `fragment`: files that define what the expressions call
   /// GLSL expression over `radiance`, the result of `reflected_radiance` for a layer of that `roughness`: how
   /// overlays modify it.

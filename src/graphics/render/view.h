@@ -17,12 +17,12 @@ class VirtualVertices;
 
 /// Purpose of a view, which decides the shaders and the output.
 enum class ViewKind : std::uint8_t {
-  main,       ///< what a person sees
+  main,       ///< the displayed image
   cube_face,  ///< surroundings of a reflector
-  mirrored,   ///< what a curved reflector shows, by `virtual_vertices`
+  mirrored,   ///< the scene in a curved reflector, by `virtual_vertices`
   shadow,     ///< depth from the sun
-  mirrors,    ///< the mirror-like surfaces that the main view shows, by `surface_programs`
-  picking     ///< which object each pixel shows
+  mirrors,    ///< the mirror-like surfaces of the main view, by `surface_programs`
+  picking     ///< the object of each pixel
 };
 
 /// Which of the scene's objects a view shows.
@@ -30,32 +30,32 @@ enum class Subjects : std::uint8_t {
   all,
   moving,
   fixed,
-  staying,   ///< fixed, and not of the newcomers
-  newcomers  ///< fixed things that appeared, or were put where they are, in this frame
+  staying,   ///< fixed ones without newcomers
+  newcomers  ///< fixed ones that appeared or were moved in this frame
 };
 
 /// One image to be rendered: camera, selection and target. The pointers must stay valid while the view is
 /// drawn.
 struct View {
   ViewKind kind = ViewKind::main;
-  glm::mat4 clip_from_world{1.0f};    ///< depth -1 near, 1 far; the renderer turns it round
+  glm::mat4 clip_from_world{1.0f};    ///< depth -1 near, 1 far; the renderer reverses it
   glm::vec3 position_in_world{0.0f};  ///< of the eye; for shadows, a point far toward the sun
   GLuint framebuffer = 0;
   int width = 0, height = 0;
-  glm::ivec4 part{
-      0};  ///< x, y, width, height in pixels, from the lower left: all that is drawn; none: everything
-  const std::vector<std::uint8_t>* shown_objects =
-      nullptr;  ///< a flag for each object, and for things that rooms draw; those beyond are left out; null:
-                ///< all
+  /// Rectangle to be drawn: x, y, width, height in pixels from the lower left; zero: all.
+  glm::ivec4 part{0};
+  /// A flag for each object and, after them, for each thing that rooms draw; those beyond are hidden. Null:
+  /// all are shown.
+  const std::vector<std::uint8_t>* shown_objects = nullptr;
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
-  std::span<const std::uint32_t>
-      left_out_items;       ///< of GpuScene: parts of objects that do not see themselves
-  bool shows_glass = true;  ///< what refracts
+  /// Items of GpuScene to leave out: parts of objects that do not see themselves.
+  std::span<const std::uint32_t> left_out_items;
+  bool shows_glass = true;  ///< includes refracting materials
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
-  const SurfacePrograms* surface_programs =
-      nullptr;                ///< of a view of mirrors: for GpuScene::mirror_materials()
-  bool clears = true;         ///< depth; else it draws over what is there
+  /// For a view of mirrors: programs for GpuScene::mirror_materials().
+  const SurfacePrograms* surface_programs = nullptr;
+  bool clears = true;         ///< clears depth first; else it draws over the content
   bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
 
   /// True if `shown_objects` selects this object or thing; all are selected where there is no list.

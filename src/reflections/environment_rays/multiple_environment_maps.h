@@ -76,7 +76,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   float cell_m_;
   glm::ivec2 cells_;
   int top_level_;
-  glm::vec3 choice_grid_;  ///< south-west corner and metres a cell
+  glm::vec3 choice_grid_;  ///< south-west corner and metres per cell
   gl::Texture heights_, choice_;
 };
 

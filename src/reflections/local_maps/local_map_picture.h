@@ -18,7 +18,7 @@ using namespace reference_maps;
 /// Place of a local map in the texture; its tiles may be smaller than the slot's.
 struct LocalMapPlace {
   int slot;
-  int tile;  ///< texels a side, border included
+  int tile;  ///< texels per side, border included
 };
 
 /// Colour, depth and mipmap levels of all local maps.

@@ -12,7 +12,7 @@ namespace parvis::local_maps {
 struct LocalMapWish {
   glm::vec3 centre{0.0f};
   float body_radius_m = 0.0f;
-  int tile = 0;                  ///< texels a side, border included
+  int tile = 0;                  ///< texels per side, border included
   float smallest_texels = 1.0f;  ///< of its mesh's quads
   bool shows_others = false;     ///< dynamic objects are drawn over it
 };

@@ -59,7 +59,7 @@ struct Sky {
   float intensity = 1.0f;      ///< multiplies the picture
   float heading = 0.0f;        ///< radians, turns the picture about the zenith, clockwise from above
   std::filesystem::path file;  ///< the picture's; empty: it was made in memory
-  int version = 0;             ///< of a picture that is computed: counted up whenever it changes
+  int version = 0;             ///< of a computed picture: incremented whenever it changes
 };
 
 /// A camera of the scene, which may follow an object.

@@ -20,7 +20,7 @@ namespace parvis::scene {
 struct NodeFrame {
   glm::mat4 world_from_nodes{1.0f};
   bool is_visible = true;
-  int number = -1;  ///< of a node that was built: in the order of the script, a node before those inside it
+  int number = -1;  ///< of a built node: in the order of the script, parents before children
 };
 
 /// Models by a key that describes how they were made: equal objects share one.
