@@ -1,5 +1,5 @@
 // Billboards of captured trees: where they stand was decided for this view (tree_drawable.cpp).
-#define IS_LEAF  // light at the corners tells all: surface_outputs.glsl
+#define IS_LEAF  // light is evaluated at the corners alone: surface_outputs.glsl
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"
