@@ -1,4 +1,4 @@
-// A ray scene that is updated agrees with one that is built anew.
+// A ray scene that is updated agrees with a new one.
 #include "graphics/reference/ray_scene.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ scene::Scene three_things() {
   return scene;
 }
 
-TEST(RayScene, UpdatesAgreeWithWhatIsBuiltAnew) {
+TEST(RayScene, UpdatesAgreeWithANewScene) {
   scene::Scene scene = three_things();
   RayScene rays(scene);
   expect_same(rays, scene, "as built");
