@@ -8,6 +8,10 @@ namespace parvis {
 
 void add_facade_calibrate(CLI::App& stage, Chosen& chosen);
 void add_facade_model(CLI::App& stage, Chosen& chosen);
+void add_facade_layers(CLI::App& stage, Chosen& chosen);
+void add_facade_fill(CLI::App& stage, Chosen& chosen);
+void add_facade_pack(CLI::App& stage, Chosen& chosen);
+void add_facade_walk(CLI::App& stage, Chosen& chosen);
 
 /// A stage with its place in the help.
 struct FacadeStage {
@@ -19,6 +23,10 @@ struct FacadeStage {
 inline constexpr FacadeStage facade_stages[] = {
     {"calibrate", "Find the cameras of photographs, and points of the place", add_facade_calibrate},
     {"model", "Propose a coarse model: ground, walls and roofs as named planes", add_facade_model},
+    {"layers", "Cut every photograph into layers, as PSD files for an image editor", add_facade_layers},
+    {"fill", "Propose what photographs do not see of their layers; accept or refuse it", add_facade_fill},
+    {"pack", "Compress the layers, with edits and fillings, into a file and a scene", add_facade_pack},
+    {"walk", "All of it: from photographs to a scene to walk through", add_facade_walk},
 };
 
 }  // namespace parvis

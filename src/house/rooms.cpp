@@ -1,6 +1,7 @@
 #include "house/rooms.h"
 
 #include "formats/city_models/city_formats.h"
+#include "capture/facades/room.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/readers/bench/import_export_bench.h"
@@ -48,6 +49,7 @@ constexpr Furnish rooms[]{
     reference_maps::furnish,
     virtual_objects::furnish,
     refraction::furnish,
+    facades::furnish,
     bench::furnish_frame,
     bench::furnish_import_export,
     bench::furnish_multiple_environment_maps,

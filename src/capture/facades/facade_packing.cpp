@@ -1,6 +1,6 @@
-// Departure from 3.6.1: a layer's texture is not one rectangle with a sheared frustum but the tiles of it
-// that are needed; texels stay the photograph's own, and the frustum's matrix is the photograph's with the
-// tile's place added.
+// Departure from 3.6.1: a layer's texture is not one rectangle with a sheared frustum but the tiles of it that
+// are needed; texels stay the photograph's own, and the frustum's matrix is the photograph's with the tile's
+// place added.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +14,6 @@ namespace parvis::facades {
 namespace {
 
 constexpr int dilation_rings = 6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
-/// Of pixels that were filled, in mixed tiles: colours share a block's line with alpha, so that a larger step
-/// would cost them most of their precision.
-constexpr std::uint8_t unseen_alpha = 191;
 constexpr std::size_t max_known_colours = 2000;  ///< that unknown surfaces are coloured from
 
 /// A layer as it is stored, with what is needed of it.
@@ -62,9 +59,7 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
   const PixelBox& box = place.layered[photo].layers[l].box;
   const Filled& filled = place.filled[photo];
   LayerPicture picture{Image8(box.width, box.height, 4),
-                       std::vector<char>(std::size_t(box.width) * std::size_t(box.height), 0),
-                       {},
-                       false};
+                       std::vector<char>(std::size_t(box.width) * std::size_t(box.height), 0), {}, false};
   picture.is_needed = picture.is_covered;
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
@@ -79,7 +74,7 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
       std::uint8_t* p = picture.rgba.at(x, y);
       std::copy_n(from.at(x, y), 4, p);
       if (source == FillSource::painted && p[3] < 255) picture.has_alpha = true;
-      if (source != FillSource::painted) p[3] = is_certain ? 255 : unseen_alpha;
+      if (source != FillSource::painted) p[3] = is_certain ? 255 : 0;
       picture.is_covered[at(box, x, y)] = 1;
       picture.is_needed[at(box, x, y)] = is_first || source == FillSource::painted ||
                                          source == FillSource::patches || source == FillSource::smooth;
@@ -88,7 +83,8 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
   if (picture.has_alpha)
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x)
-        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted)) picture.rgba.at(x, y)[3] = 255;
+        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted))
+          picture.rgba.at(x, y)[3] = 255;
   dilate(picture);
   return picture;
 }
@@ -123,10 +119,9 @@ Image8 halved(const Image8& image) {
   for (int y = 0; y < half.height; ++y)
     for (int x = 0; x < half.width; ++x)
       for (int c = 0; c < 4; ++c)
-        half.at(x, y)[c] =
-            std::uint8_t((image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
-                          image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c] + 2) /
-                         4);
+        half.at(x, y)[c] = std::uint8_t((image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
+                                         image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c] + 2) /
+                                        4);
   return half;
 }
 

@@ -1,0 +1,54 @@
+#include "facade_place.h"
+
+#include "formats/readers/readers.h"
+#include "house/rooms.h"
+
+namespace parvis {
+namespace {
+
+void print(const Errors& messages) {
+  if (!messages.empty()) fmt::print(stderr, "{}", to_string(messages));
+}
+
+}  // namespace
+
+Result<facades::PlaceSource> open_place(const PlaceArguments& arguments) {
+  const std::filesystem::path file =
+      arguments.model.empty() ? arguments.folder / "model.glb" : arguments.model;
+  std::error_code code;
+  if (!std::filesystem::exists(file, code))
+    return error("{}: there is no model; run parvis facade model {}, or give one by --model", file.string(),
+                 arguments.folder.string());
+  Errors warnings;
+  const Result<scene::Model> model = house::all_rooms().get<formats::Readers>().read(file, {}, warnings);
+  if (!model) return model.errors();
+  print(warnings);
+  return facades::read_place(arguments.folder, facades::named_meshes(*model), arguments.left_out);
+}
+
+Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,
+                                         const facades::PlaceSettings& settings) {
+  Result<facades::PlaceLayers> place = facades::make_place(source, settings);
+  if (place) print(place->warnings);
+  return place;
+}
+
+Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
+  const Result<facades::PlaceSource> source = open_place(arguments);
+  if (!source) return source.errors();
+  const Result<facades::PlaceLayers> place = open_layers(*source);
+  if (!place) return place.errors();
+  if (writes_pictures)
+    if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
+  const Result<facades::PackedFacade> packed = facades::pack_place(*source, *place);
+  if (!packed) return packed.errors();
+  fmt::print("{} photographs, {} layers, {} surfaces; {:.1f} MB of textures, {:.1f} % of the photographs' RGBA\n",
+             packed->photos.size(), packed->layers.size(), packed->surfaces.size(),
+             1e-6 * double(packed->texture_bytes()),
+             100.0 * double(packed->texture_bytes()) / double(packed->photograph_bytes()));
+  fmt::print("written to {}\nlook: parvis view {}\n", (arguments.folder / "place.facade").string(),
+             (arguments.folder / "place.xp").string());
+  return Done{};
+}
+
+}  // namespace parvis

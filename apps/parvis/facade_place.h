@@ -1,0 +1,38 @@
+// What the stages of parvis facade after the model have in common: a folder, its model, its layers.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "capture/facades/place_folder.h"
+
+namespace parvis {
+
+struct PlaceArguments {
+  std::filesystem::path folder, model;
+  std::vector<std::string> left_out;
+
+  /// FOLDER, --model and --leave-out.
+  void add(CLI::App& stage) {
+    stage.add_option("folder", folder, "Folder of calibrated photographs")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    stage
+        .add_option("--model", model,
+                    "The place's model, in any format that scenes read; FOLDER/model.glb where it is not given")
+        ->check(CLI::ExistingFile);
+    stage.add_option("--leave-out", left_out, "A photograph that is not used, by its name; may repeat");
+  }
+};
+
+/// The folder's photographs and model. Notes are written to standard error.
+Result<facades::PlaceSource> open_place(const PlaceArguments& arguments);
+/// Its layers, filled, with choices and edits. Warnings are written to standard error.
+Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,
+                                         const facades::PlaceSettings& settings = {});
+/// Layers, pictures if asked for, pack and scene, with a line for each on standard output.
+Status finish_place(const PlaceArguments& arguments, bool writes_pictures);
+
+}  // namespace parvis
