@@ -486,6 +486,22 @@ class BadModels(InAFolder):
             self.expect_bad_model(name, text, name + ":2:", "DOCTYPE")
 
 
+class Facades(InAFolder):
+    def test_stages_say_what_is_missing(self):
+        self.assertEqual(run("facade", "pack", self.folder / "nowhere").returncode, 2)
+        for stage in ("layers", "fill", "pack", "report"):
+            done = run("facade", stage, self.folder)
+            self.assertEqual(done.returncode, 1, stage)
+            self.assertIn("parvis facade model", done.stderr)
+
+    def test_a_damaged_pack_is_named(self):
+        (self.folder / "place.facade").write_bytes(b"PVFACE_1" + b"x" * 100)
+        (self.folder / "place.xp").write_text('facade(file="place.facade")')
+        done = run("check", self.folder / "place.xp")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("place.facade", done.stderr)
+
+
 class BadScripts(InAFolder):
     def test_names_that_are_not_there_or_taken(self):
         place = 'camera(name="a")\ngroup(name="trees") { }\n'

@@ -1,6 +1,7 @@
-// parvis facade layers, fill, pack: from a calibrated place with a model to a scene.
+// parvis facade layers, fill, pack, report: from a calibrated place with a model to a scene.
 #include <memory>
 
+#include "capture/facades/place_report.h"
 #include "facade_place.h"
 #include "facade_stages.h"
 
@@ -17,10 +18,11 @@ Status write_layers(const PlaceArguments& arguments, bool fills) {
     const auto count = [&](facades::Filling state) {
       return std::ranges::count(place->filled[i].states, state);
     };
-    fmt::print("{:<24} {:>4} layers in {:>3} visibility layers, {:>4} proposals, {:>4} accepted, {:>4} refused\n",
-               place->names[i], place->layered[i].layers.size(), place->visibility[i].layers.size(),
-               count(facades::Filling::proposal), count(facades::Filling::accepted),
-               count(facades::Filling::refused));
+    fmt::print(
+        "{:<24} {:>4} layers in {:>3} visibility layers, {:>4} proposals, {:>4} accepted, {:>4} refused\n",
+        place->names[i], place->layered[i].layers.size(), place->visibility[i].layers.size(),
+        count(facades::Filling::proposal), count(facades::Filling::accepted),
+        count(facades::Filling::refused));
   }
   if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
   fmt::print("written to {}\n", (arguments.folder / "layers").string());
@@ -49,6 +51,18 @@ Status fill(const FillArguments& arguments) {
   return write_layers(arguments.place, true);
 }
 
+Status report(const PlaceArguments& arguments) {
+  const Result<facades::PlaceSource> source = open_place(arguments);
+  if (!source) return source.errors();
+  const Result<facades::PlaceLayers> place = open_layers(*source);
+  if (!place) return place.errors();
+  const std::filesystem::path folder = arguments.folder / "report";
+  if (Status status = facades::write_report(folder, *place, facades::packed_facade(*place)); !status)
+    return status;
+  fmt::print("written to {}\n", (folder / "index.html").string());
+  return Done{};
+}
+
 }  // namespace
 
 void add_facade_layers(CLI::App& stage, Chosen& chosen) {
@@ -73,6 +87,13 @@ void add_facade_pack(CLI::App& stage, Chosen& chosen) {
   arguments->add(stage);
   stage.footer("Example: parvis facade pack courtyard");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return finish_place(*arguments, false); }; });
+}
+
+void add_facade_report(CLI::App& stage, Chosen& chosen) {
+  const auto arguments = std::make_shared<PlaceArguments>();
+  arguments->add(stage);
+  stage.footer("Example: parvis facade report courtyard");
+  stage.callback([arguments, &chosen] { chosen = [arguments] { return report(*arguments); }; });
 }
 
 }  // namespace parvis

@@ -42,10 +42,11 @@ Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
     if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
   const Result<facades::PackedFacade> packed = facades::pack_place(*source, *place);
   if (!packed) return packed.errors();
-  fmt::print("{} photographs, {} layers, {} surfaces; {:.1f} MB of textures, {:.1f} % of the photographs' RGBA\n",
-             packed->photos.size(), packed->layers.size(), packed->surfaces.size(),
-             1e-6 * double(packed->texture_bytes()),
-             100.0 * double(packed->texture_bytes()) / double(packed->photograph_bytes()));
+  fmt::print(
+      "{} photographs, {} layers, {} surfaces; {:.1f} MB of textures, {:.1f} % of the photographs' RGBA\n",
+      packed->photos.size(), packed->layers.size(), packed->surfaces.size(),
+      1e-6 * double(packed->texture_bytes()),
+      100.0 * double(packed->texture_bytes()) / double(packed->photograph_bytes()));
   fmt::print("written to {}\nlook: parvis view {}\n", (arguments.folder / "place.facade").string(),
              (arguments.folder / "place.xp").string());
   return Done{};

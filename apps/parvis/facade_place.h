@@ -20,8 +20,9 @@ struct PlaceArguments {
         ->required()
         ->check(CLI::ExistingDirectory);
     stage
-        .add_option("--model", model,
-                    "The place's model, in any format that scenes read; FOLDER/model.glb where it is not given")
+        .add_option(
+            "--model", model,
+            "The place's model, in any format that scenes read; FOLDER/model.glb where it is not given")
         ->check(CLI::ExistingFile);
     stage.add_option("--leave-out", left_out, "A photograph that is not used, by its name; may repeat");
   }

@@ -11,6 +11,7 @@ void add_facade_model(CLI::App& stage, Chosen& chosen);
 void add_facade_layers(CLI::App& stage, Chosen& chosen);
 void add_facade_fill(CLI::App& stage, Chosen& chosen);
 void add_facade_pack(CLI::App& stage, Chosen& chosen);
+void add_facade_report(CLI::App& stage, Chosen& chosen);
 void add_facade_walk(CLI::App& stage, Chosen& chosen);
 
 /// A stage with its place in the help.
@@ -26,6 +27,7 @@ inline constexpr FacadeStage facade_stages[] = {
     {"layers", "Cut every photograph into layers, as PSD files for an image editor", add_facade_layers},
     {"fill", "Propose what photographs do not see of their layers; accept or refuse it", add_facade_fill},
     {"pack", "Compress the layers, with edits and fillings, into a file and a scene", add_facade_pack},
+    {"report", "Write a page: layers, coverage, proposals, memory", add_facade_report},
     {"walk", "All of it: from photographs to a scene to walk through", add_facade_walk},
 };
 

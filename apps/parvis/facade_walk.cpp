@@ -41,7 +41,8 @@ void add_facade_walk(CLI::App& stage, Chosen& chosen) {
       ->check(CLI::ExistingDirectory);
   stage.add_option("-o,--output", arguments->job.folder, "Folder to write to; it keeps what is finished")
       ->required();
-  stage.add_option("--cameras", arguments->job.cameras, "Cameras that are known; see parvis facade calibrate");
+  stage.add_option("--cameras", arguments->job.cameras,
+                   "Cameras that are known; see parvis facade calibrate");
   stage.add_option("--model", arguments->place.model, "A model of the place, in place of a proposed one")
       ->check(CLI::ExistingFile);
   stage.footer("Example: parvis facade walk photographs/ -o courtyard && parvis view courtyard/place.xp");

@@ -26,7 +26,8 @@ struct SurfaceRange {
 std::vector<SurfaceRange> ranges_of(const PackedFacade& facade) {
   std::vector<SurfaceRange> ranges;
   for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
-    if (t == 0 || facade.surface_of_triangle[t] != facade.surface_of_triangle[t - 1]) ranges.push_back({t, 0, {}});
+    if (t == 0 || facade.surface_of_triangle[t] != facade.surface_of_triangle[t - 1])
+      ranges.push_back({t, 0, {}});
     ++ranges.back().count;
     for (std::size_t k = 0; k < 3; ++k) ranges.back().bounds.add(facade.corners[3 * t + k]);
   }
@@ -73,7 +74,8 @@ class FacadeDrawable final : public render::Drawable {
   }
 
   void update(const scene::Scene& scene) override {
-    // A file that cannot be loaded was an error when the scene was read; a full graphics memory shows nothing.
+    // A file that cannot be loaded was an error when the scene was read; a full graphics memory shows
+    // nothing.
     if (!load(scene)) return;
     const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
     change_ = {};
@@ -105,8 +107,8 @@ class FacadeDrawable final : public render::Drawable {
       for (const SurfaceRange& range : shown_[i].loaded->ranges) {
         const Bounds bounds = transformed(shown_[i].world_from_facade, range.bounds);
         if (!culling.may_see(bounds) || culling.is_hidden(bounds)) continue;
-        const bool joins = !list.empty() && list.back().facade == i &&
-                           list.back().first + list.back().count == range.first;
+        const bool joins =
+            !list.empty() && list.back().facade == i && list.back().first + list.back().count == range.first;
         if (joins)
           list.back().count += range.count;
         else
@@ -146,9 +148,9 @@ class FacadeDrawable final : public render::Drawable {
       }
       Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade);
       if (!textures) return textures.errors();
-      kept.emplace(placed.facade, std::make_unique<LoadedFacade>(LoadedFacade{
-                                      *std::move(textures), ranges_of(*placed.facade),
-                                      placed.facade->bounds(), has_holes(*placed.facade)}));
+      kept.emplace(placed.facade, std::make_unique<LoadedFacade>(
+                                      LoadedFacade{*std::move(textures), ranges_of(*placed.facade),
+                                                   placed.facade->bounds(), has_holes(*placed.facade)}));
     }
     loaded_ = std::move(kept);
     return Done{};
@@ -182,8 +184,6 @@ class FacadeDrawable final : public render::Drawable {
 
 }  // namespace
 
-render::DrawableKind facades_kind() {
-  return {traced_facades(), &FacadeDrawable::create};
-}
+render::DrawableKind facades_kind() { return {traced_facades(), &FacadeDrawable::create}; }
 
 }  // namespace parvis::facades

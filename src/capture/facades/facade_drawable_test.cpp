@@ -45,7 +45,9 @@ class FacadeDrawableTest : public gl::ContextTest {
   ImageF trace() const {
     const reference::RayScene rays(scene_);
     const shading::SkyLight sky = shading::make_sky_light(scene_.sky.picture, 1.0f, 0.0f);
-    return reference::trace_picture(rays, scene_, sky, camera_, width, height, {.samples_a_pixel = 4}).radiance;
+    reference::TraceOptions options;
+    options.samples_per_pixel = 4;
+    return reference::trace_picture(rays, scene_, sky, camera_, width, height, options).radiance;
   }
   static double psnr(const Image8& a, const Image8& b) {
     double sum = 0.0;

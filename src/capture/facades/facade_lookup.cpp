@@ -36,8 +36,7 @@ glm::vec4 FacadeTexels::bilinear(int slot, glm::vec2 at, int level) const {
   const std::uint8_t* texels =
       texels_.data() + std::size_t(slot) * slot_bytes + level_begin[std::size_t(level)];
   const auto texel = [&](int x, int y) {
-    const std::uint8_t* t =
-        texels + 4 * (std::clamp(y, 0, side - 1) * side + std::clamp(x, 0, side - 1));
+    const std::uint8_t* t = texels + 4 * (std::clamp(y, 0, side - 1) * side + std::clamp(x, 0, side - 1));
     return glm::vec4(t[0], t[1], t[2], t[3]) / 255.0f;
   };
   const int x = int(low.x), y = int(low.y);
@@ -71,10 +70,9 @@ glm::vec4 FacadeLookup::facade_texel(int slot, glm::vec2 at, float level) const 
 glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::vec3 to_eye, float pixel_m,
                                glm::vec2 barycentric) {
   const glm::u8vec3* corner = facade_.fallback.data() + 3 * std::size_t(triangle);
-  const glm::vec3 fallback =
-      (glm::vec3(corner[0]) * (1.0f - barycentric.x - barycentric.y) + glm::vec3(corner[1]) * barycentric.x +
-       glm::vec3(corner[2]) * barycentric.y) /
-      255.0f;
+  const glm::vec3 fallback = (glm::vec3(corner[0]) * (1.0f - barycentric.x - barycentric.y) +
+                              glm::vec3(corner[1]) * barycentric.x + glm::vec3(corner[2]) * barycentric.y) /
+                             255.0f;
   const glm::uvec2 list = facade_.lists[triangle];
   return facade_colour(position, to_eye, pixel_m, int(list.x), int(list.y), fallback);
 }

@@ -1,6 +1,6 @@
-// Departure from 3.6.1: a layer's texture is not one rectangle with a sheared frustum but the tiles of it that
-// are needed; texels stay the photograph's own, and the frustum's matrix is the photograph's with the tile's
-// place added.
+// Departure from 3.6.1: a layer's texture is not one rectangle with a sheared frustum but the tiles of it
+// that are needed; texels stay the photograph's own, and the frustum's matrix is the photograph's with the
+// tile's place added.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,7 +59,9 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
   const PixelBox& box = place.layered[photo].layers[l].box;
   const Filled& filled = place.filled[photo];
   LayerPicture picture{Image8(box.width, box.height, 4),
-                       std::vector<char>(std::size_t(box.width) * std::size_t(box.height), 0), {}, false};
+                       std::vector<char>(std::size_t(box.width) * std::size_t(box.height), 0),
+                       {},
+                       false};
   picture.is_needed = picture.is_covered;
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
@@ -83,8 +85,7 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
   if (picture.has_alpha)
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x)
-        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted))
-          picture.rgba.at(x, y)[3] = 255;
+        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted)) picture.rgba.at(x, y)[3] = 255;
   dilate(picture);
   return picture;
 }
@@ -119,9 +120,10 @@ Image8 halved(const Image8& image) {
   for (int y = 0; y < half.height; ++y)
     for (int x = 0; x < half.width; ++x)
       for (int c = 0; c < 4; ++c)
-        half.at(x, y)[c] = std::uint8_t((image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
-                                         image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c] + 2) /
-                                        4);
+        half.at(x, y)[c] =
+            std::uint8_t((image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
+                          image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c] + 2) /
+                         4);
   return half;
 }
 

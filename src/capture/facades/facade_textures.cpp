@@ -85,8 +85,8 @@ gl::Texture atlas_texture(const PackedFacade& facade) {
     for (int level = 0; level < tile_levels; ++level) {
       const int side = tile_side >> level, count = side * side / 16;
       glCompressedTextureSubImage3D(name, level, side * (slot % slots_across),
-                                    side * (slot % slots_per_page / slots_across), slot / slots_per_page, side,
-                                    side, 1, GL_COMPRESSED_RGBA_BPTC_UNORM,
+                                    side * (slot % slots_per_page / slots_across), slot / slots_per_page,
+                                    side, side, 1, GL_COMPRESSED_RGBA_BPTC_UNORM,
                                     GLsizei(count * int(bc7_block_bytes)), blocks);
       blocks += count;
     }

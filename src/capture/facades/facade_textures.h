@@ -16,7 +16,7 @@ class FacadeTextures {
   /// Fails where the facade has more textures or longer tables than the graphics hardware holds.
   static Result<FacadeTextures> create(const PackedFacade& facade);
 
-  /// Binds all to the units of drawables, and tells `program` which is which.
+  /// Binds all to the units of drawables, and sets the samplers of `program`.
   void bind(const gl::Program& program) const;
   void draw(std::size_t first_triangle, std::size_t triangles) const;
   std::size_t bytes() const { return bytes_; }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int max_grid_side = 400;  ///< points of a rectified plane; larger ones are sampled more coarsely
 constexpr float max_fill_contradiction = 0.15f;  ///< of photographs that are to say what is hidden
-constexpr int min_hole_pixels = 4;  ///< holes of fewer pixels on a plane are not worth a search
+constexpr int min_hole_pixels = 4;               ///< holes of fewer pixels on a plane are not worth a search
 
 std::uint8_t& source_of(Filled& filled, std::size_t layer, int x, int y) {
   return *filled.sources[layer].at(x, y);

@@ -141,7 +141,8 @@ PhotoRow photo_row(const PackedPhoto& photo) {
   const glm::dvec3 rows[3]{view.fx * rotation_rows[0] + view.cx * rotation_rows[2],
                            view.fy * rotation_rows[1] + view.cy * rotation_rows[2], rotation_rows[2]};
   PhotoRow row{};
-  for (std::size_t i = 0; i < 3; ++i) row[i] = glm::vec4(glm::dvec4(rows[i], -glm::dot(rows[i], view.centre)));
+  for (std::size_t i = 0; i < 3; ++i)
+    row[i] = glm::vec4(glm::dvec4(rows[i], -glm::dot(rows[i], view.centre)));
   row[3] = glm::vec4(glm::dvec4(view.centre, view.fx));
   row[4] = glm::vec4(view.width, view.height, 0.0f, 0.0f);
   const auto& b = photo.balance;

@@ -17,10 +17,10 @@
 
 namespace parvis::facades {
 
-inline constexpr int tile_inner = 60;   ///< pixels of the photograph in a tile, per side
-inline constexpr int tile_border = 2;   ///< texels about them that repeat the neighbours
+inline constexpr int tile_inner = 60;  ///< pixels of the photograph in a tile, per side
+inline constexpr int tile_border = 2;  ///< texels about them that repeat the neighbours
 inline constexpr int tile_side = tile_inner + 2 * tile_border;
-inline constexpr int tile_levels = 3;   ///< mipmaps; filters of coarser ones would leave the slot
+inline constexpr int tile_levels = 3;  ///< mipmaps; filters of coarser ones would leave the slot
 inline constexpr std::size_t blocks_per_slot = (64 * 64 + 32 * 32 + 16 * 16) / 16;
 static_assert(tile_side == 64);
 
@@ -32,6 +32,7 @@ enum class TileKind : std::uint8_t {
   alpha   ///< seen, with an artist's alpha
 };
 
+/// A photograph's camera and colours.
 struct PackedPhoto {
   std::string name;
   View view;
@@ -43,35 +44,41 @@ struct PackedLayer {
   PixelBox box;
   std::uint32_t photo = 0, first_tile = 0;
 
+  /// Tiles in a row.
   int across() const { return (box.width + tile_inner - 1) / tile_inner; }
+  /// Rows of tiles.
   int down() const { return (box.height + tile_inner - 1) / tile_inner; }
 };
 
+/// What a facade(...) node shows.
 struct PackedFacade {
-  std::vector<std::string> surfaces;  ///< names of the model's objects
-  std::vector<glm::vec3> corners;     ///< in the facade's frame, three per triangle
+  std::vector<std::string> surfaces;               ///< names of the model's objects
+  std::vector<glm::vec3> corners;                  ///< in the facade's frame, three per triangle
   std::vector<std::uint32_t> surface_of_triangle;  ///< ascending
-  std::vector<glm::u8vec3> fallback;  ///< sRGB per corner, where no photograph says anything
-  std::vector<glm::uvec2> lists;      ///< per triangle: first and number of its candidates
-  std::vector<std::uint32_t> candidates;  ///< layers
+  std::vector<glm::u8vec3> fallback;               ///< sRGB per corner, where no photograph says anything
+  std::vector<glm::uvec2> lists;                   ///< per triangle: first and number of its candidates
+  std::vector<std::uint32_t> candidates;           ///< layers
   std::vector<PackedPhoto> photos;
   std::vector<PackedLayer> layers;
   std::vector<std::uint32_t> tiles;  ///< TileKind, and the slot above it
   std::vector<Bc7Block> blocks;      ///< blocks_per_slot for each slot, level by level
 
   std::size_t triangle_count() const { return corners.size() / 3; }
+  /// Of tiles that are stored.
   std::size_t slot_count() const { return blocks.size() / blocks_per_slot; }
   /// Of all textures and tables, as graphics memory holds them.
   std::size_t texture_bytes() const;
   /// Of the photographs that they were made of, at 4 bytes per pixel.
   std::size_t photograph_bytes() const;
+  /// Of all surfaces, in the facade's frame.
   Bounds bounds() const;
 };
 
-/// Packs the layers of a place with the proposals that were not refused. Where a photograph sees a surface its
-/// own pixels stay until a proposal is accepted.
+/// Packs the layers of a place with the proposals that were not refused. Where a photograph sees a surface
+/// its own pixels stay until a proposal is accepted.
 PackedFacade packed_facade(const PlaceLayers& place);
 
+/// The file appears whole or not at all.
 Status write_facade(const std::filesystem::path& file, const PackedFacade& facade);
 /// Errors: missing, foreign, cut short, damaged, or with numbers that do not fit together.
 Result<PackedFacade> read_facade(const std::filesystem::path& file);
@@ -80,7 +87,9 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
 
 /// The rows of the tables that facade_lookup.glsl reads.
 using PhotoRow = std::array<glm::vec4, 7>;
+/// FacadePhoto of facade_photo.glsl.
 PhotoRow photo_row(const PackedPhoto& photo);
+/// What `facade_layer` of facade_lookup.glsl gives.
 glm::uvec4 layer_row(const PackedLayer& layer);
 
 }  // namespace parvis::facades

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "capture/facades/facade_lookup.h"
+#include "capture/facades/measure_place.h"
 #include "capture/facades/rephotography.h"
 #include "capture/facades/test_street.h"
 
@@ -79,8 +80,9 @@ TEST(PackedFacade, AnOwnViewpointIsPlainlyThePhotograph) {
     EXPECT_EQ(judged.covered_percent, 100.0);
   }
   // The control: another photograph's picture is not this one.
-  EXPECT_LT(rephotography(packed.picture(packed.place.views[0]), *read_image8(packed.input.photos[1].file)).psnr_db,
-            25.0);
+  EXPECT_LT(
+      rephotography(packed.picture(packed.place.views[0]), *read_image8(packed.input.photos[1].file)).psnr_db,
+      25.0);
 }
 
 TEST(PackedFacade, BetweenPhotographsItShowsThePlaceEverywhere) {
@@ -99,6 +101,22 @@ TEST(PackedFacade, HiddenPartsThatOthersShowAreNotStored) {
   EXPECT_LE(packed.facade.slot_count(), boxes);
   EXPECT_GT(packed.facade.slot_count(), 4u * 4u) << "a picture of 160 x 120 has 3 x 2 tiles";
   EXPECT_LT(double(packed.facade.texture_bytes()) / double(packed.facade.photograph_bytes()), 0.8);
+}
+
+TEST(MeasurePlace, EveryFigureIsThere) {
+  const Photos input;
+  const Result<PlaceFigures> figures = measured_place(input.photos, street(), {"0001.png"}, {10, true});
+  ASSERT_TRUE(figures) << to_string(figures.errors());
+  ASSERT_EQ(figures->methods.size(), 5u);
+  for (const MethodFigures& method : figures->methods) {
+    EXPECT_GT(method.psnr_cc_db, 25.0) << method.method;
+    EXPECT_GT(method.covered_percent, 90.0) << method.method;
+  }
+  EXPECT_EQ(figures->filled_percent, 100.0);
+  EXPECT_GT(figures->from_photographs_percent, 90.0);
+  EXPECT_GT(figures->own_viewpoint_psnr_db, 45.0);
+  EXPECT_EQ(figures->psd_roundtrip_differing_px, 0u);
+  EXPECT_FALSE(measured_place(input.photos, street(), {"nobody.png"}));
 }
 
 TEST(PackedFacade, AFileIsReadBackAsItWas) {
@@ -133,7 +151,8 @@ TEST(PackedFacade, WhatDoesNotFitTogetherIsRefused) {
             std::string::npos);
   EXPECT_NE(refused([](PackedFacade& f) { f.photos[0].view.fx = NAN; }).find("camera is none"),
             std::string::npos);
-  EXPECT_NE(refused([](PackedFacade& f) { f.corners.pop_back(); }).find("differ in length"), std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.corners.pop_back(); }).find("differ in length"),
+            std::string::npos);
   EXPECT_NE(refused([](PackedFacade& f) { f.lists[0].y = 77777; }).find("cut off"), std::string::npos);
   EXPECT_EQ(refused([](PackedFacade&) {}), "");
 

@@ -167,8 +167,7 @@ Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& plac
   const fs::path folder = source.folder / "layers", written = folder / "written";
   Progress progress("writing layered pictures", place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
-    const auto photo =
-        std::ranges::find(source.photographs, place.names[i], &photographs::Photograph::name);
+    const auto photo = std::ranges::find(source.photographs, place.names[i], &photographs::Photograph::name);
     const Result<Image8> picture = photographs::read_picture(*photo);
     if (!picture) return picture.errors();
     const PsdPicture psd =

@@ -49,8 +49,7 @@ glm::ivec2 empty_margins(const Image8& image) {
 Image8 cropped(const Image8& image, glm::ivec2 margin) {
   Image8 part(image.width - 2 * margin.x, image.height - 2 * margin.y, 3);
   for (int y = 0; y < part.height; ++y)
-    for (int x = 0; x < part.width; ++x)
-      std::copy_n(image.at(x + margin.x, y + margin.y), 3, part.at(x, y));
+    for (int x = 0; x < part.width; ++x) std::copy_n(image.at(x + margin.x, y + margin.y), 3, part.at(x, y));
   return part;
 }
 
@@ -82,7 +81,8 @@ Photograph with_cropped_lens(Photograph straight, int width, int height) {
 /// over if it was made of the same picture and lens.
 Result<Photograph> without_distortion(const fs::path& folder, const Photograph& photograph) {
   if (photographs::is_pinhole(photograph.lens)) return photograph;
-  const fs::path file = pinhole_file(folder, photograph), recipe_file = fs::path(file).replace_extension(".txt");
+  const fs::path file = pinhole_file(folder, photograph),
+                 recipe_file = fs::path(file).replace_extension(".txt");
   const std::string recipe = recipe_of(photograph);
   std::error_code code;
   if (fs::exists(recipe_file, code))
@@ -204,8 +204,9 @@ Errors apply_choices(const std::vector<FillingChoice>& choices, PlaceLayers& pla
       }
     }
     if (!is_found)
-      messages.push_back(error("filling.txt: there is no layer \"{}\" of photograph {} any more; the choice is kept",
-                               choice.layer, choice.photograph));
+      messages.push_back(
+          error("filling.txt: there is no layer \"{}\" of photograph {} any more; the choice is kept",
+                choice.layer, choice.photograph));
   }
   return messages;
 }

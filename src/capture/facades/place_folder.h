@@ -42,6 +42,7 @@ struct FillingChoice {
 };
 /// Adds choices to the folder's filling.txt; later lines win.
 Status write_choices(const std::filesystem::path& folder, const std::vector<FillingChoice>& choices);
+/// Those of filling.txt; none where it is absent. Errors carry file and line.
 Result<std::vector<FillingChoice>> read_choices(const std::filesystem::path& folder);
 /// Sets the states of the proposals. Messages name choices that fit no layer.
 Errors apply_choices(const std::vector<FillingChoice>& choices, PlaceLayers& place);

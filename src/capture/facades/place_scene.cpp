@@ -13,7 +13,8 @@ namespace {
 constexpr double degrees = 57.295779513082320876;
 constexpr double nominal_aspect = 16.0 / 9.0;  ///< at which camera(fov_deg=) is horizontal
 constexpr double seconds_per_stop = 3.0;
-constexpr const char* first_line = "// Written by parvis facade pack. Take this line out to keep your changes.\n";
+constexpr const char* first_line =
+    "// Written by parvis facade pack. Take this line out to keep your changes.\n";
 
 std::string camera_line(const std::string& name, const PackedPhoto& photo) {
   const glm::dmat3 world_from_camera = glm::transpose(photo.view.camera_from_world);
@@ -50,7 +51,8 @@ std::string scene_text(const PackedFacade& facade) {
   if (photos.size() < 2) return text;
   text += "tour(name=\"walk\") {\n";
   for (std::size_t i = 0; i < photos.size(); ++i)
-    text += fmt::format("  stop(time_s={}, camera=\"{}\")\n", seconds_per_stop * double(i), name_of(photos[i]));
+    text +=
+        fmt::format("  stop(time_s={}, camera=\"{}\")\n", seconds_per_stop * double(i), name_of(photos[i]));
   return text + "}\n";
 }
 
@@ -61,7 +63,8 @@ Result<PackedFacade> pack_place(const PlaceSource& source, const PlaceLayers& pl
   if (Status status = write_facade(source.folder / "place.facade", facade); !status) return status.errors();
   const fs::path scene = source.folder / "place.xp";
   std::error_code code;
-  const Result<std::string> there = fs::exists(scene, code) ? read_file(scene) : Result<std::string>(first_line);
+  const Result<std::string> there =
+      fs::exists(scene, code) ? read_file(scene) : Result<std::string>(first_line);
   if (!there) return there.errors();
   if (there->starts_with(first_line))
     if (Status status = write_file(scene, scene_text(facade)); !status) return status.errors();

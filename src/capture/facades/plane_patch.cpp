@@ -129,7 +129,8 @@ class Irregularities {
   std::vector<float> known_;
 };
 
-std::optional<glm::ivec2> best_shift(const PlaneGrid& grid, const Group& group, Irregularities& irregularities) {
+std::optional<glm::ivec2> best_shift(const PlaneGrid& grid, const Group& group,
+                                     Irregularities& irregularities) {
   std::optional<glm::ivec2> best;
   float least = max_rim_difference + max_irregularity;
   for (int dy = -group.low.y; dy + group.high.y < grid.height; ++dy)

@@ -27,7 +27,8 @@ scene::NodeSchema facade_schema() {
                       .is_required = true},
                      {.name = "brightness",
                       .type = AttributeType::number,
-                      .help = "of the photographs' light; 1: they are shown as they are, whatever the exposure",
+                      .help =
+                          "of the photographs' light; 1: they are shown as they are, whatever the exposure",
                       .fallback = "1",
                       .minimum = 0.0,
                       .maximum = 1000.0,
@@ -40,7 +41,7 @@ scene::NodeSchema facade_schema() {
   return schema;
 }
 
-/// Files that scenes show now: a node that is built again, or stands twice, reads none again.
+/// Files that scenes show now: a node that is rebuilt, or stands twice, reads none a second time.
 class SharedFiles {
  public:
   Result<std::shared_ptr<const PackedFacade>> read(const std::filesystem::path& file) {
@@ -83,9 +84,8 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& f
 void furnish(House& house) {
   const auto files = std::make_shared<SharedFiles>();
   house.get<scene::NodeRegistry>().add(
-      facade_schema(), [files](const scene::Node& node, scene::SceneBuilder& builder) {
-        build(node, builder, *files);
-      });
+      facade_schema(),
+      [files](const scene::Node& node, scene::SceneBuilder& builder) { build(node, builder, *files); });
   house.get<render::Drawables>().add(facades_kind());
 }
 

@@ -21,6 +21,7 @@ inline glm::vec3 pattern(glm::dvec3 p) {
   return {0.4 + 0.2 * std::sin(2.0 * p.x), 0.4 + 0.2 * std::sin(3.0 * p.z + p.x), 0.05 * p.y};
 }
 
+/// A far wall, a near one before it, and a post.
 inline std::vector<NamedMesh> street() {
   return {wall("far", 6, -12, 12, -8, 8), wall("near", 4, -0.7f, 0.7f, -2, 2),
           wall("post", 3, 1.5f, 1.8f, -2, 2)};
@@ -28,7 +29,7 @@ inline std::vector<NamedMesh> street() {
 
 /// What a view sees of the street, as a PNG file, each with an exposure of its own.
 inline photographs::Photograph photograph(const TestFolder& folder, const std::string& name, const View& view,
-                                   float exposure) {
+                                          float exposure) {
   const LayerModel model = model_of(street());
   const ItemBuffer seen = item_buffer(model, view);
   ImageF picture(view.width, view.height, 4, 1.0f);
@@ -57,7 +58,6 @@ struct Photos {
                                   test_view(160, 120, {1.3 * i - 2.0, 0, 0}), 0.8f + 0.1f * float(i)));
   }
 };
-
 
 /// What a view truly sees, 8-bit sRGB.
 inline Image8 true_picture(const View& view) {

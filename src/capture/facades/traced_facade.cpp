@@ -9,6 +9,9 @@
 namespace parvis::facades {
 namespace {
 
+using namespace shading;  // GLSL's own functions and types, for the included text
+#include "capture/facades/recorded_light.glsl"
+
 /// A facade's photographs, as a surface that depends on the view.
 class FacadeSurface final : public scene::TracedSurface {
  public:
@@ -26,7 +29,7 @@ class FacadeSurface final : public scene::TracedSurface {
     point.normal = hit.normal;
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
     const glm::vec3 srgb = glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f);
-    point.emission = radiance_of_exposed_ * shading::tone_unmapped(linear_from_srgb(srgb));
+    point.emission = radiance_of_exposed_ * tone_unmapped(linear_from_srgb(srgb));
     return point;
   }
   float alpha(const scene::TracedHit& hit) const override { return colour(hit).w; }

@@ -15,12 +15,3 @@ GLSL_FUNCTION vec3 tone_mapped(vec3 exposed) {
   const float white = 8.0f;
   return clamp(hable(max(exposed, vec3(0.0f))) / hable(vec3(white)), vec3(0.0f), vec3(1.0f));
 }
-
-// The exposed radiance that `tone_mapped` shows as this display light, 0..1: its inverse.
-GLSL_FUNCTION vec3 tone_unmapped(vec3 display) {
-  const float white = 8.0f;
-  vec3 a = display * hable(vec3(white)) + vec3(0.0333333f);
-  vec3 square = 0.22f * (vec3(1.0f) - a), middle = vec3(0.03f) - 0.3f * a, rest = vec3(0.002f) - 0.06f * a;
-  vec3 root = sqrt(max(middle * middle - 4.0f * square * rest, vec3(0.0f)));
-  return max((root - middle) / (2.0f * square), vec3(0.0f));
-}
