@@ -25,6 +25,7 @@ class FacadeTexels {
 /// The shader's own function over a packed facade. Both must outlive it.
 class FacadeLookup {
  public:
+  /// `texels` are those of `facade`.
   FacadeLookup(const PackedFacade& facade, const FacadeTexels& texels) : facade_(facade), texels_(texels) {}
 
   /// Balanced sRGB and alpha of a point of a triangle; see `facade_colour`.
