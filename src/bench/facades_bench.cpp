@@ -132,7 +132,9 @@ scene::Scene plain_scene(const facades::PackedFacade& facade) {
         0.2f * glm::vec2(part.mesh.positions[i].x + part.mesh.positions[i].y, part.mesh.positions[i].z);
   model->parts.push_back(std::move(part));
   scene::Scene scene;
-  scene.objects.push_back({.name = "plain", .model = model});
+  scene::Object object;
+  object.name = "plain", object.model = model;
+  scene.objects.push_back(std::move(object));
   return scene;
 }
 
