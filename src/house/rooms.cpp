@@ -1,7 +1,9 @@
 #include "house/rooms.h"
 
-#include "formats/city_models/city_formats.h"
+#include "capture/facades/bench/facades_bench.h"
 #include "capture/facades/room.h"
+#include "capture/trees/room.h"
+#include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/readers/bench/import_export_bench.h"
@@ -50,11 +52,13 @@ constexpr Furnish rooms[]{
     virtual_objects::furnish,
     refraction::furnish,
     facades::furnish,
+    trees::furnish,
     bench::furnish_frame,
     bench::furnish_import_export,
     bench::furnish_multiple_environment_maps,
     bench::furnish_curved_reflectors,
     bench::furnish_light,
+    bench::furnish_facades,
 };
 
 }  // namespace

@@ -1,10 +1,11 @@
-#include "bench/facades_bench.h"
+#include "capture/facades/bench/facades_bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "base/test_data.h"
+#include "bench/benches.h"
 #include "capture/facades/coarse_model.h"
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/measure_place.h"
@@ -176,16 +177,20 @@ Status measure_drawing(bool is_quick, Report& report) {
   return Done{};
 }
 
+Status measure(const BenchSetup& setup, Report& report) {
+  if (Status status = measure_place("sceaux", "photos_sceaux", sceaux, setup.is_quick, report); !status)
+    return status.errors();
+  if (Status status = measure_place("courtyard", "photos_castle_p30", courtyard, setup.is_quick, report);
+      !status)
+    return status.errors();
+  return measure_drawing(setup.is_quick, report);
+}
+
 }  // namespace
 
-Result<Report> facades_bench(bool is_quick) {
-  Report report("facades");
-  if (Status status = measure_place("sceaux", "photos_sceaux", sceaux, is_quick, report); !status)
-    return status.errors();
-  if (Status status = measure_place("courtyard", "photos_castle_p30", courtyard, is_quick, report); !status)
-    return status.errors();
-  if (Status status = measure_drawing(is_quick, report); !status) return status.errors();
-  return report;
+void furnish_facades(House& house) {
+  house.get<Benches>().add(
+      {"facades", "captured places against photographs that were held out, beside their baselines", measure});
 }
 
 }  // namespace parvis::bench
