@@ -18,6 +18,7 @@ double milliseconds(const std::function<void()>& work);
 struct Median {
   double value = 0.0, low = 0.0, high = 0.0;
 };
+/// The median of the samples and its 95 % interval; all zero for none.
 Median median(std::vector<double> samples);
 
 /// The value below which a share of all lie; 0 of none.
@@ -26,13 +27,16 @@ double percentile(std::vector<double> values, double share);
 /// Prints each figure and row as it is added: a bench that is stopped has printed what it knew.
 class Report {
  public:
+  /// `name` is that of the bench, as the command spells it.
   explicit Report(std::string name) : name_(std::move(name)) {}
 
+  /// Adds a figure under the key of the issue that asks for it.
   void add(const std::string& key, double value);
   /// The median counts; its interval stands in a row.
   void add(const std::string& key, const Median& median);
   /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
   void skip(const std::string& key, const std::string& why);
+  /// Adds a row of text: how a figure was measured, on which machine.
   void note(std::string row);
 
   /// {"bench": NAME, "figures": {KEY: number, ...}, "rows": [...]}

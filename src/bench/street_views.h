@@ -16,6 +16,7 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
 /// The scene with so many vehicles.
 house::Play play_with(const House& house, const scene::Scene& scene, int vehicles);
 
+/// Number of reflecting objects that a frame of this camera draws.
 int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height);
 
 /// Lets traffic drive until some view, from a balcony or a roof, sees between `least` and `most` cars.

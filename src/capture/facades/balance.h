@@ -20,6 +20,7 @@ struct Balance {
 /// mean over the photographs) and each photograph's balance, with outliers (other than the balance explains)
 /// down-weighted. The mean balance is the identity.
 std::vector<Balance> balances(std::span<const PreparedPhoto> photos, int step = 8);
+/// Applies the balance to the colours of the photograph, in sRGB, in place.
 void apply(const Balance& balance, PreparedPhoto& photo);
 
 /// Sets every photograph's trust by comparing it with all others through the model: 0 where its colour,

@@ -22,6 +22,7 @@ enum class BaselineMethod : std::uint8_t {
 inline constexpr BaselineMethod baseline_methods[]{
     BaselineMethod::single_best_view, BaselineMethod::extracted_texture,
     BaselineMethod::view_dependent_subdivided, BaselineMethod::unstructured_lumigraph};
+/// The name of the method, as in the keys of the bench.
 const char* name_of(BaselineMethod method);
 
 /// What `view` sees of the model by a baseline: linear RGBA, alpha 0 where the method shows nothing.

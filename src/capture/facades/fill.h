@@ -16,12 +16,14 @@ enum class Filling : std::uint8_t { none, proposal, accepted, refused };
 /// Where a filled pixel came from.
 enum class FillSource : std::uint8_t { none, seen, photographs, patches, smooth, painted };
 
+/// Layers of a photograph with proposed colours for the pixels that it does not see.
 struct Filled {
   LayerPixels pixels;           ///< with the proposals
   std::vector<Image8> sources;  ///< per layer, of its box, 1 channel: FillSource
   std::vector<Filling> states;  ///< per layer: proposal where something was filled, none elsewhere
 };
 
+/// Which steps of filling may run.
 struct FillSettings {
   bool from_photographs = true, by_patches = true;  ///< the last step, plain inpainting, always runs
   int rim = 1;  ///< pixels next to what hides a surface that mix both, and are filled, too

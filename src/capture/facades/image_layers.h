@@ -20,8 +20,10 @@ struct PixelBox {
   bool empty() const { return width <= 0 || height <= 0; }
   bool contains(int px, int py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
+/// The smallest box around both; an empty box adds nothing.
 PixelBox united(const PixelBox& a, const PixelBox& b);
 
+/// One picture layer of a photograph: items of one visibility layer (section 3.4.2).
 struct ImageLayer {
   std::string name;              ///< unique in its photograph, the same in every run: "L02-005 facade north"
   PixelBox box;                  ///< around all pixels that its items cover, hidden ones too

@@ -44,8 +44,10 @@ struct ItemBuffer {
   std::vector<std::uint32_t> triangles;  ///< per pixel; no_triangle_seen: nothing
   std::vector<float> depths;             ///< per pixel; infinite where nothing is seen
 
+  /// Index of a pixel, from the top left, in both vectors.
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
 };
+/// The nearest triangle and its depth in each pixel of a view, without back faces of closed objects.
 ItemBuffer item_buffer(const LayerModel& model, const View& view);
 
 /// Name of the closed object that the view's centre lies in, where more than half of the pixels that see

@@ -13,6 +13,7 @@ namespace parvis::facades {
 /// layer.
 inline constexpr int atlas_border = 4;
 
+/// All layers of one photograph in one texture.
 struct LayerAtlas {
   Image8 colours;  ///< RGBA, sRGB; sides are multiples of 4 (blocks of BC7)
   Image8 seen;  ///< 1 channel: 255 where the photograph sees the surface, 0 where it was filled or is empty

@@ -44,6 +44,7 @@ LayerEdits edits_of(const LayersOfModel& layers, const LayerPixels& before, cons
 /// part.
 inline constexpr float same_surface_tolerance = 0.05f;
 
+/// The outcome of painting edits on rebuilt layers.
 struct AppliedEdits {
   std::size_t applied = 0;  ///< pixels
   LayerEdits unplaced;      ///< what no longer has a surface: never dropped, to be kept with the edits
@@ -57,7 +58,9 @@ AppliedEdits apply(const LayerEdits& edits, const LayersOfModel& layers, const s
 /// `later` painted over `earlier`.
 LayerEdits joined(const LayerEdits& earlier, const LayerEdits& later);
 
+/// Writes edits as a file, whole or not at all.
 Status write_edits(const std::filesystem::path& file, const LayerEdits& edits);
+/// Reads what write_edits has written; errors name the file.
 Result<LayerEdits> read_edits(const std::filesystem::path& file);
 
 }  // namespace parvis::facades

@@ -19,6 +19,7 @@ struct NamedMesh {
   Mesh mesh;
 };
 
+/// A triangle of the coarse model, with the object and face that it belongs to.
 struct LayerTriangle {
   std::array<glm::dvec3, 3> corners;  ///< in world
   std::uint32_t object = 0;           ///< into LayerModel::objects
@@ -26,6 +27,7 @@ struct LayerTriangle {
   std::uint32_t source = 0;           ///< the triangle before any cut; pieces of one triangle share it
 };
 
+/// A named object of the coarse model.
 struct LayerObject {
   std::string name;
   /// Bounds a body, with triangles counter-clockwise seen from outside: its back faces are never seen. Other
@@ -33,6 +35,7 @@ struct LayerObject {
   bool is_closed = false;
 };
 
+/// The coarse model as triangles of named objects, the input of visibility layers.
 struct LayerModel {
   std::vector<LayerObject> objects;
   std::vector<LayerTriangle> triangles;

@@ -22,6 +22,7 @@ struct LayeredPhoto {
   Balance balance;  ///< applied where photographs are blended; the layers keep the photograph's own colours
 };
 
+/// Packs the layers of one photograph for display. `pixels` has an entry per layer.
 LayeredPhoto layered_photo(const std::string& name, const LayersOfModel& layers, const LayerPixels& pixels);
 
 /// Confidence in pixels that were filled or painted, over those that the photograph saw: they count where

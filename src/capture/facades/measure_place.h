@@ -14,6 +14,7 @@ struct MethodFigures {
   double psnr_cc_db = 0.0, rephoto = 0.0, covered_percent = 0.0;
 };
 
+/// Figures of one place for the bench `facades`.
 struct PlaceFigures {
   std::vector<MethodFigures> methods;     ///< the layers first
   double filled_percent = 0.0;            ///< of the model's pixels in random views
@@ -26,6 +27,7 @@ struct PlaceFigures {
   Errors warnings;
 };
 
+/// Extent of the measurement.
 struct MeasureOptions {
   int random_views = 200;
   bool with_baselines = true;

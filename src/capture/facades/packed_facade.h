@@ -63,6 +63,7 @@ struct PackedFacade {
   std::vector<std::uint32_t> tiles;  ///< TileKind, and the slot above it
   std::vector<Bc7Block> blocks;      ///< blocks_per_slot for each slot, level by level
 
+  /// Number of triangles, three corners each.
   std::size_t triangle_count() const { return corners.size() / 3; }
   /// Of tiles that are stored.
   std::size_t slot_count() const { return blocks.size() / blocks_per_slot; }

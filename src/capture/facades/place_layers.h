@@ -28,6 +28,7 @@ struct PlaceLayers {
   }
 };
 
+/// Which optional stages run.
 struct PlaceSettings {
   bool balances_colours = true, finds_occluders = true, fills = true;
 };

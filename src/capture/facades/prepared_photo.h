@@ -15,6 +15,7 @@ namespace parvis::facades {
 /// The view of an undistorted photograph; an error that names it where its lens has distortion.
 Result<View> view_of(const photographs::Photograph& photograph);
 
+/// A photograph with the model's depth behind each pixel, ready for blending and filling.
 struct PreparedPhoto {
   std::string name;
   View view;
@@ -34,6 +35,7 @@ glm::vec4 depths_around(const PreparedPhoto& photo, glm::dvec2 pixel);
 /// Bilinear between pixel centres, repeated beyond the border. `channel` of an image at a point of it in
 /// pixels.
 float sampled(const ImageF& image, glm::dvec2 pixel, int channel);
+/// The same for the first three channels.
 glm::vec3 sampled_rgb(const ImageF& image, glm::dvec2 pixel);
 
 }  // namespace parvis::facades

@@ -24,6 +24,7 @@ struct PsdLayer {
   std::uint8_t opacity = 255;
 };
 
+/// A layered picture as a PSD file holds it.
 struct PsdPicture {
   int width = 0, height = 0;
   std::vector<PsdLayer> layers;  ///< bottom first
@@ -45,6 +46,7 @@ Status write_psd(const std::filesystem::path& file, const PsdPicture& picture);
 /// are left out, the layers within groups are kept. Errors name the file, what was found and what to do
 /// (another colour mode, PSB, cut short).
 Result<PsdPicture> read_psd(const std::filesystem::path& file);
+/// The same from memory; `name` stands in errors.
 Result<PsdPicture> read_psd(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace parvis::facades

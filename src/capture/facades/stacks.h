@@ -16,6 +16,7 @@ inline constexpr std::uint32_t no_item = ~0u;
 /// Items nearest first. An item stands several times in a stack whose pixel it covers several times.
 using Stack = std::u32string;
 
+/// The different orders in which a view's pixels are covered by items.
 struct Stacks {
   std::vector<Stack> distinct;   ///< of items that are visible somewhere; none is empty; ascending
   std::vector<bool> is_visible;  ///< per item: first of all surfaces at a pixel

@@ -51,6 +51,7 @@ inline NamedMesh box(const std::string& name, glm::vec3 low, glm::vec3 high) {
   return named;
 }
 
+/// The layer model of valid meshes.
 inline LayerModel model_of(const std::vector<NamedMesh>& meshes) {
   Result<LayerModelResult> made = layer_model(meshes);
   EXPECT_TRUE(made) << to_string(made ? Errors{} : made.errors());

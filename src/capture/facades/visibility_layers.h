@@ -18,6 +18,7 @@ struct LayerItem {
   std::int64_t face = -1;  ///< of the model; -1: the whole object
 };
 
+/// Items of a view in layers, each hidden only by items of earlier layers (section 3.4.1).
 struct VisibilityLayers {
   std::vector<LayerItem> items;  ///< each with at least one visible pixel
   std::vector<std::vector<std::uint32_t>>

@@ -64,6 +64,7 @@ struct BillboardFrame {
   glm::vec2 half_size_m;
   glm::vec4 slants;
 };
+/// The billboard of a cell, turned to the eye. All in the tree's frame.
 BillboardFrame billboard_frame(glm::vec3 centre, glm::vec3 cell_size_m, glm::vec3 eye);
 
 /// A texture's colour at a point of its billboard (-1..1), sRGB, premultiplied; of a cell that the photograph

@@ -22,6 +22,7 @@ struct SceneTree {
   bool is_visible = true;
   float sway_m = 0.0f;  ///< of the top in the wind; 0: it stands still
 
+  /// Adds the contents of all files.
   void hash(ContentHash& hash) const {
     hash.add(content), hash.add(world_from_tree), hash.add(is_visible), hash.add(sway_m);
   }
@@ -39,12 +40,14 @@ struct TreeShelf {
   static constexpr std::string_view name = "trees.shelf";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
+  /// A tree that has been read, and the hash of its file.
   struct Read {
     std::shared_ptr<const TreeLevels> tree;
     std::uint64_t content = 0;
   };
   std::map<std::filesystem::path, Read> trees;
 
+  /// Adds the contents of all files.
   void hash(ContentHash& hash) const {
     for (const auto& [path, read] : trees) hash.add(read.content);
   }

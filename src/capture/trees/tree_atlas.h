@@ -23,7 +23,9 @@ class TreeAtlas {
 
   /// Of a cell's texture in a photograph.
   std::uint32_t tile(const TreeLevels* tree, std::size_t level, std::size_t view, std::size_t cell) const;
+  /// The name of the array texture.
   GLuint texture() const { return texture_.name(); }
+  /// True if the tree's strips are in the atlas.
   bool holds(const TreeLevels* tree) const { return first_strips_.contains(tree); }
 
  private:

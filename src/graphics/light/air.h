@@ -24,6 +24,7 @@ struct Densities {
 /// 2017).
 Densities densities_at(double height_m);
 
+/// What a clear sky depends on, beside the sun.
 struct Air {
   /// Turbidity after Linke as Preetham uses it: 1 is pure air, 2 to 3 a clear day, 10 haze, 30 and more mist.
   double turbidity = 3.0;
@@ -43,6 +44,7 @@ struct AirCoefficients {
   Spectrum ozone;  ///< absorption
 
   explicit AirCoefficients(const Air& air);
+  /// Extinction per metre at these densities.
   Spectrum extinction(const Densities& d) const {
     return float(d.molecules) * molecules + float(d.haze) * haze_extinction + float(d.ozone) * ozone;
   }
@@ -50,6 +52,7 @@ struct AirCoefficients {
 
 /// Per steradian, of the cosine between the directions before and after.
 inline float molecule_phase(float cosine) { return 0.05968310f * (1.0f + cosine * cosine); }
+/// Henyey-Greenstein, per steradian, of the same cosine.
 inline float haze_phase(float cosine) {
   const float g = haze_asymmetry, base = 1.0f + g * g - 2.0f * g * cosine;
   return 0.07957747f * (1.0f - g * g) / (base * std::sqrt(base));
@@ -59,6 +62,7 @@ inline float haze_phase(float cosine) {
 /// to the ground.
 double distance_to_top(double r, double mu);
 double distance_to_ground(double r, double mu);  ///< only where it meets the ground
+/// True if a ray from radius `r` in a direction of cosine `mu` to the vertical hits the ground.
 bool meets_ground(double r, double mu);
 
 /// The share of the sun's disc that stands above the horizon of a place at radius `r`.

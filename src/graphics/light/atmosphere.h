@@ -33,11 +33,14 @@ class AirColumns {
 /// included.
 Spectrum sunlight(const AirCoefficients& air, double r, double sun_mu);
 
+/// Precomputed single and multiple scattering of clear air (Bruneton 2017): tables for all sun elevations.
 class Atmosphere {
  public:
   explicit Atmosphere(const Air& air);
 
+  /// The parameters that the tables were computed for.
   const Air& air() const { return air_; }
+  /// The scattering and absorption coefficients of that air.
   const AirCoefficients& coefficients() const { return coefficients_; }
 
   /// What a ray brings, as shares of the sun's irradiance per steradian. Haze that scattered sunlight once is

@@ -24,14 +24,18 @@ struct PlaceAndTime {
   bool operator==(const PlaceAndTime&) const = default;
 };
 
+/// True for leap years of the Gregorian calendar.
 bool is_leap_year(int year);
+/// 365, or 366 in a leap year.
 int days_in_year(int year);
 /// The day of the year of a date; months and days count from 1.
 int day_of_year(int year, int month, int day);
 /// Every value that is out of range, what it may be, and what is probably meant.
 Status check(const PlaceAndTime& when);
 
+/// The Julian day of the moment, in universal time.
 double julian_day(const PlaceAndTime& when);
+/// The sun's position at that place and time, by solar_position.
 SolarPosition sun_of(const PlaceAndTime& when);
 
 /// Elevation of the sun's centre, without refraction, when its upper edge appears at a level horizon.
@@ -45,9 +49,11 @@ struct DaylightHours {
   double noon_h = 12.0;                 ///< when it stands highest
   double noon_elevation_deg = 0.0;      ///< geometric
 
+  /// True if the sun stays below the elevation all day.
   bool is_polar_night(double elevation_deg = sunrise_elevation_deg) const {
     return !rise_h && !set_h && noon_elevation_deg < elevation_deg;
   }
+  /// True if the sun stays above the elevation all day.
   bool is_polar_day(double elevation_deg = sunrise_elevation_deg) const {
     return !rise_h && !set_h && noon_elevation_deg >= elevation_deg;
   }

@@ -51,6 +51,7 @@ struct TexelPoint {
   glm::dvec3 position;
   double size_m;
 };
+/// The texel of the map that `point` falls into.
 TexelPoint texel_point(const ShadowMap& map, int resolution, glm::dvec3 point);
 
 /// The map that serves a depth of the view.

@@ -22,6 +22,7 @@ struct SolarPosition {
   double geometric_elevation_deg = 0.0;  ///< without refraction: what sunrise and twilight are defined by
   double distance_au = 1.0;              ///< from the earth: irradiance goes by its inverse square
 
+  /// Elevation above the horizon, with the refraction that the zenith angle has.
   double elevation_deg() const { return 90.0 - zenith_deg; }
   /// Unit vector to the sun: x east, y north, z up.
   glm::dvec3 direction() const;

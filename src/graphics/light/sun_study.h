@@ -36,9 +36,11 @@ struct OpenSpaceRule {
   static constexpr double min_hours = 2.0, min_share = 0.5;
   double share = 0.0;    ///< of the open ground
   double area_m2 = 0.0;  ///< of the open ground
+  /// True if enough of the open space has the hours.
   bool is_kept() const { return share >= min_share; }
 };
 
+/// Hours of direct sun on the ground, as a grid, and on all surfaces, as a mesh.
 struct SunStudy {
   int columns = 0, rows = 0;
   glm::dvec2 corner{0.0};                ///< least x and y

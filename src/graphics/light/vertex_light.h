@@ -21,8 +21,11 @@ struct LitVertex {
 class SkyTable {
  public:
   explicit SkyTable(const SkyModel& sky);
+  /// Radiance of the sky without the sun's disc, from a unit direction.
   glm::vec3 radiance(glm::vec3 direction) const;
+  /// Unit direction to the sun.
   glm::vec3 to_sun() const { return to_sun_; }
+  /// Irradiance of the sun on a surface that faces it.
   glm::vec3 sun_irradiance() const { return sun_irradiance_; }
 
  private:
@@ -38,6 +41,7 @@ class VertexLight {
 
   /// The object has moved, or the light has changed: what was traced no longer counts.
   void restart(std::vector<LitVertex> vertices);
+  /// Restarts for the same vertices.
   void restart() { restart(std::move(vertices_)); }
 
   /// Adds `rays` directions of low discrepancy per vertex, cosine-weighted about its normal, and a quarter as
@@ -47,6 +51,7 @@ class VertexLight {
 
   /// Of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
   std::vector<glm::vec3> irradiance() const;
+  /// Rays that each vertex has had.
   int rays() const { return rays_; }
 
  private:
@@ -65,6 +70,7 @@ class VisibilityPlaces {
   void interpolate(glm::vec3 point, float (&shares)[64]) const;
   /// Evenly over the upper hemisphere; each stands for 2 pi / 64 steradians.
   static const std::vector<glm::vec3>& directions();
+  /// Number of places.
   std::size_t size() const { return masks_.size(); }
 
  private:
@@ -89,6 +95,8 @@ struct RelightingPlan {
   Relighting method;
   int rays;
 };
+/// Chooses tracing while at least one round of rays fits the budget, else interpolation where there are
+/// places.
 RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double rays_per_ms, bool has_places);
 
 /// As if nothing stood in the way.

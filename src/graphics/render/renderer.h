@@ -28,6 +28,7 @@ using MakeLight =
 /// Scene::sun with two cascades of shadow maps, and Scene::sky.
 Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
 
+/// Draws views of a scene and of what rooms draw by themselves, in one light.
 class Renderer {
  public:
   /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene and what rooms draw by

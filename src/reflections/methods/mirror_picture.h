@@ -23,6 +23,7 @@ struct MirrorRays {
   std::vector<glm::vec4> ways;
 };
 
+/// Deferred reflection: ray picture in, light picture out.
 class MirrorPicture {
  public:
   /// For the scene of that renderer. Fails only if a shader does.

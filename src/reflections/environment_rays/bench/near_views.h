@@ -25,6 +25,7 @@ std::optional<reference::PixelWindow> window_of_car(house::Stage& stage, const C
 /// Views of cars that nothing hides, at different times and from all sides: the same for the same scene.
 class NearViews {
  public:
+  /// Keeps the stage, which must outlive this, and the size of the pictures.
   NearViews(house::Stage& stage, int width, int height) : stage_(stage), width_(width), height_(height) {}
 
   /// Lets traffic drive on to the next one. An error where it shows no near car for long.

@@ -15,6 +15,7 @@ namespace parvis::bench {
 
 using MapSearch = reflection_search::ReflectionSearch<reflector_maps::ReflectorMap>;
 
+/// A vertex that a patch of the body is known to reflect to a viewer. In the body's frame.
 struct KnownReflection {
   std::size_t patch;
   glm::vec3 viewer, vertex;
@@ -28,6 +29,7 @@ struct SearchFigures {
   double microseconds = 0.0;       ///< for each
 };
 
+/// A reflecting body with reflections that are known from its fine mesh.
 class JudgedBody {
  public:
   using Search = std::function<MapSearch::PatchPoint(MapSearch&, const MapSearch::ReflectionTask&)>;
@@ -35,9 +37,13 @@ class JudgedBody {
   /// `count` reflections that nothing of the body hides, their vertices at 1.1, 1.5, 2.5 and 4 radii.
   static Result<JudgedBody> make(std::string name, const Mesh& mesh, std::size_t count);
 
+  /// As the report calls it.
   const std::string& name() const { return name_; }
+  /// All known reflections.
   const std::vector<KnownReflection>& reflections() const { return reflections_; }
+  /// Runs the search for every known reflection.
   SearchFigures judge(const Search& search) const;
+  /// Triangles and patches, for the report.
   std::string description() const;
 
  private:

@@ -17,6 +17,7 @@ namespace parvis::bench {
 /// A point that is not shown where it is, or not at all, counts as so many pixels.
 inline constexpr double missed_px = 100.0;
 
+/// Compares, at sampled pixels of a view, what mirror rays hit with where the search shows it.
 class ReflectedPoints {
  public:
   /// Makes the maps of all mirrors of a scene, as the renderer does; `scene` stays where it is.
