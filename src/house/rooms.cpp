@@ -11,6 +11,7 @@
 #include "graphics/light/bench/light_bench.h"
 #include "graphics/light/light_nodes.h"
 #include "graphics/render/bench/frame_bench.h"
+#include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/bench/multiple_environment_maps_bench.h"
@@ -51,6 +52,7 @@ constexpr Furnish rooms[]{
     reference_maps::furnish,
     virtual_objects::furnish,
     refraction::furnish,
+    shadows::furnish,
     facades::furnish,
     trees::furnish,
     bench::furnish_frame,

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "graphics/light/atmosphere.h"
 #include "graphics/light/cloud_cover.h"
+#include "graphics/light/shadow_settings.h"
 
 namespace parvis::light {
 namespace {
@@ -71,7 +72,7 @@ Status light_scene(scene::Scene& scene) {
   Result<std::shared_ptr<const SkyModel>> made = make_sky(day.kind, day.air, sun_of(day.when));
   if (!made) return made.errors();
   const SkyModel& sky = **made;
-  scene.sun = {sky.to_sun(), displayable(sky.sun_irradiance_xyz())};
+  set_sun(scene, {sky.to_sun(), displayable(sky.sun_irradiance_xyz())});
   scene.sky.picture = sky_picture(sky, day, picture_width_px(day));
   scene.sky.intensity = 1.0f, scene.sky.heading = 0.0f;
   // No file, but a name for what the picture was made from: by it the renderer sees that the sky is another.

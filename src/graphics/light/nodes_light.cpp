@@ -6,6 +6,8 @@
 #include "graphics/light/day_light.h"
 #include "graphics/light/light_nodes.h"
 #include "graphics/light/nodes_day_light.h"
+#include "graphics/light/nodes_shadow_map.h"
+#include "graphics/light/shadow_settings.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 
@@ -62,7 +64,7 @@ void build_sun(const Node& node, SceneBuilder& builder) {
                                         : node.vec3("direction");
   if (glm::length(direction) < 1e-6f)
     return builder.fail(error_at(node.where_of("direction"), "the sun's direction has no length"));
-  builder.scene.sun = {glm::normalize(direction), node.vec3("irradiance")};
+  light::set_sun(builder.scene, {glm::normalize(direction), node.vec3("irradiance")});
 }
 
 NodeSchema sky_schema() {
@@ -139,6 +141,7 @@ void furnish_light(House& house) {
   registry.add(sun_schema(), build_sun);
   registry.add(sky_schema(), build_sky);
   light::add_day_light_nodes(registry);
+  light::add_shadow_map_node(registry);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.scene.haze_per_m = float(node.number("haze_per_m"));
   });

@@ -147,7 +147,8 @@ class RayScene::TracedThings final : public scene::TracedScene {
   int first_thing_;
 };
 
-RayScene::RayScene(const scene::Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
+RayScene::RayScene(const scene::Scene& scene)
+    : shadows_(scene.data<scene::SunShadows>()), device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) add_object(scene.objects[o], int(o));
   object_places_ = places_.size();
   trace_things(scene);
@@ -170,15 +171,18 @@ void RayScene::forget_things() {
   places_.resize(object_places_);
 }
 
-void RayScene::update(const scene::Scene& scene) {
+bool RayScene::update(const scene::Scene& scene) {
+  bool has_changed = false;
   std::size_t next = 0;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (std::size_t p = 0; p < object.model->parts.size(); ++p, ++next) {
       const Mesh& mesh = object.mesh(p);
-      move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
-           object.is_visible);
-      if (&mesh != &object.model->parts[p].mesh && places_[next]->is_traced) bend(next);
+      has_changed |= move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
+                          object.is_visible);
+      if (&mesh == &object.model->parts[p].mesh || !places_[next]->is_traced) continue;
+      bend(next);
+      has_changed = true;
     }
   }
   if (!scene.traced_kinds.empty()) {
@@ -187,8 +191,10 @@ void RayScene::update(const scene::Scene& scene) {
     forget_things();
     trace_things(scene);
     forget_meshes_but_those_placed();
+    has_changed |= places_.size() > object_places_;  // they may have moved
   }
-  rtcCommitScene(top_);
+  if (has_changed) rtcCommitScene(top_);
+  return has_changed;
 }
 
 /// Embree's hierarchies of meshes that no place shows any more.
@@ -235,7 +241,8 @@ void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
   part.textures = &textures_of(model);
   part.world_from_mesh = world_from_mesh;
   part.object = number;
-  part.casts_shadow = source.casts_shadow;
+  part.casts_shadow = source.casts_shadow && shadows_.casts(std::size_t(number));
+  part.receives_shadow = shadows_.receives(std::size_t(number));
   part.is_mirror = takes_reflection && part.material->is_mirror_like;
   place(part, is_visible);
 }
@@ -252,15 +259,18 @@ void RayScene::place(const PlacedPart& part, bool is_visible) {
 
 /// An instance stays, disabled, where nothing of it can be seen. Its mesh gets a hierarchy when it is first
 /// seen.
-void RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible) {
+bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible) {
   PlacedPart& part = *places_[number];
   const float volume = glm::determinant(glm::mat3(world_from_mesh));
   const bool is_seen = is_visible && !mesh.indices.empty() && volume != 0.0f && std::isfinite(volume);
   const bool is_same = part.world_from_mesh == world_from_mesh && part.mesh == &mesh;
-  if (is_seen == part.is_traced && (is_same || !is_seen)) return;
+  if (is_seen == part.is_traced && (is_same || !is_seen)) return false;
   const RTCGeometry instance = rtcGetGeometry(top_, unsigned(number));
   part.is_traced = is_seen;
-  if (!is_seen) return rtcDisableGeometry(instance);
+  if (!is_seen) {
+    rtcDisableGeometry(instance);
+    return true;
+  }
   part.mesh = &mesh;
   part.world_from_mesh = world_from_mesh;
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
@@ -269,6 +279,7 @@ void RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
+  return true;
 }
 
 RTCScene RayScene::mesh_scene(const Mesh& mesh) {

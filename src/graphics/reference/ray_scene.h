@@ -4,6 +4,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include "base/random.h"
 #include "graphics/reference/mip_texture.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::reference {
 
@@ -31,6 +33,7 @@ struct PlacedPart {
   glm::mat3 world_from_normal;
   int object;  ///< index in the scene; beyond them, of what rooms draw by themselves: for_each_traced_kind
   bool casts_shadow;
+  bool receives_shadow = true;
   bool is_mirror;    ///< takes reflections
   bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
   bool is_traced;    ///< else rays pass it: it is hidden, empty, or flattened by its transform
@@ -63,7 +66,8 @@ class RayScene {
 
   /// Takes over where objects and traced things stand now, which of them are visible, and how meshes are
   /// bent. The objects and their models must be those of the scene that this was made of.
-  void update(const scene::Scene& scene);
+  /// True where anything has changed.
+  bool update(const scene::Scene& scene);
 
   /// The nearest surface that the renderer would draw along the ray; none: the sky.
   std::optional<Hit> nearest_hit(const Ray& ray) const;
@@ -84,7 +88,7 @@ class RayScene {
   void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
              int number, bool takes_reflection, bool is_visible);
   void place(const PlacedPart& part, bool is_visible);
-  void move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
+  bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
   void trace_things(const scene::Scene& scene);
   void forget_things();
   void forget_meshes_but_those_placed();
@@ -92,6 +96,7 @@ class RayScene {
   RTCScene mesh_scene(const Mesh& mesh);
   void bend(std::size_t place);
 
+  scene::SunShadows shadows_;
   RTCDevice device_;
   RTCScene top_;
   std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things

@@ -11,8 +11,10 @@
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/glass_walk.h"
 #include "graphics/reference/shading_point.h"
+#include "graphics/reference/sun_disc.h"
 #include "graphics/shading/lighting.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::reference {
 namespace {
@@ -64,11 +66,12 @@ class Tracer {
       : rays_(rays),
         sky_(sky),
         drawn_light_(options.drawn_light),
-        has_exact_shadows_(options.has_exact_shadows),
+        sun_disc_(scene.sun),
         mirror_bounces_(options.mirror_bounces),
         mirrors_see_themselves_(options.mirrors_see_themselves) {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
+    spot_ = scene.data<scene::SunShadows>().spot;
     for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
     light_.haze_radiance = sky.haze_radiance;
     light_.haze_per_m = scene.haze_per_m;
@@ -82,7 +85,11 @@ class Tracer {
     for (int layer = 0; layer < max_blended_layers; ++layer) {
       ++ray_count;
       const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
-      if (!hit) return sum + left * sky_radiance(sky_, cone.ray.direction, 0.0f);
+      if (!hit) {
+        const bool sees_sun = bounce == 0 && !spot_ && sun_disc_.contains(cone.ray.direction);
+        return sum + left * (sky_radiance(sky_, cone.ray.direction, 0.0f) +
+                             (sees_sun ? sun_disc_.radiance() : vec3(0.0f)));
+      }
       const Cone seen = widened(cone, hit->distance_m);
       const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
@@ -163,7 +170,7 @@ class Tracer {
     const vec3 to_viewer = -cone.ray.direction;
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
     const vec4 sky_cell = sky_cell_at(point, hit.place->object);
-    const MirrorLight light = traces ? mirror_light(point, hit, cone, bounce, lobe_points, ray_count)
+    const MirrorLight mirrored = traces ? mirror_light(point, hit, cone, bounce, lobe_points, ray_count)
                                      : sky_light(s, cone.ray.direction, sky_cell);
     if (hit.place->material->refracts()) {
       const vec3 ahead = cone.ray.direction;
@@ -174,8 +181,11 @@ class Tracer {
           (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
           through;
     }
-    return lit_radiance(s, light_, to_viewer, sun_visible(point, ray_count),
-                        shading::sky_share_of_normal(sky_cell, s.normal), light.base, light.coat);
+    shading::SceneLight light = light_;
+    if (spot_) light.to_sun = glm::normalize(spot_->position - point.position);
+    const float sun = sun_visible(point, light.to_sun, hit.place->receives_shadow, ray_count);
+    return lit_radiance(s, light, to_viewer, sun, shading::sky_share_of_normal(sky_cell, s.normal),
+                        mirrored.base, mirrored.coat);
   }
 
   /// What a surface mirrors that no ray is traced for: the share of the sky that it sees.
@@ -211,22 +221,28 @@ class Tracer {
                                                                  point.geometric_normal, object));
   }
 
-  float sun_visible(const ShadingPoint& point, std::uint64_t& ray_count) const {
-    const float let_in = point.relief.light_from(light_.to_sun);
-    if (drawn_light_ && !has_exact_shadows_)
-      return let_in * shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal,
-                                              light_.to_sun);
+  float sun_visible(const ShadingPoint& point, vec3 to_sun, bool receives_shadow,
+                    std::uint64_t& ray_count) const {
+    float let_in = point.relief.light_from(to_sun);
+    if (spot_) let_in *= shading::spot_share(glm::dot(to_sun, light_.to_sun), std::cos(spot_->half_angle));
+    if (!receives_shadow || let_in <= 0.0f) return let_in;
+    if (drawn_light_ && !drawn_light_->has_exact_shadows)
+      return let_in *
+             shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal, to_sun);
     ++ray_count;
-    return rays_.is_blocked({point.position + 1e-3f * point.geometric_normal, light_.to_sun}) ? 0.0f : let_in;
+    Ray ray{point.position + 1e-3f * point.geometric_normal, to_sun};
+    if (spot_) ray.max_m = glm::distance(spot_->position, ray.origin);
+    return rays_.is_blocked(ray) ? 0.0f : let_in;
   }
 
   const RayScene& rays_;
   const shading::SkyLight& sky_;
   const shading::DrawnLight* drawn_light_;
-  bool has_exact_shadows_;
+  SunDisc sun_disc_;
   int mirror_bounces_;
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
+  std::optional<scene::Spot> spot_;
 };
 
 }  // namespace

@@ -25,7 +25,6 @@ struct TraceOptions {
   /// Shadow maps and sky visibility of the renderer. Null: exact shadow rays, a fully visible sky, and no
   /// occlusion of the sky by dynamic objects.
   const shading::DrawnLight* drawn_light = nullptr;
-  bool has_exact_shadows = false;      ///< rays to the sun in place of the renderer's shadow maps
   bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
   int mirror_bounces = 1;              ///< after as many mirrors, mirror-like parts show the sky
   PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all

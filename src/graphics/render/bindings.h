@@ -16,6 +16,7 @@ enum TextureUnit : GLuint {
   sky_unit,
   shadow_unit,
   sky_visibility_unit,
+  traced_sun_unit,
   first_unit_above,
   first_drawable_unit = 24
 };
@@ -26,9 +27,9 @@ enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_bl
 /// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
 /// sky_lookup.glsl or sun_lookup.glsl.
 inline void assign_bindings(const gl::Program& program) {
-  constexpr const char* samplers[]{"base_colour_texture",   "normal_texture", "surface_texture",
-                                   "emission_texture",      "sky_texture",    "shadow_maps",
-                                   "sky_visibility_texture"};
+  constexpr const char* samplers[]{"base_colour_texture",    "normal_texture",    "surface_texture",
+                                   "emission_texture",       "sky_texture",       "shadow_maps",
+                                   "sky_visibility_texture", "traced_sun_texture"};
   for (GLuint unit = 0; unit < first_unit_above; ++unit) program.set(samplers[unit], int(unit));
   constexpr const char* blocks[]{"Frame", "Material", "Bodies"};
   for (GLuint binding = 0; binding < first_block_above; ++binding)

@@ -1,4 +1,5 @@
 #include "graphics/render/frame.glsl"
+#include "graphics/render/object_flags.glsl"
 
 layout(location = 0) in vec3 mesh_position;
 layout(location = 2) in vec2 mesh_uv;
@@ -14,6 +15,6 @@ void main() {
   vec4 p = vec4(mesh_position, 1.0f);
   vec3 world = vec3(dot(world_from_mesh_row0, p), dot(world_from_mesh_row1, p), dot(world_from_mesh_row2, p));
   uv = mesh_uv;
-  object_of_fragment = object;
+  object_of_fragment = object & ~no_shadow_received;
   gl_Position = clip_from_world * vec4(world, 1.0f);
 }

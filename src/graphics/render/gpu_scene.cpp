@@ -11,9 +11,13 @@
 #include "graphics/render/mesh_levels.h"
 #include "graphics/shading/glsl.h"
 #include "scene/data/mip_levels.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::render {
 namespace {
+
+using uint = std::uint32_t;
+#include "graphics/render/object_flags.glsl"
 
 using glm::vec4;
 #include "graphics/render/material_block.glsl"
@@ -191,6 +195,7 @@ void GpuScene::upload_model_materials(const scene::Model& model) {
 }
 
 void GpuScene::make_items(const scene::Scene& scene) {
+  const auto& shadows = scene.data<scene::SunShadows>();
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     first_item_.push_back(std::uint32_t(items_.size()));
@@ -202,8 +207,13 @@ void GpuScene::make_items(const scene::Scene& scene) {
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
       const int part = first + int(p);
       const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
-      items_.push_back(
-          {{{}, std::uint32_t(o)}, {}, part, int(o), object.takes_reflection && material.is_mirror_like});
+      const std::uint32_t flags = shadows.receives(o) ? 0 : no_shadow_received;
+      items_.push_back({{{}, std::uint32_t(o) | flags},
+                        {},
+                        part,
+                        int(o),
+                        object.takes_reflection && material.is_mirror_like,
+                        shadows.casts(o) && parts_[std::size_t(part)].casts_shadow});
     }
   }
   first_item_.push_back(std::uint32_t(items_.size()));

@@ -70,6 +70,7 @@ struct Item {
   int part;
   int object;
   bool is_mirror;  ///< takes the scene's reflection method
+  bool casts_shadow;
 };
 
 /// The scene on the GPU. Needs a current OpenGL context from creation to destruction.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 
 #include "graphics/render/drawable.h"
@@ -9,11 +10,16 @@
 #include "graphics/render/gpu_scene.h"
 #include "graphics/shading/drawn_light.h"
 #include "graphics/shading/sky.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::render {
 
 /// Draws a view of all drawables, for those who make shadow maps.
 using DrawView = std::function<void(const View&)>;
+
+/// The sun of each pixel of a main view, found by other means than maps: texels of two floats, the share of
+/// the sun and the distance of the surface from the viewer, bottom row first. 0: there is none.
+using TracedSun = GLuint;
 
 /// What of the sun each point sees, by maps that are drawn for the viewer; sun_lookup.glsl looks them up.
 class ShadowMethod {
@@ -23,14 +29,32 @@ class ShadowMethod {
   /// included.
   virtual void renew(const FixedChange& change, const Bounds& fixed) = 0;
   /// Draws what a viewer needs; everything when the sun has moved. `moving` bounds each dynamic caster.
-  virtual void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+  virtual void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
                       const DrawView& draw) = 0;
+  /// A main view of an eye is about to be drawn, of so many pixels. Its sun, where the method finds it pixel
+  /// by pixel: good until the next call.
+  virtual TracedSun trace_view(const Camera& /*camera*/, int /*width*/, int /*height*/) { return 0; }
   /// At `shadow_unit`.
   virtual void bind() const = 0;
   /// Matrices and texel sizes for the shaders' uniform block.
   virtual const shading::ShadowMaps& maps() const = 0;
   /// A copy for the ray tracer; waits for the GPU.
   virtual shading::SunShadow read_back() const = 0;
+  /// The ray tracer is to trace the sun by itself: this method has no errors to agree with.
+  virtual bool is_exact() const { return false; }
+};
+
+class LightSource;
+
+/// Makes the light of a scene; `fixed` bounds all static things. Needs a current OpenGL context.
+using MakeLight =
+    std::function<Result<std::unique_ptr<LightSource>>(const scene::Scene& scene, const Bounds& fixed)>;
+/// Scene::sun with two cascades of shadow maps, and Scene::sky.
+Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
+
+/// Registry of light: the one source that lights all scenes. A room that knows more replaces it.
+struct Lights {
+  MakeLight make = sun_and_sky;
 };
 
 /// Light of a scene. Sun and sky may change in every frame; static geometry, too.
@@ -46,6 +70,8 @@ class LightSource {
                      const Bounds& fixed) = 0;
   /// Draws shadow maps for a viewer.
   virtual void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) = 0;
+  /// See ShadowMethod::trace_view.
+  virtual TracedSun trace_view(const Camera& /*camera*/, int /*width*/, int /*height*/) { return 0; }
 
   /// The sky's levels, its visibility and the shadow maps, at their units of bindings.h.
   virtual void bind() const = 0;

@@ -59,7 +59,7 @@ void append(std::vector<T>& all, const Range& more) {
 }  // namespace
 
 Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed) {
-  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene.sun.direction_to_sun, fixed));
+  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene::sun_light(scene), fixed));
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables,
@@ -97,6 +97,9 @@ void Renderer::bind_frame(const View& view) {
   frame.viewer_position = glm::vec4(view.position_in_world, 1.0f);
   frame.frame_size = {float(view.width), float(view.height), 0.0f, 0.0f};
   light_->fill(frame);
+  const bool has_traced_sun = view.kind == ViewKind::main && traced_sun_ != 0;
+  frame.frame_shadow_extra.y = has_traced_sun ? 1.0f : 0.0f;
+  if (has_traced_sun) glBindTextureUnit(traced_sun_unit, traced_sun_);
   const GLintptr offset = frame_blocks_.append(std::span<const Frame>(&frame, 1), block_alignment);
   glBindBufferRange(GL_UNIFORM_BUFFER, frame_block, frame_blocks_.name(), offset, sizeof(Frame));
 }
@@ -218,6 +221,7 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height, Su
   const Culling culling = cull(main_view_);
   choose_quality(drawables_, main_view_, culling, budget_ms_);
   for (Drawable* drawable : drawables_) drawable->prepare(main_view_, culling);
+  traced_sun_ = light_->trace_view(camera, width, height);
 }
 
 void Renderer::draw_main_view() {

@@ -22,12 +22,6 @@ namespace parvis::render {
 /// by themselves are numbered behind the objects (scene::for_each_traced_kind). Top row first.
 using ObjectPicture = BasicImage<std::uint32_t>;
 
-/// Makes the light of a scene; `fixed` bounds all static things. Needs a current OpenGL context.
-using MakeLight =
-    std::function<Result<std::unique_ptr<LightSource>>(const scene::Scene& scene, const Bounds& fixed)>;
-/// Scene::sun with two cascades of shadow maps, and Scene::sky.
-Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
-
 /// Draws views of a scene and of what rooms draw by themselves, in one light.
 class Renderer {
  public:
@@ -92,7 +86,7 @@ class Renderer {
   /// The same light without shadow maps, for exact shadow rays: no readback, so frames may use it. Good until
   /// the next frame begins.
   shading::DrawnLight drawn_light_without_shadows() const {
-    return {{}, &light_->sky_visibility(), &body_shade_};
+    return {{}, &light_->sky_visibility(), &body_shade_, true};
   }
   /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
   /// begins.
@@ -131,6 +125,7 @@ class Renderer {
   std::vector<PictureTarget> targets_;  ///< of each eye
   std::size_t eye_ = 0;
   View main_view_;
+  TracedSun traced_sun_ = 0;  ///< of the main view
 };
 
 }  // namespace parvis::render

@@ -145,7 +145,7 @@ void SceneDrawable::gather(const View& view, const Culling& culling, ViewList& l
     if (!view.shows_glass && refracts(item)) continue;
     const Standing standing{gpu_.is_moving(item.object), gpu_.is_newcomer(item.object)};
     if (!gpu_.is_visible(item.object) || !culling.shows(item.object, standing)) continue;
-    if (view.kind == ViewKind::shadow && !gpu_.parts()[std::size_t(item.part)].casts_shadow) continue;
+    if (view.kind == ViewKind::shadow && !item.casts_shadow) continue;
     if (!culling.may_see(item.bounds)) continue;
     ++list.statistics.items_in_frustum;
     if (culling.is_hidden(item.bounds)) {

@@ -110,6 +110,7 @@ void SkyTextures::bind() const {
 void SkyTextures::draw(const View& view) const {
   program_.use();
   program_.set("world_from_clip", glm::inverse(view.clip_from_world));
+  program_.set("shows_sun", view.kind == ViewKind::main ? 1.0f : 0.0f);
   glBindVertexArray(no_attributes_.name());
   glDepthMask(GL_FALSE);
   glDisable(GL_CULL_FACE);

@@ -1,5 +1,7 @@
 #include "graphics/render/sun_and_sky.h"
 
+#include <cmath>
+
 namespace parvis::render {
 
 Result<std::unique_ptr<LightSource>> SunAndSky::create(const scene::Scene& scene,
@@ -10,8 +12,9 @@ Result<std::unique_ptr<LightSource>> SunAndSky::create(const scene::Scene& scene
 }
 
 bool SunAndSky::update(const scene::Scene& scene) {
-  const bool has_new_sun = scene.sun != sun_ || scene.haze_per_m != haze_per_m_;
-  sun_ = scene.sun;
+  const scene::SunLight sun = scene::sun_light(scene);
+  const bool has_new_sun = sun != sun_ || scene.haze_per_m != haze_per_m_;
+  sun_ = sun;
   haze_per_m_ = scene.haze_per_m;
   return sky_.renew_light(scene.sky) || has_new_sun;
 }
@@ -30,13 +33,17 @@ void SunAndSky::bind() const {
 void SunAndSky::fill(Frame& frame) const {
   frame.frame_to_sun = glm::vec4(glm::normalize(sun_.direction_to_sun), haze_per_m_);
   frame.frame_sun_irradiance = glm::vec4(sun_.irradiance, 0.0f);
+  frame.frame_spot = sun_.spot ? glm::vec4(sun_.spot->position, std::cos(sun_.spot->half_angle))
+                               : glm::vec4(0.0f, 0.0f, 0.0f, -2.0f);
   const shading::SkyLight& sky = sky_.light();
   frame.frame_haze = glm::vec4(sky.haze_radiance, sky.heading);
   for (std::size_t i = 0; i < 9; ++i) frame.frame_sky_sh[i] = glm::vec4(sky.irradiance_sh[i], 0.0f);
   frame.frame_size.z = float(sky.levels.size());
   const shading::ShadowMaps& maps = shadows_->maps();
   for (int i = 0; i < 2; ++i) frame.frame_uvz_from_world[i] = maps.uvz_from_world[i];
-  frame.frame_shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, 0.0f);
+  frame.frame_shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, maps.growth);
+  for (int i = 0; i < shading::max_shadow_tiles; ++i) frame.frame_shadow_tiles[i] = maps.tiles[i];
+  frame.frame_shadow_extra.x = float(maps.tile_count);
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   frame.frame_visibility_origin = glm::vec4(grid.origin, grid.lift_m);
   frame.frame_visibility_size = glm::vec4(grid.size_m, 0.0f);

@@ -20,7 +20,10 @@ class SunAndSky final : public LightSource {
   void renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
              const Bounds& fixed) override;
   void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) override {
-    shadows_->update(camera, sun_.direction_to_sun, moving, draw);
+    shadows_->update(camera, sun_, moving, draw);
+  }
+  TracedSun trace_view(const Camera& camera, int width, int height) override {
+    return shadows_->trace_view(camera, width, height);
   }
   void bind() const override;
   void fill(Frame& frame) const override;
@@ -28,14 +31,17 @@ class SunAndSky final : public LightSource {
   const shading::SkyLight& sky() const override { return sky_.light(); }
   const shading::SkyVisibility& sky_visibility() const override { return sky_.visibility(); }
   shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const override {
-    return {shadows_->read_back(), &sky_.visibility(), &body_shade};
+    return {shadows_->read_back(), &sky_.visibility(), &body_shade, shadows_->is_exact()};
   }
 
  private:
   SunAndSky(const scene::Scene& scene, SkyTextures sky, std::unique_ptr<ShadowMethod> shadows)
-      : sun_(scene.sun), haze_per_m_(scene.haze_per_m), sky_(std::move(sky)), shadows_(std::move(shadows)) {}
+      : sun_(scene::sun_light(scene)),
+        haze_per_m_(scene.haze_per_m),
+        sky_(std::move(sky)),
+        shadows_(std::move(shadows)) {}
 
-  scene::Sun sun_;
+  scene::SunLight sun_;
   float haze_per_m_;
   SkyTextures sky_;
   std::unique_ptr<ShadowMethod> shadows_;

@@ -14,16 +14,30 @@ ShadowMaps frame_shadow_maps() {
   maps.uvz_from_world[1] = frame_uvz_from_world[1];
   maps.texel_m = frame_shadow_texel.xy;
   maps.texel_uv = frame_shadow_texel.z;
+  maps.growth = frame_shadow_texel.w;
+  maps.tile_count = int(frame_shadow_extra.x);
+  for (int i = 0; i < max_shadow_tiles; ++i) maps.tiles[i] = frame_shadow_tiles[i];
   return maps;
 }
 
+// Unit; of a spot light in the sun's place it differs from point to point.
+vec3 to_sun_at(vec3 position) {
+  return frame_spot.w > -1.5f ? normalize(frame_spot.xyz - position) : frame_to_sun.xyz;
+}
+
+// 1 but outside a spot light's cone.
+float sun_cone(vec3 to_light) {
+  return frame_spot.w > -1.5f ? spot_share(dot(to_light, frame_to_sun.xyz), frame_spot.w) : 1.0f;
+}
+
 float visible_sun(vec3 position, vec3 normal) {
-  return sun_visibility(frame_shadow_maps(), position, normal, frame_to_sun.xyz);
+  vec3 to_light = to_sun_at(position);
+  return sun_visibility(frame_shadow_maps(), position, normal, to_light) * sun_cone(to_light);
 }
 
 // The same for the static scene alone, coarser.
 float visible_fixed_sun(vec3 position, vec3 normal) {
   ShadowMaps maps = frame_shadow_maps();
-  vec3 uvz = shadow_coordinates(maps, shadow_far_map, position, normal, frame_to_sun.xyz);
+  vec3 uvz = shadow_coordinates(maps, shadow_far_map, position, normal, frame_to_sun.xyz, maps.texel_m.x);
   return is_inside_map(uvz, 2.0f * maps.texel_uv) ? filtered_shadow(shadow_far_map, uvz, maps.texel_uv) : 1.0f;
 }

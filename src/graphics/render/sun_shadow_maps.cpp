@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "graphics/render/bindings.h"
 #include "graphics/render/regions.h"
@@ -9,12 +10,12 @@
 namespace parvis::render {
 namespace {
 
-constexpr int map_size = 4096;
 constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings cast shadows
 constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
 constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
 constexpr float room_radius_m = 12.0f;      // a place no larger lies in the near map as a whole, and finer
 constexpr float round_room_m = 4.0f;        // margin for dynamic objects around it
+constexpr float spot_near_m = 0.05f;        // nothing nearer to a lamp shades
 constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
 
 glm::mat3 sun_frame(glm::vec3 to_sun) {
@@ -38,6 +39,20 @@ glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
   return focus;
 }
 
+/// The box around a box as a map shows it; all of the map where the box reaches behind its projection's
+/// centre.
+Bounds projected(const glm::mat4& uvz_from_world, const Bounds& box) {
+  Bounds result;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
+    const glm::vec4 p =
+        uvz_from_world * glm::vec4(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                   corner & 4 ? box.max.z : box.min.z, 1.0f);
+    if (p.w < 1e-3f) return {glm::vec3(0.0f), glm::vec3(1.0f)};
+    result.add(glm::vec3(p) / p.w);
+  }
+  return result;
+}
+
 gl::Framebuffer depth_framebuffer() {
   gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glNamedFramebufferDrawBuffer(framebuffer.name(), GL_NONE);
@@ -46,8 +61,9 @@ gl::Framebuffer depth_framebuffer() {
 
 }  // namespace
 
-SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
+SunShadowMaps::SunShadowMaps(const scene::SunLight& sun, const Bounds& fixed, FitNearMap fit)
     : fixed_(fixed.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : fixed),
+      fit_(std::move(fit)),
       depth_(gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY))),
       near_fixed_(gl::texture_2d(GL_DEPTH_COMPONENT32F, map_size, map_size)),
       near_fixed_framebuffer_(depth_framebuffer()) {
@@ -64,15 +80,47 @@ SunShadowMaps::SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed)
   }
   glNamedFramebufferTexture(near_fixed_framebuffer_.name(), GL_DEPTH_ATTACHMENT, near_fixed_.name(), 0);
   maps_.texel_uv = 1.0f / float(map_size);
-  turn_to(to_sun);
+  turn_to(sun);
 }
 
-void SunShadowMaps::turn_to(glm::vec3 to_sun) {
-  to_sun_ = glm::normalize(to_sun);
+void SunShadowMaps::turn_to(const scene::SunLight& sun) {
+  sun_ = sun;
+  to_sun_ = glm::normalize(sun.direction_to_sun);
   sun_from_world_ = sun_frame(to_sun_);
   fixed_in_sun_ = transformed(glm::mat4(sun_from_world_), fixed_);
   far_is_drawn_ = false;
   near_centre_ = glm::vec3(1e30f);
+  near_.reset();
+}
+
+View SunShadowMaps::shadow_view(int map, const glm::mat4& clip_from_world, float texel_m) {
+  View view;
+  view.kind = ViewKind::shadow;
+  view.clip_from_world = clip_from_world;
+  view.position_in_world = sun_.spot ? sun_.spot->position : fixed_.centre() + 1e5f * to_sun_;
+  view.framebuffer = framebuffers_[std::size_t(map)].name();
+  view.width = view.height = map_size;
+  view.subjects = Subjects::fixed;
+
+  const glm::mat4 uvz_from_clip(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1);
+  maps_.uvz_from_world[map] = uvz_from_clip * view.clip_from_world;
+  maps_.texel_m[map] = texel_m;
+  return view;
+}
+
+/// Both maps of a spot light show its whole cone.
+View SunShadowMaps::aim_spot(int map) {
+  const glm::vec3 position = sun_.spot->position;
+  const glm::vec3 up = std::abs(to_sun_.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const float half_angle = std::min(sun_.spot->half_angle + 0.01f, 1.5f);
+  const float far_m = glm::distance(position, fixed_.centre()) + fixed_.radius() + moving_height_m;
+  const glm::mat4 clip_from_world = glm::perspective(2.0f * half_angle, 1.0f, spot_near_m, far_m) *
+                                    glm::lookAt(position, position - to_sun_, up);
+  const float texel = 2.0f * std::tan(half_angle) / float(map_size);  // at a metre, where w is 1
+  if (map == shading::shadow_near_map) maps_.growth = 1e-6f, maps_.tile_count = 0;
+  return shadow_view(
+      map, clip_from_world,
+      map == shading::shadow_near_map ? texel : texel * glm::distance(position, fixed_.centre()));
 }
 
 /// Turns a map's light toward a square about `centre`.
@@ -91,32 +139,48 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   clip_from_sun[3] = {-middle.x / half_width_m, -middle.y / half_width_m, (top + bottom) / (top - bottom),
                       1.0f};
 
-  View view;
-  view.kind = ViewKind::shadow;
-  view.clip_from_world = clip_from_sun * glm::mat4(sun_from_world_);
+  View view = shadow_view(map, clip_from_sun * glm::mat4(sun_from_world_), texel);
   view.position_in_world = centre + 1e5f * to_sun_;
-  view.framebuffer = framebuffers_[std::size_t(map)].name();
-  view.width = view.height = map_size;
-  view.subjects = Subjects::fixed;
-
-  const glm::mat4 uvz_from_clip(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1);
-  maps_.uvz_from_world[map] = uvz_from_clip * view.clip_from_world;
-  maps_.texel_m[map] = texel;
   return view;
 }
 
-void SunShadowMaps::draw_near_fixed(glm::vec3 position, const DrawView& draw) {
+void SunShadowMaps::aim_near(glm::vec3 position) {
   near_centre_ = position;
-  near_view_ = aim(shading::shadow_near_map, position, near_half_width(fixed_));
-  View fixed_view = near_view_;
-  fixed_view.framebuffer = near_fixed_framebuffer_.name();
-  draw(fixed_view);
+  maps_.growth = 0.0f, maps_.tile_count = 0;
+  near_views_ = {sun_.spot ? aim_spot(shading::shadow_near_map)
+                           : aim(shading::shadow_near_map, position, near_half_width(fixed_))};
+}
+
+void SunShadowMaps::aim_near(const NearMap& near) {
+  near_ = near;
+  near_centre_ = glm::vec3(0.0f);
+  const View whole = shadow_view(shading::shadow_near_map, near.clip_from_world, near.texel_m);
+  maps_.growth = near.growth;
+  maps_.tile_count = near.tile_count;
+  for (std::size_t i = 0; i < near.tiles.size(); ++i) maps_.tiles[i] = near.tiles[i];
+  near_views_.assign(std::size_t(std::max(near.tile_count, 1)), whole);
+  for (std::size_t i = 0; i < std::size_t(near.tile_count); ++i) {
+    const glm::vec4 tile = near.tiles[i];
+    glm::mat4 tile_from_clip(1.0f);  // -1..1 of the whole to that of the quarter
+    tile_from_clip[0][0] = tile.x, tile_from_clip[1][1] = tile.y;
+    tile_from_clip[3] = {tile.x + 2.0f * tile.z - 1.0f, tile.y + 2.0f * tile.w - 1.0f, 0.0f, 1.0f};
+    near_views_[i].clip_from_world = tile_from_clip * near.clip_from_world;
+    near_views_[i].part = {int(i % 2) * map_size / 2, int(i / 2) * map_size / 2, map_size / 2, map_size / 2};
+  }
+}
+
+void SunShadowMaps::draw_near_fixed(const DrawView& draw) {
+  for (View view : near_views_) {
+    view.framebuffer = near_fixed_framebuffer_.name();
+    draw(view);
+  }
   drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
 }
 
 void SunShadowMaps::draw_far(const DrawView& draw) {
   const glm::vec3 size = fixed_in_sun_.size();
-  far_view_ = aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
+  far_view_ = sun_.spot ? aim_spot(shading::shadow_far_map)
+                        : aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
   draw(far_view_);
   far_is_drawn_ = true;
   postponed_.clear();
@@ -127,7 +191,7 @@ void SunShadowMaps::renew(const FixedChange& change, const Bounds& fixed) {
   all.add(fixed);
   if (all.min != fixed_.min || all.max != fixed_.max) {
     fixed_ = all;
-    turn_to(to_sun_);
+    turn_to(sun_);
   }
   change_ = change;
 }
@@ -135,7 +199,7 @@ void SunShadowMaps::renew(const FixedChange& change, const Bounds& fixed) {
 /// Is no point whose shadow the box may change looked up in the far map? Points are lifted by a texel or two
 /// before lookups, which filter over two more.
 bool SunShadowMaps::near_map_serves(const Bounds& box) const {
-  if (near_centre_.x >= 1e30f) return false;
+  if (near_centre_.x >= 1e30f || near_ || sun_.spot) return false;
   const float margin_m = 8.0f * maps_.texel_m[shading::shadow_far_map];
   const Bounds uv =
       transformed(maps_.uvz_from_world[shading::shadow_near_map], {box.min - margin_m, box.max + margin_m});
@@ -176,8 +240,10 @@ void SunShadowMaps::draw_changed(const DrawView& draw) {
     redraw(far_view_, shading::shadow_far_map, gone, Subjects::staying, draw);
     draw_newcomers(far_view_, shading::shadow_far_map, come, draw);
   }
-  if (near_centre_.x < 1e30f) {
-    View fixed_view = near_view_;
+  if (near_) {
+    near_.reset();  // it is fitted again, and drawn, in this update
+  } else if (near_centre_.x < 1e30f) {
+    View fixed_view = near_views_.front();
     fixed_view.framebuffer = near_fixed_framebuffer_.name();
     redraw(fixed_view, shading::shadow_near_map, change_.gone, Subjects::staying, draw);
     draw_newcomers(fixed_view, shading::shadow_near_map, change_.come, draw);
@@ -204,7 +270,7 @@ void SunShadowMaps::put_back(const Square& square) {
 
 /// Where a box falls in a map, with a texel of margin.
 SunShadowMaps::Square SunShadowMaps::square_of(int map, const Bounds& box) const {
-  const Bounds uv = transformed(maps_.uvz_from_world[map], box);
+  const Bounds uv = projected(maps_.uvz_from_world[map], box);
   const auto texel = [](float share) { return int(std::clamp(share, 0.0f, 1.0f) * float(map_size)); };
   const glm::ivec2 low(texel(uv.min.x) - 1, texel(uv.min.y) - 1);
   const glm::ivec2 high(texel(uv.max.x) + 2, texel(uv.max.y) + 2);
@@ -217,15 +283,21 @@ Bounds SunShadowMaps::texels_of(int map, const Bounds& box) const {
   return {{square.corner, 0}, {square.corner + square.size, 0}};
 }
 
-void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
                            const DrawView& draw) {
-  if (glm::normalize(to_sun) != to_sun_) turn_to(to_sun);
+  if (glm::normalize(sun.direction_to_sun) != to_sun_ || sun.spot != sun_.spot) turn_to(sun);
   if (!change_.empty()) draw_changed(draw);
   if (!far_is_drawn_) draw_far(draw);
-  const glm::vec3 focus = focus_of(camera, fixed_);
-  if (glm::distance(focus, near_centre_) > near_stay_m) {
+  if (fit_ && !sun_.spot) {
+    if (const NearMap fitted = fit_(camera, sun_, fixed_); near_ != fitted) {
+      aim_near(fitted);
+      draw_near_fixed(draw);
+    }
+  } else if (const glm::vec3 focus = sun_.spot ? sun_.spot->position : focus_of(camera, fixed_);
+             glm::distance(focus, near_centre_) > near_stay_m) {
     draw_postponed(draw);
-    draw_near_fixed(focus, draw);
+    aim_near(focus);
+    draw_near_fixed(draw);
   }
 
   for (const Square& square : drawn_over_) put_back(square);
@@ -235,10 +307,13 @@ void SunShadowMaps::update(const Camera& camera, glm::vec3 to_sun, std::span<con
     if (const Square square = square_of(shading::shadow_near_map, box);
         square.size.x > 2 && square.size.y > 2)
       drawn_over_.push_back(square);
-  View moving_view = near_view_;
-  moving_view.subjects = Subjects::moving;
-  moving_view.clears = false;
-  draw(moving_view);
+  if (maps_.tile_count > 0)  // they may fall into any tile
+    drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
+  for (View moving_view : near_views_) {
+    moving_view.subjects = Subjects::moving;
+    moving_view.clears = false;
+    draw(moving_view);
+  }
 }
 
 void SunShadowMaps::bind() const { glBindTextureUnit(shadow_unit, depth_.name()); }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,10 +18,28 @@
 
 namespace parvis::render {
 
+/// Where the near map lies for a view, in place of a square about the viewer.
+struct NearMap {
+  glm::mat4 clip_from_world{1.0f};
+  float texel_m = 1.0f;  ///< of a map of `map_size` texels, as ShadowMaps::texel_m
+  float growth = 0.0f;   ///< ShadowMaps::growth
+  int tile_count = 0;    ///< 0 or 4
+  std::array<glm::vec4, shading::max_shadow_tiles> tiles{};  ///< ShadowMaps::tiles
+
+  bool operator==(const NearMap&) const = default;
+};
+
+/// Fits the near map to what a view shows, in every frame; `fixed` bounds all that does not move.
+using FitNearMap = std::function<NearMap(const Camera&, const scene::SunLight&, const Bounds& fixed)>;
+
 class SunShadowMaps final : public ShadowMethod {
  public:
-  /// `fixed` bounds all that does not move, in the world.
-  SunShadowMaps(glm::vec3 to_sun, const Bounds& fixed);
+  /// Texels along a side of each map.
+  static constexpr int map_size = 4096;
+
+  /// `fixed` bounds all that does not move, in the world. Without `fit` the near map is a square about the
+  /// viewer that stays until the viewer has gone some way.
+  SunShadowMaps(const scene::SunLight& sun, const Bounds& fixed, FitNearMap fit = {});
 
   /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
   /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
@@ -28,7 +47,7 @@ class SunShadowMaps final : public ShadowMethod {
 
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
   /// `moving` bounds each thing that moves.
-  void update(const Camera& camera, glm::vec3 to_sun, std::span<const Bounds> moving,
+  void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
               const DrawView& draw) override;
 
   void bind() const override;
@@ -39,9 +58,13 @@ class SunShadowMaps final : public ShadowMethod {
   struct Square {
     glm::ivec2 corner, size;
   };
-  void turn_to(glm::vec3 to_sun);
+  void turn_to(const scene::SunLight& sun);
   View aim(int map, glm::vec3 centre, float half_width_m);
-  void draw_near_fixed(glm::vec3 position, const DrawView& draw);
+  View aim_spot(int map);
+  View shadow_view(int map, const glm::mat4& clip_from_world, float texel_m);
+  void aim_near(glm::vec3 position);
+  void aim_near(const NearMap& near);
+  void draw_near_fixed(const DrawView& draw);
   void draw_far(const DrawView& draw);
   void draw_changed(const DrawView& draw);
   void draw_postponed(const DrawView& draw);
@@ -54,7 +77,9 @@ class SunShadowMaps final : public ShadowMethod {
   Bounds texels_of(int map, const Bounds& box) const;
 
   Bounds fixed_;
-  glm::vec3 to_sun_;
+  FitNearMap fit_;
+  scene::SunLight sun_;
+  glm::vec3 to_sun_{0.0f};
   glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
   Bounds fixed_in_sun_;
   gl::Texture depth_;       ///< a layer for each map
@@ -62,7 +87,9 @@ class SunShadowMaps final : public ShadowMethod {
   std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
   gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};
-  View near_view_, far_view_;
+  View far_view_;
+  std::vector<View> near_views_;    ///< of each tile
+  std::optional<NearMap> near_;     ///< as it was fitted last
   std::vector<Square> drawn_over_;  ///< of the near map, by what moved
   bool far_is_drawn_ = false;
   FixedChange change_;             ///< of this frame

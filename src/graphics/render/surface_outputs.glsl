@@ -8,4 +8,4 @@ out vec2 uv;
 out float leaf_sun;
 out vec4 leaf_sky_cell;
 #endif
-flat out int object_of_surface;  // its number in the scene
+flat out int object_of_surface;  // its number in the scene; the complement of it (~) where it receives no shadows

@@ -15,6 +15,7 @@ layout(location = 5) in vec4 world_from_mesh_row2;
 layout(location = 6) in uint object;
 
 #include "graphics/render/surface_outputs.glsl"
+#include "graphics/render/object_flags.glsl"
 
 void surface_vertex() {
   vec4 p = vec4(mesh_position, 1.0f);
@@ -25,11 +26,13 @@ void surface_vertex() {
   vec3 c2 = vec3(world_from_mesh_row0.z, world_from_mesh_row1.z, world_from_mesh_row2.z);
   vertex_normal = mat3(cross(c1, c2), cross(c2, c0), cross(c0, c1)) * mesh_normal;
   uv = mesh_uv;
+  bool receives = (object & no_shadow_received) == 0u;
+  int number = int(object & ~no_shadow_received);
 #ifdef IS_LEAF
   vec3 normal = normalize(vertex_normal);
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = visible_sun(position, normal);
-  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, int(object)));
+  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number));
 #endif
-  object_of_surface = int(object);
+  object_of_surface = receives ? number : ~number;
 }

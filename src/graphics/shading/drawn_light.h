@@ -11,6 +11,7 @@ struct DrawnLight {
   SunShadow shadow;
   const SkyVisibility* sky_visibility;  ///< both the renderer's own, as of its last frame
   const BodyShade* body_shade;
+  bool has_exact_shadows = false;  ///< the tracer traces the sun by itself, in place of `shadow`
 };
 
 }  // namespace parvis::shading

@@ -20,8 +20,8 @@ GLSL_FUNCTION float filtered_shadow(int map, vec3 uvz, float texel_uv) {
 
 // 1 in full sun, 0 in shadow. One lookup serves both maps: processors that draw run both sides of a branch.
 GLSL_FUNCTION float sun_visibility(ShadowMaps maps, vec3 position, vec3 geometric_normal, vec3 to_sun) {
-  vec3 near_uvz = shadow_coordinates(maps, shadow_near_map, position, geometric_normal, to_sun);
-  vec3 far_uvz = shadow_coordinates(maps, shadow_far_map, position, geometric_normal, to_sun);
+  vec3 near_uvz = near_shadow_coordinates(maps, position, geometric_normal, to_sun);
+  vec3 far_uvz = shadow_coordinates(maps, shadow_far_map, position, geometric_normal, to_sun, maps.texel_m.x);
   bool is_near = is_inside_map(near_uvz, 2.0f * maps.texel_uv);
   bool is_known = is_near || is_inside_map(far_uvz, 2.0f * maps.texel_uv);
   float visibility = filtered_shadow(is_near ? shadow_near_map : shadow_far_map, is_near ? near_uvz : far_uvz,

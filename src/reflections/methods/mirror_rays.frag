@@ -10,5 +10,5 @@ layout(location = 1) out vec4 ray_way;
 void write_surface(Surface surface, vec3 to_viewer) {
   ray_start = vec4(position, surface.roughness);
   ray_way = vec4(octahedral_uv(reflect(-to_viewer, surface.normal)), surface.clear_coat_roughness,
-                 float(object_of_surface + 1));
+                 float(surface_object() + 1));
 }

@@ -36,7 +36,6 @@ void TracedReflections::update_maps(render::Renderer& renderer, const scene::Sce
   const shading::DrawnLight drawn_light = renderer.drawn_light_without_shadows();
   reference::TraceOptions options;
   options.drawn_light = &drawn_light;
-  options.has_exact_shadows = true;
   options.mirror_bounces = methods::settings(scene).bounces;
   const render::View& view = renderer.main_view();
   light_.resize(pixels_.size());

@@ -46,9 +46,9 @@ class Show {
     reference::TraceOptions options;
     options.samples_per_pixel = 64;
     options.mirror_bounces = methods::settings(scene_).bounces;
-    const shading::DrawnLight light = renderer_->drawn_light();
+    shading::DrawnLight light = renderer_->drawn_light();
+    light.has_exact_shadows = true;
     options.drawn_light = &light;
-    options.has_exact_shadows = true;
     const reference::RayScene rays(scene_);
     const reference::TracedPicture truth =
         reference::trace_picture(rays, scene_, renderer_->sky(), camera_, width, height, options);

@@ -32,7 +32,9 @@ void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible);
 
 LiveScene::LiveScene(Script script) : script_(std::move(script)) {
   for_each_inside(script_.nodes, [this](Node& node) {
-    if (node.schema->is_unique) by_name_.emplace("%" + node.schema->type, &node);
+    if (node.schema->is_unique)
+      for (const std::string& type : {node.schema->type, thesis_class(node.schema->type)})
+        by_name_.emplace("%" + type, &node);
     if (node.schema->find("name") && node.gives("name")) by_name_.emplace(node.text("name"), &node);
     for (const Node& child : node.children) parents_.emplace(&child, &node);
   });

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string_view>
+
+#include "scene/script/spelling.h"
 
 namespace parvis::scene {
 
@@ -29,8 +32,11 @@ void NodeRegistry::allow(const std::string& child, const std::string& parent) {
 }
 
 const NodeType* NodeRegistry::find(const std::string& type) const {
-  const auto found =
-      std::find_if(types_.begin(), types_.end(), [&](const auto& t) { return t.schema.type == type; });
+  // In the thesis's scripts a leading % marks a node that the system makes itself.
+  const std::string_view written = std::string_view(type).substr(type.starts_with('%') ? 1 : 0);
+  const auto found = std::find_if(types_.begin(), types_.end(), [&](const NodeType& each) {
+    return each.schema.type == written || thesis_class(each.schema.type) == written;
+  });
   return found == types_.end() ? nullptr : &*found;
 }
 

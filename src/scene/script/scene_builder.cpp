@@ -1,5 +1,8 @@
 #include "scene/script/scene_builder.h"
 
+#include <functional>
+#include <set>
+
 namespace parvis::scene {
 
 void SceneBuilder::add(Object object) {
@@ -36,6 +39,20 @@ void SceneBuilder::build_again(const Node& node, const std::unordered_map<const 
   known_frames_ = &frames;
   frame_ = frames.at(&node);
   build_one(node);
+}
+
+std::vector<int> SceneBuilder::objects_of(const std::string& name) const {
+  std::set<const Node*> makers;
+  const std::function<void(const Node&)> add_from = [&](const Node& node) {
+    makers.insert(&node);
+    for (const Node& inside : node.children) add_from(inside);
+  };
+  for (const auto& [node, frame] : frames_)
+    if (node->schema->find("name") && node->gives("name") && node->text("name") == name) add_from(*node);
+  std::vector<int> objects;
+  for (std::size_t i = 0; i < object_makers_.size(); ++i)
+    if (makers.contains(object_makers_[i])) objects.push_back(int(i));
+  return objects;
 }
 
 Script SceneBuilder::take_script() && {

@@ -77,6 +77,10 @@ class SceneBuilder {
     registry_.find(node.schema->type)->change(node, model, *this);
   }
 
+  /// Indices of the objects that the node of this name, or those inside it, have made so far. For finish
+  /// steps: a node that is rebuilt does not know the others.
+  std::vector<int> objects_of(const std::string& name) const;
+
   /// Frame of the node that is being built: world from the node's parent.
   const glm::mat4& world_from_parent() const { return frame_.world_from_nodes; }
   /// True if no enclosing group is hidden.

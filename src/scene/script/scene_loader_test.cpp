@@ -137,8 +137,7 @@ TEST_F(SceneLoader, NodesOfTheThesisThatHaveNoRoomYetAreNamed) {
       errors_of(std::string(thesis_examples) + "group(name=trees) { }\nexposure(value=-1)\n");
   for (const char* expected :
        {"scene.xp:1:1: unknown node type \"vdobject\"",
-        "scene.xp:9:1: unknown node type \"litVirtualObject\"",
-        "scene.xp:14:1: unknown node type \"%xpShadowMap\"", "scene.xp:16:16: value=\"-1\""})
+        "scene.xp:9:1: unknown node type \"litVirtualObject\"", "scene.xp:16:16: value=\"-1\""})
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
 

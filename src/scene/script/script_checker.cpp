@@ -92,9 +92,9 @@ std::vector<Node> Checker::nodes(const std::vector<ScriptNode>& written, const s
       continue;
     }
     check_place(child, type->schema, file, parent);
-    if (type->schema.is_unique) check_unique(child.type, where);
+    if (type->schema.is_unique) check_unique(type->schema.type, where);
     Node checked = node(child, *type, file);
-    checked.children = nodes(child.children, file, child.type);
+    checked.children = nodes(child.children, file, type->schema.type);
     if (child.type == include_type) {
       std::vector<Node> included_nodes = included(checked, parent);
       std::move(included_nodes.begin(), included_nodes.end(), std::back_inserter(result));

@@ -31,7 +31,9 @@ class NameResolver {
 
 void NameResolver::know_nodes(const std::vector<Node>& nodes) {
   for (const Node& node : nodes) {
-    if (node.schema->is_unique) nodes_.emplace("%" + node.schema->type, &node);
+    if (node.schema->is_unique)
+      for (const std::string& type : {node.schema->type, thesis_class(node.schema->type)})
+        nodes_.emplace("%" + type, &node);
     if (node.schema->find("name") && node.gives("name")) nodes_.emplace(node.text("name"), &node);
     know_nodes(node.children);
   }

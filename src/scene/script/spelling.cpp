@@ -45,4 +45,10 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
   return nearest ? "; did you mean \"" + *nearest + "\"?" : "";
 }
 
+std::string thesis_class(std::string_view type) {
+  std::string name = "xp" + std::string(type);
+  if (name.size() > 2) name[2] = char(std::toupper(static_cast<unsigned char>(name[2])));
+  return name;
+}
+
 }  // namespace parvis::scene

@@ -14,4 +14,7 @@ int edit_distance(std::string_view a, std::string_view b);
 /// `; did you mean "NAME"?` for the known name that is near enough to `word`, else nothing.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
+/// The class of a node type as the thesis's scripts may write it (appendix A): xpShadowMap for shadowMap.
+std::string thesis_class(std::string_view type);
+
 }  // namespace parvis::scene

@@ -1,0 +1,158 @@
+#include "graphics/light/nodes_shadow_map.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "graphics/light/shadow_settings.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::light {
+namespace {
+
+using scene::AttributeType;
+
+/// What the node says of casters and receivers, until all nodes are built.
+struct ShadowGroups {
+  static constexpr std::string_view name = "light.shadow_groups";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  std::vector<std::pair<std::string, FileLocation>> casters, receivers;
+
+  void hash(ContentHash& hash) const {
+    for (const auto* groups : {&casters, &receivers})
+      for (const auto& [group, where] : *groups) hash.add_text(group);
+  }
+};
+
+scene::NodeSchema shadow_map_schema() {
+  return {
+      .type = "shadowMap",
+      .help =
+          "How the shadows of the sun are found, and a lamp in the sun's place. A scene without this node "
+          "has "
+          "cached_cascades.",
+      .attributes =
+          {{.name = "method",
+            .type = AttributeType::choice,
+            .help = "cached_cascades: two maps about the viewer, kept from frame to frame; cascades: four, "
+                    "fitted to "
+                    "the view; perspective: the thesis's; light_space_perspective: its successor; rays: "
+                    "exact, with "
+                    "the sun's disc where nothing moves",
+            .fallback = shadow_technique_names[0],
+            .choices = {shadow_technique_names.begin(), shadow_technique_names.end()},
+            .is_live = true},
+           {.name = "casters",
+            .type = AttributeType::reference,
+            .help =
+                "of what the script places, these models and groups alone cast shadows; without it all do",
+            .refers_to = {"group", "model"},
+            .is_repeatable = true},
+           {.name = "receivers",
+            .type = AttributeType::reference,
+            .help = "these alone receive them; without it all do",
+            .refers_to = {"group", "model"},
+            .is_repeatable = true},
+           {.name = "updateNear",
+            .type = AttributeType::flag,
+            .help = "fitted maps begin at the nearest surface in view, not at the camera's near plane",
+            .fallback = "1",
+            .is_live = true},
+           {.name = "sun_samples",
+            .type = AttributeType::integer,
+            .help = "of method rays: directions to the sun's disc for each pixel of a still picture",
+            .fallback = "16",
+            .minimum = 1,
+            .maximum = max_sun_samples,
+            .is_live = true},
+           {.name = "spot",
+            .type = AttributeType::flag,
+            .help = "a spot light at lightPosition stands in the sun's place, as bright at any distance",
+            .fallback = "0",
+            .is_live = true},
+           {.name = "lightPosition",
+            .type = AttributeType::vec3,
+            .help = "of the spot light",
+            .fallback = "0 0 10",
+            .unit = "m",
+            .spellings = {"lightposition"},
+            .is_live = true},
+           {.name = "lightDirection",
+            .type = AttributeType::vec3,
+            .help = "in which the light shines, of any length; without it the sun's, and of a spot light "
+                    "downward",
+            .spellings = {"lightdirection"},
+            .is_live = true},
+           {.name = "lightAngle",
+            .type = AttributeType::number,
+            .help = "opening of the spot light's cone",
+            .fallback = "45",
+            .unit = "degrees",
+            .minimum = 0.1,
+            .maximum = 170.0,
+            .spellings = {"lightangle"},
+            .is_live = true}},
+      .example =
+          "shadowMap(method=\"light_space_perspective\")\n"
+          "timer(period_s=10, onTime=\"5, %shadowMap, lightAngle 30\")",
+      .is_unique = true};
+}
+
+void build_shadow_map(const scene::Node& node, scene::SceneBuilder& builder) {
+  ShadowSettings& settings = builder.scene.data<ShadowSettings>();
+  for (std::size_t i = 0; i < shadow_technique_names.size(); ++i)
+    if (node.text("method") == shadow_technique_names[i]) settings.technique = ShadowTechnique(i);
+  settings.updates_near = node.flag("updateNear");
+  settings.sun_samples = int(node.integer("sun_samples"));
+  settings.to_light.reset();
+  std::optional<scene::Spot>& spot = builder.scene.data<scene::SunShadows>().spot;
+  spot.reset();
+  if (node.gives("lightDirection")) {
+    const glm::vec3 along = node.vec3("lightDirection");
+    if (glm::length(along) < 1e-6f)
+      return builder.fail(error_at(node.where_of("lightDirection"),
+                                   "the light's direction has no length; give \"0 0 -1\", say"));
+    settings.to_light = -glm::normalize(along);
+  }
+  if (node.flag("spot")) {
+    spot = {node.vec3("lightPosition"), glm::radians(0.5f * float(node.number("lightAngle")))};
+    if (!settings.to_light) settings.to_light = glm::vec3(0.0f, 0.0f, 1.0f);
+  }
+  replace_sun(builder.scene);
+
+  ShadowGroups& groups = builder.scene.data<ShadowGroups>();
+  groups = {};
+  for (const scene::NodeAttribute& attribute : node.attributes) {
+    if (attribute.schema->name == "casters") groups.casters.emplace_back(attribute.text, attribute.where);
+    if (attribute.schema->name == "receivers") groups.receivers.emplace_back(attribute.text, attribute.where);
+  }
+}
+
+/// All objects but those in the groups refuse; none where no group is named.
+void choose(scene::SceneBuilder& builder, const std::vector<std::pair<std::string, FileLocation>>& groups,
+            const char* role, std::vector<bool>& refuses) {
+  if (groups.empty()) return;
+  refuses.assign(builder.scene.objects.size(), true);
+  for (const auto& [group, where] : groups) {
+    const std::vector<int> objects = builder.objects_of(group);
+    if (objects.empty())
+      builder.fail(error_at(where, "\"{}\" holds no model that could {} a shadow", group, role));
+    for (const int object : objects) refuses[std::size_t(object)] = false;
+  }
+}
+
+}  // namespace
+
+void add_shadow_map_node(scene::NodeRegistry& registry) {
+  registry.add(shadow_map_schema(), build_shadow_map);
+  registry.add_finish_step([](scene::SceneBuilder& builder) {
+    const ShadowGroups groups = builder.scene.data<ShadowGroups>();
+    if (groups.casters.empty() && groups.receivers.empty()) return;
+    scene::SunShadows& shadows = builder.scene.data<scene::SunShadows>();
+    choose(builder, groups.casters, "cast", shadows.casts_none);
+    choose(builder, groups.receivers, "receive", shadows.receives_none);
+  });
+}
+
+}  // namespace parvis::light

@@ -1,0 +1,297 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "base/test_folder.h"
+#include "graphics/gl/context.h"
+#include "graphics/light/light_nodes.h"
+#include "graphics/light/shadow_settings.h"
+#include "graphics/reference/camera_ray.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/renderer.h"
+#include "graphics/shadows/chosen_light.h"
+#include "graphics/shadows/near_map_fit.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/live_scene.h"
+#include "scene/script/scene_builder.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::shadows {
+namespace {
+
+using light::ShadowTechnique;
+
+/// A street with walls, a roof on posts and a box.
+scene::Scene street() {
+  scene::Scene scene;
+  const scene::Material grey = scene::matt(glm::vec3(0.5f));
+  add(scene, scene::model_of(scene::ground(60), grey));
+  add(scene, scene::model_of(scene::box({-12, -10, 0}, {-9, 50, 9}), grey));
+  add(scene, scene::model_of(scene::box({9, 5, 0}, {12, 30, 7}), grey));
+  add(scene, scene::model_of(scene::box({-3, 12, 3}, {3, 16, 3.2f}), grey));
+  add(scene, scene::model_of(scene::box({3, 4, 0}, {4, 5, 1.2f}), grey));
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(0.5f, -0.45f, 0.6f));
+  return scene;
+}
+
+Camera street_camera() {
+  Camera camera;
+  camera.world_from_camera = look_at({0.3f, -12, 1.7f}, {0, 20, 1.0f});
+  camera.vertical_fov = 0.9f;
+  return camera;
+}
+
+Bounds bounds_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects) bounds.add(scene::bounds(*object.model));
+  return bounds;
+}
+
+glm::vec3 projected(const render::NearMap& map, glm::vec3 p) {
+  const glm::vec4 h = map.clip_from_world * glm::vec4(p, 1.0f);
+  EXPECT_GT(h.w, 0.0f);
+  return glm::vec3(h) / h.w;
+}
+
+TEST(NearMapFit, DepthGrowsAwayFromTheSunAlongLinesThatKeepTheirTexel) {
+  const scene::Scene scene = street();
+  const reference::RayScene rays(scene);
+  const Bounds casters = bounds_of(scene);
+  for (const glm::vec3 sun : {glm::vec3(0.5f, -0.45f, 0.6f), glm::vec3(-0.3f, 0.8f, 0.5f),
+                              glm::vec3(0.0f, -0.9f, 0.4f), glm::vec3(0.02f, 0.0f, 1.0f)})
+    for (const auto method : {light::ShadowMethod::cascades, light::ShadowMethod::perspective,
+                              light::ShadowMethod::light_space_perspective}) {
+      const glm::vec3 to_sun = glm::normalize(sun);
+      const light::SeenSurfaces seen = seen_surfaces(rays, street_camera(), true);
+      const render::NearMap map = fit_near_map(method, street_camera(), to_sun, seen, casters);
+      ASSERT_GT(seen.positions.size(), 1000u);
+      for (std::size_t i = 0; i < seen.positions.size(); i += 7) {
+        const glm::vec3 p = seen.positions[i], here = projected(map, p),
+                        above = projected(map, p + 4.0f * to_sun);
+        EXPECT_LT(std::abs(here.x), 1.001f);
+        EXPECT_LT(std::abs(here.y), 1.001f);
+        EXPECT_NEAR(here.x, above.x, 2e-3f);
+        EXPECT_NEAR(here.y, above.y, 2e-3f);
+        EXPECT_LT(above.z, here.z) << light::shadow_method_names[std::size_t(method)];
+        EXPECT_LE(here.z, 1.0f);
+        EXPECT_GE(above.z, -1.001f);
+      }
+    }
+}
+
+TEST(NearMapFit, TilesAreQuartersThatHoldWhatTheyServe) {
+  const scene::Scene scene = street();
+  const reference::RayScene rays(scene);
+  const light::SeenSurfaces seen = seen_surfaces(rays, street_camera(), true);
+  const render::NearMap map = fit_near_map(light::ShadowMethod::cascades, street_camera(),
+                                           scene.sun.direction_to_sun, seen, bounds_of(scene));
+  ASSERT_EQ(map.tile_count, 4);
+  EXPECT_GT(map.tiles[3].x, 3.0f * map.tiles[0].x) << "the finest is last";
+  std::set<int> serving;
+  for (const glm::vec3 p : seen.positions) {
+    const glm::vec2 uv = 0.5f + 0.5f * glm::vec2(projected(map, p));
+    int finest = -1;
+    for (int i = 0; i < 4; ++i) {
+      const glm::vec4 tile = map.tiles[std::size_t(i)];
+      const glm::vec2 at =
+          uv * glm::vec2(tile) + glm::vec2(tile.z, tile.w) - 0.5f * glm::vec2(float(i % 2), float(i / 2));
+      if (std::min(at.x, at.y) > 0.0f && std::max(at.x, at.y) < 0.5f) finest = i;
+    }
+    ASSERT_GE(finest, 0);
+    serving.insert(finest);
+  }
+  EXPECT_EQ(serving.size(), 4u);
+}
+
+TEST(TracedSun, AStillViewConvergesToTheDiscAndAJumpIsAStillOfItsOwn) {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(60), scene::matt(glm::vec3(0.5f))));
+  add(scene, scene::model_of(scene::box({-40, 5, 30}, {40, 45, 31}), scene::matt(glm::vec3(0.5f))));
+  scene.sun.direction_to_sun = {0, 0, 1};
+  const reference::RayScene rays(scene);
+  Camera camera;
+  camera.world_from_camera = look_at({0, 5, 8}, {0, 5, 0}, {0, 1, 0});
+  camera.vertical_fov = 0.1f;
+  TracedSun traced;
+  const auto shares = [&] {
+    std::set<float> all;
+    for (const glm::vec2 pixel : traced.pixels()) all.insert(pixel.x);
+    return all.size();
+  };
+  traced.trace(rays, 1, scene::sun_light(scene), camera, 64, 64, 32);
+  EXPECT_EQ(traced.samples(), 32) << "the first picture is a still";
+  EXPECT_GT(shares(), 8u) << "half a degree, 30 m up: a penumbra of 28 cm";
+  camera.world_from_camera[3].y += 0.01f;
+  traced.trace(rays, 1, scene::sun_light(scene), camera, 64, 64, 32);
+  EXPECT_EQ(traced.samples(), 0);
+  EXPECT_EQ(shares(), 2u) << "a moving view sees the middle of the disc";
+  traced.trace(rays, 1, scene::sun_light(scene), camera, 64, 64, 32);
+  EXPECT_EQ(traced.samples(), 1);
+  traced.trace(rays, 2, scene::sun_light(scene), camera, 64, 64, 32);
+  EXPECT_EQ(traced.samples(), 0) << "something moved";
+  camera.world_from_camera[3].y += 10.0f;
+  traced.trace(rays, 2, scene::sun_light(scene), camera, 64, 64, 32);
+  EXPECT_EQ(traced.samples(), 32);
+}
+
+class ChosenLightTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = gl::Context::create_headless();
+    if (!made) GTEST_SKIP() << "no OpenGL: " << to_string(made.errors());
+    context_.emplace(*std::move(made));
+  }
+  std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
+    auto renderer = render::Renderer::create(scene, {}, ChosenLight::create);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    return *std::move(renderer);
+  }
+  static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene, int size) {
+    renderer.begin_frame(scene, street_camera());
+    renderer.prepare_main_view(street_camera(), size, size);
+    renderer.draw_main_view();
+    return renderer.read_radiance();
+  }
+  /// Percent of a picture's pixels whose light is off by more than a tenth from exact rays.
+  static double wrong_percent(render::Renderer& renderer, const scene::Scene& scene) {
+    constexpr int size = 200;
+    const ImageF picture = drawn(renderer, scene, size);
+    shading::DrawnLight exact = renderer.drawn_light();
+    exact.has_exact_shadows = true;
+    const reference::RayScene rays(scene);
+    reference::TraceOptions options;
+    options.samples_per_pixel = 16;
+    options.drawn_light = &exact;
+    const ImageF truth =
+        reference::trace_picture(rays, scene, renderer.sky(), street_camera(), size, size, options).radiance;
+    int wrong = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const float expected = truth.at(x, y)[0];
+        wrong += std::abs(picture.at(x, y)[0] - expected) > 0.1f * expected + 0.01f;
+      }
+    return 100.0 * wrong / (size * size);
+  }
+
+ private:
+  std::optional<gl::Context> context_;
+};
+
+TEST_F(ChosenLightTest, EveryMethodDrawsTheShadowsThatRaysFind) {
+  scene::Scene scene = street();
+  const auto renderer = renderer_of(scene);
+  std::vector<double> wrong;
+  for (std::size_t i = 0; i < light::shadow_technique_names.size(); ++i) {
+    scene.data<light::ShadowSettings>().technique = ShadowTechnique(i);
+    scene.data<light::ShadowSettings>().sun_samples = 1;
+    wrong.push_back(wrong_percent(*renderer, scene));
+    std::printf("%s: %.2f %% of the pixels are off\n", light::shadow_technique_names[i], wrong.back());
+    // Edges: blurred over a few texels by the filter, over a pixel by the samples.
+    EXPECT_LT(wrong.back(), 4.0) << light::shadow_technique_names[i];
+  }
+  const scene::Scene with_roof = scene;
+  scene.data<scene::SunShadows>().casts_none = {false, false, false, true};
+  const auto without = renderer_of(scene);
+  EXPECT_GT(wrong_percent(*without, with_roof), 2.0 * wrong[0] + 1.0)
+      << "the comparison sees a missing shadow";
+}
+
+TEST_F(ChosenLightTest, SpotLightsAndReceiversAgreeWithTheRayTracer) {
+  scene::Scene scene = street();
+  scene.data<scene::SunShadows>() = {scene::Spot{{0, 0, 8}, 0.7f}, {}, {false, false, false, false, true}};
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(0, -1, 1));
+  const auto renderer = renderer_of(scene);
+  EXPECT_LT(wrong_percent(*renderer, scene), 4.0);
+  scene.data<light::ShadowSettings>().technique = ShadowTechnique::rays;
+  EXPECT_LT(wrong_percent(*renderer, scene), 3.0);
+}
+
+class ShadowMapNode : public testing::Test {
+ protected:
+  ShadowMapNode() {
+    scene::furnish_script(house_);
+    scene::furnish_light(house_);
+  }
+  Result<scene::LoadedScene> load(const std::string& script) {
+    folder_.write("scene.xp", script);
+    return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+  }
+  TestFolder folder_;
+  House house_;
+};
+
+TEST_F(ShadowMapNode, HasTheSpellingsOfTheThesis) {
+  for (const char* type : {"shadowMap", "xpShadowMap", "%xpShadowMap", "%shadowMap"}) {
+    const auto loaded =
+        load(std::string(type) + "(method=\"perspective\", lightposition=\"1 2 3\", spot=1)\n");
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    EXPECT_EQ(loaded->scene.data<light::ShadowSettings>().technique, ShadowTechnique::perspective);
+    EXPECT_EQ(scene::sun_light(loaded->scene).spot->position, glm::vec3(1, 2, 3));
+  }
+  EXPECT_FALSE(load("shadowMap()\n%xpShadowMap()\n")) << "a scene has one";
+}
+
+TEST_F(ShadowMapNode, TakesTheMessagesOfTheThesisAndGivesTheSunBack) {
+  auto loaded = load("sun(direction=\"0 1 1\")\n%xpShadowMap()\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  scene::LiveScene live(std::move(loaded->script));
+  const auto tell = [&](const char* text) {
+    const scene::Node* node = live.find("%xpShadowMap");
+    ASSERT_NE(node, nullptr);
+    const auto message = scene::parse_message(*node->schema, text, {});
+    ASSERT_TRUE(message) << text;
+    EXPECT_TRUE(live.receive(*node, *message)) << text;
+    EXPECT_TRUE(live.refresh(scene).empty()) << text;
+  };
+  tell("lightposition 0 0 -200");
+  tell("lightDirection 0 0 1");
+  tell("lightAngle 45.0");
+  EXPECT_FALSE(scene::sun_light(scene).spot) << "the angle is ignored if it is no spot light";
+  EXPECT_EQ(scene.sun.direction_to_sun, glm::vec3(0, 0, -1));
+  tell("spot on");
+  EXPECT_EQ(scene::sun_light(scene).spot->position, glm::vec3(0, 0, -200));
+  EXPECT_NEAR(scene::sun_light(scene).spot->half_angle, glm::radians(22.5f), 1e-6f);
+  tell("spot off");
+  EXPECT_FALSE(scene::sun_light(scene).spot);
+}
+
+TEST_F(ShadowMapNode, ChoosesCastersAndReceiversByTheirGroups) {
+  scene::NodeSchema stone{.type = "stone", .attributes = {{.name = "name"}}};
+  house_.get<scene::NodeRegistry>().add(stone, [](const scene::Node&, scene::SceneBuilder& builder) {
+    scene::Object object;
+    object.model = scene::model_of(scene::ground(1), scene::matt(glm::vec3(0.5f)));
+    builder.add(object);
+  });
+  const auto loaded = load(
+      "stone()\ngroup(name=a) { stone() group(name=b) { stone() } }\ngroup(name=c) { stone() }\n"
+      "shadowMap(casters=a, receivers=b, receivers=c)\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  std::string casters, receivers;
+  const auto& shadows = loaded->scene.data<scene::SunShadows>();
+  for (std::size_t i = 0; i < 4; ++i) {
+    casters += shadows.casts(i) ? '1' : '0';
+    receivers += shadows.receives(i) ? '1' : '0';
+  }
+  EXPECT_EQ(casters, "0110");
+  EXPECT_EQ(receivers, "0011");
+}
+
+TEST_F(ShadowMapNode, SaysWhatIsWrong) {
+  const auto message = [&](const std::string& script) {
+    const auto loaded = load(script);
+    return loaded ? std::string() : to_string(loaded.errors());
+  };
+  EXPECT_NE(message("shadowMap(casters=\"trees\")").find("no node of the scene has this name"),
+            std::string::npos);
+  EXPECT_NE(message("group(name=\"trees\") { }\nshadowMap(casters=\"trees\")").find("holds no model"),
+            std::string::npos);
+  EXPECT_NE(message("shadowMap(lightDirection=\"0 0 0\")").find("no length"), std::string::npos);
+  EXPECT_NE(message("shadowMap(lightAngle=180)").find("lightAngle"), std::string::npos);
+  EXPECT_NE(message("shadowMap(method=\"raytraced\")").find("method"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace parvis::shadows

@@ -1,0 +1,53 @@
+// The sun of each pixel of a view by rays: exact where a surface fills the pixel, of the sun's disc where
+// nothing moves.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "base/camera.h"
+#include "graphics/gl/objects.h"
+#include "graphics/reference/ray_scene.h"
+#include "scene/data/sun_shadows.h"
+
+namespace parvis::shadows {
+
+class TracedSun {
+ public:
+  /// The share of the sun that each pixel's middle sees, and how far away its surface is (0: the sky), as
+  /// render::TracedSun wants them. While the view, the sun and the scene (`scene_version`) stay as they were
+  /// in the last call, directions to the sun's disc are added, one per call up to `sun_samples`: shadows
+  /// become soft, and nothing else is traced again. A view that has jumped is a still of its own: it gets all
+  /// of them at once.
+  void trace(const reference::RayScene& rays, std::uint64_t scene_version, const scene::SunLight& sun,
+             const Camera& camera, int width, int height, int sun_samples);
+
+  /// Two floats per pixel, bottom row first.
+  const std::vector<glm::vec2>& pixels() const { return pixels_; }
+  /// Waits for nothing: the upload is ordered before what is drawn next. Needs an OpenGL context.
+  GLuint upload();
+  /// Directions that the shares are the mean of; 0: to the middle of the disc.
+  int samples() const { return samples_; }
+
+ private:
+  struct View {
+    glm::mat4 world_from_camera{0.0f}, clip_from_camera{0.0f};
+    glm::ivec2 size{0};
+    scene::SunLight sun;
+    std::uint64_t scene_version = 0;
+    bool operator==(const View&) const = default;
+  };
+  void find_surfaces(const reference::RayScene& rays, const Camera& camera);
+  void add_sample(const reference::RayScene& rays, int sample);
+
+  View view_;
+  std::vector<glm::vec2> pixels_;
+  std::vector<glm::vec4> surfaces_;  ///< where rays to the sun begin; w: 1 where there are any
+  std::vector<std::uint16_t> lit_;   ///< how many directions were open
+  int samples_ = 0;
+  gl::Texture texture_;
+  glm::ivec2 texture_size_{0};
+};
+
+}  // namespace parvis::shadows
