@@ -45,18 +45,22 @@ class ChosenShadows final : public render::ShadowMethod {
   TracedSun traced_;
 };
 
+/// The renderer's sun and sky, whose shadows are ChosenShadows.
 class ChosenLight final : public render::LightSource {
  public:
+  /// As render::MakeLight. Fails only if a shader does.
   static Result<std::unique_ptr<render::LightSource>> create(const scene::Scene& scene, const Bounds& fixed);
 
   bool update(const scene::Scene& scene) override {
     const bool has_other_shadows = shadows_->choose(scene);
     return light_->update(scene) || has_other_shadows;
   }
+  /// Static things have changed.
   void renew(const scene::Scene& scene, const render::GpuScene& gpu, const render::FixedChange& change,
              const Bounds& fixed) override {
     light_->renew(scene, gpu, change, fixed);
   }
+  /// Draws the maps of the method.
   void draw_shadows(const Camera& camera, std::span<const Bounds> moving,
                     const render::DrawView& draw) override {
     light_->draw_shadows(camera, moving, draw);

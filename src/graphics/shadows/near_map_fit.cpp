@@ -15,7 +15,7 @@ namespace {
 
 constexpr int samples_across = 72, samples_up = 48;
 constexpr float sampled_aspect = 1.8f;
-constexpr double moving_height_m = 30.0;  // what moves stands no higher over what does not
+constexpr double moving_height_m = 30.0;  // dynamic objects stand no higher above static ones
 constexpr int resolution = render::SunShadowMaps::map_size;
 
 using light::ShadowMap;

@@ -21,6 +21,7 @@ struct Spot {
   bool operator==(const Spot&) const = default;
 };
 
+/// Kept in a scene by the node that replaces its sun.
 struct SunShadows {
   static constexpr std::string_view name = "data.sun_shadows";
   static constexpr DataRole role = DataRole::static_content;
@@ -28,8 +29,11 @@ struct SunShadows {
   std::optional<Spot> spot;                     ///< none: the sun is infinitely far away
   std::vector<bool> casts_none, receives_none;  ///< by the index of an object; those beyond do
 
+  /// Does an object cast shadows?
   bool casts(std::size_t object) const { return object >= casts_none.size() || !casts_none[object]; }
+  /// Does it receive those of others?
   bool receives(std::size_t object) const { return object >= receives_none.size() || !receives_none[object]; }
+  /// All of it.
   void hash(ContentHash& hash) const {
     if (spot) hash.add(glm::vec4(spot->position, spot->half_angle));
     for (const std::vector<bool>* flags : {&casts_none, &receives_none})
@@ -43,6 +47,7 @@ struct SunLight : Sun {
 
   bool operator==(const SunLight&) const = default;
 };
+/// Of a scene.
 inline SunLight sun_light(const Scene& scene) { return {scene.sun, scene.data<SunShadows>().spot}; }
 
 }  // namespace parvis::scene
