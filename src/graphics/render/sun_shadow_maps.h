@@ -32,6 +32,7 @@ struct NearMap {
 /// Fits the near map to what a view shows, in every frame; `fixed` bounds all that does not move.
 using FitNearMap = std::function<NearMap(const Camera&, const scene::SunLight&, const Bounds& fixed)>;
 
+/// The far map of the whole place and the near map, whose static part is kept.
 class SunShadowMaps final : public ShadowMethod {
  public:
   /// Texels along a side of each map.
