@@ -37,6 +37,7 @@ struct ShadowSettings {
   std::optional<glm::vec3> to_light;  ///< in place of the sun's direction; unit
   std::optional<scene::Sun> own_sun;  ///< as the nodes sun or dayLight say it; none: the scene's default
 
+  /// Adds every setting.
   void hash(ContentHash& hash) const;
 };
 

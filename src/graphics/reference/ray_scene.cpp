@@ -178,8 +178,9 @@ bool RayScene::update(const scene::Scene& scene) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (std::size_t p = 0; p < object.model->parts.size(); ++p, ++next) {
       const Mesh& mesh = object.mesh(p);
-      has_changed |= move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
-                          object.is_visible);
+      has_changed |=
+          move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
+               object.is_visible);
       if (&mesh == &object.model->parts[p].mesh || !places_[next]->is_traced) continue;
       bend(next);
       has_changed = true;

@@ -171,7 +171,7 @@ class Tracer {
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
     const vec4 sky_cell = sky_cell_at(point, hit.place->object);
     const MirrorLight mirrored = traces ? mirror_light(point, hit, cone, bounce, lobe_points, ray_count)
-                                     : sky_light(s, cone.ray.direction, sky_cell);
+                                        : sky_light(s, cone.ray.direction, sky_cell);
     if (hit.place->material->refracts()) {
       const vec3 ahead = cone.ray.direction;
       const vec3 through =

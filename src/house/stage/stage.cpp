@@ -53,9 +53,8 @@ Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   if (Status status = play.house->get<methods::Registry>().prepare(play.scene); !status)
     return status.errors();
-  Result<std::unique_ptr<render::Renderer>> renderer =
-      render::Renderer::create(play.scene, play.house->get<render::Drawables>(),
-                               play.house->get<render::Lights>().make);
+  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(
+      play.scene, play.house->get<render::Drawables>(), play.house->get<render::Lights>().make);
   if (!renderer) return renderer.errors();
   std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
