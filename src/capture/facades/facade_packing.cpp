@@ -14,6 +14,9 @@ namespace parvis::facades {
 namespace {
 
 constexpr int dilation_rings = 6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
+/// Of pixels that were filled, in mixed tiles: colours share a block's line with alpha, so that a larger step
+/// would cost them most of their precision.
+constexpr std::uint8_t unseen_alpha = 191;
 constexpr std::size_t max_known_colours = 2000;  ///< that unknown surfaces are coloured from
 
 /// A layer as it is stored, with what is needed of it.
@@ -76,7 +79,7 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
       std::uint8_t* p = picture.rgba.at(x, y);
       std::copy_n(from.at(x, y), 4, p);
       if (source == FillSource::painted && p[3] < 255) picture.has_alpha = true;
-      if (source != FillSource::painted) p[3] = is_certain ? 255 : 0;
+      if (source != FillSource::painted) p[3] = is_certain ? 255 : unseen_alpha;
       picture.is_covered[at(box, x, y)] = 1;
       picture.is_needed[at(box, x, y)] = is_first || source == FillSource::painted ||
                                          source == FillSource::patches || source == FillSource::smooth;

@@ -28,7 +28,7 @@ static_assert(tile_side == 64);
 enum class TileKind : std::uint8_t {
   none,   ///< not stored
   seen,   ///< the photograph sees all of it
-  mixed,  ///< alpha: 255 where the photograph sees the surface, 0 where it was filled
+  mixed,  ///< alpha: 255 where the photograph sees the surface, 191 where it was filled
   alpha   ///< seen, with an artist's alpha
 };
 

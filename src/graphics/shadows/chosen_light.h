@@ -72,6 +72,7 @@ class ChosenLight final : public render::LightSource {
   void fill(render::Frame& frame) const override { light_->fill(frame); }
   void draw_sky(const render::View& view) const override { light_->draw_sky(view); }
   const shading::SkyLight& sky() const override { return light_->sky(); }
+  const shading::SkyVisibility& sky_visibility() const override { return light_->sky_visibility(); }
   shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const override {
     return light_->drawn_light(body_shade);
   }
