@@ -1,8 +1,9 @@
 // Depth of a projective map. Its rows X, Y and W come from the method: x = X/W and y = Y/W are the same all
 // along a line toward the sun s. Depth is (B - s.p) / W, scaled: along a line p + t s, with k = W(s) and
-// c = B - s.p, its derivative is -(W + k c) / W^2. That is negative wherever W > 0, if k >= 0 and B lies
-// above all points, or if k < 0 and B lies below them: what is nearer to the sun has the smaller depth,
-// whether the sun is a source or a sink of the projected space (Stamminger and Drettakis 2002, section 3).
+// c = B - s.p, its derivative is -(W + k c) / W^2, and W + k c is the same all along. Where that is positive,
+// what is nearer to the sun has the smaller depth, whether the sun is a source or a sink of the projected
+// space (Stamminger and Drettakis 2002, section 3). B lies among the receivers, as far as that allows: from
+// texel to texel W changes, and with it the depth by c / W^2, which would shade surfaces by themselves.
 #include "graphics/shadows/near_map_fit.h"
 
 #include <algorithm>
@@ -88,15 +89,31 @@ render::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun,
   return near;
 }
 
+/// The diagonal of a texel about a point, in metres on a plane that faces the sun: by how that plane changes
+/// over the map.
+double texel_size(const glm::dmat4& map_from_world, glm::dvec3 to_sun, glm::dvec3 p) {
+  constexpr double step_m = 1e-3;
+  const glm::dvec3 u = glm::normalize(
+      glm::cross(std::abs(to_sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), to_sun));
+  const auto at = [&](glm::dvec3 q) {
+    const glm::dvec4 h = map_from_world * glm::dvec4(q, 1.0);
+    return glm::dvec2(h) / h.w;
+  };
+  const glm::dmat2 map_from_plane((at(p + step_m * u) - at(p)) / step_m,
+                                  (at(p + step_m * glm::cross(to_sun, u)) - at(p)) / step_m);
+  const glm::dmat2 plane_from_map = glm::inverse(map_from_plane);
+  return 2.0 / resolution * (glm::length(plane_from_map[0]) + glm::length(plane_from_map[1]));
+}
+
 /// How large texels are about the points: t w max(1, g w).
-void measure_texels(const ShadowMap& map, const glm::dvec4& w_row, const light::SeenSurfaces& seen,
-                    render::NearMap& near) {
+void measure_texels(const ShadowMap& map, const glm::dvec4& w_row, glm::dvec3 to_sun,
+                    const light::SeenSurfaces& seen, render::NearMap& near) {
   std::vector<std::pair<double, double>> sizes;  // w, and the size over w
   const std::size_t step = std::max<std::size_t>(1, seen.positions.size() / 200);
   for (std::size_t i = 0; i < seen.positions.size(); i += step) {
     const glm::dvec3 p(seen.positions[i]);
     const double w = glm::dot(w_row, glm::dvec4(p, 1.0));
-    if (w > 1e-6) sizes.emplace_back(w, light::texel_point(map, resolution, p).size_m / w);
+    if (w > 1e-6) sizes.emplace_back(w, texel_size(map.map_from_world, to_sun, p) / w);
   }
   std::ranges::sort(sizes);
   std::vector<double> of_near, of_far;
@@ -119,7 +136,14 @@ render::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const li
 
   const double k = glm::dot(glm::dvec3(rows[3]), to_sun);
   const glm::dvec2 range = depth_range(casters, to_sun);
-  const double b = k >= 0.0 ? range.y + 1.0 : range.x - 1.0;
+  double b = 0.0;
+  for (const glm::vec3& p : seen.positions)
+    b += glm::dot(glm::dvec3(p), to_sun) / double(seen.positions.size());
+  for (std::size_t i = 0; i < w.size() && std::abs(k) > 1e-9; ++i) {
+    const double height = glm::dot(glm::dvec3(seen.positions[i]), to_sun);
+    const double reach = 0.9 * (w[i] / middle) / k;  // of W + k c > 0, with a tenth to spare
+    b = k > 0.0 ? std::max(b, height - reach) : std::min(b, height - reach);
+  }
   const auto depth = [&](glm::dvec3 p) {
     return (b - glm::dot(p, to_sun)) / std::max(glm::dot(rows[3], glm::dvec4(p, 1.0)), 1e-4);
   };
@@ -134,7 +158,7 @@ render::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const li
 
   render::NearMap near;
   near.clip_from_world = glm::mat4(glm::transpose(rows));
-  measure_texels(map, rows[3], seen, near);
+  measure_texels(map, rows[3], to_sun, seen, near);
   return near;
 }
 

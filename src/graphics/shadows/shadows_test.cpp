@@ -191,6 +191,7 @@ TEST_F(ChosenLightTest, EveryMethodDrawsTheShadowsThatRaysFind) {
     // Edges: blurred over a few texels by the filter, over a pixel by the samples.
     EXPECT_LT(wrong.back(), 4.0) << light::shadow_technique_names[i];
   }
+  scene.data<light::ShadowSettings>().technique = ShadowTechnique::cached_cascades;
   const scene::Scene with_roof = scene;
   scene.data<scene::SunShadows>().casts_none = {false, false, false, true};
   const auto without = renderer_of(scene);
