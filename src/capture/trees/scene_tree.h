@@ -35,6 +35,17 @@ inline const std::vector<SceneTree>& scene_trees(const scene::Scene& scene) {
   return scene.data<SceneTrees>().items;
 }
 
+/// How finely trees are drawn.
+struct TreeDetail {
+  static constexpr std::string_view name = "trees.detail";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  /// A texel may be so many pixels wide before a finer level of detail is shown.
+  float max_texel_pixels = 1.5f;
+
+  void hash(ContentHash& hash) const { hash.add(max_texel_pixels); }
+};
+
 /// Trees that have been read, by file: a node that changes does not read them again.
 struct TreeShelf {
   static constexpr std::string_view name = "trees.shelf";

@@ -63,6 +63,7 @@ class TreeDrawable final : public render::Drawable {
 
   void update(const scene::Scene& scene) override {
     const std::vector<SceneTree>& trees = scene_trees(scene);
+    max_texel_pixels_ = scene.data<TreeDetail>().max_texel_pixels;
     change_ = {};
     fixed_ = {};
     if (const Status status = upload(scene); !status) fmt::print(stderr, "{}", to_string(status.errors()));
@@ -164,7 +165,7 @@ class TreeDrawable final : public render::Drawable {
     const glm::mat3 turn(world_from_tree);
     const float scale = std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
     const float pixels_per_metre = scale * culling.pixels_per_metre(bounds_[i]);
-    const std::size_t level = level_for(*placed.tree, pixels_per_metre, max_texel_pixels);
+    const std::size_t level = level_for(*placed.tree, pixels_per_metre, max_texel_pixels_);
     const BillboardTree& shown = placed.tree->levels[level];
     const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(eye_in_world, 1.0f));
     order_.back_to_front(shown.grid, eye, cells_);
@@ -195,6 +196,7 @@ class TreeDrawable final : public render::Drawable {
   DrawList& list_of(const View& view) { return view.kind == ViewKind::main ? main_list_ : other_list_; }
 
   int first_thing_;
+  float max_texel_pixels_ = TreeDetail().max_texel_pixels;
   ViewPrograms blended_, by_chance_;
   gl::VertexArray vertex_array_ = gl::VertexArray::create();
   TreeAtlas atlas_;

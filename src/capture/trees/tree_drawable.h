@@ -6,9 +6,6 @@
 
 namespace parvis::trees {
 
-/// A texel may be so many pixels wide before a finer level of detail is shown.
-inline constexpr float max_texel_pixels = 1.5f;
-
 /// The kind: drawn (tree_drawable.cpp) and traced (traced_tree.cpp).
 render::DrawableKind scene_trees_kind();
 
