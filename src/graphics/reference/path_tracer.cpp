@@ -78,7 +78,7 @@ vec3 PathTracer::light_from(vec3 direction, vec3 radiance, float density, const 
   if (side * glm::dot(point.surface.normal, direction) <= 0.0f) return vec3(0.0f);
   const vec3 brought =
       scatter.share(direction) * radiance *
-      (point.relief.light_from(direction) * weight(density, scatter.density(direction), true) / density);
+      (point.relief.light_from(direction) * weight(density, scatter.pdf(direction), true) / density);
   if (!(brought.x + brought.y + brought.z > 0.0f)) return vec3(0.0f);
   ++path.ray_count;
   const vec3 origin = point.position + std::copysign(off_surface_m, side) * point.geometric_normal;
@@ -102,21 +102,22 @@ vec3 PathTracer::light_at(const ShadingPoint& point, const Scatter& scatter, Pat
 /// Chooses where the path goes on; false where it ends.
 bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const {
   const glm::vec2 choices = path.numbers.next_2d();
-  std::optional<Scatter::Way> way = scatter.way(choices.x, path.numbers.next_2d());
-  if (!way) return false;
-  const bool is_mirror = way->density == 0.0f;
-  if (is_mirror) way->direction = kept_above(way->direction, point.geometric_normal);
-  const float side = glm::dot(point.geometric_normal, way->direction);
-  if (side * glm::dot(point.surface.normal, way->direction) <= 0.0f) return false;
-  path.throughput *= way->weight * point.relief.light_from(way->direction);
+  std::optional<Scatter::BsdfSample> sample = scatter.sample(choices.x, path.numbers.next_2d());
+  if (!sample) return false;
+  const bool is_mirror = sample->pdf == 0.0f;
+  if (is_mirror) sample->direction = kept_above(sample->direction, point.geometric_normal);
+  const float side = glm::dot(point.geometric_normal, sample->direction);
+  if (side * glm::dot(point.surface.normal, sample->direction) <= 0.0f) return false;
+  path.throughput *= sample->weight * point.relief.light_from(sample->direction);
   const float survival =
       std::min(max_survival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
   if (!(choices.y < survival)) return false;
   path.throughput /= survival;
-  path.ray = {point.position + std::copysign(off_surface_m, side) * point.geometric_normal, way->direction};
-  path.density = way->density;
+  path.ray = {point.position + std::copysign(off_surface_m, side) * point.geometric_normal,
+              sample->direction};
+  path.density = sample->pdf;
   path.width_m = width_m;
-  path.spread += way->spread + (is_mirror ? 2.0f * point.curvature_per_m * width_m : 0.0f);
+  path.spread += sample->spread + (is_mirror ? 2.0f * point.curvature_per_m * width_m : 0.0f);
   path.passage.sees_backs = true;
   return true;
 }

@@ -183,8 +183,8 @@ TEST(PathTracer, NoSurfaceReflectsMoreThanItGets) {
           const Estimate albedo = estimate(20000, [&](int i) {
             SampleSequence numbers(3, std::uint32_t(i), 0);
             const float choice = numbers.next_1d();
-            const auto way = scatter.way(choice, numbers.next_2d());
-            return way ? double(way->weight.x) : 0.0;
+            const auto sample = scatter.sample(choice, numbers.next_2d());
+            return sample ? double(sample->weight.x) : 0.0;
           });
           // Karis' polynomial lies up to 0.04 below what the highlight reflects at grazing angles.
           EXPECT_LT(albedo.mean, 1.04 + 4.0 * albedo.error)

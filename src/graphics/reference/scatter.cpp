@@ -67,52 +67,53 @@ vec3 Scatter::highlight_direction(const Highlight& highlight, vec2 uniforms) con
 }
 
 /// Smith's masking of the viewer times the distribution, over four cosines that cancel.
-float Scatter::highlight_density(const Highlight& highlight, float n_dot_h) const {
+float Scatter::highlight_pdf(const Highlight& highlight, float n_dot_h) const {
   const float a2 = highlight.alpha * highlight.alpha;
   return shading::ggx_distribution(highlight.alpha, n_dot_h) /
          (2.0f * (n_dot_v_ + std::sqrt(a2 + (1.0f - a2) * n_dot_v_ * n_dot_v_)));
 }
 
-float Scatter::density(vec3 direction) const {
+float Scatter::pdf(vec3 direction) const {
   const float cosine = glm::dot(surface_.normal, direction);
   if (cosine <= 0.0f) return through_chance_ * -cosine / pi_f;
   float sum = diffuse_chance_ * cosine / pi_f;
   const float n_dot_h =
       std::clamp(glm::dot(surface_.normal, glm::normalize(to_viewer_ + direction)), 0.0f, 1.0f);
-  if (!base_.is_mirror && base_.chance > 0.0f) sum += base_.chance * highlight_density(base_, n_dot_h);
-  if (!coat_.is_mirror && coat_.chance > 0.0f) sum += coat_.chance * highlight_density(coat_, n_dot_h);
+  if (!base_.is_mirror && base_.chance > 0.0f) sum += base_.chance * highlight_pdf(base_, n_dot_h);
+  if (!coat_.is_mirror && coat_.chance > 0.0f) sum += coat_.chance * highlight_pdf(coat_, n_dot_h);
   return sum;
 }
 
-Scatter::Way Scatter::mirror_way(const Highlight& highlight, vec3 share) const {
+Scatter::BsdfSample Scatter::mirror_sample(const Highlight& highlight, vec3 share) const {
   return {glm::reflect(-to_viewer_, surface_.normal), share / highlight.chance, 0.0f, 0.0f};
 }
 
-std::optional<Scatter::Way> Scatter::spread_way(vec3 direction, float spread) const {
-  const float chosen = density(direction);
+std::optional<Scatter::BsdfSample> Scatter::spread_sample(vec3 direction, float spread) const {
+  const float chosen = pdf(direction);
   if (!(chosen > 0.0f)) return std::nullopt;
-  return Way{direction, share(direction) / chosen, chosen, spread};
+  return BsdfSample{direction, share(direction) / chosen, chosen, spread};
 }
 
-std::optional<Scatter::Way> Scatter::way(float uniform, vec2 uniforms) const {
+std::optional<Scatter::BsdfSample> Scatter::sample(float uniform, vec2 uniforms) const {
   const auto falls_to = [&](float chance) {
     return chance > 0.0f && uniform < chance ? true : (uniform -= chance, false);
   };
-  const auto highlight_way = [&](const Highlight& highlight) -> std::optional<Way> {
+  const auto highlight_sample = [&](const Highlight& highlight) -> std::optional<BsdfSample> {
     const vec3 direction = highlight_direction(highlight, uniforms);
     if (glm::dot(surface_.normal, direction) <= 0.0f) return std::nullopt;  // the rough surface keeps it
-    return spread_way(direction, 0.5f * highlight.alpha);
+    return spread_sample(direction, 0.5f * highlight.alpha);
   };
   const float coat = shading::fresnel_of_coat(surface_, n_dot_v_);
-  if (falls_to(coat_.chance)) return coat_.is_mirror ? mirror_way(coat_, vec3(coat)) : highlight_way(coat_);
+  if (falls_to(coat_.chance))
+    return coat_.is_mirror ? mirror_sample(coat_, vec3(coat)) : highlight_sample(coat_);
   if (falls_to(base_.chance)) {
     const vec3 f0 = shading::specular_f0(surface_);
     const vec3 fresnel = f0 + (vec3(1.0f) - f0) * shading::schlick_weight(n_dot_v_);
-    return base_.is_mirror ? mirror_way(base_, (1.0f - coat) * fresnel) : highlight_way(base_);
+    return base_.is_mirror ? mirror_sample(base_, (1.0f - coat) * fresnel) : highlight_sample(base_);
   }
   const vec3 local = cosine_direction(uniforms);
-  if (falls_to(diffuse_chance_)) return spread_way(frame_.in_world(local), diffuse_spread);
-  if (falls_to(through_chance_)) return spread_way(-frame_.in_world(local), diffuse_spread);
+  if (falls_to(diffuse_chance_)) return spread_sample(frame_.in_world(local), diffuse_spread);
+  if (falls_to(through_chance_)) return spread_sample(-frame_.in_world(local), diffuse_spread);
   return std::nullopt;
 }
 

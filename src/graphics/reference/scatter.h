@@ -14,19 +14,21 @@ class Scatter {
   /// `normal` of the surface and `to_viewer` lie on one side.
   Scatter(const shading::Surface& surface, glm::vec3 to_viewer);
 
-  struct Way {
+  /// One sample of the BSDF.
+  struct BsdfSample {
     glm::vec3 direction;
-    glm::vec3 weight;  ///< share of the light from there, over the chance of going there
-    float density;     ///< per steradian; 0: a mirror's one direction
+    glm::vec3 weight;  ///< BSDF times cosine, over pdf; mirrors: reflectance over the probability of the lobe
+    float pdf;         ///< per steradian; 0: the one direction of a mirror
     float spread;      ///< radians by which the lobe widens a cone
   };
-  /// Nothing where light ends: what is chosen below the horizon, black surfaces.
-  std::optional<Way> way(float uniform, glm::vec2 uniforms) const;
+  /// Samples the BSDF by three uniform numbers in [0, 1). Nothing where the path ends: directions below the
+  /// horizon, black surfaces.
+  std::optional<BsdfSample> sample(float uniform, glm::vec2 uniforms) const;
 
   /// BRDF times cosine toward the viewer, without mirrors.
   glm::vec3 share(glm::vec3 to_light) const;
-  /// How densely `way` chooses near a direction, per steradian, mirrors left out.
-  float density(glm::vec3 direction) const;
+  /// Probability density with which `sample` chooses a direction, per steradian, without mirrors.
+  float pdf(glm::vec3 direction) const;
   /// Are there lobes other than mirrors?
   bool spreads() const { return spread_chance_ > 0.0f; }
 
@@ -35,10 +37,10 @@ class Scatter {
     float alpha = 0.0f, chance = 0.0f;
     bool is_mirror = false;
   };
-  Way mirror_way(const Highlight& highlight, glm::vec3 share) const;
-  std::optional<Way> spread_way(glm::vec3 direction, float spread) const;
+  BsdfSample mirror_sample(const Highlight& highlight, glm::vec3 share) const;
+  std::optional<BsdfSample> spread_sample(glm::vec3 direction, float spread) const;
   glm::vec3 highlight_direction(const Highlight& highlight, glm::vec2 uniforms) const;
-  float highlight_density(const Highlight& highlight, float n_dot_h) const;
+  float highlight_pdf(const Highlight& highlight, float n_dot_h) const;
 
   const shading::Surface& surface_;
   glm::vec3 to_viewer_;
