@@ -2,6 +2,7 @@
 
 #include "capture/facades/bench/facades_bench.h"
 #include "capture/facades/room.h"
+#include "capture/trees/bench/trees_bench.h"
 #include "capture/trees/room.h"
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
@@ -61,6 +62,7 @@ constexpr Furnish rooms[]{
     bench::furnish_curved_reflectors,
     bench::furnish_light,
     bench::furnish_facades,
+    bench::furnish_trees,
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ struct TreeDetail {
   /// A texel may be so many pixels wide before a finer level of detail is shown.
   float max_texel_pixels = 1.5f;
 
+  /// Adds the setting.
   void hash(ContentHash& hash) const { hash.add(max_texel_pixels); }
 };
 

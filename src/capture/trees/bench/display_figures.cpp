@@ -88,7 +88,7 @@ Status measure_display(const FigureOptions& options, const FigureSink& sink) {
       const auto start = std::chrono::steady_clock::now();
       draw(**renderer, scene, camera);
       glFinish();
-      if (i > 0)  // the first draws the shadows of what stands still
+      if (i > 0)  // the first draws the shadows of the static scene
         seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     std::ranges::sort(seconds);
