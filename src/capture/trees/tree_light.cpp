@@ -18,7 +18,8 @@ constexpr int azimuths = 24;                  // of the search for the sun
 constexpr std::array heights_deg{15.0f, 30.0f, 45.0f, 60.0f};
 constexpr float mean_albedo =
     0.12f;  // of foliage, in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15)
-constexpr float min_light_share = 0.15f;  // of the mean: darker is noise, divided it would shine
+constexpr float min_light_share = 0.15f;  // of the mean, of a relit tree: darker is noise
+constexpr float no_limit = 1e9f;
 constexpr float pi = 3.14159265f;
 
 glm::vec3 direction_of(float azimuth, float height) {
@@ -96,14 +97,14 @@ void scale_light(BillboardTree& tree, const std::vector<float>& factors) {
 }
 
 std::vector<float> light_of_cells(const CapturedLight& light, const std::vector<float>& sun,
-                                  const std::vector<float>& sky) {
+                                  const std::vector<float>& sky, float min_share, float max_share) {
   std::vector<float> result(sky.size());
   double mean = 0.0;
   for (std::size_t i = 0; i < sky.size(); ++i) {
     result[i] = light.sun * sun[i] + light.sky * sky[i];
     mean += double(result[i]) / double(sky.size());
   }
-  for (float& value : result) value = std::max(value, min_light_share * float(mean));
+  for (float& value : result) value = std::clamp(value, min_share * float(mean), max_share * float(mean));
   return result;
 }
 
@@ -149,8 +150,10 @@ CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3
 
 BillboardTree relit(BillboardTree tree, glm::vec3 to_sun) {
   const std::vector<float> sky = sky_visibility(tree);
-  const std::vector<float> before = light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky);
-  const std::vector<float> after = light_of_cells(tree.light, sun_visibility(tree, to_sun), sky);
+  const std::vector<float> before =
+      light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky, min_light_share, no_limit);
+  const std::vector<float> after =
+      light_of_cells(tree.light, sun_visibility(tree, to_sun), sky, min_light_share, no_limit);
   std::vector<float> factors(before.size());
   for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = after[i] / std::max(before[i], 1e-6f);
   scale_light(tree, factors);
@@ -158,9 +161,9 @@ BillboardTree relit(BillboardTree tree, glm::vec3 to_sun) {
   return tree;
 }
 
-BillboardTree unlit(BillboardTree tree) {
-  const std::vector<float> light =
-      light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky_visibility(tree));
+BillboardTree unlit(BillboardTree tree, float contrast) {
+  const std::vector<float> light = light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun),
+                                                  sky_visibility(tree), 1.0f / contrast, contrast);
   std::vector<float> factors;
   for (const float value : light) factors.push_back(mean_albedo / std::max(value, 1e-6f));
   scale_light(tree, factors);

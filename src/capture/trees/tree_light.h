@@ -23,7 +23,9 @@ CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3
 /// The tree as another sun would show it, with the same sky.
 BillboardTree relit(BillboardTree tree, glm::vec3 to_sun);
 
-/// The tree with its textures as albedo: divided by the light that each cell had.
-BillboardTree unlit(BillboardTree tree);
+/// The tree with its textures as albedo: divided by the light that each cell had, which is taken to lie
+/// within a factor of `contrast` of the mean. What a cell's own opacity says of its light is noisy: with a
+/// contrast of 6 the crown of a real capture falls into light and dark cells.
+BillboardTree unlit(BillboardTree tree, float contrast = 1.5f);
 
 }  // namespace parvis::trees

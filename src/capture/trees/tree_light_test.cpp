@@ -50,7 +50,8 @@ TEST(TreeLight, AnotherSunIsPutIn) {
 }
 
 TEST(TreeLight, AlbedoIsTheSameWhateverTheSun) {
-  const BillboardTree first = unlit(lit_ball(south, 0.5f, 0.2f)), second = unlit(lit_ball(east, 0.4f, 0.3f));
+  const BillboardTree first = unlit(lit_ball(south, 0.5f, 0.2f), 6.0f),
+                      second = unlit(lit_ball(east, 0.4f, 0.3f), 6.0f);
   double difference = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < first.base.size(); ++i) {
     difference += std::abs(int(first.base[i].y) - int(second.base[i].y));
