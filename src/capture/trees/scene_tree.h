@@ -20,12 +20,9 @@ struct SceneTree {
   std::uint64_t content = 0;               ///< hash of the file
   glm::mat4 world_from_tree{1.0f};         ///< from the frame of the photographs' cameras
   bool is_visible = true;
-  float sway_m = 0.0f;  ///< of the top in the wind; 0: it stands still
 
   /// Adds the contents of all files.
-  void hash(ContentHash& hash) const {
-    hash.add(content), hash.add(world_from_tree), hash.add(is_visible), hash.add(sway_m);
-  }
+  void hash(ContentHash& hash) const { hash.add(content), hash.add(world_from_tree), hash.add(is_visible); }
 };
 
 using SceneTrees = scene::ItemsOf<SceneTree>;

@@ -50,6 +50,14 @@ Result<Image8> picture_of(const scene::Scene& scene, const render::Drawables& dr
   return shading::tone_mapped_picture((*renderer)->read_radiance(), 1.0f);
 }
 
+/// Zero says that no coarser level was drawn, so that `lod_flip` says nothing.
+double percent_of_changed_pixels(const Image8& a, const Image8& b) {
+  std::size_t changed = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) changed += !std::equal(a.at(x, y), a.at(x, y) + a.channels, b.at(x, y));
+  return 100.0 * double(changed) / (double(a.width) * double(a.height));
+}
+
 }  // namespace
 
 Status measure_display(const FigureOptions& options, const FigureSink& sink) {
@@ -64,7 +72,7 @@ Status measure_display(const FigureOptions& options, const FigureSink& sink) {
 
   scene::Scene few;
   drawables.furnish(few);
-  plant(few, tree, 3, 6);
+  plant(few, tree, 7, 25);  // as far as 260 m: near trees at their finest level, far ones at coarser ones
   std::vector<Image8> pictures;
   for (const float pixels : {0.0f, TreeDetail().max_texel_pixels, 1e6f}) {
     few.data<TreeDetail>().max_texel_pixels = pixels;
@@ -73,6 +81,7 @@ Status measure_display(const FigureOptions& options, const FigureSink& sink) {
     pictures.push_back(*std::move(picture));
   }
   sink.add("lod_flip", reference::compare(pictures[1], pictures[0])->flip);
+  sink.add("lod_changed_percent", percent_of_changed_pixels(pictures[1], pictures[0]));
   sink.add("lod_flip_coarsest", reference::compare(pictures[2], pictures[0])->flip);
 
   scene::Scene wood;
