@@ -29,9 +29,10 @@ scene::NodeSchema tree_schema() {
                       .is_required = true},
                      {.name = "height",
                       .type = AttributeType::number,
-                      .help = "of the whole tree; else as it was photographed",
+                      .help = "of the whole tree; 0: as it was photographed",
+                      .fallback = "0",
                       .unit = "m",
-                      .minimum = 0.01,
+                      .minimum = 0,
                       .maximum = 1000,
                       .is_live = true}},
       .example = "tree(file=\"oak.tree\", position=\"12 -4 0\", heading_deg=40)"};
@@ -79,7 +80,8 @@ const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
 void build_tree(const Node& node, SceneBuilder& builder) {
   const TreeShelf::Read* read = tree_of(node, builder);
   if (!read) return;
-  const float scale = node.gives("height") ? float(node.number("height")) / height_m(*read->tree) : 1.0f;
+  const float height = float(node.number("height"));
+  const float scale = height > 0.0f ? height / height_m(*read->tree) : 1.0f;
   SceneTree tree;
   tree.tree = read->tree, tree.content = read->content;
   tree.world_from_tree = glm::translate(
