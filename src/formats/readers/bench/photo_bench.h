@@ -1,4 +1,4 @@
-// script/bench doors, the photographs: how fast paths are traced, and how long a photograph of the paper's
+// script/bench import_export, the photographs: how fast paths are traced, and how long a photograph of the paper's
 // city takes.
 #pragma once
 

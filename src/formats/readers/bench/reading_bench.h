@@ -1,4 +1,4 @@
-// script/bench doors, the readers: scripts and city models.
+// script/bench import_export, the readers: scripts and city models.
 #pragma once
 
 #include "bench/benches.h"
