@@ -1,5 +1,5 @@
-// script/bench import_export, the photographs: how fast paths are traced, and how long a photograph of the paper's
-// city takes.
+// script/bench import_export, the photographs: how fast paths are traced, and how long a photograph of the
+// paper's city takes.
 #pragma once
 
 #include "bench/benches.h"

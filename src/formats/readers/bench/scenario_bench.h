@@ -1,4 +1,5 @@
-// script/bench import_export, the scenarios: how long another state of the paper's city keeps the next frame waiting.
+// script/bench import_export, the scenarios: how long another state of the paper's city keeps the next frame
+// waiting.
 #pragma once
 
 #include "bench/benches.h"
