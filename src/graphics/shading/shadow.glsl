@@ -50,7 +50,8 @@ GLSL_FUNCTION vec4 shadow_tile(ShadowMaps maps, vec2 uv) {
   vec4 tile = vec4(0.0f);
   for (int i = 0; i < maps.tile_count; ++i) {
     vec2 at = uv * vec2(maps.tiles[i].x, maps.tiles[i].y) + vec2(maps.tiles[i].z, maps.tiles[i].w);
-    vec2 inside = at - 0.5f * vec2(float(i % 2), float(i / 2));
+    int column = i % 2, row = i / 2;
+    vec2 inside = at - 0.5f * vec2(float(column), float(row));
     bool holds = min(min(inside.x, inside.y), 0.5f - max(inside.x, inside.y)) > 4.0f * maps.texel_uv;
     tile = holds ? maps.tiles[i] : tile;
   }

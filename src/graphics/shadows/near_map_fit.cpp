@@ -80,7 +80,8 @@ render::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun,
   near.tile_count = int(squares.size());
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const double scale = 0.5 * half / squares[i].half;
-    const glm::dvec2 corner(0.5 * double(i % 2), 0.5 * double(i / 2));
+    const std::size_t column = i % 2, row = i / 2;
+    const glm::dvec2 corner(0.5 * double(column), 0.5 * double(row));
     // the square's low corner in uv of the whole comes to the quarter's
     const glm::dvec2 low_uv = 0.5 + 0.5 * (squares[i].centre - squares[i].half - centre) / half;
     const glm::dvec2 offset = corner - scale * low_uv;
