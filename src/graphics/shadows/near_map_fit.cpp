@@ -131,6 +131,7 @@ render::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const li
                                const Bounds& casters) {
   glm::dmat4 rows = glm::transpose(map.map_from_world);
   std::vector<double> w;
+  w.reserve(seen.positions.size());
   for (const glm::vec3& p : seen.positions) w.push_back(glm::dot(rows[3], glm::dvec4(p, 1.0)));
   const double middle = quantile(w, 0.5);
   for (int row : {0, 1, 3}) rows[row] /= middle == 0.0 ? 1.0 : middle;  // positive, and about 1
