@@ -23,7 +23,7 @@ void print_states(const scene::LiveScene& live) {
     if (node.schema->type == "tour") fmt::print("tour {}\n", node.text("name"));
 }
 
-Status check(const Arguments& arguments) {
+Status check(Arguments& arguments) {
   const scene::NodeRegistry& registry = house::node_registry();
   if (arguments.wants_reference) {
     fmt::print("{}", scene::scene_reference(registry));
@@ -34,6 +34,7 @@ Status check(const Arguments& arguments) {
     return Done{};
   }
   if (arguments.scene.empty()) return error("name a scene, or ask for --reference or --schema");
+  if (Status status = describe_bare_file(arguments.scene, arguments.data); !status) return status.errors();
   Result<scene::LoadedScene> loaded = scene::load_scene(arguments.scene, registry, arguments.data);
   if (!loaded) return loaded.errors();
   for (const Error& warning : loaded->warnings) fmt::print("warning: {}\n", to_string(warning));
@@ -52,7 +53,7 @@ Status check(const Arguments& arguments) {
 void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("check", "Checks a scene; reports every error with its line");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("scene", arguments->scene, "The scene's script (.xp)");
+  command->add_option("scene", arguments->scene, "The scene's script (.xp), or a model file");
   command->add_option("--data", arguments->data, "A further folder that the scene may read from");
   command->add_flag("--reference", arguments->wants_reference,
                     "Print the reference of all nodes (docs/scene-reference.md)");

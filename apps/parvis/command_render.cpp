@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "graphics/render/picture_reader.h"
 #include "house/stage/film.h"
+#include "house/stage/probe.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -21,6 +22,7 @@ struct Arguments : SceneArguments {
   double seconds = 0.0;
   int frames_per_second = 24;
   int supersample = 1;
+  std::vector<std::string> probes;  ///< "X,Y": pixels of the picture
 };
 
 Status draw(house::Stage& stage, const Arguments& arguments, int width, int height) {
@@ -60,6 +62,33 @@ std::filesystem::path named_after(const std::filesystem::path& output, std::stri
   return named.replace_filename(output.stem().string() + "-" + scenario + output.extension().string());
 }
 
+/// Pixels of --probe.
+Result<std::vector<glm::ivec2>> probed_pixels(const Arguments& arguments, int width, int height) {
+  std::vector<glm::ivec2> pixels;
+  for (const std::string& text : arguments.probes) {
+    glm::ivec2 pixel(0);
+    char comma = 0, rest = 0;
+    if (std::sscanf(text.c_str(), "%d%c%d%c", &pixel.x, &comma, &pixel.y, &rest) != 3 || comma != ',' ||
+        pixel.x < 0 || pixel.y < 0 || pixel.x >= width || pixel.y >= height)
+      return error("--probe {}: expected a pixel of the picture, which has {} x {}, as 640,400", text, width,
+                   height);
+    pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
+/// What --probe asks for, of the picture just drawn.
+Status print_probes(const house::Stage& stage, const Arguments& arguments, int width, int height) {
+  const Result<std::vector<glm::ivec2>> pixels = probed_pixels(arguments, width, height);
+  if (!pixels) return pixels.errors();
+  const Result<Camera> camera = stage.camera(arguments.camera);
+  if (!camera) return camera.errors();
+  for (const glm::ivec2 pixel : *pixels)
+    fmt::print("{},{}: {}\n", pixel.x, pixel.y,
+               to_string(house::probe(stage.scene(), *camera, {width, height}, pixel), stage.scene()));
+  return Done{};
+}
+
 /// A picture, or a film: of --seconds, or as long as the tour.
 Status render_one(house::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
                   int height) {
@@ -70,12 +99,14 @@ Status render_one(house::Stage& stage, Arguments arguments, const std::filesyste
   }
   if (arguments.seconds > 0.0) return render_film(stage, arguments, output, width, height);
   if (Status status = draw(stage, arguments, width, height); !status) return status;
+  if (Status status = print_probes(stage, arguments, width, height); !status) return status;
   return write_image(output, reduced(stage.picture(), arguments.supersample));
 }
 
 Status render_scene(const Arguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
+  if (const auto pixels = probed_pixels(arguments, width, height); !pixels) return pixels.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
@@ -110,6 +141,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
                    "Draw n x n as many pixels and average their light")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
+  command->add_option("--probe", arguments->probes,
+                      "Print what a pixel X,Y of a picture shows: metres, object, kind; may repeat");
   command->footer("Example: parvis render out/paper/paper.xp --camera follow --seconds 10 -o out/drive.mp4");
   command->callback([arguments, &chosen] { chosen = [arguments] { return render_scene(*arguments); }; });
 }

@@ -190,6 +190,11 @@ class Usage(InAFolder):
         self.expect_failure("export", scene, "--object", "aa", *output, words=["aa", 'did you mean "a"'])
         self.expect_failure("export", scene, "-o", self.folder / "new.obj", words=["new.obj", ".glb"])
 
+    def test_the_version_is_printed(self):
+        shown = run("--version")
+        self.assertEqual(shown.returncode, 0)
+        self.assertRegex(shown.stdout, r"^parvis \d+\.\d+\.\d+\n$")
+
     def test_bad_usage_is_status_2(self):
         for arguments in [
             [],

@@ -12,6 +12,7 @@ int main(int count, char** arguments) {
   CLI::App app{"Parvis shows a city square before it changes."};
   app.name("parvis");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "parvis " PARVIS_VERSION);
   app.set_help_all_flag("--help-all", "Help of every subcommand");
 
   std::function<parvis::Status()> chosen;

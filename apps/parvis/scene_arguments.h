@@ -9,8 +9,26 @@
 #include "base/result.h"
 #include "house/rooms.h"
 #include "house/stage/stage.h"
+#include "places/dressing/bare_file.h"
 
 namespace parvis {
+
+/// Where `scene` names a model file instead of a script: writes a script that shows it into the working
+/// folder, says so, and names that script instead.
+inline Status describe_bare_file(std::filesystem::path& scene, std::vector<std::filesystem::path>& data) {
+  if (!dressing::is_bare_file(scene)) return Done{};
+  const Result<dressing::WrittenScene> written =
+      dressing::write_bare_scene(scene, house::all_rooms().get<formats::Readers>(), ".");
+  if (!written) return written.errors();
+  const std::string with_data =
+      written->data_folder.empty() ? "" : fmt::format(" --data \"{}\"", written->data_folder.string());
+  fmt::print(stderr, "{}: {}; edit it, and: parvis view {}{}\n", written->script.string(),
+             written->is_new ? "the scene made up for this file" : "the scene that was made up before",
+             written->script.string(), with_data);
+  if (!written->data_folder.empty()) data.push_back(written->data_folder);
+  scene = written->script;
+  return Done{};
+}
 
 struct SceneArguments {
   std::filesystem::path scene;
@@ -25,7 +43,8 @@ struct SceneArguments {
 
   /// SCENE and --data.
   void add_scene(CLI::App& command) {
-    command.add_option("scene", scene, "The scene's script (.xp)")->required();
+    command.add_option("scene", scene, "The scene's script (.xp), or a model file to be shown by itself")
+        ->required();
     command.add_option("--data", data, "A further folder that the scene may read from");
   }
   /// --camera.
@@ -58,7 +77,10 @@ struct SceneArguments {
 
   /// The scene with its traffic, at the time given.
   Result<house::Play> open_play() const {
-    Result<house::Play> play = house::open_play(house::all_rooms(), scene, data);
+    std::filesystem::path script = scene;
+    std::vector<std::filesystem::path> folders = data;
+    if (Status status = describe_bare_file(script, folders); !status) return status.errors();
+    Result<house::Play> play = house::open_play(house::all_rooms(), script, folders);
     if (!play) return play.errors();
     scene::LiveScene& live = play->live();
     if (!method.empty())

@@ -14,6 +14,7 @@
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
+#include "places/dressing/room.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/bench/multiple_environment_maps_bench.h"
 #include "reflections/environment_rays/room.h"
@@ -40,6 +41,7 @@ constexpr Furnish rooms[]{
     scene::furnish_city_models,
     scene::furnish_terrain,
     scene::furnish_meshes,
+    dressing::furnish,  // before roads: see its docstring
     scene::furnish_roads,
     traffic::furnish,
     scene::furnish_light,

@@ -1,5 +1,7 @@
 #include "viewer/frame_statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -32,6 +34,14 @@ double FrameStatistics::mean_ms() const {
 double FrameStatistics::worst_ms() const {
   const std::vector<float> all = frames_ms();
   return all.empty() ? 0.0 : double(*std::max_element(all.begin(), all.end()));
+}
+
+std::string frame_rate(double frame_ms) {
+  constexpr double second_ms = 1000.0, coarse = 10.0;  // above it nobody asks for tenths
+  if (!(frame_ms > 0.0)) return "";
+  const double rate = second_ms / frame_ms;
+  if (rate < 1.0) return fmt::format("one in {:.1f} s", frame_ms / second_ms);
+  return rate < coarse ? fmt::format("{:.1f} per second", rate) : fmt::format("{:.0f} per second", rate);
 }
 
 }  // namespace parvis::viewer

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "graphics/gl/pass_times.h"
@@ -28,5 +29,9 @@ class FrameStatistics {
   std::size_t count_ = 0;  ///< of all frames
   std::vector<gl::PassTime> passes_;
 };
+
+/// The rate of frames that take so long, for people: "24 per second", "2.5 per second", and below one "one in
+/// 3.4 s". Empty where nothing was measured.
+std::string frame_rate(double frame_ms);
 
 }  // namespace parvis::viewer

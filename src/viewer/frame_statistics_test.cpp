@@ -38,5 +38,12 @@ TEST(FrameStatistics, SmoothPasses) {
   EXPECT_EQ(statistics.passes()[0].seconds, 0.001);
 }
 
+TEST(FrameStatistics, RatesBelowOneAreShownAsSuch) {
+  EXPECT_EQ(frame_rate(0.0), "");
+  EXPECT_EQ(frame_rate(41.7), "24 per second");
+  EXPECT_EQ(frame_rate(400.0), "2.5 per second");
+  EXPECT_EQ(frame_rate(3400.0), "one in 3.4 s");
+}
+
 }  // namespace
 }  // namespace parvis::viewer

@@ -103,6 +103,7 @@ void Input::choose_what_is_below_the_cursor() {
   glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
   const glm::ivec2 pixel(glm::floor(cursor_ * glm::dvec2(pixels) / glm::dvec2(glm::max(points, 1))));
   if (const scene::Node* node = visit_.node_at(pixel)) panel_.choose(visit_.live(), *node);
+  visit_.probe(pixel);
 }
 
 void Input::on_cursor(double x, double y) {

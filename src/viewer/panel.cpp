@@ -192,8 +192,7 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
   rows_.heading("Frames");
   const std::vector<float> frames_ms = statistics.frames_ms();
   const double mean_ms = statistics.mean_ms();
-  rows_.value("Mean",
-              fmt::format("{:.1f} ms, {:.0f} a second", mean_ms, mean_ms > 0.0 ? 1000.0 / mean_ms : 0.0));
+  rows_.value("Mean", fmt::format("{:.1f} ms, {}", mean_ms, frame_rate(mean_ms)));
   rows_.value("Longest", fmt::format("{:.1f} ms of the last {}", statistics.worst_ms(), frames_ms.size()));
   ImGui::PlotHistogram("##frames", frames_ms.data(), int(frames_ms.size()), 0, nullptr, 0.0f,
                        float(1.2 * std::max(statistics.worst_ms(), 1.0)),

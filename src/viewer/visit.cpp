@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/image_io.h"
+#include "house/stage/probe.h"
 #include "reflections/methods/settings.h"
 #include "viewer/screenshots.h"
 
@@ -103,6 +104,10 @@ const scene::Node* Visit::node_at(glm::ivec2 pixel) {
       stage_.renderer().pick(camera(), stage_.width(), stage_.height(), false);
   const std::uint32_t object_and_one = *objects.at(pixel.x, pixel.y);
   return object_and_one == 0 ? nullptr : live().maker_of(scene(), int(object_and_one) - 1);
+}
+
+void Visit::probe(glm::ivec2 pixel) {
+  notice(to_string(house::probe(scene(), camera(), {stage_.width(), stage_.height()}, pixel), scene()));
 }
 
 Status Visit::tell(const scene::Node& node, const std::string& message) {

@@ -59,6 +59,8 @@ class Visit {
   /// The node that made the object at a pixel of the last picture; null for the sky and for objects that no
   /// node made.
   const scene::Node* node_at(glm::ivec2 pixel);
+  /// Says in a notice what the pixel of the present view shows: metres, object, kind.
+  void probe(glm::ivec2 pixel);
   /// Sends a message to a node. An error says what the node expects; nothing changes then. If the changed
   /// node cannot be built, a notice says so one step later.
   Status tell(const scene::Node& node, const std::string& message);

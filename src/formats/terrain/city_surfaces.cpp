@@ -72,6 +72,9 @@ Material surface_material(const std::string& name) {
   return material;
 }
 
-bool is_ground(const std::string& name) { return find(name)->is_ground; }
+bool is_ground(const std::string& name) {
+  const Look* look = find(name.substr(0, name.find(' ')));
+  return look != nullptr && look->is_ground;
+}
 
 }  // namespace parvis::scene

@@ -18,7 +18,8 @@ bool is_building(const std::string& object_type);
 /// The plain material of a name.
 Material surface_material(const std::string& name);
 
-/// Does the ground of this name face up, whichever way its file winds it?
+/// True if parts of this name ("LandUse", "Road footpath") are ground, which faces up, whichever way its file
+/// winds it.
 bool is_ground(const std::string& name);
 
 }  // namespace parvis::scene

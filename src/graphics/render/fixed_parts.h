@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "scene/data/scene.h"
+#include "scene/data/surroundings.h"
 
 namespace parvis::render {
 
@@ -16,12 +17,13 @@ struct FixedPart {
   bool has_backs;   ///< double-sided
 };
 
-/// Calls `visit(part)` for every such mesh of the scene's objects, hidden ones included.
+/// Calls `visit(part)` for every such mesh of the scene's objects, hidden ones included, except what
+/// surrounds the place.
 template <class Visit>
 void for_each_fixed_object_part(const scene::Scene& scene, Visit&& visit) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
-    if (object.is_dynamic) continue;
+    if (object.is_dynamic || scene::surrounds_place(scene, object)) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts) {
       const scene::Material& material = object.model->materials[std::size_t(part.material)];

@@ -12,6 +12,7 @@
 #include "graphics/shading/glsl.h"
 #include "scene/data/mip_levels.h"
 #include "scene/data/sun_shadows.h"
+#include "scene/data/surroundings.h"
 
 namespace parvis::render {
 namespace {
@@ -200,6 +201,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     const scene::Object& object = scene.objects[o];
     first_item_.push_back(std::uint32_t(items_.size()));
     is_moving_.push_back(object.is_dynamic);
+    surrounds_.push_back(scene::surrounds_place(scene, object));
     is_visible_.push_back(object.is_visible);
     is_newcomer_.push_back(false);
     rest_poses_.push_back(scene::rest_pose(*object.model));
@@ -308,7 +310,7 @@ std::vector<GpuMaterial> GpuScene::mirror_materials() const {
 Bounds GpuScene::fixed_bounds() const {
   Bounds bounds;
   for (std::size_t o = 0; o < object_bounds_.size(); ++o)
-    if (!is_moving_[o]) bounds.add(object_bounds_[o]);
+    if (!is_moving_[o] && !surrounds_[o]) bounds.add(object_bounds_[o]);
   return bounds;
 }
 

@@ -102,7 +102,7 @@ class GpuScene {
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
   /// Transform of an object as of the last update.
   const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }
-  /// World bounds of all static objects, hidden ones included.
+  /// World bounds of all static objects, hidden ones included, without what surrounds the place.
   Bounds fixed_bounds() const;
   /// World bounds of every visible dynamic object.
   const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
@@ -150,6 +150,8 @@ class GpuScene {
   std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
   std::vector<Bounds> object_bounds_;
   std::vector<std::uint8_t> is_moving_, is_visible_, is_newcomer_;
+  std::vector<std::uint8_t>
+      surrounds_;  ///< of each object: it surrounds the place (scene/data/surroundings.h)
   std::vector<glm::mat4> world_from_model_;  ///< of each object, as it was placed last
   std::vector<Bounds> moving_bounds_;
   std::unordered_map<const scene::Model*, shading::BodyShape> body_shapes_;  ///< of dynamic objects

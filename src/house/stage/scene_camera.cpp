@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/data/surroundings.h"
+
 namespace parvis::house {
 namespace {
 
@@ -19,7 +21,7 @@ Camera view_of_all(const Bounds& bounds) {
 Bounds fixed_bounds(const scene::Scene& scene) {
   Bounds sum;
   for (const scene::Object& object : scene.objects)
-    if (!object.is_dynamic && object.is_visible)
+    if (!object.is_dynamic && object.is_visible && !scene::surrounds_place(scene, object))
       sum.add(transformed(object.world_from_model, scene::bounds(*object.model)));
   return sum;
 }

@@ -1,6 +1,7 @@
 #include "places/paper_city/ground_cover.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <map>
@@ -27,6 +28,12 @@ const std::vector<Cover>& covers() {
                                       {"gravel", gravel_pictures, gravel_sheet_m},
                                       {"asphalt", asphalt_pictures, asphalt_sheet_m}};
   return all;
+}
+
+const Cover& cover_named(std::string_view name) {
+  const auto found = std::ranges::find(covers(), name, &Cover::name);
+  assert(found != covers().end() && "the schema offers ground_covers() alone");
+  return *found;
 }
 
 constexpr float cell_m = 4.0f;    // the lowest point of 3 x 3 cells is the ground of the middle one
@@ -99,29 +106,35 @@ const std::vector<std::string>& ground_covers() {
   return names;
 }
 
-std::size_t add_ground_cover(scene::Model& model, std::string_view target, std::string_view cover) {
-  const std::vector<std::size_t> parts = scene::matching_parts(model, target);
-  const auto chosen =
-      std::find_if(covers().begin(), covers().end(), [&](const Cover& c) { return c.name == cover; });
-  if (parts.empty() || chosen == covers().end()) return 0;
-  SurfacePictures pictures = chosen->paint(1);
+int add_cover_material(scene::Model& model, std::string_view cover) {
+  const Cover& chosen = cover_named(cover);
+  SurfacePictures pictures = chosen.paint(1);
   scene::Material material;
-  material.name = chosen->name, material.base_colour = glm::vec3(1.0f);
+  material.name = chosen.name, material.base_colour = glm::vec3(1.0f);
   material.roughness = 1.0f, material.metallic = 1.0f;  // factors of the picture
   material.base_colour_texture = add_texture(model, material.name, std::move(pictures.colour), true);
   material.normal_texture = add_texture(model, material.name, std::move(pictures.normal), false);
   material.surface_texture = add_texture(model, material.name, std::move(pictures.surface), false);
   material.is_double_sided = true;
   model.materials.push_back(material);
+  return int(model.materials.size()) - 1;
+}
+
+float cover_sheet_m(std::string_view cover) { return cover_named(cover).sheet_m; }
+
+std::size_t add_ground_cover(scene::Model& model, std::string_view target, std::string_view cover) {
+  const std::vector<std::size_t> parts = scene::matching_parts(model, target);
+  if (parts.empty() || std::ranges::find(ground_covers(), cover) == ground_covers().end()) return 0;
+  const int material = add_cover_material(model, cover);
 
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   for (const std::size_t index : parts) {
     scene::Part& part = model.parts[index];
-    part.material = int(model.materials.size()) - 1;
+    part.material = material;
     part.mesh.uvs.clear();
     for (const glm::vec3& position : part.mesh.positions) {
       const glm::vec3 p(pose[std::size_t(part.node)] * glm::vec4(position, 1.0f));
-      part.mesh.uvs.push_back(glm::vec2(p.x, -p.y) / chosen->sheet_m);
+      part.mesh.uvs.push_back(glm::vec2(p.x, -p.y) / cover_sheet_m(cover));
     }
   }
   return parts.size();

@@ -13,6 +13,11 @@ namespace parvis::city {
 /// Names of what `add_ground_cover` lays.
 const std::vector<std::string>& ground_covers();
 
+/// Adds the material of one of ground_covers() to a model and returns its index.
+int add_cover_material(scene::Model& model, std::string_view cover);
+/// Side of the square that a sheet of this cover's pictures shows, metres.
+float cover_sheet_m(std::string_view cover);
+
 /// Lays one of ground_covers() on the parts that match the pattern `target`, seen from above. The material
 /// that later nodes can change has the cover's name. Returns the number of parts changed.
 std::size_t add_ground_cover(scene::Model& model, std::string_view target, std::string_view cover);

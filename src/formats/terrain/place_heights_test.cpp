@@ -1,0 +1,70 @@
+#include "formats/terrain/place_heights.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/data/surroundings.h"
+#include "scene/data/test_scene.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr float margin_m = 20.0f;
+
+/// Houses without ground, every 20 m, on a slope of 8 % that rises eastward.
+Scene houses_on_a_slope() {
+  Scene scene;
+  for (float x = 0.0f; x < 100.0f; x += 20.0f)
+    for (float y = 0.0f; y < 60.0f; y += 20.0f) {
+      auto house =
+          model_of(box({x, y, 0.08f * x}, {x + 8.0f, y + 8.0f, 0.08f * x + 9.0f}), matt(glm::vec3(0.5f)));
+      house->parts.front().object = "WallSurface";
+      add(scene, house);
+    }
+  return scene;
+}
+
+TEST(PlaceHeights, RisesWithTheFeetOfHouses) {
+  const Scene scene = houses_on_a_slope();
+  const PlaceHeights place(scene, {}, margin_m);
+  for (const float x : {12.0f, 34.0f, 52.0f, 74.0f})
+    EXPECT_NEAR(place.at({x, 30.0f}), 0.08f * x, 1.2f) << "never up to the roofs, 9 m above";
+  EXPECT_NEAR(place.at({-500.0f, 30.0f}), place.at({-margin_m, 30.0f}), 0.5f)
+      << "beyond the plan as at its edge";
+  for (const float height : place.heights().cells) EXPECT_TRUE(std::isfinite(height));
+}
+
+TEST(PlaceHeights, OwnGroundIsTakenAsItIs) {
+  Scene scene;
+  auto ground = model_of(quad({0, 0, 3}, {60, 0, 3}, {60, 40, 5}, {0, 40, 5}), matt(glm::vec3(0.5f)));
+  ground->parts.front().object = "LandUse";
+  add(scene, ground);
+  const PlaceHeights place(scene, {}, margin_m);
+  EXPECT_NEAR(place.at({30.0f, 20.0f}), 4.0f, 0.05f);
+  const glm::ivec2 inside = place.own_ground().cell_at({30.0f, 20.0f}),
+                   outside = place.own_ground().cell_at({-15.0f, 20.0f});
+  EXPECT_EQ(place.own_ground().at(inside.x, inside.y), 1);
+  EXPECT_EQ(place.own_ground().at(outside.x, outside.y), 0);
+  EXPECT_NEAR(place.at({-15.0f, 20.0f}), 4.0f, 1.0f) << "goes on where the file's ends";
+}
+
+TEST(PlaceHeights, RoadsLieOnTheGround) {
+  Scene scene;
+  const std::vector<Road> roads{{.path = {{0, 0, 10}, {100, 0, 12}}, .where = {}, .name = ""}};
+  const PlaceHeights place(scene, roads, margin_m);
+  EXPECT_NEAR(place.at({50.0f, 0.0f}), 11.0f, 0.1f);
+}
+
+TEST(PlaceHeights, NothingAtAllIsLevel) { EXPECT_EQ(PlaceHeights({}, {}, margin_m).at({5.0f, 5.0f}), 0.0f); }
+
+TEST(PlaceHeights, LeavesOutWhatSurroundsThePlace) {
+  Scene scene = houses_on_a_slope();
+  const int land = add(scene, model_of(ground(6000.0f), matt(glm::vec3(0.5f))));
+  const PlaceHeights wide(scene, {}, margin_m);
+  scene.data<ItemsOf<Surroundings>>().add({scene.objects[std::size_t(land)].model}, 0);
+  const PlaceHeights place(scene, {}, margin_m);
+  EXPECT_GT(wide.heights().cell_m * float(wide.heights().width), 10'000.0f);
+  EXPECT_LT(place.heights().cell_m * float(place.heights().width), 200.0f);
+}
+
+}  // namespace
+}  // namespace parvis::scene

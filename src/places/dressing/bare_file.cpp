@@ -1,0 +1,223 @@
+#include "places/dressing/bare_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "base/bounds.h"
+#include "base/files.h"
+#include "formats/terrain/city_surfaces.h"
+#include "places/dressing/street_view.h"
+#include "scene/roads/road_from_polygons.h"
+
+namespace parvis::dressing {
+namespace {
+
+constexpr float exhibit_m = 30.0f;    // what is smaller is a thing to look at: a car, a house
+constexpr float alone_m = 70.0f;      // a town model no larger is one house
+constexpr double dense_share = 0.12;  // of the ground, which is built over
+constexpr float margin_m = 60.0f;     // of ground around the place, for choosing views
+constexpr float steep = 0.7f;         // cosine of 45 degrees: green that rises so was measured from the air
+constexpr int max_scripts = 1000;     // of one name in a folder
+
+using scene::Model, scene::Part;
+
+const scene::Material& material_of(const Model& model, const Part& part) {
+  return model.materials[std::size_t(part.material)];
+}
+
+bool has_surface(const Model& model, const std::string& name) {
+  return std::ranges::any_of(model.parts, [&](const Part& part) {
+    return material_of(model, part).name == name && !part.mesh.indices.empty();
+  });
+}
+
+/// Surfaces of this name without pictures, all in one opaque colour: what a file says that describes shapes
+/// alone.
+bool is_bare(const Model& model, const std::string& name) {
+  std::optional<glm::vec3> colour;
+  for (const Part& part : model.parts) {
+    const scene::Material& material = material_of(model, part);
+    if (material.name != name) continue;
+    if (material.base_colour_texture != scene::no_index || material.alpha < 1.0f) return false;
+    if (colour && *colour != material.base_colour) return false;
+    colour = material.base_colour;
+  }
+  return colour.has_value();
+}
+
+bool is_city(const Model& model) {
+  return std::ranges::any_of(model.parts, [&](const Part& part) {
+    const std::string& name = material_of(model, part).name;
+    return scene::is_ground(name) || name == "WallSurface" || name == "RoofSurface";
+  });
+}
+
+/// In plan, m2.
+double area_of(const Model& model, const std::string& name) {
+  double area = 0.0;
+  for (const Part& part : model.parts) {
+    if (material_of(model, part).name != name) continue;
+    const std::vector<std::uint32_t>& indices = part.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      const glm::vec3 a = part.mesh.positions[indices[i]];
+      area += 0.5 * std::abs(double(glm::cross(part.mesh.positions[indices[i + 1]] - a,
+                                               part.mesh.positions[indices[i + 2]] - a)
+                                        .z));
+    }
+  }
+  return area;
+}
+
+/// True if the ground of this name lies between houses as in a town, not around them as in a village.
+bool is_dense(const Model& model, const std::string& ground) {
+  return area_of(model, "RoofSurface") > dense_share * area_of(model, ground);
+}
+
+bool rises_to_treetops(const Model& model) {
+  for (const Part& part : model.parts) {
+    if (material_of(model, part).name != "PlantCover") continue;
+    const std::vector<std::uint32_t>& indices = part.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      const glm::vec3 a = part.mesh.positions[indices[i]];
+      const glm::vec3 area =
+          glm::cross(part.mesh.positions[indices[i + 1]] - a, part.mesh.positions[indices[i + 2]] - a);
+      if (glm::length(area) > 1e-3f && std::abs(area.z) < steep * glm::length(area)) return true;
+    }
+  }
+  return false;
+}
+
+std::string quoted(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') escaped += '\\';
+    escaped += c;
+  }
+  return fmt::format("\"{}\"", escaped);
+}
+
+/// Asphalt on carriageways, slabs on what is for people on foot. The file's functions tell them apart.
+std::string dressing_of_roads(const Model& model) {
+  std::set<std::string> names;
+  for (const Part& part : model.parts)
+    if (material_of(model, part).name == "Road") names.insert(part.object);
+  std::string nodes;
+  for (const std::string& name : names)
+    nodes += fmt::format("  ground(target={}, surface=\"{}\")\n", quoted(name),
+                         scene::is_drivable(name) ? "asphalt" : "paving");
+  return nodes;
+}
+
+/// The nodes that dress a city model, where the file itself says nothing of walls, roofs and ground.
+std::string dressing_of(const Model& model) {
+  std::string nodes;
+  const auto add = [&](const char* node) { nodes += fmt::format("  {}\n", node); };
+  const bool has_windows = has_surface(model, "Window") || has_surface(model, "Door");
+  if (is_bare(model, "WallSurface") && !has_windows) add("facades(target=\"WallSurface\")");
+  if (is_bare(model, "RoofSurface") && !has_windows) add("roofs(target=\"RoofSurface\")");
+  if (is_bare(model, "TINRelief"))
+    add(is_dense(model, "TINRelief") ? "ground(target=\"TINRelief\", surface=\"paving\")"
+                                     : "ground(target=\"TINRelief\", surface=\"lawn\")");
+  if (is_bare(model, "LandUse"))
+    add(is_dense(model, "LandUse") ? "ground(target=\"LandUse\", surface=\"paving\")"
+                                   : "ground(target=\"LandUse\", surface=\"lawn\")");
+  if (is_bare(model, "Road")) nodes += dressing_of_roads(model);
+  if (is_bare(model, "PlantCover"))
+    add(rises_to_treetops(model) ? "greenery(target=\"PlantCover\")"
+                                 : "ground(target=\"PlantCover\", surface=\"lawn\")");
+  return nodes;
+}
+
+std::string number(float value) {
+  const float rounded = std::round(10.0f * value) / 10.0f;
+  return fmt::format("{}", rounded == 0.0f ? 0.0f : rounded);
+}
+
+std::string point(glm::vec3 p) { return fmt::format("\"{} {} {}\"", number(p.x), number(p.y), number(p.z)); }
+
+std::string camera(const char* name, const View& view) {
+  return fmt::format("camera(name=\"{}\", position={}, target={})\n", name, point(view.eye),
+                     point(view.target));
+}
+
+/// "quarter" of quarter.city.json.
+std::string stem_of(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  const std::string stem = name.substr(0, name.find('.', 1));
+  return stem.empty() ? "place" : stem;
+}
+
+bool lies_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const std::filesystem::path relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
+bool is_bare_file(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return !extension.empty() && extension != ".xp";
+}
+
+std::string bare_scene(const Model& model, const std::string& file) {
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = std::make_shared<const Model>(model);
+  const std::vector<scene::Road> surfaces = model.roads.empty() ? road_surfaces(model) : model.roads;
+  const scene::PlaceHeights place(scene, model.roads, margin_m);
+  const glm::vec3 size = scene::bounds(model).size();
+  const bool is_town = is_city(model), is_exhibit = !is_town && std::max(size.x, size.y) < exhibit_m;
+  const bool is_alone = is_exhibit || (is_town && surfaces.empty() && std::max(size.x, size.y) < alone_m);
+  const View street = is_alone ? outside_view(scene, place) : street_view(scene, place, surfaces);
+  const View above = overview(place, street);
+
+  std::string script = fmt::format("// Made up by parvis for {}; change it as you like.\n", file);
+  script += fmt::format("model(name=\"place\", file={}{})", quoted(file), is_exhibit ? ", reflective=1" : "");
+  if (const std::string dressing = is_town ? dressing_of(model) : std::string(); !dressing.empty())
+    script += fmt::format(" {{\n{}}}", dressing);
+  script += '\n';
+  if (!surfaces.empty()) script += "streets(of=\"place\")\n";
+  if (!model.roads.empty()) script += "paving()\n";
+  script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
+  script +=
+      "\n// A summer's afternoon.\n"
+      "dayLight(latitude=48, longitude=10, standardMeridian=2, julianDay=172, timeOfDay=16)\n"
+      "air(haze_per_m=0.0004)\n"
+      "shadowMap()\n";
+  if (is_exhibit) script += "reflection(method=\"rerendered_cube_map\", resolution=256)\n";
+  script += fmt::format("\n{}{}", camera("street", street), camera("overview", above));
+  return script;
+}
+
+Result<WrittenScene> write_bare_scene(const std::filesystem::path& file, const formats::Readers& readers,
+                                      const std::filesystem::path& folder) {
+  std::error_code problem;
+  const std::filesystem::path found = std::filesystem::canonical(file, problem);
+  if (problem) return error("{}: {}", file.string(), problem.message());
+  const std::filesystem::path here = std::filesystem::canonical(folder, problem);
+  if (problem) return error("{}: {}", folder.string(), problem.message());
+  Errors warnings;
+  const Result<Model> model = readers.read(found, {}, warnings);
+  if (!model) return model.errors();
+  const bool is_below = lies_below(found, here);
+  const std::string script =
+      bare_scene(*model, (is_below ? found.lexically_relative(here) : found.filename()).string());
+  for (int i = 1; i <= max_scripts; ++i) {
+    WrittenScene written{folder / fmt::format("{}{}.xp", stem_of(file), i > 1 ? fmt::format("-{}", i) : ""),
+                         is_below ? "" : found.parent_path()};
+    if (std::filesystem::exists(written.script, problem)) {
+      const Result<std::string> text = read_file(written.script);
+      if (text && *text == script) return written;
+      continue;
+    }
+    written.is_new = true;
+    if (Status status = write_file(written.script, script); !status) return status.errors();
+    return written;
+  }
+  return error("{}: {} scripts of this name stand here; remove some", stem_of(file), max_scripts);
+}
+
+}  // namespace parvis::dressing

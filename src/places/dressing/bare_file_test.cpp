@@ -1,0 +1,131 @@
+#include "places/dressing/bare_file.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files.h"
+#include "base/test_folder.h"
+#include "graphics/render/fixed_parts.h"
+#include "house/rooms.h"
+#include "places/dressing/street_view.h"
+#include "scene/data/surroundings.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/scene_loader.h"
+
+namespace parvis::dressing {
+namespace {
+
+using scene::Model;
+
+const formats::Readers& readers() { return house::all_rooms().get<formats::Readers>(); }
+
+void add_part(Model& model, const std::string& name, Mesh mesh, glm::vec3 colour = glm::vec3(0.5f)) {
+  scene::Material material = scene::matt(colour);
+  material.name = name;
+  scene::Part part;
+  part.object = name, part.mesh = std::move(mesh), part.material = int(model.materials.size());
+  model.materials.push_back(material);
+  model.parts.push_back(std::move(part));
+}
+
+/// Two rows of houses along a street from west to east.
+Model street_of_houses() {
+  Model model;
+  for (float x = 0.0f; x < 120.0f; x += 12.0f)
+    for (const float y : {6.0f, -16.0f}) {
+      add_part(model, "WallSurface", scene::box({x, y, 0}, {x + 12, y + 10, 9}));
+      add_part(model, "RoofSurface", scene::box({x, y, 9}, {x + 12, y + 10, 10}));
+    }
+  return model;
+}
+
+TEST(BareFile, ScriptsAreNotBare) {
+  EXPECT_FALSE(is_bare_file("place.xp"));
+  EXPECT_FALSE(is_bare_file("place"));
+  EXPECT_TRUE(is_bare_file("place.city.json"));
+  EXPECT_TRUE(is_bare_file("place.OSM"));
+}
+
+TEST(BareFile, BareVolumesAreDressed) {
+  const std::string script = bare_scene(street_of_houses(), "quarter.city.json");
+  for (const char* node :
+       {"facades(target=\"WallSurface\")", "roofs(target=\"RoofSurface\")", "terrain_plane()", "dayLight(",
+        "shadowMap()", "camera(name=\"street\"", "camera(name=\"overview\""})
+    EXPECT_NE(script.find(node), std::string::npos) << node << "\n" << script;
+  EXPECT_EQ(script.find("streets("), std::string::npos) << "it has none";
+  EXPECT_EQ(script.find("TINRelief"), std::string::npos) << "nothing that would match nothing";
+}
+
+TEST(BareFile, WindowsOfAModelAreNotPaintedOver) {
+  Model model = street_of_houses();
+  add_part(model, "Window", scene::quad({3, 6, 3}, {4, 6, 3}, {4, 6, 4}, {3, 6, 4}));
+  EXPECT_EQ(bare_scene(model, "lod3.gml").find("facades("), std::string::npos);
+  Model pictured = street_of_houses();
+  pictured.textures.emplace_back();
+  pictured.materials.front().base_colour_texture = 0;
+  EXPECT_EQ(bare_scene(pictured, "textured.gml").find("facades("), std::string::npos);
+}
+
+TEST(BareFile, TheStreetIsSeenAlong) {
+  const Model model = street_of_houses();
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = std::make_shared<const Model>(model);
+  const scene::PlaceHeights place(scene, {}, 60.0f);
+  const View view = street_view(scene, place, {});
+  EXPECT_LT(std::abs(view.eye.y + 0.0f), 6.0f) << "between the houses, which stand at 6 and -6";
+  EXPECT_NEAR(view.eye.z, 1.7f, 0.3f);
+  const glm::vec3 ahead = glm::normalize(view.target - view.eye);
+  EXPECT_GT(std::abs(ahead.x), 0.9f) << "along them, not at them";
+}
+
+TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
+  const TestFolder folder;
+  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
+                        folder.path());
+  const Result<WrittenScene> written =
+      write_bare_scene(folder.path() / "crossroads.osm", readers(), folder.path());
+  ASSERT_TRUE(written) << to_string(written.errors());
+  EXPECT_EQ(written->script.filename(), "crossroads.xp");
+  const Result<scene::LoadedScene> loaded = scene::load_scene(written->script, house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_EQ(to_string(loaded->warnings), "");
+  const scene::Scene& scene = loaded->scene;
+  ASSERT_EQ(scene.items<scene::Surroundings>().size(), 1u);
+  Bounds land, fixed;
+  for (const scene::Object& object : scene.objects)
+    if (scene::surrounds_place(scene, object)) land.add(scene::bounds(*object.model));
+  EXPECT_GT(std::min({-land.min.x, -land.min.y, land.max.x, land.max.y}), 4000.0f);
+  render::for_each_fixed_opaque_part(scene,
+                                     [&](const render::FixedPart& part) { fixed.add(part.mesh.bounds()); });
+  EXPECT_LT(fixed.size().x, 1500.0f) << "what is fitted to the place ends with the place";
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  EXPECT_FALSE(scene.roads.empty());
+}
+
+TEST(BareFile, NothingIsOverwritten) {
+  const TestFolder folder;
+  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
+                        folder.path());
+  const auto file = folder.path() / "crossroads.osm";
+  folder.write("crossroads.xp", "// mine\n");
+  const Result<WrittenScene> first = write_bare_scene(file, readers(), folder.path());
+  ASSERT_TRUE(first) << to_string(first.errors());
+  EXPECT_EQ(first->script.filename(), "crossroads-2.xp");
+  EXPECT_TRUE(first->is_new);
+  EXPECT_EQ(*read_file(folder.path() / "crossroads.xp"), "// mine\n");
+  const Result<WrittenScene> second = write_bare_scene(file, readers(), folder.path());
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->script.filename(), "crossroads-2.xp") << "the same again";
+  EXPECT_FALSE(second->is_new);
+}
+
+TEST(BareFile, AFileThatCannotBeReadLeavesNothing) {
+  const TestFolder folder;
+  const auto file = folder.write("bad.osm", "<osm>");
+  EXPECT_FALSE(write_bare_scene(file, readers(), folder.path()));
+  EXPECT_FALSE(write_bare_scene(folder.path() / "none.gml", readers(), folder.path()));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad.xp"));
+}
+
+}  // namespace
+}  // namespace parvis::dressing

@@ -1,0 +1,262 @@
+#include "places/dressing/street_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/bounds.h"
+#include "scene/data/model_parts.h"
+#include "scene/data/path.h"
+#include "scene/roads/road_from_polygons.h"
+
+namespace parvis::dressing {
+namespace {
+
+constexpr float eye_m = 1.7f, target_above_eye_m = 1.0f, target_m = 40.0f;
+constexpr float blocked_m = 0.9f;        // above the ground: nobody looks over it for long
+constexpr float longest_m = 120.0f;      // of a view: farther adds nothing
+constexpr float side_m = 25.0f;          // within which a house lines the street
+constexpr float closest_m = 2.5f;        // of the eye to a wall
+constexpr float shortest_m = 12.0f;      // of a view: else a wall is all there is
+constexpr float near_built_m = 30.0f;    // of a spot in the open to what is built
+constexpr std::size_t max_spots = 4000;  // in the open
+constexpr float road_step_m = 6.0f, open_step_m = 5.0f;
+constexpr float max_cells = 4e6f, finest_cell_m = 0.5f;
+constexpr float overview_radius_m = 130.0f;
+constexpr int headings = 24;
+const glm::vec2 to_sun(-0.6f, -0.8f);  // in the afternoon
+
+/// What blocks the view of a person, in plan.
+scene::Mask obstacles(const scene::Scene& scene, const scene::PlaceHeights& place) {
+  const scene::GroundGrid& plan = place.heights();
+  const glm::vec2 size = plan.cell_m * glm::vec2(plan.width, plan.height);
+  const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
+  const glm::ivec2 cells(glm::ceil(size / cell_m));
+  scene::Mask mask(cells.x, cells.y, cell_m, plan.origin, 0);
+  for (const scene::Object& object : scene.objects) {
+    const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
+    for (const scene::Part& part : object.model->parts) {
+      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+        std::vector<glm::vec3> ring;
+        for (std::size_t k = 0; k < 3; ++k)
+          ring.emplace_back(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0f));
+        const float top_m = std::max({ring[0].z, ring[1].z, ring[2].z});
+        if (top_m < place.at(glm::vec2(ring[0])) + blocked_m) continue;
+        for (std::size_t k = 0; k < 3; ++k) {  // walls have no area in plan
+          const glm::vec2 from(ring[k]), to(ring[(k + 1) % 3]);
+          const int steps = 1 + int(glm::distance(from, to) / cell_m);
+          for (int step = 0; step <= steps; ++step) {
+            const glm::ivec2 cell = mask.cell_at(glm::mix(from, to, float(step) / float(steps)));
+            if (mask.contains(cell.x, cell.y)) mask.at(cell.x, cell.y) = 1;
+          }
+        }
+        const std::vector<std::vector<glm::vec3>> rings{ring};
+        for (const glm::ivec2 cell : scene::cells_inside(mask, rings)) mask.at(cell.x, cell.y) = 1;
+      }
+    }
+  }
+  return mask;
+}
+
+/// A spot on the ground and a heading.
+struct Stand {
+  glm::vec2 spot, ahead;
+};
+
+class Judge {
+ public:
+  Judge(const scene::Scene& scene, const scene::PlaceHeights& place)
+      : mask_(obstacles(scene, place)), to_obstacle_(scene::distances_to(mask_, 1)) {}
+
+  /// Larger is better; negative where nobody can stand.
+  float score(const Stand& stand) const {
+    const glm::ivec2 cell = mask_.cell_at(stand.spot);
+    if (!mask_.contains(cell.x, cell.y) || to_obstacle_.at(cell.x, cell.y) < closest_m) return -1.0f;
+    const float length_m = free_m(stand.spot, stand.ahead, longest_m);
+    if (length_m < shortest_m) return -1.0f;
+    const float lit = 0.5f - 0.5f * glm::dot(stand.ahead, to_sun);
+    return std::min(length_m, 80.0f) / 80.0f * (0.02f + lined(stand, length_m) + 0.5f * shown(stand)) *
+           (0.6f + 0.4f * lit);
+  }
+
+ private:
+  /// How much of the street ahead has houses, 1: on both sides.
+  float lined(const Stand& stand, float length_m) const {
+    constexpr std::array looks_m{8.0f, 20.0f, 35.0f, 55.0f};
+    const glm::vec2 aside(-stand.ahead.y, stand.ahead.x);
+    float share = 0.0f;
+    for (const float ahead_m : looks_m) {
+      if (ahead_m > length_m) break;
+      const glm::vec2 at = stand.spot + ahead_m * stand.ahead;
+      for (const float side : {-1.0f, 1.0f})
+        if (free_m(at, side * aside, side_m) < side_m) share += 0.5f / float(looks_m.size());
+    }
+    return share;
+  }
+
+  /// How much of the view ends at something near.
+  float shown(const Stand& stand) const {
+    constexpr int rays = 9;
+    constexpr float half_angle = 0.5f;
+    int hits = 0;
+    for (int i = 0; i < rays; ++i) {
+      const float angle = half_angle * (2.0f * float(i) / float(rays - 1) - 1.0f);
+      const glm::vec2 direction(stand.ahead.x * std::cos(angle) - stand.ahead.y * std::sin(angle),
+                                stand.ahead.x * std::sin(angle) + stand.ahead.y * std::cos(angle));
+      hits += free_m(stand.spot, direction, longest_m) < longest_m;
+    }
+    return float(hits) / float(rays);
+  }
+
+  float free_m(glm::vec2 from, glm::vec2 direction, float up_to_m) const {
+    for (float at = 0.0f; at < up_to_m; at += mask_.cell_m) {
+      const glm::ivec2 cell = mask_.cell_at(from + at * direction);
+      if (!mask_.contains(cell.x, cell.y)) return up_to_m;
+      if (mask_.at(cell.x, cell.y)) return at;
+    }
+    return up_to_m;
+  }
+
+  scene::Mask mask_;
+  scene::GroundRaster<float> to_obstacle_;
+};
+
+std::vector<Stand> stands_on(std::span<const scene::Road> roads) {
+  std::vector<Stand> stands;
+  for (const scene::Road& road : roads) {
+    if (road.path.size() < 2) continue;
+    const scene::MeasuredPath path(road.path);
+    for (float at = 0.5f * road_step_m; at < path.length(); at += road_step_m) {
+      const glm::vec2 ahead(path.direction_at(at)), spot(path.at(at));
+      if (!(glm::length(ahead) > 0.5f)) continue;
+      const glm::vec2 unit = glm::normalize(ahead), right(unit.y, -unit.x);
+      stands.push_back({spot + 1.2f * right, unit});
+      stands.push_back({spot - 1.2f * right, -unit});
+    }
+  }
+  return stands;
+}
+
+/// Spots near what is built, each with all headings.
+std::vector<Stand> stands_in_the_open(const scene::PlaceHeights& place) {
+  const scene::GroundGrid& plan = place.heights();
+  const glm::vec2 size = plan.cell_m * glm::vec2(plan.width, plan.height);
+  const scene::GroundRaster<float> to_built = scene::distances_to(place.built(), 1);
+  std::vector<glm::vec2> spots;
+  for (float y = 0.0f; y < size.y; y += open_step_m)
+    for (float x = 0.0f; x < size.x; x += open_step_m) {
+      const glm::vec2 spot = plan.origin + glm::vec2(x, y);
+      const glm::ivec2 cell = to_built.cell_at(spot);
+      if (to_built.contains(cell.x, cell.y) && to_built.at(cell.x, cell.y) < near_built_m)
+        spots.push_back(spot);
+    }
+  const std::size_t stride = 1 + spots.size() / max_spots;
+  std::vector<Stand> stands;
+  for (std::size_t spot = 0; spot < spots.size(); spot += stride)
+    for (int i = 0; i < headings; ++i) {
+      const float angle = 2.0f * 3.14159265f * float(i) / float(headings);
+      stands.push_back({spots[spot], {std::cos(angle), std::sin(angle)}});
+    }
+  return stands;
+}
+
+View view_of(const Stand& stand, const scene::PlaceHeights& place) {
+  const glm::vec3 eye(stand.spot, place.at(stand.spot) + eye_m);
+  const glm::vec2 ahead = stand.spot + target_m * stand.ahead;
+  // Along the street, whether it climbs or falls, but not steeply.
+  const float target_z = std::clamp(place.at(ahead) + eye_m, eye.z - 3.0f, eye.z + 3.0f) + target_above_eye_m;
+  return {eye, glm::vec3(ahead, target_z)};
+}
+
+}  // namespace
+
+namespace {
+
+/// How much detail a house or a thing shows to those who stand in this direction from it: triangles that face
+/// them.
+std::size_t detail_toward(const scene::Scene& scene, glm::vec2 direction) {
+  std::size_t facing = 0;
+  for (const scene::Object& object : scene.objects) {
+    const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
+    for (const scene::Part& part : object.model->parts) {
+      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+      const auto corner = [&](std::size_t i) {
+        return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
+      };
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+        const glm::vec3 area = glm::cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i));
+        facing += glm::dot(glm::vec2(area), direction) > 0.6f * glm::length(area);
+      }
+    }
+  }
+  return facing;
+}
+
+}  // namespace
+
+View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place) {
+  constexpr int directions = 8;
+  constexpr float radii = 1.9f;  // of the eye's distance, so that the whole is seen
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects)
+    bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
+  glm::vec2 toward(0.0f);
+  float best = -1.0f;
+  for (int i = 0; i < directions; ++i) {
+    const float angle = 2.0f * 3.14159265f * (float(i) + 0.5f) / float(directions);
+    const glm::vec2 direction(std::cos(angle), std::sin(angle));
+    const float lit = 1.0f + 0.5f * glm::dot(direction, to_sun);
+    if (const float score = lit * (1.0f + float(detail_toward(scene, direction))); score > best)
+      best = score, toward = direction;
+  }
+  const glm::vec2 spot = glm::vec2(bounds.centre()) + std::max(0.5f, radii * bounds.radius()) * toward;
+  const float height_m = std::min(eye_m, std::max(1.5f * bounds.size().z, 0.3f));
+  return {glm::vec3(spot, place.at(spot) + height_m), bounds.centre()};
+}
+
+View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
+                 std::span<const scene::Road> roads) {
+  constexpr float good_enough = 0.05f;
+  const Judge judge(scene, place);
+  const std::vector<Stand> stands = roads.empty() ? stands_in_the_open(place) : stands_on(roads);
+  float best = 0.0f;
+  const Stand* chosen = nullptr;
+  for (const Stand& stand : stands)
+    if (const float score = judge.score(stand); score > best) best = score, chosen = &stand;
+  if (chosen == nullptr || (roads.empty() && best < good_enough)) return outside_view(scene, place);
+  return view_of(*chosen, place);
+}
+
+View overview(const scene::PlaceHeights& place, const View& street) {
+  const scene::GroundGrid& plan = place.heights();
+  Bounds built;
+  for (int y = 0; y < plan.height; ++y)
+    for (int x = 0; x < plan.width; ++x)
+      if (place.built().at(x, y)) built.add(glm::vec3(plan.centre_of({x, y}), place.heights().at(x, y)));
+  if (built.empty()) built.add(street.target);
+  const float whole_m = 0.5f * glm::length(glm::vec2(built.size()));
+  const bool is_whole = whole_m <= overview_radius_m;
+  const glm::vec3 middle = is_whole ? built.centre() : street.target;
+  const float radius_m = std::clamp(whole_m, 4.0f, overview_radius_m);
+  return {middle + radius_m * glm::vec3(-0.62f, -1.15f, 0.75f), middle};
+}
+
+std::vector<scene::Road> road_surfaces(const scene::Model& model) {
+  const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
+  std::vector<scene::RoadPolygon> polygons;
+  for (const std::size_t index : scene::matching_parts(model, "*Road*")) {
+    const scene::Part& part = model.parts[index];
+    const glm::mat4& model_from_mesh = model_from_node[std::size_t(part.node)];
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      scene::RoadPolygon polygon{{{}}, part.object};
+      for (std::size_t k = 0; k < 3; ++k)
+        polygon.rings[0].emplace_back(model_from_mesh *
+                                      glm::vec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0f));
+      polygons.push_back(std::move(polygon));
+    }
+  }
+  return scene::roads_from_polygons(polygons);
+}
+
+}  // namespace parvis::dressing

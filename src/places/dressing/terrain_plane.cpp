@@ -1,0 +1,154 @@
+#include "places/dressing/terrain_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/mesh.h"
+#include "places/paper_city/ground_cover.h"
+
+namespace parvis::dressing {
+namespace {
+
+constexpr float below_own_m = 0.25f;    // where the place's own ground begins, the terrain goes on beneath it
+constexpr float overlap_cells = 2.5f;   // of the two grounds
+constexpr float paved_m = 14.0f;        // from what is built
+constexpr float paved_wander_m = 6.0f;  // of the edge of the paved ground
+constexpr float far_sheets = 3.0f;      // size of pictures far away: fewer repeats
+constexpr float level_after_m = 700.0f;  // beyond the place
+constexpr std::array ring_factors{1.0f, 1.06f, 1.15f, 1.3f, 1.6f, 2.2f, 3.4f, 6.0f, 12.0f, 30.0f, 80.0f};
+
+/// A point of the terrain; `edge_m` is negative on paved ground, positive beyond it.
+struct Corner {
+  glm::vec3 position;
+  float edge_m;
+};
+
+struct Layer {
+  Mesh mesh;
+  float sheet_m;
+  void add(const Corner& corner) {
+    mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
+    mesh.positions.push_back(corner.position);
+    mesh.uvs.push_back(glm::vec2(corner.position.x, -corner.position.y) / sheet_m);
+  }
+};
+
+/// Adds the part of a triangle on one side of the edge: paved ground where `side` is -1, the rest where it
+/// is 1.
+void add_clipped(Layer& layer, const std::array<Corner, 3>& triangle, float side) {
+  std::vector<Corner> inside;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner &a = triangle[i], &b = triangle[(i + 1) % 3];
+    const float at_a = side * a.edge_m, at_b = side * b.edge_m;
+    if (at_a >= 0.0f) inside.push_back(a);
+    if ((at_a >= 0.0f) != (at_b >= 0.0f))
+      inside.push_back({glm::mix(a.position, b.position, at_a / (at_a - at_b)), 0.0f});
+  }
+  for (std::size_t i = 2; i < inside.size(); ++i)
+    layer.add(inside[0]), layer.add(inside[i - 1]), layer.add(inside[i]);
+}
+
+/// Ground is smooth: each point takes the slope of the heights there, not that of its triangle.
+void fill_normals_from(const scene::PlaceHeights& place, Mesh& mesh) {
+  const float step_m = place.heights().cell_m;
+  mesh.normals.clear();
+  for (const glm::vec3& p : mesh.positions) {
+    const auto at = [&](float dx, float dy) { return place.at(glm::vec2(p) + step_m * glm::vec2(dx, dy)); };
+    mesh.normals.push_back(
+        glm::normalize(glm::vec3(at(-1, 0) - at(1, 0), at(0, -1) - at(0, 1), 2.0f * step_m)));
+  }
+}
+
+void add_part(scene::Model& model, const std::string& object, const std::string& cover, Mesh mesh) {
+  if (mesh.indices.empty()) return;
+  scene::Part part;
+  part.object = object;
+  part.mesh = std::move(mesh);
+  part.material = city::add_cover_material(model, cover);
+  part.casts_shadow = false;
+  model.parts.push_back(std::move(part));
+}
+
+}  // namespace
+
+scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& look) {
+  const scene::HeightRaster& heights = place.heights();
+  const scene::GroundRaster<float> to_foreign = scene::distances_to(place.own_ground(), 0);
+  const scene::GroundRaster<float> to_built = scene::distances_to(place.built(), 1);
+  const auto corner = [&](int x, int y) {
+    const glm::vec2 p = heights.centre_of({x, y});
+    const float wander = paved_wander_m * std::sin(0.11f * p.x + 2.0f * std::sin(0.07f * p.y)) *
+                         std::sin(0.09f * p.y + 1.5f * std::sin(0.06f * p.x));
+    const float lowered_m = place.own_ground().at(x, y) ? below_own_m : 0.0f;
+    return Corner{glm::vec3(p, heights.at(x, y) - lowered_m), to_built.at(x, y) - paved_m + wander};
+  };
+  Layer paved{{}, city::cover_sheet_m(look.surface)}, beyond{{}, city::cover_sheet_m(look.beyond)};
+  for (int y = 0; y + 1 < heights.height; ++y)
+    for (int x = 0; x + 1 < heights.width; ++x) {
+      if (to_foreign.at(x, y) > overlap_cells * heights.cell_m) continue;
+      const Corner a = corner(x, y), b = corner(x + 1, y), c = corner(x + 1, y + 1), d = corner(x, y + 1);
+      for (const std::array<Corner, 3>& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
+        add_clipped(paved, triangle, -1.0f);
+        add_clipped(beyond, triangle, 1.0f);
+      }
+    }
+  scene::Model model;
+  model.name = "terrain";
+  for (Layer* layer : {&paved, &beyond}) fill_normals_from(place, layer->mesh);
+  add_part(model, "TINRelief near", look.surface, std::move(paved.mesh));
+  add_part(model, "TINRelief beyond", look.beyond, std::move(beyond.mesh));
+  return model;
+}
+
+scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& look) {
+  const scene::HeightRaster& heights = place.heights();
+  const glm::ivec2 last(heights.width - 1, heights.height - 1);
+  std::vector<glm::vec3> edge;  // counter-clockwise
+  const auto add = [&](int x, int y) {
+    const float lowered_m = place.own_ground().at(x, y) ? below_own_m : 0.0f;
+    edge.emplace_back(heights.centre_of({x, y}), heights.at(x, y) - lowered_m);
+  };
+  for (int x = 0; x < last.x; ++x) add(x, 0);
+  for (int y = 0; y < last.y; ++y) add(last.x, y);
+  for (int x = last.x; x > 0; --x) add(x, last.y);
+  for (int y = last.y; y > 0; --y) add(0, y);
+
+  const glm::vec2 middle = 0.5f * (heights.centre_of({0, 0}) + heights.centre_of(last));
+  const float radius_m = glm::distance(middle, heights.centre_of(last));
+  std::vector<float> edge_heights;
+  for (const glm::vec3& p : edge) edge_heights.push_back(p.z);
+  std::ranges::nth_element(edge_heights, edge_heights.begin() + std::ptrdiff_t(edge.size() / 2));
+  const float level_m = edge_heights[edge.size() / 2];
+
+  Mesh mesh;
+  const float sheet_m = far_sheets * city::cover_sheet_m(look.beyond);
+  const std::uint32_t row = std::uint32_t(edge.size());
+  std::uint32_t rings = 0;
+  for (const float factor : ring_factors) {
+    const float reached_m = std::min(factor * radius_m, std::max(look.reach_m, radius_m));
+    for (const glm::vec3& p : edge) {
+      const glm::vec2 out = glm::vec2(p) - middle;
+      // from the rectangle to a circle
+      const glm::vec2 at = middle + glm::mix(out * (reached_m / radius_m), glm::normalize(out) * reached_m,
+                                             glm::smoothstep(1.0f, 3.0f, reached_m / radius_m));
+      const float levelled = glm::smoothstep(0.0f, level_after_m, reached_m - radius_m);
+      mesh.positions.emplace_back(at, glm::mix(p.z, level_m, levelled));
+      mesh.uvs.push_back(glm::vec2(at.x, -at.y) / sheet_m);
+    }
+    if (++rings > 1 && reached_m >= look.reach_m) break;
+  }
+  for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
+    for (std::uint32_t i = 0; i < row; ++i) {
+      const std::uint32_t a = ring * row + i, b = ring * row + (i + 1) % row;
+      mesh.indices.insert(mesh.indices.end(), {a, a + row, b, b, a + row, b + row});
+    }
+  fill_normals(mesh);
+
+  scene::Model model;
+  model.name = "land around";
+  add_part(model, "TINRelief around", look.beyond, std::move(mesh));
+  return model;
+}
+
+}  // namespace parvis::dressing
