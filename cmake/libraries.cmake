@@ -14,6 +14,7 @@ find_package(meshoptimizer REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(Threads REQUIRED)
 
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
@@ -24,6 +25,13 @@ pkg_check_modules(tiff REQUIRED IMPORTED_TARGET libtiff-4)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
+
+# libosmium is headers alone; what it reads OpenStreetMap's two formats with is linked by those who include it.
+find_path(osmium_headers osmium/io/reader.hpp REQUIRED)
+find_path(protozero_headers protozero/pbf_reader.hpp REQUIRED)
+add_library(parvis_osmium INTERFACE)
+target_link_libraries(parvis_osmium INTERFACE EXPAT::EXPAT ZLIB::ZLIB Threads::Threads)
+target_include_directories(parvis_osmium SYSTEM INTERFACE ${osmium_headers} ${protozero_headers})
 
 # Debian's OpenImageIO names OpenCV's headers, which its own do not need and its package does not bring.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

@@ -15,7 +15,7 @@ void furnish_city_models(House& house) {
   readers.add({".gml", ".citygml", ".xml"},
               [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
                  Errors& warnings) { return read_city_gml(file, warnings, reading.max_detail); });
-  readers.add({".osm"},
+  readers.add({".osm", ".pbf"},
               [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
                  Errors& warnings) { return read_osm(file, warnings, reading.ground); });
 }

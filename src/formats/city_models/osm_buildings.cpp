@@ -1,50 +1,42 @@
 #include "formats/city_models/osm_buildings.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
-#include "formats/city_models/polygon_triangles.h"
+#include "formats/city_models/osm_relief.h"
 
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-using Ring = std::vector<dvec2>;
+using Ring = OsmRing;
 
 constexpr double level_m = 3.0, usual_levels = 2.0;
-constexpr double roof_slope = 0.6;  // of gables and hips without a height: 31 degrees
+constexpr double straight = 0.03;  // sine of the turn below which a point lies along a side
 
-/// A footprint: the outer ring counter-clockwise, holes clockwise, without repeated points.
-struct Footprint {
-  std::vector<Ring> rings;
-  const OsmTags* tags;
-  double ground_m = 0.0;  ///< on which it stands
+/// Storeys of buildings without tags for their height.
+struct UsualLevels {
+  const char* kind;
+  double levels;
 };
-
-double area_m2(const Ring& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const dvec2 a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return twice / 2.0;
-}
-
-bool holds(const Ring& ring, dvec2 point) {
-  bool is_inside = false;
-  for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
-    if ((ring[i].y > point.y) != (ring[k].y > point.y) &&
-        point.x < ring[i].x + (ring[k].x - ring[i].x) * (point.y - ring[i].y) / (ring[k].y - ring[i].y))
-      is_inside = !is_inside;
-  return is_inside;
-}
-
-dvec2 middle(const Ring& ring) {
-  dvec2 sum(0.0);
-  for (const dvec2& point : ring) sum += point - ring[0];
-  return ring[0] + sum / double(ring.size());
-}
+constexpr std::array<UsualLevels, 15> usual_levels_of{{{"garage", 0.8},
+                                                       {"garages", 0.8},
+                                                       {"shed", 0.8},
+                                                       {"hut", 0.8},
+                                                       {"carport", 0.8},
+                                                       {"kiosk", 1.0},
+                                                       {"greenhouse", 1.0},
+                                                       {"service", 1.0},
+                                                       {"apartments", 4.0},
+                                                       {"office", 4.0},
+                                                       {"hotel", 4.0},
+                                                       {"hospital", 4.0},
+                                                       {"church", 4.0},
+                                                       {"school", 3.0},
+                                                       {"university", 4.0}}};
+constexpr double roof_slope = 0.6;  // of gables and hips without a height: 31 degrees
 
 /// "12", "12.5 m", "40'" (feet), "12;15" (the first).
 std::optional<double> metres(const std::string& text) {
@@ -61,15 +53,37 @@ double metres_or(const OsmTags& tags, const char* height, const char* levels, do
   return otherwise;
 }
 
+double usual_height_m(const OsmTags& tags) {
+  const auto found = std::ranges::find(usual_levels_of, tag(tags, "building"),
+                                       [](const UsualLevels& each) { return std::string(each.kind); });
+  return level_m * (found == usual_levels_of.end() ? usual_levels : found->levels);
+}
+
+/// Without the points that lie along a side.
+Ring corners_of(const Ring& ring) {
+  Ring corners;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 in = ring[i] - ring[(i + ring.size() - 1) % ring.size()],
+                out = ring[(i + 1) % ring.size()] - ring[i];
+    const double sine = (in.x * out.y - in.y * out.x) / (glm::length(in) * glm::length(out));
+    if (!(std::abs(sine) < straight) || glm::dot(in, out) < 0.0) corners.push_back(ring[i]);
+  }
+  return corners.size() >= 3 ? corners : ring;
+}
+
 /// Draws one building.
 class Building {
  public:
-  Building(const Footprint& footprint, const CityObject& object, CityAssembly& city)
-      : rings_(footprint.rings), ground_m_(footprint.ground_m), object_(object), city_(city) {
+  Building(const OsmArea& footprint, const CityObject& object, CityAssembly& city)
+      : rings_(footprint.rings),
+        corners_(corners_of(rings_[0])),
+        ground_m_(footprint.ground_m),
+        object_(object),
+        city_(city) {
     const OsmTags& tags = *footprint.tags;
     shape_ = tag(tags, "roof:shape");
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
-    top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_levels * level_m);
+    top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_height_m(tags));
     if (top_m_ <= base_m_) top_m_ = base_m_ + level_m;
     const bool gives_top = !tag(tags, "height").empty();
     const double roof_m = std::max(metres_or(tags, "roof:height", "roof:levels", usual_roof_m()), 0.0);
@@ -91,12 +105,12 @@ class Building {
  private:
   bool is_pyramid() const { return shape_ == "pyramidal" && rings_.size() == 1; }
   bool has_ridge() const {
-    return (shape_ == "gabled" || shape_ == "hipped") && rings_.size() == 1 && rings_[0].size() == 4;
+    return (shape_ == "gabled" || shape_ == "hipped") && rings_.size() == 1 && corners_.size() == 4;
   }
   bool has_slopes() const { return is_pyramid() || has_ridge(); }
 
   double usual_roof_m() const {
-    const Ring& ring = rings_[0];
+    const Ring& ring = corners_;
     if (has_ridge())
       return roof_slope / 2.0 * std::min(glm::distance(ring[0], ring[1]), glm::distance(ring[1], ring[2]));
     return roof_slope * std::sqrt(std::abs(area_m2(ring))) / 2.0;
@@ -104,7 +118,7 @@ class Building {
 
   void draw_roof() {
     if (!has_slopes()) return add("RoofSurface", level_surface(top_m_, false));
-    const Ring& ring = rings_[0];
+    const Ring& ring = corners_;
     const auto eave = [&](std::size_t i) { return dvec3(ring[i % ring.size()], eaves_m_); };
     if (is_pyramid()) {
       const dvec3 apex(middle(ring), top_m_);
@@ -149,118 +163,12 @@ class Building {
   }
 
   const std::vector<Ring>& rings_;
+  Ring corners_;  ///< of the outline
   double ground_m_;
   const CityObject& object_;
   CityAssembly& city_;
   std::string shape_;
   double base_m_, eaves_m_, top_m_;  ///< above the ground
-};
-
-/// Finds the footprints of a file.
-class Footprints {
- public:
-  Footprints(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city)
-      : osm_(osm), place_(place), city_(city) {}
-
-  /// Of everything that has a tag of this key ("building") with another value than "no".
-  std::vector<Footprint> with(const std::string& key) {
-    const auto has_key = [&](const OsmTags& tags) {
-      return !tag(tags, key).empty() && tag(tags, key) != "no";
-    };
-    std::vector<Footprint> found;
-    for (const OsmWay& way : osm_.ways)
-      if (has_key(way.tags)) {
-        if (way.is_closed())
-          add({{way.nodes}}, {}, way.tags, fmt::format("way {}", way.id), found);
-        else
-          city_.warn(fmt::format("way {}: a building whose outline is not closed is left out", way.id));
-      }
-    for (const OsmRelation& relation : osm_.relations)
-      if (has_key(relation.tags) && tag(relation.tags, "type") == "multipolygon") add(relation, found);
-    return found;
-  }
-
- private:
-  using NodeRing = std::vector<OsmId>;
-
-  void add(const OsmRelation& relation, std::vector<Footprint>& found) {
-    const std::string name = fmt::format("relation {}", relation.id);
-    add(rings_of(relation, "outer", name), rings_of(relation, "inner", name), relation.tags, name, found);
-  }
-
-  /// Ways that follow each other, joined to rings.
-  std::vector<NodeRing> rings_of(const OsmRelation& relation, const std::string& role,
-                                 const std::string& name) {
-    std::vector<NodeRing> open, closed;
-    for (const OsmRelation::Member& member : relation.members) {
-      if (member.type != "way" || (member.role.empty() ? "outer" : member.role) != role) continue;
-      const auto way = osm_.way_of.find(member.id);
-      if (way == osm_.way_of.end())
-        city_.warn(fmt::format("{}: its way {} is not in the file", name, member.id));
-      else if (!osm_.ways[way->second].nodes.empty())
-        open.push_back(osm_.ways[way->second].nodes);
-    }
-    while (!open.empty()) {
-      NodeRing ring = std::move(open.back());
-      open.pop_back();
-      while (ring.front() != ring.back() && extend(ring, open)) {
-      }
-      if (ring.front() == ring.back() && ring.size() > 3)
-        closed.push_back(std::move(ring));
-      else
-        city_.warn(
-            fmt::format("{}: its ways make no closed ring at node {}; they are left out", name, ring.back()));
-    }
-    return closed;
-  }
-
-  static bool extend(NodeRing& ring, std::vector<NodeRing>& open) {
-    for (auto next = open.begin(); next != open.end(); ++next) {
-      if (next->back() == ring.back()) std::reverse(next->begin(), next->end());
-      if (next->front() != ring.back()) continue;
-      ring.insert(ring.end(), next->begin() + 1, next->end());
-      open.erase(next);
-      return true;
-    }
-    return false;
-  }
-
-  /// One footprint for each outer ring, with the holes that lie in it.
-  void add(const std::vector<NodeRing>& outer, const std::vector<NodeRing>& inner, const OsmTags& tags,
-           const std::string& name, std::vector<Footprint>& found) {
-    std::vector<Ring> holes;
-    for (const NodeRing& nodes : inner)
-      if (Ring ring = placed(nodes, name); ring.size() >= 3) holes.push_back(std::move(ring));
-    for (const NodeRing& nodes : outer) {
-      Ring ring = placed(nodes, name);
-      if (ring.size() < 3) continue;
-      if (area_m2(ring) < 0.0) std::reverse(ring.begin(), ring.end());
-      Footprint footprint{{std::move(ring)}, &tags};
-      for (Ring& hole : holes) {
-        if (!holds(footprint.rings[0], hole[0])) continue;
-        if (area_m2(hole) > 0.0) std::reverse(hole.begin(), hole.end());
-        footprint.rings.push_back(hole);
-      }
-      found.push_back(std::move(footprint));
-    }
-  }
-
-  Ring placed(const NodeRing& nodes, const std::string& name) {
-    Ring ring;
-    for (const OsmId node : nodes) {
-      const std::optional<dvec2> point = place_(node);
-      if (!point)
-        city_.warn(fmt::format("{}: its node {} is not in the file; it is drawn without", name, node));
-      else if (ring.empty() || ring.back() != *point)
-        ring.push_back(*point);
-    }
-    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-    return ring;
-  }
-
-  const OsmFile& osm_;
-  const OsmPlaces& place_;
-  CityAssembly& city_;
 };
 
 double lowest_m(const Ring& ring, const GroundOnMap& ground) {
@@ -274,11 +182,14 @@ double lowest_m(const Ring& ring, const GroundOnMap& ground) {
 
 std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
                               CityAssembly& city) {
-  Footprints footprints(osm, place, city);
-  std::vector<Footprint> drawn = footprints.with("building:part");
+  const OsmAreas areas(osm, place, city);
+  const auto has_key = [](const char* key) {
+    return [key](const OsmTags& tags) { return says_yes(tags, key) && !is_underground(tags); };
+  };
+  std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building");
   const std::size_t parts = drawn.size();
-  for (Footprint& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
-  for (Footprint& outline : footprints.with("building")) {
+  for (OsmArea& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
+  for (OsmArea& outline : areas.find(has_key("building"), "a building")) {
     outline.ground_m = lowest_m(outline.rings[0], ground);
     bool has_parts = false;
     for (std::size_t i = 0; i < parts; ++i) {
@@ -288,7 +199,7 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
     }
     if (!has_parts) drawn.push_back(std::move(outline));
   }
-  for (const Footprint& footprint : drawn) Building(footprint, {"building", "Building", ""}, city).draw();
+  for (const OsmArea& footprint : drawn) Building(footprint, {"building", "Building", ""}, city).draw();
   return drawn.size();
 }
 

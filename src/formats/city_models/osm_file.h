@@ -1,4 +1,4 @@
-// The content of an OpenStreetMap file (XML, API 0.6): nodes, ways and relations with their tags.
+// The content of an OpenStreetMap file (XML or PBF): nodes, ways and relations with their tags.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,6 @@ const std::string& tag(const OsmTags& tags, const std::string& key);
 /// A polyline of nodes; an area where it is closed.
 struct OsmWay {
   OsmId id = 0;
-  int line = 0;  ///< of the file
   std::vector<OsmId> nodes;
   OsmTags tags;
 
@@ -45,17 +44,25 @@ struct OsmRelation {
   OsmTags tags;
 };
 
+/// A node that stands for a thing by itself: a tree, a crossing.
+struct OsmNode {
+  OsmId id = 0;
+  OsmTags tags;
+};
+
 /// All elements of a file.
 struct OsmFile {
   std::unordered_map<OsmId, glm::dvec2> nodes;  ///< degrees: east, north
+  std::vector<OsmNode> tagged_nodes;            ///< those that have tags
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;
   std::unordered_map<OsmId, std::size_t> way_of;  ///< index into `ways` by identifier
   glm::dvec2 min_deg{0.0}, max_deg{0.0};          ///< bounds given by the file, else those of its nodes
 };
 
-/// Reads a file. Errors name the line: not OSM, a DOCTYPE, XML that is not well-formed, no nodes. Nodes
-/// without a valid position and elements without an identifier are left out with a warning.
+/// Reads a file, .osm as XML and .pbf as Protocolbuffer Binary Format, by libosmium. Errors: what the library
+/// cannot read; XML with a DOCTYPE or that is not well-formed, by line; another kind of file; no nodes.
+/// Nodes without a valid position are left out with a warning; deleted elements are left out.
 Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings);
 
 }  // namespace parvis::scene

@@ -5,7 +5,9 @@
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_buildings.h"
 #include "formats/city_models/osm_file.h"
+#include "formats/city_models/osm_land.h"
 #include "formats/city_models/osm_roads.h"
+#include "formats/city_models/osm_things.h"
 #include "formats/terrain/utm.h"
 
 namespace parvis::scene {
@@ -46,14 +48,17 @@ Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, cons
   };
   CityAssembly city(file, origin, warnings);
   const std::size_t buildings = add_osm_buildings(*osm, on_map, ground, city);
-  const auto about_origin = [&](OsmId node) -> std::optional<glm::dvec2> {
-    const std::optional<glm::dvec2> place = on_map(node);
-    return place ? std::optional(*place - glm::dvec2(origin)) : std::nullopt;
-  };
-  GroundOnMap ground_about_origin;
-  if (ground) ground_about_origin = [&](glm::dvec2 point) { return ground(point + glm::dvec2(origin)); };
-  std::vector<Road> roads = osm_roads(*osm, about_origin, ground_about_origin, file, city);
-  if (!ground) add_ground(*osm, utm, origin, city);
+  const OsmPlaces place = on_map;
+  const OsmRelief relief(*osm, place);
+  std::vector<Road> roads = osm_roads(*osm, place, relief, ground, origin, file, city);
+  if (!ground) {
+    add_ground(*osm, utm, origin, city);
+    add_osm_land(*osm, place, origin.z, city);
+    add_osm_crossings(*osm, place, roads, origin, city);
+  }
+  add_osm_plants_and_barriers(*osm, place, ground, city);
+  add_osm_rails(*osm, place, relief, ground, city);
+  add_osm_bridges(*osm, relief, ground, half_carriageway_m, city);
   Result<Model> model = city.finish(buildings);
   if (model) model->roads = std::move(roads);
   return model;

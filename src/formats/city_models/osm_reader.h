@@ -1,4 +1,5 @@
-// OpenStreetMap files (.osm) to a Model: buildings, the ground, and roads as centre lines.
+// OpenStreetMap files (.osm, .osm.pbf) to a Model: buildings, what lies and stands on the ground, and roads
+// as centre lines.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +11,8 @@
 namespace parvis::scene {
 
 /// Metres on the map of the file's UTM zone, about the middle of its bounds: `Model::origin` says where that
-/// is. All stands on the ground that is given, else on a level one at z = 0, which is added. What is
-/// incomplete is reported in `warnings` by its id, and the rest is read.
+/// is. All stands on the ground that is given, else on a level one at z = 0, which is added with what lies on
+/// it. What is incomplete is reported in `warnings` by its id, and the rest is read.
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {});
 
 }  // namespace parvis::scene

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <osmium/io/pbf_output.hpp>
+#include <osmium/io/reader.hpp>
+#include <osmium/io/writer.hpp>
+#include <osmium/io/xml_input.hpp>
 #include <sstream>
 
+#include "base/files.h"
 #include "base/random.h"
 #include "base/test_folder.h"
 #include "formats/terrain/utm.h"
@@ -173,14 +178,159 @@ TEST(Osm, RoadsHaveLanesDirectionsAndLimits) {
   EXPECT_TRUE(std::ranges::any_of(graph->lanes, [](const Lane& lane) { return lane.crossing >= 0; }));
 }
 
-TEST(Osm, BridgesPassAbove) {
-  const Read town =
-      read(osm(way(100, "11 12 13", {{"highway", "primary"}}) +
-               way(101, "1 12 3", {{"highway", "primary"}, {"bridge", "yes"}, {"layer", "2"}})));
+/// A bridge from south to north over the street 11-12-13, and its ramp to the north, 111 m long.
+std::string street_and_bridge(const std::vector<std::pair<std::string, std::string>>& tags) {
+  return R"(<node id="21" lat="52.1593" lon="4.4902"/><node id="22" lat="52.1597" lon="4.4902"/>
+<node id="23" lat="52.1607" lon="4.4902"/>)" +
+         way(100, "11 12 13", {{"highway", "primary"}}) + way(101, "21 22", tags) +
+         way(102, "22 23", {{"highway", "primary"}});
+}
+
+float highest_m(const Road& road) {
+  float highest = 0.0f;
+  for (const glm::vec3& point : road.path) highest = std::max(highest, point.z);
+  return highest;
+}
+
+TEST(Osm, BridgesLeaveClearanceAndRampsLeadUpToThem) {
+  const Read town = read(osm(street_and_bridge({{"highway", "primary"}, {"bridge", "yes"}, {"layer", "1"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  const std::vector<Road>& roads = town.model->roads;
+  ASSERT_EQ(roads.size(), 3u);
+  EXPECT_EQ(highest_m(roads[0]), 0.0f) << "the street below stays on the ground";
+  for (const glm::vec3& point : roads[1].path) EXPECT_NEAR(point.z, 5.4f, 1e-3f);
+  ASSERT_EQ(roads[2].path.size(), 3u) << "the ramp ends between the nodes";
+  EXPECT_NEAR(roads[2].path[0].z, 5.4f, 1e-3f);
+  EXPECT_NEAR(roads[2].path[1].z, 0.0f, 1e-3f);
+  EXPECT_NEAR(glm::distance(glm::vec2(roads[2].path[0]), glm::vec2(roads[2].path[1])), 90.0f, 0.1f)
+      << "at 6 %";
+  const Bounds bridge = bounds_of(*town.model, "Bridge");
+  EXPECT_NEAR(bridge.max.z, 6.4f, 0.05f) << "parapets";
+  // What hangs over the street below: the deck, not a curtain down to it.
+  for (const Part& part : town.model->parts)
+    for (std::size_t i = 0; part.object == "Bridge" && i < part.mesh.positions.size(); ++i) {
+      const glm::vec3 p = part.mesh.positions[i];
+      if (std::abs(p.y - roads[0].path[1].y) < 5.0f && std::abs(p.x - roads[1].path[0].x) < 9.0f) {
+        EXPECT_GT(p.z, 4.4f);
+      }
+    }
+}
+
+TEST(Osm, BridgesOverNothingAreLow) {
+  const Read town = read(osm(way(100, "11 12 13", {{"highway", "primary"}, {"bridge", "yes"}})));
   ASSERT_TRUE(town.model);
-  ASSERT_EQ(town.model->roads.size(), 2u);
-  EXPECT_EQ(town.model->roads[1].path[0].z, 10.0f);
-  EXPECT_EQ(town.model->roads[1].path[1].z, 0.0f) << "where it meets the road below";
+  EXPECT_NEAR(highest_m(town.model->roads[0]), 1.0f, 1e-3f);
+}
+
+TEST(Osm, TunnelsAreLeftOutAndPassagesStay) {
+  const Read town =
+      read(osm(way(100, "11 12 13", {{"highway", "primary"}, {"tunnel", "yes"}, {"layer", "-1"}}) +
+               way(101, "12 14", {{"highway", "service"}, {"tunnel", "building_passage"}}) +
+               way(102, "1 2 3", {{"railway", "subway"}, {"tunnel", "yes"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  ASSERT_EQ(town.model->roads.size(), 1u);
+  EXPECT_EQ(town.model->roads[0].name, "way 101");
+  EXPECT_EQ(bounds_of(*town.model, "Railway").min.x, Bounds().min.x);
+}
+
+TEST(Osm, AislesAndDrivewaysAreSlowAndNarrow) {
+  const Read town = read(
+      osm(way(100, "11 12 13", {{"highway", "service"}, {"service", "parking_aisle"}, {"maxspeed", "50"}}) +
+          way(101, "12 14", {{"highway", "service"}, {"service", "driveway"}})));
+  ASSERT_TRUE(town.model);
+  for (const Road& road : town.model->roads)
+    EXPECT_LT(road.speed_limit, 25.0f / 3.6f) << "no pavements, no dashes";
+  EXPECT_LT(town.model->roads[1].lane_width_m, 2.0f);
+}
+
+TEST(Osm, WidthsAreThoseOfTheTags) {
+  const Read town = read(osm(way(100, "11 12 13", {{"highway", "residential"}, {"width", "5.0"}})));
+  ASSERT_TRUE(town.model);
+  EXPECT_NEAR(town.model->roads[0].lane_width_m, 2.5f, 1e-4f);
+}
+
+TEST(Osm, ParksWaterAndPathsLieOnTheGround) {
+  const Read town =
+      read(osm(way(100, "1 2 3 4 1", {{"leisure", "park"}}) + way(101, "5 6 7 8 5", {{"natural", "water"}}) +
+               way(102, "11 12 13", {{"highway", "footway"}}) +
+               way(103, "11 14", {{"highway", "footway"}, {"footway", "sidewalk"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_EQ(town.warnings, "");
+  const double park_m2 = double(wide_m * deep_m);
+  EXPECT_NEAR(area_m2(*town.model, "PlantCover"), park_m2, 0.3);
+  EXPECT_NEAR(area_m2(*town.model, "WaterBody"), 0.5 * 0.4 * park_m2, 0.3);
+  EXPECT_GT(bounds_of(*town.model, "WaterBody").min.z, bounds_of(*town.model, "PlantCover").max.z);
+  EXPECT_NEAR(area_m2(*town.model, "Road footway"), 2.0 * 2.0 * 68.4, 4.0)
+      << "without the pavement of a street";
+  EXPECT_LT(bounds_of(*town.model, "Road footway").max.z, 0.03f) << "below what paving lays";
+}
+
+TEST(Osm, TreesTakeFewTriangles) {
+  const Read town = read(osm(R"(<node id="31" lat="52.1600" lon="4.4910"><tag k="natural" v="tree"/>
+<tag k="height" v="12"/></node>)" +
+                             way(100, "11 13", {{"natural", "tree_row"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  std::size_t triangles = 0;
+  for (const Part& part : town.model->parts)
+    if (part.object == "SolitaryVegetationObject") triangles += part.mesh.triangle_count();
+  EXPECT_EQ(triangles, 12u * (1 + 18)) << "one tree, and a row of 137 m";
+  EXPECT_NEAR(bounds_of(*town.model, "SolitaryVegetationObject").max.z, 12.0f, 1e-3f);
+}
+
+TEST(Osm, HedgesAndWallsStandAndRailsLie) {
+  const Read town =
+      read(osm(way(100, "1 2", {{"barrier", "hedge"}, {"height", "2"}}) +
+               way(101, "11 12 13", {{"railway", "tram"}}) + way(102, "3 4", {{"railway", "rail"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_NEAR(bounds_of(*town.model, "CityFurniture").max.z, 2.0f, 1e-3f);
+  EXPECT_NEAR(area_m2(*town.model, "Railway"), 3.4 * double(wide_m), 1.0) << "ballast of the railway alone";
+}
+
+TEST(Osm, ZebrasCrossTheRoadThatTheyLieOn) {
+  const Read town = read(osm(R"(<node id="12" lat="52.1595" lon="4.4905"><tag k="highway" v="crossing"/>
+<tag k="crossing" v="zebra"/></node>)" +
+                             way(100, "11 12 13", {{"highway", "residential"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_NEAR(area_m2(*town.model, "CityFurniture"), 6 * 0.5 * 3.0, 1.6) << "stripes over 6 m";
+}
+
+/// The same content as a file of the other format, by libosmium.
+std::filesystem::path as_pbf(const std::filesystem::path& xml) {
+  osmium::io::Reader reader(osmium::io::File(xml.string()));
+  const std::filesystem::path pbf = xml.parent_path() / "quarter.osm.pbf";
+  osmium::io::Writer writer(osmium::io::File(pbf.string()), reader.header(), osmium::io::overwrite::allow);
+  while (osmium::memory::Buffer buffer = reader.read()) writer(std::move(buffer));
+  writer.close();
+  return pbf;
+}
+
+TEST(Osm, PbfSaysTheSameAsXml) {
+  const TestFolder folder;
+  const auto xml =
+      folder.write("quarter.osm", osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9"}}) +
+                                      way(101, "11 12 13", {{"highway", "residential"}})));
+  Errors warnings;
+  const Result<Model> from_xml = read_osm(xml, warnings), from_pbf = read_osm(as_pbf(xml), warnings);
+  ASSERT_TRUE(from_xml && from_pbf);
+  EXPECT_EQ(to_string(warnings), "");
+  EXPECT_EQ(from_pbf->triangle_count(), from_xml->triangle_count());
+  EXPECT_EQ(from_pbf->origin, from_xml->origin);
+  ASSERT_EQ(from_pbf->roads.size(), 1u);
+  EXPECT_EQ(from_pbf->roads[0].path, from_xml->roads[0].path);
+}
+
+TEST(Osm, DamagedPbfNeverCrashes) {
+  const TestFolder folder;
+  const auto pbf = as_pbf(folder.write("quarter.osm", osm(way(100, "1 2 3 4 1", {{"building", "yes"}}))));
+  const std::string good = *read_file(pbf);
+  Random random(5);
+  for (int round = 0; round < 100; ++round) {
+    std::string bytes = good.substr(0, round % 3 ? good.size() : std::size_t(random.index(int(good.size()))));
+    for (int change = 0; change <= round % 4 && !bytes.empty(); ++change)
+      bytes[std::size_t(random.index(int(bytes.size())))] = char(random.index(256));
+    Errors warnings;
+    (void)read_osm(folder.write("damaged.pbf", bytes), warnings);
+  }
 }
 
 TEST(Osm, ARoadAlongAnotherIsLeftOutByItsName) {
@@ -221,12 +371,14 @@ void expect_refused(const std::string& text, const std::string& expected) {
 
 TEST(Osm, HostileFilesAreRefusedByName) {
   expect_refused("", "no well-formed XML");
-  expect_refused("<osm><node id='1' lat='1' lon='1'></osm>", "no well-formed XML");
+  expect_refused("<osm version='0.6'><node id='1' lat='1' lon='1'></osm>", "no well-formed XML");
+  expect_refused("<osm><node id='1' lat='1' lon='1'/></osm>", "version");
   expect_refused("<!DOCTYPE osm [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><osm>&a;</osm>", "DOCTYPE");
   expect_refused("<gpx/>", "<gpx>; expected <osm>");
-  expect_refused("<osm/>", "has no nodes");
-  expect_refused("<osm><node id='1' lat='91' lon='0'/></osm>", "has no nodes");
-  expect_refused("<osm><node id='1' lat='0' lon='0'/><node id='2' lat='40' lon='5'/></osm>", "cut out");
+  expect_refused("<osm version='0.6'/>", "has no nodes");
+  expect_refused("<osm version='0.6'><node id='1' lat='91' lon='0'/></osm>", "has no nodes");
+  expect_refused("<osm version='0.6'><node id='1' lat='0' lon='0'/><node id='2' lat='40' lon='5'/></osm>",
+                 "cut out");
 }
 
 TEST(Osm, DamagedFilesNeverCrash) {

@@ -13,8 +13,9 @@ namespace parvis::scene {
 namespace {
 
 constexpr float m_s_per_km_h = 1.0f / 3.6f;
-constexpr float layer_m = 5.0f;         // a bridge above what it crosses
-constexpr float ground_step_m = 10.0f;  // between points of a road on uneven ground
+constexpr double narrowest_lane_m = 1.5, widest_lane_m = 6.0;
+constexpr float aisle_speed_km_h = 15.0f;  // in car parks, driveways, alleys
+constexpr float ground_step_m = 10.0f;     // between points of a road on uneven ground
 
 struct Kind {
   const char* name;
@@ -38,8 +39,7 @@ const Kind* kind_of(const OsmWay& way) {
   const auto found =
       std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return name == kind.name; });
   const bool is_street = found != kinds.end() && tag(way.tags, "area") != "yes";
-  return is_street && (tag(way.tags, "tunnel").empty() || tag(way.tags, "tunnel") == "no") ? &*found
-                                                                                           : nullptr;
+  return is_street && !is_underground(way.tags) ? &*found : nullptr;
 }
 
 std::optional<double> number(const std::string& text) {
@@ -52,27 +52,46 @@ float speed_m_s(const OsmWay& way, const Kind& kind) {
   constexpr double km_per_mile = 1.609344;
   const std::string& written = tag(way.tags, "maxspeed");
   const double given = number(written).value_or(0.0) * (written.ends_with("mph") ? km_per_mile : 1.0);
-  return (given >= 1.0 && given <= 300.0 ? float(given) : kind.speed_km_h) * m_s_per_km_h;
+  const float km_h = given >= 1.0 && given <= 300.0 ? float(given) : kind.speed_km_h;
+  const bool is_aisle = !tag(way.tags, "service").empty();
+  return (is_aisle ? std::min(km_h, aisle_speed_km_h) : km_h) * m_s_per_km_h;
 }
 
-int layer_of(const OsmWay& way) {
-  if (tag(way.tags, "bridge").empty() || tag(way.tags, "bridge") == "no") return 0;
-  return std::clamp(int(number(tag(way.tags, "layer")).value_or(1.0)), 0, 5);
+bool is_one_way(const OsmWay& way, const Kind& kind) {
+  const std::string& one_way = tag(way.tags, "oneway");
+  return one_way == "yes" || one_way == "1" || one_way == "true" || one_way == "-1" ||
+         tag(way.tags, "junction") == "roundabout" ||
+         (one_way.empty() && std::string(kind.name) == "motorway");
+}
+
+int lanes_each_way(const OsmWay& way, const Kind& kind) {
+  const double lanes = number(tag(way.tags, "lanes")).value_or(0.0);
+  if (!(lanes >= 1.0 && lanes <= 16.0)) return kind.lanes_each_way;
+  return std::clamp(int(lanes) / (is_one_way(way, kind) ? 1 : 2), 1, 8);
+}
+
+/// Of the width that is given, else what is usual; a single lane for both directions is shared.
+float lane_width_m(const OsmWay& way, const Kind& kind) {
+  const double lanes = lanes_each_way(way, kind) * (is_one_way(way, kind) ? 1.0 : 2.0);
+  const double given_m = number(tag(way.tags, "width")).value_or(0.0) / lanes;
+  if (given_m >= narrowest_lane_m && given_m <= widest_lane_m) return float(given_m);
+  const std::string& service = tag(way.tags, "service");
+  if (service == "driveway" || service == "alley" || tag(way.tags, "lanes") == "1")
+    return is_one_way(way, kind) ? kind.lane_width_m : 0.6f * kind.lane_width_m;
+  return kind.lane_width_m;
 }
 
 class Roads {
  public:
-  Roads(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-        const std::filesystem::path& file, CityAssembly& city)
-      : osm_(osm), place_(place), ground_(ground), file_(file), city_(city) {
-    for (const OsmWay& way : osm.ways) {
-      if (!kind_of(way)) continue;
-      for (const OsmId node : way.nodes) {
-        const auto [known, is_new] = layer_at_.try_emplace(node, layer_of(way));
-        if (!is_new) known->second = std::min(known->second, layer_of(way));
-      }
-    }
-  }
+  Roads(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief, const GroundOnMap& ground,
+        const glm::dvec3& origin, const std::filesystem::path& file, CityAssembly& city)
+      : osm_(osm),
+        place_(place),
+        relief_(relief),
+        ground_(ground),
+        origin_(origin),
+        file_(file),
+        city_(city) {}
 
   std::vector<Road> read() {
     std::vector<Road> roads;
@@ -86,25 +105,17 @@ class Roads {
   Road read(const OsmWay& way, const Kind& kind) {
     Road road;
     road.name = fmt::format("way {}", way.id);
-    road.where = {file_.string(), way.line, 0};
-    for (const OsmId node : way.nodes) {
-      if (const std::optional<glm::dvec2> point = place_(node))
-        road.path.emplace_back(glm::vec2(*point), layer_m * float(layer_at_[node]));
-      else
+    road.where = {file_.string(), 0, 0};
+    for (const OsmId node : way.nodes)
+      if (!place_(node))
         city_.warn(fmt::format("{}: its node {} is not in the file; it is drawn without", road.name, node));
-    }
+    for (const RaisedPoint& point : relief_.profile(way))
+      road.path.emplace_back(glm::vec2(point.place - glm::dvec2(origin_)), float(point.above_m));
     if (ground_) road.path = laid_on_ground(road.path);
-    const std::string& one_way = tag(way.tags, "oneway");
-    if (one_way == "-1") std::reverse(road.path.begin(), road.path.end());
-    road.is_one_way = one_way == "yes" || one_way == "1" || one_way == "true" || one_way == "-1" ||
-                      tag(way.tags, "junction") == "roundabout" ||
-                      (one_way.empty() && std::string(kind.name) == "motorway");
-    const double lanes = number(tag(way.tags, "lanes")).value_or(0.0);
-    if (lanes >= 1.0 && lanes <= 16.0)
-      road.lanes_each_way = std::clamp(int(lanes) / (road.is_one_way ? 1 : 2), 1, 8);
-    else
-      road.lanes_each_way = kind.lanes_each_way;
-    road.lane_width_m = kind.lane_width_m;
+    if (tag(way.tags, "oneway") == "-1") std::reverse(road.path.begin(), road.path.end());
+    road.is_one_way = is_one_way(way, kind);
+    road.lanes_each_way = lanes_each_way(way, kind);
+    road.lane_width_m = lane_width_m(way, kind);
     road.speed_limit = speed_m_s(way, kind);
     return road;
   }
@@ -118,38 +129,52 @@ class Roads {
       for (int step = 0; step < (i + 1 < path.size() ? steps : 1); ++step)
         laid.push_back(glm::mix(path[i], next, float(step) / float(steps)));
     }
-    for (glm::vec3& point : laid) point.z += float(ground_(glm::dvec2(point)));
+    for (glm::vec3& point : laid) point.z += float(ground_(glm::dvec2(point) + glm::dvec2(origin_)));
     return laid;
   }
 
   const OsmFile& osm_;
   const OsmPlaces& place_;
+  const OsmRelief& relief_;
   const GroundOnMap& ground_;
+  const glm::dvec3& origin_;
   const std::filesystem::path& file_;
   CityAssembly& city_;
-  std::unordered_map<OsmId, int> layer_at_;  ///< the lowest of the roads that meet there
 };
 
 /// Leaves out, and reports, the roads of which the road builder can make no lanes.
 void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
   for (;;) {
+    for (std::size_t i = 0; i < roads.size(); ++i)
+      roads[i].where.line = int(i) + 1;  // by which errors name them
     const Result<RoadGraph> graph = build_road_graph(roads);
-    if (graph) return;
-    std::set<int> lines;
-    for (const Error& problem : graph.errors()) {
-      lines.insert(problem.where.line);
-      city.warn(fmt::format("line {}: {}; it is left out", problem.where.line, problem.message));
-    }
-    if (std::erase_if(roads, [&](const Road& road) { return lines.count(road.where.line) != 0; }) == 0)
-      return;
+    std::set<int> numbers;
+    if (!graph)
+      for (const Error& problem : graph.errors()) {
+        numbers.insert(problem.where.line);
+        const std::size_t index = std::size_t(std::max(problem.where.line, 1)) - 1;
+        city.warn(fmt::format("{}: {}; it is left out", index < roads.size() ? roads[index].name : "a road",
+                              problem.message));
+      }
+    if (std::erase_if(roads, [&](const Road& road) { return numbers.count(road.where.line) != 0; }) == 0)
+      break;
   }
+  for (Road& road : roads) road.where.line = 0;
 }
 
 }  // namespace
 
-std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+double half_carriageway_m(const OsmWay& way) {
+  const Kind* kind = kind_of(way);
+  if (!kind) return 0.0;
+  return 0.5 * double(lane_width_m(way, *kind)) * lanes_each_way(way, *kind) *
+         (is_one_way(way, *kind) ? 1.0 : 2.0);
+}
+
+std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,
+                            const GroundOnMap& ground, const glm::dvec3& origin,
                             const std::filesystem::path& file, CityAssembly& city) {
-  std::vector<Road> roads = Roads(osm, place, ground, file, city).read();
+  std::vector<Road> roads = Roads(osm, place, relief, ground, origin, file, city).read();
   leave_out_unbuildable(roads, city);
   return roads;
 }

@@ -99,9 +99,10 @@ std::string reading_key(const Node& node) {
 /// where there is none.
 GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& places_beyond) {
   const std::string name = node.text("ground");
-  if (node.file("file").extension() != ".osm") {
+  const std::filesystem::path extension = node.file("file").extension();
+  if (extension != ".osm" && extension != ".pbf") {
     builder.fail(error_at(node.where_of("ground"),
-                          "ground= is for OpenStreetMap (.osm); this file has heights of its own"));
+                          "ground= is for OpenStreetMap (.osm, .pbf); this file has heights of its own"));
     return {};
   }
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);

@@ -22,4 +22,8 @@ Material surface_material(const std::string& name);
 /// winds it.
 bool is_ground(const std::string& name);
 
+/// True for names that surfaces of city models have ("WallSurface", "Road footpath"): a model with such parts
+/// says itself what is ground.
+bool is_city_surface(const std::string& name);
+
 }  // namespace parvis::scene

@@ -1,10 +1,12 @@
 #include "formats/terrain/ground_heights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/bounds.h"
+#include "formats/terrain/city_surfaces.h"
 #include "scene/data/path.h"
 
 namespace parvis::scene {
@@ -13,16 +15,66 @@ namespace {
 
 constexpr float finest_cell_m = 0.5f;
 constexpr float max_cells = 16e6f;
-constexpr float above_or_below_m = 2.5f;  // of a lane: beyond are roofs, bridges, cellars
+constexpr float above_or_below_m = 2.5f;   // of a lane: beyond are roofs, bridges, cellars
+constexpr float largest_thing_m2 = 40.0f;  // that is no ground: cars, benches, crowns, kiosks
+constexpr float steepest = 0.25f;          // of ground: what rises faster is the edge of a thing
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// Whether light stops at the material: leaves and panes are no ground.
+bool is_solid(const Material& material) {
+  return material.alpha_mode == Alpha::opaque && material.translucency == 0.0f && !material.refracts();
+}
+
+constexpr std::array<glm::ivec2, 4> neighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+/// The cells around `start` that it reaches without a step; they are marked as seen.
+std::vector<glm::ivec2> region_around(const HeightRaster& heights, glm::ivec2 start, Mask& is_seen) {
+  const float step_m = steepest * heights.cell_m;
+  std::vector<glm::ivec2> region{start};
+  is_seen.at(start.x, start.y) = 1;
+  for (std::size_t i = 0; i < region.size(); ++i)
+    for (const glm::ivec2 aside : neighbours) {
+      const glm::ivec2 cell = region[i] + aside;
+      if (!heights.contains(cell.x, cell.y) || is_seen.at(cell.x, cell.y)) continue;
+      if (!(std::abs(heights.at(cell.x, cell.y) - heights.at(region[i].x, region[i].y)) <= step_m)) continue;
+      is_seen.at(cell.x, cell.y) = 1;
+      region.push_back(cell);
+    }
+  return region;
+}
+
+/// Gives the cells that things were taken from the mean of their neighbours, from their edges inward.
+void fill_taken(HeightRaster& heights, std::vector<glm::ivec2> taken) {
+  while (!taken.empty()) {
+    std::vector<std::pair<glm::ivec2, float>> known;
+    std::vector<glm::ivec2> left;
+    for (const glm::ivec2 cell : taken) {
+      float sum = 0.0f;
+      int count = 0;
+      for (const glm::ivec2 aside : neighbours)
+        if (const glm::ivec2 next = cell + aside;
+            heights.contains(next.x, next.y) && !std::isnan(heights.at(next.x, next.y)))
+          sum += heights.at(next.x, next.y), ++count;
+      if (count > 0)
+        known.emplace_back(cell, sum / float(count));
+      else
+        left.push_back(cell);
+    }
+    if (known.empty()) return;
+    for (const auto& [cell, height] : known) heights.at(cell.x, cell.y) = height;
+    taken = std::move(left);
+  }
+}
 
 }  // namespace
 
 GroundHeights::GroundHeights(const Scene& scene, float reach_m) {
   note_lanes(scene.roads, reach_m);
   heights_m_ = GroundRaster<float>(lane_heights_m_, unknown);
+  HeightRaster unnamed_m(lane_heights_m_, unknown);
   for (const Object& object : scene.objects)
-    if (!object.is_dynamic) note_object(object);
+    if (!object.is_dynamic && object.is_visible) note_object(object, unnamed_m);
+  add_without_things(std::move(unnamed_m));
 }
 
 void GroundHeights::note_lanes(const RoadGraph& roads, float reach_m) {
@@ -51,24 +103,53 @@ void GroundHeights::note_lanes(const RoadGraph& roads, float reach_m) {
   }
 }
 
-void GroundHeights::note_object(const Object& object) {
-  const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
-  for (const Part& part : object.model->parts) {
+void GroundHeights::note_object(const Object& object, HeightRaster& unnamed_m) {
+  const Model& model = *object.model;
+  const bool names_ground =
+      std::ranges::any_of(model.parts, [](const Part& part) { return is_city_surface(part.object); });
+  const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(model) : object.pose;
+  for (const Part& part : model.parts) {
+    const bool may_be_ground = names_ground ? is_ground(part.object) || part.object.starts_with("Bridge")
+                                            : is_solid(model.materials[std::size_t(part.material)]);
+    if (!may_be_ground) continue;
     const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
     const auto corner = [&](std::size_t i) {
       return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
     };
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
-      note_triangle(corner(i), corner(i + 1), corner(i + 2));
+      note_triangle(names_ground ? heights_m_ : unnamed_m, corner(i), corner(i + 1), corner(i + 2));
   }
 }
 
-void GroundHeights::note_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-  each_height(heights_m_, a, b, c, [this](glm::ivec2 cell, float height_m) {
+void GroundHeights::note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  each_height(heights_m, a, b, c, [&](glm::ivec2 cell, float height_m) {
     const float lane_m = lane_heights_m_.at(cell.x, cell.y);
-    float& known_m = heights_m_.at(cell.x, cell.y);
+    float& known_m = heights_m.at(cell.x, cell.y);
     if (std::abs(height_m - lane_m) < above_or_below_m && !(known_m >= height_m)) known_m = height_m;
   });
+}
+
+/// Adds the heights of models that do not name their ground, without small regions that steps bound. Below
+/// these the ground is the named one, else what lies around them.
+void GroundHeights::add_without_things(HeightRaster unnamed_m) {
+  if (std::ranges::all_of(unnamed_m.cells, [](float height) { return std::isnan(height); })) return;
+  const HeightRaster named_m = heights_m_;
+  for (std::size_t i = 0; i < named_m.cells.size(); ++i)
+    if (!(named_m.cells[i] >= unnamed_m.cells[i]) && !std::isnan(unnamed_m.cells[i]))
+      heights_m_.cells[i] = unnamed_m.cells[i];
+  Mask is_seen(heights_m_, 0);
+  std::vector<glm::ivec2> taken;
+  const float cell_m2 = heights_m_.cell_m * heights_m_.cell_m;
+  for (int y = 0; y < heights_m_.height; ++y)
+    for (int x = 0; x < heights_m_.width; ++x) {
+      if (is_seen.at(x, y) || std::isnan(heights_m_.at(x, y))) continue;
+      const std::vector<glm::ivec2> region = region_around(heights_m_, {x, y}, is_seen);
+      if (float(region.size()) * cell_m2 < largest_thing_m2)
+        taken.insert(taken.end(), region.begin(), region.end());
+    }
+  for (const glm::ivec2 cell : taken) heights_m_.at(cell.x, cell.y) = named_m.at(cell.x, cell.y);
+  std::erase_if(taken, [&](glm::ivec2 cell) { return !std::isnan(heights_m_.at(cell.x, cell.y)); });
+  fill_taken(heights_m_, std::move(taken));
 }
 
 float GroundHeights::at(glm::vec2 point, float fallback) const {

@@ -6,10 +6,14 @@
 
 namespace parvis::scene {
 
+/// The ground, without what stands on it. Models with names of city surfaces say themselves what is ground
+/// (and bridges are); of other models it is what lies level and is larger than furniture, cars and crowns:
+/// heights are grown to regions that no step bounds, and small regions on top of others are things. Leaves,
+/// hidden objects and dynamic ones are no ground.
 class GroundHeights {
  public:
-  /// The ground within `reach_m`, in plan, of the scene's lanes: the highest static surface, at most 2.5 m
-  /// above or below the nearest lane, that is no steeper than 45 degrees.
+  /// The ground within `reach_m`, in plan, of the scene's lanes, at most 2.5 m above or below the nearest
+  /// lane and no steeper than 45 degrees; the highest where several lie above each other.
   GroundHeights(const Scene& scene, float reach_m);
 
   /// Height at a point; `fallback` where no ground is known.
@@ -17,8 +21,9 @@ class GroundHeights {
 
  private:
   void note_lanes(const RoadGraph& roads, float reach_m);
-  void note_object(const Object& object);
-  void note_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void note_object(const Object& object, HeightRaster& unnamed_m);
+  void note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void add_without_things(HeightRaster unnamed_m);
 
   HeightRaster lane_heights_m_;  ///< of the nearest lane; NaN beyond reach
   HeightRaster heights_m_;

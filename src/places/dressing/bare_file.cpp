@@ -123,6 +123,8 @@ std::string dressing_of(const Model& model) {
   if (is_bare(model, "LandUse"))
     add(is_dense(model, "LandUse") ? "ground(target=\"LandUse\", surface=\"paving\")"
                                    : "ground(target=\"LandUse\", surface=\"lawn\")");
+  if (is_bare(model, "TransportSquare")) add("ground(target=\"TransportSquare\", surface=\"paving\")");
+  if (has_surface(model, "SolitaryVegetationObject")) add("greenery(target=\"SolitaryVegetationObject\")");
   if (is_bare(model, "Road")) nodes += dressing_of_roads(model);
   if (is_bare(model, "PlantCover"))
     add(rises_to_treetops(model) ? "greenery(target=\"PlantCover\")"

@@ -12,6 +12,8 @@ namespace {
 
 constexpr float below_own_m = 0.25f;    // where the place's own ground begins, the terrain goes on beneath it
 constexpr float overlap_cells = 2.5f;   // of the two grounds
+constexpr float even_m = 0.01f;         // heights of cells that are drawn as one
+constexpr int max_block = 16;           // cells on a side of such a block
 constexpr float paved_m = 14.0f;        // from what is built
 constexpr float paved_wander_m = 6.0f;  // of the edge of the paved ground
 constexpr float far_sheets = 3.0f;      // size of pictures far away: fewer repeats
@@ -70,6 +72,19 @@ void add_part(scene::Model& model, const std::string& object, const std::string&
   model.parts.push_back(std::move(part));
 }
 
+/// Without points between others of the same height on a straight side: every 16th stays.
+std::vector<glm::vec3> without_even_points(const std::vector<glm::vec3>& ring) {
+  std::vector<glm::vec3> kept;
+  int left_out = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const glm::vec3 &before = ring[(i + ring.size() - 1) % ring.size()], &after = ring[(i + 1) % ring.size()];
+    const bool is_even = glm::distance(0.5f * (before + after), ring[i]) < even_m && left_out < max_block - 1;
+    left_out = is_even ? left_out + 1 : 0;
+    if (!is_even) kept.push_back(ring[i]);
+  }
+  return kept;
+}
+
 }  // namespace
 
 scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& look) {
@@ -84,15 +99,38 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
     return Corner{glm::vec3(p, heights.at(x, y) - lowered_m), to_built.at(x, y) - paved_m + wander};
   };
   Layer paved{{}, city::cover_sheet_m(look.surface)}, beyond{{}, city::cover_sheet_m(look.beyond)};
-  for (int y = 0; y + 1 < heights.height; ++y)
-    for (int x = 0; x + 1 < heights.width; ++x) {
-      if (to_foreign.at(x, y) > overlap_cells * heights.cell_m) continue;
-      const Corner a = corner(x, y), b = corner(x + 1, y), c = corner(x + 1, y + 1), d = corner(x, y + 1);
-      for (const std::array<Corner, 3>& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
-        add_clipped(paved, triangle, -1.0f);
-        add_clipped(beyond, triangle, 1.0f);
+  const auto is_covered = [&](int x, int y) { return to_foreign.at(x, y) > overlap_cells * heights.cell_m; };
+  /// Corners of a block of cells: an even one, of one surface, takes two triangles.
+  const auto is_even = [&](int x, int y, int size) {
+    const Corner first = corner(x, y);
+    for (int dy = 0; dy <= size; ++dy)
+      for (int dx = 0; dx <= size; ++dx) {
+        const Corner each = corner(x + dx, y + dy);
+        if (is_covered(x + dx, y + dy) || std::abs(each.position.z - first.position.z) > even_m ||
+            (each.edge_m < 0.0f) != (first.edge_m < 0.0f))
+          return false;
       }
+    return true;
+  };
+  const auto add_block = [&](const auto& self, int x, int y, int size) -> void {
+    if (x >= heights.width - 1 || y >= heights.height - 1) return;
+    const bool fits = x + size < heights.width && y + size < heights.height;
+    if (size > 1 && !(fits && is_even(x, y, size))) {
+      for (const glm::ivec2 quarter :
+           {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)})
+        self(self, x + quarter.x * (size / 2), y + quarter.y * (size / 2), size / 2);
+      return;
     }
+    if (is_covered(x, y)) return;
+    const Corner a = corner(x, y), b = corner(x + size, y), c = corner(x + size, y + size),
+                 d = corner(x, y + size);
+    for (const std::array<Corner, 3>& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
+      add_clipped(paved, triangle, -1.0f);
+      add_clipped(beyond, triangle, 1.0f);
+    }
+  };
+  for (int y = 0; y + 1 < heights.height; y += max_block)
+    for (int x = 0; x + 1 < heights.width; x += max_block) add_block(add_block, x, y, max_block);
   scene::Model model;
   model.name = "terrain";
   for (Layer* layer : {&paved, &beyond}) fill_normals_from(place, layer->mesh);
@@ -113,6 +151,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   for (int y = 0; y < last.y; ++y) add(last.x, y);
   for (int x = last.x; x > 0; --x) add(x, last.y);
   for (int y = last.y; y > 0; --y) add(0, y);
+  edge = without_even_points(edge);
 
   const glm::vec2 middle = 0.5f * (heights.centre_of({0, 0}) + heights.centre_of(last));
   const float radius_m = glm::distance(middle, heights.centre_of(last));

@@ -161,14 +161,18 @@ NodeSchema paving_schema() {
 
 void build_paving(const Node&, SceneBuilder& builder) { builder.scene.data<Paving>().is_laid = true; }
 
-/// Makes lanes of the roads, and carriageways of the lanes where the script asks for them.
+/// Makes lanes of the roads, on the ground, and carriageways of the lanes where the script asks for them.
 void finish_roads(SceneBuilder& builder) {
   std::vector<Road> roads;
   for (const PlannedRoad& planned : builder.scene.items<PlannedRoad>()) roads.push_back(planned.road);
   Result<RoadGraph> graph = build_road_graph(roads);
   if (!graph) return builder.fail(graph.errors());
   builder.scene.roads = *std::move(graph);
-  if (builder.errors().empty() && builder.scene.data<Paving>().is_laid) pave(builder.scene);
+  if (!builder.errors().empty()) return;
+  if (builder.scene.data<Paving>().is_laid)
+    pave(builder.scene);
+  else
+    lay_lanes(builder.scene);
 }
 
 }  // namespace

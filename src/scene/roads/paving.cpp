@@ -23,6 +23,9 @@ constexpr float pavement_lift_m = 0.03f, kerb_lift_m = 0.045f, asphalt_lift_m = 
 constexpr float dash_m = 3.0f, dash_gap_m = 3.0f;
 constexpr float dash_half_width_m = 0.06f, line_half_width_m = 0.2f;
 constexpr int picture_side = 512;
+constexpr float lies_m = 0.03f;    // off the ground, within which a lane lies on it
+constexpr float chord_m = 0.012f;  // of error, for which points of a ribbon are left out
+constexpr float aisle_m_s = 25.0f / 3.6f, fast_m_s = 80.0f / 3.6f;
 
 /// Parts, and materials, of the model.
 enum Layer : int { pavement, kerb, asphalt, paint };
@@ -90,26 +93,72 @@ Model empty_paving() {
   return model;
 }
 
+/// Points of a ribbon across its line, from left to right.
+using Row = std::vector<glm::vec3>;
+
+/// How far the row between two others lies off the straight lines between their points.
+float error_m(const Row& row, const Row& before, const Row& after) {
+  float largest = 0.0f;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const glm::vec3 chord = after[k] - before[k];
+    const float share = glm::clamp(glm::dot(row[k] - before[k], chord) / glm::dot(chord, chord), 0.0f, 1.0f);
+    largest = std::max(largest, glm::distance(row[k], before[k] + share * chord));
+  }
+  return largest;
+}
+
+/// Leaves out rows that lie on straight lines between others, greedily.
+std::vector<Row> without_needless_rows(const std::vector<Row>& rows) {
+  std::vector<Row> kept{rows.front()};
+  for (std::size_t last = 0, next = 2; last + 1 < rows.size(); ++next) {
+    bool is_straight = next < rows.size();
+    for (std::size_t i = last + 1; is_straight && i < next; ++i)
+      is_straight = error_m(rows[i], rows[last], rows[next]) < chord_m;
+    if (is_straight) continue;
+    last = next - 1;
+    kept.push_back(rows[last]);
+  }
+  return kept;
+}
+
+/// Leaves out the inner points of all rows where the ground is level across.
+void leave_out_inner_points(std::vector<Row>& rows) {
+  const bool is_level = std::ranges::all_of(rows, [](const Row& row) {
+    for (std::size_t k = 1; k + 1 < row.size(); ++k) {
+      const float share = float(k) / float(row.size() - 1);
+      if (std::abs(row[k].z - glm::mix(row.front().z, row.back().z, share)) > chord_m) return false;
+    }
+    return true;
+  });
+  if (is_level)
+    for (Row& row : rows) row = {row.front(), row.back()};
+}
+
 /// A ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift` over the
-/// ground.
+/// ground, with as few triangles as the ground allows.
 void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const GroundHeights& ground,
                 float lift) {
-  const std::uint32_t first = std::uint32_t(mesh.positions.size());
   const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / step_m)));
+  std::vector<Row> rows;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
     const glm::vec3 right = right_of(after - before);
+    Row& row = rows.emplace_back();
     for (std::uint32_t k = 0; k <= strips; ++k) {
       glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
       p.z = ground.at(glm::vec2(p), line[i].z) + lift;
-      mesh.positions.push_back(p);
-      mesh.uvs.push_back(glm::vec2(p) / tile_m);
+      row.push_back(p);
     }
   }
-  const std::uint32_t row = strips + 1;
-  for (std::uint32_t i = 0; i + 1 < line.size(); ++i)
-    for (std::uint32_t k = 0; k < strips; ++k) {
-      const std::uint32_t near_left = first + i * row + k, far_left = near_left + row;
+  leave_out_inner_points(rows);
+  rows = without_needless_rows(rows);
+  const std::uint32_t first = std::uint32_t(mesh.positions.size()),
+                      width = std::uint32_t(rows.front().size());
+  for (const Row& row : rows)
+    for (const glm::vec3& p : row) mesh.positions.push_back(p), mesh.uvs.push_back(glm::vec2(p) / tile_m);
+  for (std::uint32_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::uint32_t k = 0; k + 1 < width; ++k) {
+      const std::uint32_t near_left = first + i * width + k, far_left = near_left + width;
       mesh.indices.insert(mesh.indices.end(),
                           {near_left, near_left + 1, far_left, near_left + 1, far_left + 1, far_left});
     }
@@ -166,30 +215,49 @@ bool has_opposite(const RoadGraph& roads, const Lane& lane) {
   });
 }
 
+/// Lanes that lie on the ground as they are stay as they are: their length is what traffic counts by.
+void lay(RoadGraph& roads, const GroundHeights& ground) {
+  for (Lane& lane : roads.lanes) {
+    Path on_ground = laid(lane.points, ground);
+    const MeasuredPath own(lane.points);
+    bool lies = true;
+    for (std::size_t i = 0; lies && i < on_ground.size(); ++i) {
+      const float at_m = own.length() * float(i) / float(on_ground.size() - 1);
+      lies = std::abs(own.at(at_m).z - on_ground[i].z) < lies_m;
+    }
+    if (!lies) lane.points = std::move(on_ground);
+  }
+}
+
 }  // namespace
+
+void lay_lanes(Scene& scene) {
+  if (scene.roads.empty()) return;
+  lay(scene.roads, GroundHeights(scene, reach_m));
+}
 
 void pave(Scene& scene) {
   if (scene.roads.empty()) return;
   const GroundHeights ground(scene, reach_m);
+  lay(scene.roads, ground);
   auto model = std::make_shared<Model>(empty_paving());
-  std::vector<Path> lines;
   for (const Lane& lane : scene.roads.lanes) {
-    lines.push_back(laid(lane.points, ground));
+    const Path line = laid(lane.points, ground);
     const float half_m = 0.5f * lane.width_m + margin_m;
-    const auto lay = [&](Layer layer, float beside_m, float lift_m) {
-      add_ribbon(model->parts[layer].mesh, lines.back(), -half_m - beside_m, half_m + beside_m, ground,
-                 lift_m);
+    const auto add = [&](Layer layer, float beside_m, float lift_m) {
+      add_ribbon(model->parts[layer].mesh, line, -half_m - beside_m, half_m + beside_m, ground, lift_m);
     };
-    lay(pavement, pavement_m, pavement_lift_m);
-    lay(kerb, kerb_m, kerb_lift_m);
-    lay(asphalt, 0.0f, asphalt_lift_m);
-    if (lane.crossing < 0)
-      add_markings(model->parts[paint].mesh, lane, lines.back(), has_opposite(scene.roads, lane), ground);
+    const bool is_street = lane.speed_limit >= aisle_m_s;
+    if (is_street && lane.speed_limit <= fast_m_s) {
+      add(pavement, pavement_m, pavement_lift_m);
+      add(kerb, kerb_m, kerb_lift_m);
+    }
+    add(asphalt, 0.0f, asphalt_lift_m);
+    if (is_street && lane.crossing < 0)
+      add_markings(model->parts[paint].mesh, lane, line, has_opposite(scene.roads, lane), ground);
   }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (glm::vec3& p : lines[i]) p.z += asphalt_lift_m;
-    scene.roads.lanes[i].points = std::move(lines[i]);
-  }
+  for (Lane& lane : scene.roads.lanes)
+    for (glm::vec3& p : lane.points) p.z += asphalt_lift_m;
   std::erase_if(model->parts, [](const Part& part) { return part.mesh.indices.empty(); });
   for (Part& part : model->parts) fill_normals(part.mesh);
 

@@ -5,10 +5,16 @@
 
 namespace parvis::scene {
 
-/// Lays all lanes of the scene on the ground below them (whatever static, nearly level surface is highest
-/// within 2.5 m of a lane's own height) and appends an object "paving" that shows them: asphalt as wide as
-/// the lanes, dashes between opposite lanes, lines where vehicles wait before crossings. Where there is no
-/// ground, lanes keep their height. A scene without roads stays as it is.
+/// Lays the lanes of the scene on the ground below them (GroundHeights: within 2.5 m of a lane's own height);
+/// lanes that lie on it as they are, within 3 cm, stay as they are. Where there is no ground, lanes keep
+/// their height.
+void lay_lanes(Scene& scene);
+
+/// The same, and appends an object "paving" that shows the lanes: asphalt as wide as they are, dashes between
+/// opposite lanes, lines where vehicles wait before crossings, pavements with kerbs. Roads for less than 25
+/// km/h (driveways, aisles of car parks, shared streets) have neither pavements nor dashes, roads for more
+/// than 80 km/h no pavements. Lanes are raised by the height of the asphalt; else they are those of
+/// `lay_lanes`, so traffic does the same with paving and without. A scene without roads stays as it is.
 void pave(Scene& scene);
 
 }  // namespace parvis::scene

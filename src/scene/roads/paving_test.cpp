@@ -56,6 +56,85 @@ TEST(Paving, WithoutGroundLanesKeepTheirHeight) {
   EXPECT_NEAR(scene.roads.lanes[0].points[0].z, z + 0.06f, 1e-4f);
 }
 
+std::size_t triangles_of_paving(const Scene& scene) { return scene.objects.back().model->triangle_count(); }
+
+/// The largest height of the paving over the slope of `hillside`, less that of its paint.
+float highest_m(const Scene& scene) {
+  float highest = 0.0f;
+  for (const Part& part : scene.objects.back().model->parts)
+    for (const glm::vec3& p : part.mesh.positions) highest = std::max(highest, p.z - 0.1f * p.x - 0.07f);
+  return highest;
+}
+
+void add_block(Scene& scene, glm::vec3 low, glm::vec3 high, const Material& material) {
+  auto model = std::make_shared<Model>();
+  model->materials.push_back(material);
+  Part part;
+  part.mesh.positions = {
+      {low.x, low.y, high.z}, {high.x, low.y, high.z}, {high.x, high.y, high.z}, {low.x, high.y, high.z}};
+  part.mesh.indices = {0, 1, 2, 0, 2, 3};
+  model->parts.push_back(part);
+  scene.objects.emplace_back().model = model;
+}
+
+TEST(Paving, FollowsTheGroundAndNothingElse) {
+  Scene scene = hillside();
+  Material leaves;
+  leaves.alpha_mode = Alpha::cutout;
+  add_block(scene, {20, -6, 2}, {32, 6, 4.2f}, leaves);   // a crown over the street
+  add_block(scene, {60, 1, 6}, {64.5f, 2.8f, 7.5f}, {});  // a parked van
+  add_block(scene, {70, -4, 7}, {72, -3.4f, 7.6f}, {});   // a bench on the pavement
+  add_block(scene, {80, -30, 8}, {100, 30, 9.8f}, {});    // of another scenario
+  scene.objects.back().is_visible = false;
+  pave(scene);
+  EXPECT_LT(highest_m(scene), 0.05f);
+}
+
+TEST(Paving, ASlabAsWideAsTheStreetIsGround) {
+  Scene scene = hillside();
+  add_block(scene, {-20, -30, 0}, {40, 30, 4.2f}, {});
+  pave(scene);
+  EXPECT_GT(highest_m(scene), 2.0f) << "control: wide, solid and visible";
+}
+
+TEST(Paving, DoesNotChangeTheLengthsThatTrafficCountsBy) {
+  Scene bare = hillside(), paved = hillside();
+  lay_lanes(bare);
+  pave(paved);
+  ASSERT_EQ(bare.roads.lanes.size(), paved.roads.lanes.size());
+  for (std::size_t i = 0; i < bare.roads.lanes.size(); ++i) {
+    ASSERT_EQ(bare.roads.lanes[i].points.size(), paved.roads.lanes[i].points.size());
+    for (std::size_t k = 0; k < bare.roads.lanes[i].points.size(); ++k)
+      EXPECT_LT(glm::distance(bare.roads.lanes[i].points[k] + glm::vec3(0, 0, 0.06f),
+                              paved.roads.lanes[i].points[k]),
+                1e-4f);
+  }
+}
+
+TEST(Paving, LanesThatLieOnTheGroundStayAsTheyAre) {
+  Scene scene = hillside();
+  for (Lane& lane : scene.roads.lanes)
+    for (glm::vec3& p : lane.points) p.z = 0.1f * p.x;
+  const RoadGraph before = scene.roads;
+  lay_lanes(scene);
+  for (std::size_t i = 0; i < before.lanes.size(); ++i)
+    EXPECT_EQ(scene.roads.lanes[i].points, before.lanes[i].points);
+}
+
+TEST(Paving, DrivewaysHaveNeitherPavementsNorDashes) {
+  Scene scene = hillside();
+  for (Lane& lane : scene.roads.lanes) lane.speed_limit = 15.0f / 3.6f;
+  pave(scene);
+  ASSERT_EQ(scene.objects.back().model->parts.size(), 1u);
+  EXPECT_EQ(scene.objects.back().model->parts[0].object, "carriageway");
+}
+
+TEST(Paving, TakesFewTrianglesWhereTheGroundIsEven) {
+  Scene scene = hillside();
+  pave(scene);
+  EXPECT_LT(triangles_of_paving(scene), 3500u) << "four lanes of 300 m and their crossing";
+}
+
 TEST(Paving, NeedsRoads) {
   Scene scene = hillside();
   scene.roads = {};

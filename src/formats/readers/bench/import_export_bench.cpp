@@ -2,6 +2,7 @@
 
 #include "bench/benches.h"
 #include "formats/readers/bench/photo_bench.h"
+#include "formats/readers/bench/places_bench.h"
 #include "formats/readers/bench/reading_bench.h"
 #include "formats/readers/bench/safety_bench.h"
 #include "formats/readers/bench/scenario_bench.h"
@@ -14,7 +15,8 @@ Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  for (const auto& measure : {measure_readers, measure_scenarios, measure_photographs, measure_safety})
+  for (const auto& measure :
+       {measure_readers, measure_places, measure_scenarios, measure_photographs, measure_safety})
     if (Status status = measure(setup, report); !status) return status.errors();
   return Done{};
 }

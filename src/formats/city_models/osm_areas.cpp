@@ -1,0 +1,127 @@
+#include "formats/city_models/osm_areas.h"
+
+#include <algorithm>
+
+namespace parvis::scene {
+namespace {
+
+using glm::dvec2;
+
+/// Appends the way that goes on where the ring ends; false where none does.
+bool extend(std::vector<OsmId>& ring, std::vector<std::vector<OsmId>>& open) {
+  for (auto next = open.begin(); next != open.end(); ++next) {
+    if (next->back() == ring.back()) std::reverse(next->begin(), next->end());
+    if (next->front() != ring.back()) continue;
+    ring.insert(ring.end(), next->begin() + 1, next->end());
+    open.erase(next);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double area_m2(const OsmRing& ring) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice / 2.0;
+}
+
+bool holds(const OsmRing& ring, dvec2 point) {
+  bool is_inside = false;
+  for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
+    if ((ring[i].y > point.y) != (ring[k].y > point.y) &&
+        point.x < ring[i].x + (ring[k].x - ring[i].x) * (point.y - ring[i].y) / (ring[k].y - ring[i].y))
+      is_inside = !is_inside;
+  return is_inside;
+}
+
+dvec2 middle(const OsmRing& ring) {
+  dvec2 sum(0.0);
+  for (const dvec2& point : ring) sum += point - ring[0];
+  return ring[0] + sum / double(ring.size());
+}
+
+std::vector<OsmArea> OsmAreas::find(const std::function<bool(const OsmTags&)>& is_wanted,
+                                    const std::string& what) const {
+  std::vector<OsmArea> found;
+  for (const OsmWay& way : osm_.ways)
+    if (is_wanted(way.tags)) {
+      if (way.is_closed())
+        add({{way.nodes}}, {}, way.tags, fmt::format("way {}", way.id), found);
+      else if (!what.empty())
+        city_.warn(fmt::format("way {}: {} whose outline is not closed is left out", way.id, what));
+    }
+  for (const OsmRelation& relation : osm_.relations)
+    if (is_wanted(relation.tags) && tag(relation.tags, "type") == "multipolygon") add(relation, found);
+  return found;
+}
+
+void OsmAreas::add(const OsmRelation& relation, std::vector<OsmArea>& found) const {
+  const std::string name = fmt::format("relation {}", relation.id);
+  add(rings_of(relation, "outer", name), rings_of(relation, "inner", name), relation.tags, name, found);
+}
+
+/// Ways that follow each other, joined to rings.
+std::vector<OsmAreas::NodeRing> OsmAreas::rings_of(const OsmRelation& relation, const std::string& role,
+                                                   const std::string& name) const {
+  std::vector<NodeRing> open, closed;
+  for (const OsmRelation::Member& member : relation.members) {
+    if (member.type != "way" || (member.role.empty() ? "outer" : member.role) != role) continue;
+    const auto way = osm_.way_of.find(member.id);
+    if (way == osm_.way_of.end())
+      city_.warn(fmt::format("{}: its way {} is not in the file", name, member.id));
+    else if (!osm_.ways[way->second].nodes.empty())
+      open.push_back(osm_.ways[way->second].nodes);
+  }
+  while (!open.empty()) {
+    NodeRing ring = std::move(open.back());
+    open.pop_back();
+    while (ring.front() != ring.back() && extend(ring, open)) {
+    }
+    if (ring.front() == ring.back() && ring.size() > 3)
+      closed.push_back(std::move(ring));
+    else
+      city_.warn(
+          fmt::format("{}: its ways make no closed ring at node {}; they are left out", name, ring.back()));
+  }
+  return closed;
+}
+
+/// One footprint for each outer ring, with the holes that lie in it.
+void OsmAreas::add(const std::vector<NodeRing>& outer, const std::vector<NodeRing>& inner,
+                   const OsmTags& tags, const std::string& name, std::vector<OsmArea>& found) const {
+  std::vector<OsmRing> holes;
+  for (const NodeRing& nodes : inner)
+    if (OsmRing ring = placed(nodes, name); ring.size() >= 3) holes.push_back(std::move(ring));
+  for (const NodeRing& nodes : outer) {
+    OsmRing ring = placed(nodes, name);
+    if (ring.size() < 3) continue;
+    if (area_m2(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+    OsmArea footprint{{std::move(ring)}, &tags};
+    for (OsmRing& hole : holes) {
+      if (!holds(footprint.rings[0], hole[0])) continue;
+      if (area_m2(hole) > 0.0) std::reverse(hole.begin(), hole.end());
+      footprint.rings.push_back(hole);
+    }
+    found.push_back(std::move(footprint));
+  }
+}
+
+OsmRing OsmAreas::placed(const NodeRing& nodes, const std::string& name) const {
+  OsmRing ring;
+  for (const OsmId node : nodes) {
+    const std::optional<dvec2> point = place_(node);
+    if (!point)
+      city_.warn(fmt::format("{}: its node {} is not in the file; it is drawn without", name, node));
+    else if (ring.empty() || ring.back() != *point)
+      ring.push_back(*point);
+  }
+  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  return ring;
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,13 @@
+// What lies on the ground of OpenStreetMap: parks, grass, woods, water, squares, car parks, footpaths.
+#pragma once
+
+#include "formats/city_models/osm_areas.h"
+#include "formats/readers/ground_on_map.h"
+
+namespace parvis::scene {
+
+/// Adds areas and paths as surfaces on a level ground at `ground_m`, each a few millimetres above those that
+/// it lies in. They are called PlantCover, WaterBody, TransportSquare and "Road" with a use ("Road footway").
+void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, CityAssembly& city);
+
+}  // namespace parvis::scene

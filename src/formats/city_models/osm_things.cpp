@@ -1,0 +1,251 @@
+#include "formats/city_models/osm_things.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "formats/city_models/osm_shapes.h"
+
+namespace parvis::scene {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+constexpr double row_step_m = 8.0;  // between the trees of a row
+constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, ballast_half_m = 1.7;
+constexpr double ballast_lift_m = 0.03;
+constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
+constexpr double deck_m = 0.9, parapet_m = 1.0, parapet_width_m = 0.25;
+constexpr double beside_m = 3.1;                              // of a deck beside the carriageway: pavements
+constexpr double below_road_m = 0.02;                         // carriageways lie on the deck
+constexpr double lowest_ramp_m = 0.05, embankment_run = 1.5;  // per metre of height
+
+double metres_or(const OsmTags& tags, const char* key, double otherwise, double max_m) {
+  const std::string& text = tag(tags, key);
+  double given = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), given);
+  return given > 0.1 && given < max_m ? given : otherwise;
+}
+
+LineLook coloured(const char* type, glm::vec3 srgb, CityAssembly& city) {
+  CityMaterial material;
+  material.diffuse = srgb;
+  return {{type, type, ""}, city.add_material(material)};
+}
+
+std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const GroundOnMap& ground) {
+  std::vector<dvec3> line;
+  for (const RaisedPoint& point : profile)
+    line.emplace_back(point.place, point.above_m + (ground ? ground(point.place) : 0.0));
+  return line;
+}
+
+/// Trunk and crown as two pyramids, foot to foot: 12 triangles.
+void add_tree(dvec3 foot, double height_m, CityAssembly& city) {
+  const LineLook look{{"tree", "SolitaryVegetationObject", ""}};
+  const double radius_m = 0.25 * height_m, crown_m = 0.35 * height_m;
+  const auto around = [&](int i, double radius, double up_m) {
+    const double angle = 2.0 * 3.14159265358979 * double(i) / 4.0;
+    return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), up_m);
+  };
+  const dvec3 top = foot + dvec3(0.0, 0.0, height_m), base = foot + dvec3(0.0, 0.0, 0.15 * height_m);
+  for (int i = 0; i < 4; ++i) {
+    add_polygon({around(i, radius_m, crown_m), around(i + 1, radius_m, crown_m), top}, look, city);
+    add_polygon({around(i + 1, radius_m, crown_m), around(i, radius_m, crown_m), base}, look, city);
+    add_polygon({around(i, 0.12, 0.0), around(i + 1, 0.12, 0.0), base}, look, city);
+  }
+}
+
+/// The same for the same tree: 7 to 11 m.
+double usual_tree_m(OsmId id) { return 7.0 + 0.5 * double(std::uint64_t(id) * 2654435761u % 9); }
+
+void add_row(const OsmWay& row, const OsmPlaces& place, const GroundOnMap& ground, CityAssembly& city) {
+  double left_m = 0.0;  // until the next tree
+  int count = 0;
+  for (std::size_t i = 0; i + 1 < row.nodes.size(); ++i) {
+    const auto a = place(row.nodes[i]), b = place(row.nodes[i + 1]);
+    if (!a || !b) continue;
+    const double length_m = glm::distance(*a, *b);
+    double at_m = left_m;
+    for (; at_m <= length_m; at_m += row_step_m) {
+      const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
+      add_tree({foot, ground ? ground(foot) : 0.0},
+               metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), city);
+    }
+    left_m = at_m - length_m;
+  }
+}
+
+/// A slope from the edge of a raised way down to the ground, on one side.
+void add_slope(const std::vector<dvec3>& edge, const std::vector<dvec3>& other,
+               const std::vector<double>& above_m, const LineLook& look, CityAssembly& city) {
+  std::vector<dvec3> feet;
+  for (std::size_t i = 0; i < edge.size(); ++i) {
+    const dvec2 out = glm::normalize(dvec2(edge[i] - other[i]));
+    feet.emplace_back(dvec2(edge[i]) + out * (embankment_run * above_m[i]), edge[i].z - above_m[i]);
+  }
+  for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
+    add_polygon({edge[i], edge[i + 1], feet[i + 1]}, look, city);
+    add_polygon({edge[i], feet[i + 1], feet[i]}, look, city);
+  }
+}
+
+/// The part of a ramp that is raised, as a dam with sloping sides and closed ends.
+void add_embankment(const std::vector<RaisedPoint>& points, const GroundOnMap& ground, double half_m,
+                    const LineLook& top, const LineLook& slope, CityAssembly& city) {
+  const std::vector<dvec3> line = on_ground(points, ground);
+  const Sides sides = sides_of(line, -half_m, half_m, -below_road_m);
+  if (sides.left.size() != points.size()) return;  // points that coincide: no length
+  std::vector<double> above_m;
+  for (const RaisedPoint& point : points) above_m.push_back(point.above_m);
+  add_band(sides, top, city);
+  add_slope(sides.right, sides.left, above_m, slope, city);
+  add_slope(sides.left, sides.right, above_m, slope, city);
+}
+
+/// A wall across the way from its deck down to the ground, as wide as the embankment behind it.
+void add_abutment(dvec3 at, dvec2 along, double half_m, double above_m, const LineLook& stone,
+                  CityAssembly& city) {
+  const dvec2 aside(along.y, -along.x);
+  const double foot_m = half_m + embankment_run * above_m;
+  const double top = at.z - below_road_m;
+  add_polygon(
+      {dvec3(dvec2(at) - aside * foot_m, at.z - above_m), dvec3(dvec2(at) + aside * foot_m, at.z - above_m),
+       dvec3(dvec2(at) + aside * half_m, top), dvec3(dvec2(at) - aside * half_m, top)},
+      stone, city);
+}
+
+void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground, double half_m,
+              const LineLook& deck, CityAssembly& city) {
+  const std::vector<dvec3> line = on_ground(points, ground);
+  if (line.size() < 2) return;
+  add_block(sides_of(line, -half_m, half_m, -below_road_m), deck_m, deck, city);
+  for (const double side : {-1.0, 1.0}) {
+    const double outer_m = side * half_m, inner_m = side * (half_m - parapet_width_m);
+    add_block(
+        sides_of(line, std::min(outer_m, inner_m), std::max(outer_m, inner_m), parapet_m - below_road_m),
+        parapet_m, deck, city);
+  }
+  const std::size_t last = line.size() - 1;
+  add_abutment(line[0], glm::normalize(dvec2(line[1] - line[0])), half_m, points[0].above_m, deck, city);
+  add_abutment(line[last], glm::normalize(dvec2(line[last] - line[last - 1])), half_m, points[last].above_m,
+               deck, city);
+}
+
+}  // namespace
+
+void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+                                 CityAssembly& city) {
+  for (const OsmNode& node : osm.tagged_nodes)
+    if (tag(node.tags, "natural") == "tree")
+      if (const auto foot = place(node.id))
+        add_tree({*foot, ground ? ground(*foot) : 0.0},
+                 metres_or(node.tags, "height", usual_tree_m(node.id), 60.0), city);
+  struct Barrier {
+    const char* kind;
+    double height_m, width_m;
+    glm::vec3 srgb;
+  };
+  for (const Barrier& barrier :
+       {Barrier{"hedge", 1.4, 0.7, {0.24f, 0.34f, 0.16f}}, Barrier{"fence", 1.2, 0.06, {0.33f, 0.3f, 0.26f}},
+        Barrier{"wall", 1.8, 0.3, {0.62f, 0.57f, 0.5f}},
+        Barrier{"retaining_wall", 1.2, 0.4, {0.6f, 0.58f, 0.54f}},
+        Barrier{"city_wall", 6.0, 1.5, {0.6f, 0.55f, 0.47f}}}) {
+    const LineLook look = coloured("CityFurniture", barrier.srgb, city);
+    for (const OsmWay& way : osm.ways) {
+      if (tag(way.tags, "barrier") != barrier.kind || says_yes(way.tags, "building")) continue;
+      std::vector<dvec3> line;
+      for (const OsmId node : way.nodes)
+        if (const auto point = place(node)) line.emplace_back(*point, ground ? ground(*point) : 0.0);
+      const double height_m = metres_or(way.tags, "height", barrier.height_m, 30.0);
+      const double half_m = 0.5 * metres_or(way.tags, "width", barrier.width_m, 20.0);
+      add_block(sides_of(line, -half_m, half_m, height_m), height_m, look, city);
+    }
+  }
+  for (const OsmWay& way : osm.ways)
+    if (tag(way.tags, "natural") == "tree_row") add_row(way, place, ground, city);
+}
+
+void add_osm_rails(const OsmFile& osm, [[maybe_unused]] const OsmPlaces& place, const OsmRelief& relief,
+                   const GroundOnMap& ground, CityAssembly& city) {
+  const LineLook steel = coloured("CityFurniture", {0.36f, 0.33f, 0.31f}, city);
+  const LineLook ballast{{"Railway", "Railway", ""}};
+  for (const OsmWay& way : osm.ways) {
+    const std::string& kind = tag(way.tags, "railway");
+    const bool is_tram = kind == "tram";
+    const bool is_shown =
+        is_tram || kind == "rail" || kind == "light_rail" || kind == "narrow_gauge" || kind == "subway";
+    if (!is_shown || is_underground(way.tags)) continue;
+    const std::vector<dvec3> line = on_ground(relief.profile(way), ground);
+    if (!is_tram) add_band(sides_of(line, -ballast_half_m, ballast_half_m, ballast_lift_m), ballast, city);
+    for (const double side : {-0.5, 0.5}) {
+      const double middle_m = side * gauge_m, half_m = 0.5 * rail_width_m;
+      if (is_tram)
+        add_band(sides_of(line, middle_m - half_m, middle_m + half_m, groove_lift_m), steel, city);
+      else
+        add_block(sides_of(line, middle_m - half_m, middle_m + half_m, ballast_lift_m + rail_height_m),
+                  rail_height_m, steel, city);
+    }
+  }
+}
+
+void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
+                     const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city) {
+  const LineLook deck{{"Bridge", "Bridge", ""}}, top{{"Bridge", "Bridge", ""}};
+  const LineLook slope{{"embankment", "PlantCover", ""}};
+  for (const OsmWay& way : osm.ways) {
+    const double half_m = half_width_m(way);
+    if (half_m <= 0.0 || is_underground(way.tags)) continue;
+    const std::vector<RaisedPoint> points = relief.profile(way);
+    if (is_bridge(way.tags)) {
+      add_deck(points, ground, half_m + beside_m, deck, city);
+      continue;
+    }
+    std::vector<RaisedPoint> raised;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool touches = points[i].above_m > lowest_ramp_m ||
+                           (i > 0 && points[i - 1].above_m > lowest_ramp_m) ||
+                           (i + 1 < points.size() && points[i + 1].above_m > lowest_ramp_m);
+      if (touches) raised.push_back(points[i]);
+      if ((!touches || i + 1 == points.size()) && raised.size() > 1)
+        add_embankment(raised, ground, half_m + beside_m, top, slope, city);
+      if (!touches) raised.clear();
+    }
+  }
+}
+
+void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
+                       const dvec3& origin, CityAssembly& city) {
+  constexpr double stripe_m = 0.5, length_m = 3.0, lift_m = 0.078, near_m = 0.6;
+  const LineLook paint = coloured("CityFurniture", {0.86f, 0.86f, 0.84f}, city);
+  for (const OsmNode& node : osm.tagged_nodes) {
+    const std::string &kind = tag(node.tags, "crossing"), &markings = tag(node.tags, "crossing:markings");
+    const bool is_marked = kind == "zebra" || kind == "marked" || kind == "traffic_signals" ||
+                           says_yes(node.tags, "crossing:markings");
+    if (tag(node.tags, "highway") != "crossing" || !is_marked || markings == "no") continue;
+    const auto at = place(node.id);
+    if (!at) continue;
+    const dvec2 spot = *at - dvec2(origin);
+    for (const Road& road : roads) {
+      std::size_t found = road.path.size();
+      for (std::size_t i = 0; i < road.path.size(); ++i)
+        if (glm::distance(dvec2(road.path[i]), spot) < near_m) found = i;
+      if (found == road.path.size() || road.path.size() < 2) continue;
+      const std::size_t next = std::min(found + 1, road.path.size() - 1);
+      const dvec2 along = glm::normalize(dvec2(road.path[next] - road.path[next - 1]));
+      const dvec2 aside(along.y, -along.x);
+      const double half_m =
+          0.5 * double(road.lane_width_m) * double(road.lanes_each_way) * (road.is_one_way ? 1.0 : 2.0);
+      const double z = origin.z + double(road.path[found].z) + lift_m;
+      for (double side = -half_m + 0.25; side + stripe_m < half_m; side += 2.0 * stripe_m) {
+        const dvec2 low = *at + aside * side - along * (0.5 * length_m);
+        add_polygon({dvec3(low, z), dvec3(low + aside * stripe_m, z),
+                     dvec3(low + aside * stripe_m + along * length_m, z), dvec3(low + along * length_m, z)},
+                    paint, city);
+      }
+      break;
+    }
+  }
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,27 @@
+// What stands on the ground of OpenStreetMap: trees, hedges, fences, walls, rails, bridges.
+#pragma once
+
+#include "formats/city_models/osm_relief.h"
+#include "formats/readers/ground_on_map.h"
+
+namespace parvis::scene {
+
+/// Adds trees (nodes, and every 8 m along rows) as spindles of a few triangles called
+/// SolitaryVegetationObject, which the node `greenery` replaces by trees; hedges, fences and walls.
+void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
+                                 CityAssembly& city);
+
+/// Adds railways on ballast and tram tracks in the street. Those below ground are left out.
+void add_osm_rails(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,
+                   const GroundOnMap& ground, CityAssembly& city);
+
+/// Adds decks with parapets below bridges, abutments at their ends, and embankments below ramps.
+/// `half_width_m` gives half the width of a way's carriageway, 0 where it has none.
+void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
+                     const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city);
+
+/// Adds the stripes of zebra crossings (nodes highway=crossing) where a road of `roads` leads over them.
+void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
+                       const glm::dvec3& origin, CityAssembly& city);
+
+}  // namespace parvis::scene

@@ -1,0 +1,17 @@
+// script/bench import_export, real places: from a file that nobody has described to a street.
+#pragma once
+
+#include "bench/benches.h"
+
+namespace parvis::bench {
+
+/// Adds, of bare files of each kind: minutes_to_first_street (the slowest, reading to picture) and
+/// warnings_unexplained; osm_triangles_over_buildings (all static triangles of a street of OpenStreetMap,
+/// without its trees, by those of its buildings); pbf_mb_s; ground_gap_percent (of the lower halves of 50
+/// street views of each place) with its control ground_gap_percent_without_plane, which must not be 0;
+/// paving_height_error_m (99th percentile against the bare ground, with things on it) with its control
+/// paving_height_error_m_on_a_slab, which must be large. ifc_load_ms is skipped: there is no reader. Needs a
+/// current OpenGL context.
+Status measure_places(const BenchSetup& setup, Report& report);
+
+}  // namespace parvis::bench
