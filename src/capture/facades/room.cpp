@@ -6,6 +6,7 @@
 
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/placed_facade.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -13,26 +14,21 @@
 namespace parvis::facades {
 namespace {
 
+using namespace scene::attribute;
+
 scene::NodeSchema facade_schema() {
-  using scene::AttributeType;
   scene::NodeSchema schema{
       .type = "facade",
       .help =
           "A captured place: surfaces that show photographs, chosen and blended by where they are seen from. "
           "The file is made by parvis facade pack.",
-      .attributes = {{.name = "name", .help = "by which other nodes refer to it"},
-                     {.name = "file",
-                      .type = AttributeType::file,
-                      .help = "the packed layers (.facade)",
-                      .is_required = true},
-                     {.name = "brightness",
-                      .type = AttributeType::number,
-                      .help =
-                          "of the photographs' light; 1: they are shown as they are, whatever the exposure",
-                      .fallback = "1",
-                      .minimum = 0.0,
-                      .maximum = 1000.0,
-                      .is_live = true}},
+      .attributes = {text("name", "by which other nodes refer to it"),
+                     file("file", "the packed layers (.facade)").required(),
+                     number("brightness",
+                            "of the photographs' light; 1: they are shown as they are, whatever the exposure")
+                         .between(0.0, 1000.0)
+                         .by_default("1")
+                         .live()},
       .stands_in = {scene::top_level, "group", "scenario"},
       .example = "facade(file=\"layers.facade\", position=\"0 0 0\")"};
   const std::vector<scene::AttributeSchema> placement = scene::placement_attributes();

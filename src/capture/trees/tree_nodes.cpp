@@ -7,13 +7,16 @@
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
 #include "capture/trees/tree_light.h"
+#include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::trees {
 namespace {
 
-using scene::AttributeType, scene::Node, scene::SceneBuilder;
+using namespace scene::attribute;
+
+using scene::Node, scene::SceneBuilder;
 
 scene::NodeSchema tree_schema() {
   scene::NodeSchema schema{
@@ -22,19 +25,13 @@ scene::NodeSchema tree_schema() {
           "A real tree, captured from photographs (parvis tree): it is seen as the closest photographs saw "
           "it, "
           "lit by the scene's sun and sky, and casts shadows. Its foot stands at position.",
-      .attributes = {{.name = "name", .help = "by which other nodes refer to it"},
-                     {.name = "file",
-                      .type = AttributeType::file,
-                      .help = "the tree, from parvis tree texture (.tree)",
-                      .is_required = true},
-                     {.name = "height",
-                      .type = AttributeType::number,
-                      .help = "of the whole tree; 0: as it was photographed",
-                      .fallback = "0",
-                      .unit = "m",
-                      .minimum = 0,
-                      .maximum = 1000,
-                      .is_live = true}},
+      .attributes = {text("name", "by which other nodes refer to it"),
+                     file("file", "the tree, from parvis tree texture (.tree)").required(),
+                     number("height", "of the whole tree; 0: as it was photographed")
+                         .in("m")
+                         .between(0, 1000)
+                         .by_default("0")
+                         .live()},
       .example = "tree(file=\"oak.tree\", position=\"12 -4 0\", heading_deg=40)"};
   for (scene::AttributeSchema& attribute : scene::placement_attributes())
     schema.attributes.push_back(std::move(attribute));

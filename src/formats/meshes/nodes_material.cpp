@@ -4,6 +4,7 @@
 #include "formats/meshes/material_change.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "scene/data/model_parts.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/spelling.h"
@@ -11,65 +12,46 @@
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema material_schema() {
-  AttributeSchema preset{.name = "preset", .type = AttributeType::choice, .help = ""};
+  AttributeSchema preset = choice("preset", "");
   for (const MaterialPreset& each : material_presets()) {
     preset.choices.push_back(each.name);
     preset.help += (preset.help.empty() ? "" : "; ") + each.name + ": " + each.help;
   }
-  const auto fraction = [](const char* name, const char* help) {
-    return AttributeSchema{
-        .name = name, .type = AttributeType::number, .help = help, .minimum = 0, .maximum = 1};
-  };
+  const auto fraction = [](const char* name, const char* help) { return number(name, help).between(0, 1); };
   return {
       .type = "material",
       .help =
           "Another surface for a part of a model: of the objects that match target, the triangles that lie "
           "in "
           "a mask. Later nodes see what earlier ones have changed.",
-      .attributes =
-          {{.name = "name", .help = "by which scenarios refer to it"},
-           {.name = "target",
-            .help = "name of objects, nodes or materials of the file; * and ? stand for any text and any "
-                    "character",
-            .fallback = "*"},
-           {.name = "mask",
-            .help = "\"box u0 v0 u1 v1\" of the picture (0..1, v down from the top), \"colour #RRGGBB "
-                    "tolerance\" or \"grey "
-                    "tolerance\" (of the picture at the triangle's middle; 0..1), or several in one; "
-                    "repeated: any of them",
-            .fallback = "object",
-            .is_repeatable = true},
-           preset,
-           {.name = "colour",
-            .type = AttributeType::colour,
-            .help = "in place of the picture",
-            .minimum = 0,
-            .maximum = 1},
-           fraction("roughness", "0 mirrors, 1 is dull"),
-           fraction("metallic", "0 paint, 1 bare metal"),
-           fraction("clear_coat", "lacquer over it"),
-           fraction("alpha", "1 opaque, 0 invisible"),
-           {.name = "emission",
-            .type = AttributeType::colour,
-            .help = "radiance of its own",
-            .unit = "W/m2/sr",
-            .minimum = 0},
-           {.name = "ior",
-            .type = AttributeType::number,
-            .help = "index of refraction: makes it a closed body of solid glass, where it is open a pane "
-                    "(1.33 water, 1.5 glass, 2.42 "
-                    "diamond)",
-            .minimum = 1,
-            .maximum = 4},
-           {.name = "absorption",
-            .type = AttributeType::colour,
-            .help = "of red, green and blue light on its way through solid glass; 0 is clear",
-            .unit = "1/m",
-            .minimum = 0},
-           {.name = "mirror_like",
-            .type = AttributeType::flag,
-            .help = "takes the scene's reflection method on reflective models"}},
+      .attributes = {text("name", "by which scenarios refer to it"),
+                     text("target",
+                          "name of objects, nodes or materials of the file; * and ? stand for any text and "
+                          "any character")
+                         .by_default("*"),
+                     text("mask",
+                          "\"box u0 v0 u1 v1\" of the picture (0..1, v down from the top), \"colour #RRGGBB "
+                          "tolerance\" or \"grey tolerance\" (of the picture at the triangle's middle; "
+                          "0..1), or several in one; repeated: any of them")
+                         .by_default("object")
+                         .repeatable(),
+                     preset, colour("colour", "in place of the picture").between(0, 1),
+                     fraction("roughness", "0 mirrors, 1 is dull"),
+                     fraction("metallic", "0 paint, 1 bare metal"), fraction("clear_coat", "lacquer over it"),
+                     fraction("alpha", "1 opaque, 0 invisible"),
+                     colour("emission", "radiance of its own").in("W/m2/sr").from(0),
+                     number("ior",
+                            "index of refraction: makes it a closed body of solid glass, where it is open a "
+                            "pane (1.33 water, 1.5 glass, 2.42 diamond)")
+                         .between(1, 4),
+                     colour("absorption",
+                            "of red, green and blue light on its way through solid glass; 0 is clear")
+                         .in("1/m")
+                         .from(0),
+                     flag("mirror_like", "takes the scene's reflection method on reflective models")},
       .stands_in = {"model"},
       .example =
           "model(file=\"car.obj\", reflective=1) {\n"

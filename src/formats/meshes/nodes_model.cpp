@@ -7,6 +7,7 @@
 #include "formats/readers/readers.h"
 #include "formats/terrain/terrain_heights.h"
 #include "scene/data/object_animation.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -15,6 +16,8 @@
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema model_schema() {
   NodeSchema schema{
       .type = "model",
@@ -22,59 +25,32 @@ NodeSchema model_schema() {
           "A model file (glTF, OBJ, CityJSON, CityGML, OpenStreetMap, GeoTIFF terrain and others), placed. "
           "Its children change its materials or add wheels.",
       .attributes =
-          {{.name = "name", .help = "by which other nodes refer to it"},
-           {.name = "file", .type = AttributeType::file, .help = "the model file", .is_required = true},
-           {.name = "up",
-            .type = AttributeType::choice,
-            .help = "the file's upward axis; \"file\": what its format says",
-            .fallback = "file",
-            .choices = {"file", "y", "z"}},
-           {.name = "lod",
-            .type = AttributeType::number,
-            .help = "of city models: the level of detail, or the next one below; else the highest",
-            .minimum = 0.0,
-            .maximum = 4.0},
-           {.name = "cell",
-            .type = AttributeType::number,
-            .help = "of a terrain grid (GeoTIFF) without a place on the earth: between its samples",
-            .unit = "m",
-            .minimum = 0.001,
-            .maximum = 10'000.0},
-           {.name = "ground",
-            .type = AttributeType::reference,
-            .help =
-                "of OpenStreetMap: the terrain, a model before it, on which buildings and roads stand, by "
-                "their coordinates; else they stand on a level ground",
-            .refers_to = {"model"}},
-           {.name = "dynamic",
-            .type = AttributeType::flag,
-            .help = "it may move: stands in nothing that is computed once",
-            .fallback = "0"},
-           {.name = "reflective",
-            .type = AttributeType::flag,
-            .help = "its paint, glass and chrome take the scene's reflection method",
-            .fallback = "0"},
-           {.name = "animation",
-            .help =
-                "the one of the file's animations that it plays, over and over; else the first; \"none\": "
-                "it stands as at rest"},
-           {.name = "animation_speed",
-            .type = AttributeType::number,
-            .help = "how fast; 1: as the file says",
-            .fallback = "1",
-            .minimum = -100.0,
-            .maximum = 100.0},
-           {.name = "animation_start",
-            .type = AttributeType::number,
-            .help =
-                "how far the animation is when the scene begins; copies are further, each by another part",
-            .fallback = "0",
-            .unit = "s"},
-           {.name = "positions",
-            .type = AttributeType::points,
-            .help = "many copies, one at each point (relative to position=)",
-            .unit = "m",
-            .is_repeatable = true}},
+          {text("name", "by which other nodes refer to it"), file("file", "the model file").required(),
+           choice("up", "the file's upward axis; \"file\": what its format says", {"file", "y", "z"})
+               .by_default("file"),
+           number("lod", "of city models: the level of detail, or the next one below; else the highest")
+               .between(0.0, 4.0),
+           number("cell", "of a terrain grid (GeoTIFF) without a place on the earth: between its samples")
+               .in("m")
+               .between(0.001, 10'000.0),
+           reference("ground",
+                     "of OpenStreetMap: the terrain, a model before it, on which buildings and roads stand, "
+                     "by their coordinates; else they stand on a level ground",
+                     {"model"}),
+           flag("dynamic", "it may move: stands in nothing that is computed once").by_default("0"),
+           flag("reflective", "its paint, glass and chrome take the scene's reflection method")
+               .by_default("0"),
+           text("animation",
+                "the one of the file's animations that it plays, over and over; else the first; \"none\": it "
+                "stands as at rest"),
+           number("animation_speed", "how fast; 1: as the file says").between(-100.0, 100.0).by_default("1"),
+           number("animation_start",
+                  "how far the animation is when the scene begins; copies are further, each by another part")
+               .in("s")
+               .by_default("0"),
+           points("positions", "many copies, one at each point (relative to position=)")
+               .in("m")
+               .repeatable()},
       .stands_in = {top_level, "group", "scenario"},
       .example =
           "model(name=\"taxi\", file=\"cars/van.glb\", position=\"3 4 0\", heading_deg=90, dynamic=1, "

@@ -2,21 +2,18 @@
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/wheel.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema wheels_schema() {
   const auto length = [](const char* name, const char* help, const char* fallback) {
-    return AttributeSchema{.name = name,
-                           .type = AttributeType::number,
-                           .help = help,
-                           .fallback = fallback,
-                           .unit = "m",
-                           .minimum = -20,
-                           .maximum = 20};
+    return number(name, help).in("m").between(-20, 20).by_default(fallback);
   };
   NodeSchema schema{
       .type = "wheels",
@@ -32,23 +29,13 @@ NodeSchema wheels_schema() {
           "}"};
   const WheelShape shape;
   const auto size = [](const char* name, const char* help, float fallback) {
-    return AttributeSchema{.name = name,
-                           .type = AttributeType::number,
-                           .help = help,
-                           .fallback = fmt::format("{}", fallback),
-                           .unit = "m",
-                           .minimum = 0.01,
-                           .maximum = 5};
+    return number(name, help).in("m").between(0.01, 5).by_default(fmt::format("{}", fallback));
   };
   schema.attributes.push_back(size("radius", "of the tyre", shape.radius_m));
   schema.attributes.push_back(size("width", "of the tyre", shape.width_m));
   schema.attributes.push_back(size("rim_radius", "of the rim; less than radius", shape.rim_radius_m));
-  schema.attributes.push_back({.name = "spokes",
-                               .type = AttributeType::integer,
-                               .help = "of the rim",
-                               .fallback = fmt::format("{}", shape.spokes),
-                               .minimum = 2,
-                               .maximum = 50});
+  schema.attributes.push_back(
+      integer("spokes", "of the rim").between(2, 50).by_default(fmt::format("{}", shape.spokes)));
   return schema;
 }
 

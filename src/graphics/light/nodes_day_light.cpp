@@ -5,68 +5,58 @@
 
 #include "base/image_io.h"
 #include "graphics/light/day_light.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::light {
 namespace {
 
+using namespace scene::attribute;
+
 using scene::AttributeSchema;
-using scene::AttributeType;
 
 AttributeSchema live_number(std::string name, std::string help, std::string fallback, std::string unit,
-                            double least, double most, std::vector<std::string> spellings = {}) {
-  return {.name = std::move(name),
-          .type = AttributeType::number,
-          .help = std::move(help),
-          .fallback = std::move(fallback),
-          .unit = std::move(unit),
-          .minimum = least,
-          .maximum = most,
-          .spellings = std::move(spellings),
-          .is_live = true};
+                            double min, double max, std::vector<std::string> spellings = {}) {
+  return number(std::move(name), std::move(help))
+      .in(std::move(unit))
+      .between(min, max)
+      .by_default(std::move(fallback))
+      .spelled(std::move(spellings))
+      .live();
 }
 
-AttributeSchema live_integer(std::string name, std::string help, std::string fallback, double least,
-                             double most) {
-  return {.name = std::move(name),
-          .type = AttributeType::integer,
-          .help = std::move(help),
-          .fallback = std::move(fallback),
-          .minimum = least,
-          .maximum = most,
-          .is_live = true};
+AttributeSchema live_integer(std::string name, std::string help, std::string fallback, double min,
+                             double max) {
+  return integer(std::move(name), std::move(help)).between(min, max).by_default(std::move(fallback)).live();
 }
 
 scene::NodeSchema day_light_schema() {
-  return {
-      .type = "dayLight",
-      .help =
-          "Sun and sky of a place on the earth at an hour: in place of sun(...) and sky(...). Sets the "
-          "exposure, too, which exposure(value=...) multiplies.",
-      .attributes = {live_number("latitude", "north positive", "43.70", "degrees", -90, 90, {"lattitude"}),
-                     live_number("longitude", "east positive", "7.27", "degrees", -180, 180),
-                     live_number("standardMeridian",
-                                 "the clock's time zone: hours ahead of universal time, east positive", "0",
-                                 "h", -12, 14, {"standartMeridian"}),
-                     live_integer("julianDay", "of the year: 1 is 1 January", "172", 1, 366),
-                     live_number("timeOfDay", "by the clock, below 24: 14.25 is 14:15", "12", "h", 0, 24),
-                     live_number("turbidity", "1 pure air, 2 to 6 clear days, 10 haze, 30 and more mist", "3",
-                                 "", min_turbidity, max_turbidity, {"turbidy"}),
-                     live_integer("year", "matters by some hundredths of a degree, and for 29 February",
-                                  "2026", min_year, max_year),
-                     {.name = "model",
-                      .type = AttributeType::choice,
-                      .help = "atmosphere: computed from scattering; preetham: the thesis's fit of 1999",
-                      .fallback = sky_kind_names[0],
-                      .choices = {sky_kind_names.begin(), sky_kind_names.end()},
-                      .is_live = true},
-                     live_number("ground_albedo",
-                                 "the share of light that the land around gives back to the sky", "0.2", "",
-                                 0, 1)},
-      .example =
-          "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, julianDay=80, timeOfDay=17.5, "
-          "turbidity=3)",
-      .is_unique = true};
+  return {.type = "dayLight",
+          .help =
+              "Sun and sky of a place on the earth at an hour: in place of sun(...) and sky(...). Sets the "
+              "exposure, too, which exposure(value=...) multiplies.",
+          .attributes =
+              {live_number("latitude", "north positive", "43.70", "degrees", -90, 90, {"lattitude"}),
+               live_number("longitude", "east positive", "7.27", "degrees", -180, 180),
+               live_number("standardMeridian",
+                           "the clock's time zone: hours ahead of universal time, east positive", "0", "h",
+                           -12, 14, {"standartMeridian"}),
+               live_integer("julianDay", "of the year: 1 is 1 January", "172", 1, 366),
+               live_number("timeOfDay", "by the clock, below 24: 14.25 is 14:15", "12", "h", 0, 24),
+               live_number("turbidity", "1 pure air, 2 to 6 clear days, 10 haze, 30 and more mist", "3", "",
+                           min_turbidity, max_turbidity, {"turbidy"}),
+               live_integer("year", "matters by some hundredths of a degree, and for 29 February", "2026",
+                            min_year, max_year),
+               choice("model", "atmosphere: computed from scattering; preetham: the thesis's fit of 1999",
+                      {sky_kind_names.begin(), sky_kind_names.end()})
+                   .by_default(sky_kind_names[0])
+                   .live(),
+               live_number("ground_albedo", "the share of light that the land around gives back to the sky",
+                           "0.2", "", 0, 1)},
+          .example =
+              "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, julianDay=80, timeOfDay=17.5, "
+              "turbidity=3)",
+          .is_unique = true};
 }
 
 void relight(const scene::Node& node, scene::SceneBuilder& builder) {
@@ -89,16 +79,14 @@ scene::NodeSchema sky_dome_schema() {
           .help =
               "Clouds and land of a photographed sky, under the light of dayLight: cloud is where the "
               "photograph is not blue.",
-          .attributes = {{.name = "texture",
-                          .type = AttributeType::file,
-                          .help = "equirectangular picture of the whole sky, twice as wide as high; without "
-                                  "it the sky is clear"},
-                         {.name = "heading_deg",
-                          .type = AttributeType::angle,
-                          .help = "turns the picture, clockwise from above; at 0 its middle lies north",
-                          .fallback = "0",
-                          .unit = "degrees",
-                          .is_live = true}},
+          .attributes = {file("texture",
+                              "equirectangular picture of the whole sky, twice as wide as high; without it "
+                              "the sky is clear"),
+                         angle("heading_deg",
+                               "turns the picture, clockwise from above; at 0 its middle lies north")
+                             .in("degrees")
+                             .by_default("0")
+                             .live()},
           .example = "dayLight(timeOfDay=10)\nskyDome(texture=\"hdri/park.hdr\", heading_deg=90)",
           .is_unique = true};
 }

@@ -8,43 +8,37 @@
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
 #include "graphics/light/shadow_settings.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema sun_schema() {
   return {.type = "sun",
           .help = "Sunlight; where to find the sun is given as a direction or as azimuth and elevation.",
-          .attributes = {{.name = "direction",
-                          .type = AttributeType::vec3,
-                          .help = "points to the sun; any length",
-                          .fallback = "0.45 -0.55 0.70",
-                          .is_live = true,
-                          .in_place_of = {"azimuth_deg", "elevation_deg"}},
-                         {.name = "azimuth_deg",
-                          .type = AttributeType::angle,
-                          .help = "compass direction of the sun: 0 north, 90 east",
-                          .unit = "degrees",
-                          .is_live = true,
-                          .in_place_of = {"direction"}},
-                         {.name = "elevation_deg",
-                          .type = AttributeType::angle,
-                          .help = "height of the sun above the horizon",
-                          .fallback = "45",
-                          .unit = "degrees",
-                          .minimum = -90,
-                          .maximum = 90,
-                          .is_live = true,
-                          .in_place_of = {"direction"}},
-                         {.name = "irradiance",
-                          .type = AttributeType::colour,
-                          .help = "on a plane that faces the sun",
-                          .fallback = "3.0 2.75 2.35",
-                          .unit = "W/m2",
-                          .minimum = 0,
-                          .is_live = true}},
+          .attributes = {vec3("direction", "points to the sun; any length")
+                             .by_default("0.45 -0.55 0.70")
+                             .replacing({"azimuth_deg", "elevation_deg"})
+                             .live(),
+                         angle("azimuth_deg", "compass direction of the sun: 0 north, 90 east")
+                             .in("degrees")
+                             .replacing({"direction"})
+                             .live(),
+                         angle("elevation_deg", "height of the sun above the horizon")
+                             .in("degrees")
+                             .between(-90, 90)
+                             .by_default("45")
+                             .replacing({"direction"})
+                             .live(),
+                         colour("irradiance", "on a plane that faces the sun")
+                             .in("W/m2")
+                             .from(0)
+                             .by_default("3.0 2.75 2.35")
+                             .live()},
           .example = "sun(azimuth_deg=140, elevation_deg=40, irradiance=\"3.0 2.75 2.35\")",
           .is_unique = true};
 }
@@ -72,22 +66,13 @@ NodeSchema sky_schema() {
       .type = "sky",
       .help =
           "A picture of the whole sky: background and ambient light. Without a file the sky is plain blue.",
-      .attributes = {{.name = "file",
-                      .type = AttributeType::file,
-                      .help = "equirectangular picture, twice as wide as high (.hdr, .exr)"},
-                     {.name = "intensity",
-                      .type = AttributeType::number,
-                      .help = "multiplies the picture",
-                      .fallback = "1",
-                      .minimum = 0,
-                      .maximum = 1e6,
-                      .is_live = true},
-                     {.name = "heading_deg",
-                      .type = AttributeType::angle,
-                      .help = "turns the picture, clockwise from above; at 0 its middle lies north",
-                      .fallback = "0",
-                      .unit = "degrees",
-                      .is_live = true}},
+      .attributes = {file("file", "equirectangular picture, twice as wide as high (.hdr, .exr)"),
+                     number("intensity", "multiplies the picture").between(0, 1e6).by_default("1").live(),
+                     angle("heading_deg",
+                           "turns the picture, clockwise from above; at 0 its middle lies north")
+                         .in("degrees")
+                         .by_default("0")
+                         .live()},
       .example = "sky(file=\"hdri/park.hdr\", intensity=0.8, heading_deg=90)",
       .is_unique = true};
 }
@@ -107,31 +92,22 @@ void build_sky(const Node& node, SceneBuilder& builder) {
 NodeSchema air_schema() {
   return {.type = "air",
           .help = "Haze that lightens what is far away.",
-          .attributes = {{.name = "haze_per_m",
-                          .type = AttributeType::number,
-                          .help = "extinction of the air",
-                          .fallback = "0",
-                          .unit = "1/m",
-                          .minimum = 0,
-                          .maximum = 1,
-                          .is_live = true}},
+          .attributes =
+              {number("haze_per_m", "extinction of the air").in("1/m").between(0, 1).by_default("0").live()},
           .example = "air(haze_per_m=0.0004)",
           .is_unique = true};
 }
 
 NodeSchema exposure_schema() {
-  return {
-      .type = "exposure",
-      .help = "How bright the picture is.",
-      .attributes = {{.name = "value",
-                      .type = AttributeType::number,
-                      .help = "multiplies radiance before the tone curve; with dayLight: what that chooses",
-                      .fallback = "1",
-                      .minimum = 1e-6,
-                      .maximum = 1e6,
-                      .is_live = true}},
-      .example = "exposure(value=1.2)",
-      .is_unique = true};
+  return {.type = "exposure",
+          .help = "How bright the picture is.",
+          .attributes = {number("value",
+                                "multiplies radiance before the tone curve; with dayLight: what that chooses")
+                             .between(1e-6, 1e6)
+                             .by_default("1")
+                             .live()},
+          .example = "exposure(value=1.2)",
+          .is_unique = true};
 }
 
 }  // namespace

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "graphics/light/shadow_settings.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::light {
 namespace {
 
-using scene::AttributeType;
+using namespace scene::attribute;
 
 /// What the node says of casters and receivers, until all nodes are built.
 struct ShadowGroups {
@@ -33,66 +34,48 @@ scene::NodeSchema shadow_map_schema() {
           "has "
           "cached_cascades.",
       .attributes =
-          {{.name = "method",
-            .type = AttributeType::choice,
-            .help = "cached_cascades: two maps about the viewer, kept from frame to frame; cascades: four, "
-                    "fitted to "
-                    "the view; perspective: the thesis's; light_space_perspective: its successor; rays: "
-                    "exact, with "
-                    "the sun's disc where nothing moves",
-            .fallback = shadow_technique_names[0],
-            .choices = {shadow_technique_names.begin(), shadow_technique_names.end()},
-            .is_live = true},
-           {.name = "casters",
-            .type = AttributeType::reference,
-            .help =
-                "of what the script places, these models and groups alone cast shadows; without it all do",
-            .refers_to = {"group", "model"},
-            .is_repeatable = true},
-           {.name = "receivers",
-            .type = AttributeType::reference,
-            .help = "these alone receive them; without it all do",
-            .refers_to = {"group", "model"},
-            .is_repeatable = true},
-           {.name = "updateNear",
-            .type = AttributeType::flag,
-            .help = "fitted maps begin at the nearest surface in view, not at the camera's near plane",
-            .fallback = "1",
-            .is_live = true},
-           {.name = "sun_samples",
-            .type = AttributeType::integer,
-            .help = "of method rays: directions to the sun's disc for each pixel of a still picture",
-            .fallback = "16",
-            .minimum = 1,
-            .maximum = max_sun_samples,
-            .is_live = true},
-           {.name = "spot",
-            .type = AttributeType::flag,
-            .help = "a spot light at lightPosition stands in the sun's place, as bright at any distance",
-            .fallback = "0",
-            .is_live = true},
-           {.name = "lightPosition",
-            .type = AttributeType::vec3,
-            .help = "of the spot light",
-            .fallback = "0 0 10",
-            .unit = "m",
-            .spellings = {"lightposition"},
-            .is_live = true},
-           {.name = "lightDirection",
-            .type = AttributeType::vec3,
-            .help = "in which the light shines, of any length; without it the sun's, and of a spot light "
-                    "downward",
-            .spellings = {"lightdirection"},
-            .is_live = true},
-           {.name = "lightAngle",
-            .type = AttributeType::number,
-            .help = "opening of the spot light's cone",
-            .fallback = "45",
-            .unit = "degrees",
-            .minimum = 0.1,
-            .maximum = 170.0,
-            .spellings = {"lightangle"},
-            .is_live = true}},
+          {choice("method",
+                  "cached_cascades: two maps about the viewer, kept from frame to frame; cascades: four, "
+                  "fitted to the view; perspective: the thesis's; light_space_perspective: its successor; "
+                  "rays: exact, with the sun's disc where nothing moves",
+                  {shadow_technique_names.begin(), shadow_technique_names.end()})
+               .by_default(shadow_technique_names[0])
+               .live(),
+           reference(
+               "casters",
+               "of what the script places, these models and groups alone cast shadows; without it all do",
+               {"group", "model"})
+               .repeatable(),
+           reference("receivers", "these alone receive them; without it all do", {"group", "model"})
+               .repeatable(),
+           flag("updateNear",
+                "fitted maps begin at the nearest surface in view, not at the camera's near plane")
+               .by_default("1")
+               .live(),
+           integer("sun_samples",
+                   "of method rays: directions to the sun's disc for each pixel of a still picture")
+               .between(1, max_sun_samples)
+               .by_default("16")
+               .live(),
+           flag("spot", "a spot light at lightPosition stands in the sun's place, as bright at any distance")
+               .by_default("0")
+               .live(),
+           vec3("lightPosition", "of the spot light")
+               .in("m")
+               .by_default("0 0 10")
+               .spelled({"lightposition"})
+               .live(),
+           vec3(
+               "lightDirection",
+               "in which the light shines, of any length; without it the sun's, and of a spot light downward")
+               .spelled({"lightdirection"})
+               .live(),
+           number("lightAngle", "opening of the spot light's cone")
+               .in("degrees")
+               .between(0.1, 170.0)
+               .by_default("45")
+               .spelled({"lightangle"})
+               .live()},
       .example =
           "shadowMap(method=\"light_space_perspective\")\n"
           "timer(period_s=10, onTime=\"5, %shadowMap, lightAngle 30\")",

@@ -6,35 +6,23 @@
 #include "house/test_room/balloons.h"
 #include "reflections/methods/registry.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::test_room {
 namespace {
+
+using namespace scene::attribute;
 namespace fs = std::filesystem;
 
-using scene::AttributeType;
-
 scene::NodeSchema balloon_schema() {
-  return {
-      .type = "balloon",
-      .help = "A mirror ball that rises.",
-      .attributes = {{.name = "name", .type = AttributeType::text, .help = "of the object"},
-                     {.name = "position",
-                      .type = AttributeType::vec3,
-                      .help = "of its centre",
-                      .fallback = "0 0 0",
-                      .unit = "m"},
-                     {.name = "radius",
-                      .type = AttributeType::number,
-                      .help = "of the ball",
-                      .fallback = "1",
-                      .unit = "m",
-                      .minimum = 0.01,
-                      .maximum = 100}},
-      .example = "balloon(name=red, position=\"0 0 5\", radius=0.5)",
-      .messages = {{"rise",
-                    "at this speed from now on",
-                    {{.name = "speed", .type = AttributeType::number, .unit = "m/s", .is_required = true}}}}};
+  return {.type = "balloon",
+          .help = "A mirror ball that rises.",
+          .attributes = {text("name", "of the object"),
+                         vec3("position", "of its centre").in("m").by_default("0 0 0"),
+                         number("radius", "of the ball").in("m").between(0.01, 100).by_default("1")},
+          .example = "balloon(name=red, position=\"0 0 5\", radius=0.5)",
+          .messages = {{"rise", "at this speed from now on", {number("speed", "").in("m/s").required()}}}};
 }
 
 void build_balloon(const scene::Node& node, scene::SceneBuilder& builder) {
@@ -76,12 +64,7 @@ methods::Method glow_method() {
             return std::unique_ptr<methods::Reflections>(
                 std::make_unique<GlowReflections>(methods::own_settings<Glow>(scene).radiance));
           },
-          .attributes = {{.name = "glow",
-                          .type = AttributeType::number,
-                          .help = "radiance of balloon_glow",
-                          .fallback = "0.25",
-                          .minimum = 0,
-                          .maximum = 100}},
+          .attributes = {number("glow", "radiance of balloon_glow").between(0, 100).by_default("0.25")},
           .read =
               [](const scene::Node& node, methods::Settings& settings) {
                 settings.own.get<Glow>().radiance = float(node.number("glow"));

@@ -4,13 +4,16 @@
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
 #include "life/traffic/traffic_process.h"
+#include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::traffic {
 namespace {
 
-using scene::AttributeType, scene::Node, scene::SceneBuilder;
+using namespace scene::attribute;
+
+using scene::Node, scene::SceneBuilder;
 
 std::vector<std::string> vehicle_names(const Node& node) {
   std::vector<std::string> names;
@@ -27,31 +30,15 @@ scene::NodeSchema traffic_schema() {
           "at z = 0 (turn them with heading_deg), wheels as nodes whose names hold \"wheel\". The "
           "vehicles are "
           "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
-      .attributes = {{.name = "name", .help = "by which other nodes refer to it; %traffic does, too"},
-                     {.name = "vehicles",
-                      .type = AttributeType::integer,
-                      .help = "how many",
-                      .minimum = 0,
-                      .maximum = 10'000,
-                      .is_required = true},
-                     {.name = "seed",
-                      .type = AttributeType::integer,
-                      .help = "the same seed gives the same traffic",
-                      .fallback = "1",
-                      .minimum = 0},
-                     {.name = "centre",
-                      .type = AttributeType::vec3,
-                      .help = "of the part of the town that they keep to",
-                      .fallback = "0 0 0",
-                      .unit = "m"},
-                     {.name = "radius",
-                      .type = AttributeType::number,
-                      .help =
-                          "of that part: they start in it, and turn back at its rim where streets let them",
-                      .fallback = "1000000",
-                      .unit = "m",
-                      .minimum = 10,
-                      .maximum = 1e6},
+      .attributes = {text("name", "by which other nodes refer to it; %traffic does, too"),
+                     integer("vehicles", "how many").between(0, 10'000).required(),
+                     integer("seed", "the same seed gives the same traffic").from(0).by_default("1"),
+                     vec3("centre", "of the part of the town that they keep to").in("m").by_default("0 0 0"),
+                     number("radius",
+                            "of that part: they start in it, and turn back at its rim where streets let them")
+                         .in("m")
+                         .between(10, 1e6)
+                         .by_default("1000000"),
                      scene::visible_attribute()},
       .example =
           "traffic(vehicles=30, seed=7, centre=\"40 -20 0\", radius=250) {\n"

@@ -4,16 +4,18 @@
 #include "places/paper_city/facades.h"
 #include "places/paper_city/ground_cover.h"
 #include "places/paper_city/roofs.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::city {
 namespace {
 
+using namespace scene::attribute;
+
 scene::AttributeSchema target_attribute() {
-  return {
-      .name = "target",
-      .help = "name of objects, nodes or materials of the file; * and ? stand for any text and any character",
-      .fallback = "*"};
+  return text("target",
+              "name of objects, nodes or materials of the file; * and ? stand for any text and any character")
+      .by_default("*");
 }
 
 std::string example_of(const std::string& node) {
@@ -60,11 +62,7 @@ scene::NodeSchema ground_schema() {
   return {.type = "ground",
           .help = "What lies on the ground of a city model. The material has the name of the surface.",
           .attributes = {target_attribute(),
-                         {.name = "surface",
-                          .type = scene::AttributeType::choice,
-                          .help = "what to lay",
-                          .fallback = "paving",
-                          .choices = ground_covers()}},
+                         choice("surface", "what to lay", ground_covers()).by_default("paving")},
           .stands_in = {"model"},
           .example = example_of("ground(target=\"TINRelief\", surface=\"gravel\")")};
 }
@@ -80,12 +78,7 @@ scene::NodeSchema greenery_schema() {
               "ground "
               "pulled up to the tops of trees.",
           .attributes = {target_attribute(),
-                         {.name = "seed",
-                          .type = scene::AttributeType::integer,
-                          .help = "of the trees' shapes",
-                          .fallback = "1",
-                          .minimum = 0,
-                          .maximum = 1e9}},
+                         integer("seed", "of the trees' shapes").between(0, 1e9).by_default("1")},
           .stands_in = {"model"},
           .example = example_of("greenery(target=\"PlantCover\")")};
 }

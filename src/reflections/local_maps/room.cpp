@@ -4,20 +4,20 @@
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
+#include "scene/script/attribute.h"
 
 namespace parvis::local_maps {
 namespace {
 
+using namespace scene::attribute;
+
 scene::AttributeSchema show_attribute() {
-  return {.name = "show",
-          .type = scene::AttributeType::choice,
-          .help =
-              "of local_environment_maps, to look into it: its mesh in red over the maps, or "
-              "the weights of the two reference maps in red and green, blue where neither "
-              "sees what is mirrored",
-          .fallback = local_map_view_names[0],
-          .choices = {local_map_view_names.begin(), local_map_view_names.end()},
-          .is_live = true};
+  return choice("show",
+                "of local_environment_maps, to look into it: its mesh in red over the maps, or the weights "
+                "of the two reference maps in red and green, blue where neither sees what is mirrored",
+                {local_map_view_names.begin(), local_map_view_names.end()})
+      .by_default(local_map_view_names[0])
+      .live();
 }
 
 void read_attributes(const scene::Node& node, methods::Settings& settings) {

@@ -1,51 +1,40 @@
 // The node `reflection`: the attributes that all methods have in common, then those of each.
 #include "reflections/methods/registry.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::methods {
 namespace {
 
+using namespace scene::attribute;
+
 using scene::AttributeSchema, scene::AttributeType;
 
 std::vector<AttributeSchema> common_attributes(const Registry& registry) {
-  return {{.name = "method",
-           .type = AttributeType::choice,
-           .help = "how reflections are made",
-           .fallback = registry.name_of({}),
-           .choices = registry.names(),
-           .is_live = true},
-          {.name = "resolution",
-           .type = AttributeType::integer,
-           .help = "edge of one face of a cube map",
-           .fallback = "128",
-           .unit = "pixels",
-           .minimum = 8,
-           .maximum = 4096,
-           .is_live = true},
-          {.name = "level_of_detail",
-           .type = AttributeType::flag,
-           .help = "resolution by size on screen; far objects share one map",
-           .fallback = "1",
-           .is_live = true},
-          {.name = "budget_ms",
-           .type = AttributeType::number,
-           .help = "the time of a frame that is held: the two methods with environment_maps make "
-                   "less of small reflections, and windows draw fewer pixels, enlarged, where that is "
-                   "not enough; pictures and films go by what reflections are known to cost and keep "
-                   "their pixels; 0: none",
-           .fallback = "0",
-           .unit = "ms",
-           .minimum = 0,
-           .maximum = 1000,
-           .is_live = true},
-          {.name = "bounces",
-           .type = AttributeType::integer,
-           .help = "of virtual_objects and of the ray tracer: 2, what a mirror shows in a mirror is "
-                   "drawn, too; 1: mirrors in mirrors show the sky",
-           .fallback = "1",
-           .minimum = 1,
-           .maximum = 2,
-           .is_live = true}};
+  return {
+      choice("method", "how reflections are made", registry.names()).by_default(registry.name_of({})).live(),
+      integer("resolution", "edge of one face of a cube map")
+          .in("pixels")
+          .between(8, 4096)
+          .by_default("128")
+          .live(),
+      flag("level_of_detail", "resolution by size on screen; far objects share one map")
+          .by_default("1")
+          .live(),
+      number("budget_ms",
+             "the time of a frame that is held: the two methods with environment_maps make less of small "
+             "reflections, and windows draw fewer pixels, enlarged, where that is not enough; pictures and "
+             "films go by what reflections are known to cost and keep their pixels; 0: none")
+          .in("ms")
+          .between(0, 1000)
+          .by_default("0")
+          .live(),
+      integer("bounces",
+              "of virtual_objects and of the ray tracer: 2, what a mirror shows in a mirror is drawn, too; "
+              "1: mirrors in mirrors show the sky")
+          .between(1, 2)
+          .by_default("1")
+          .live()};
 }
 
 scene::NodeSchema schema_of(const Registry& registry) {

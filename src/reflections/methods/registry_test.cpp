@@ -9,10 +9,13 @@
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
 #include "reflections/methods/frame.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::methods {
 namespace {
+
+using namespace scene::attribute;
 
 /// What the room keeps in a scene.
 struct Paint {
@@ -58,7 +61,7 @@ class Red final : public Overlay {
 };
 
 scene::AttributeSchema number(const char* name, const char* fallback) {
-  return {.name = name, .type = scene::AttributeType::number, .help = "radiance", .fallback = fallback};
+  return number(name, "radiance").by_default(fallback);
 }
 
 void furnish(House& house) {

@@ -1,4 +1,5 @@
-// Mirror-like surfaces without reflections: they shine with the mean light of the sky, as in the paper's "no reflection".
+// Mirror-like surfaces without reflections: they shine with the mean light of the sky, as in the paper's "no
+// reflection".
 #include "graphics/render/sky_lookup.glsl"
 #include "graphics/render/surface_body.glsl"
 

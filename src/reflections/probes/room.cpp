@@ -3,9 +3,12 @@
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
+#include "scene/script/attribute.h"
 
 namespace parvis::probes {
 namespace {
+
+using namespace scene::attribute;
 
 using Made = Result<std::unique_ptr<methods::Reflections>>;
 
@@ -26,21 +29,18 @@ void furnish(House& house) {
                 .help = "a cube map for each reflector, re-rendered every frame",
                 .make = make<RerenderedCubeMap>,
                 .is_default = true});
-  registry.add(
-      {.name = "time_sliced_cube_map",
-       .help = "the same maps, a face or a few per frame",
-       .make = make<TimeSlicedCubeMap>,
-       .attributes = {{.name = "faces_per_frame",
-                       .type = scene::AttributeType::integer,
-                       .help = "of time_sliced_cube_map: how many faces of maps a frame draws, over all "
-                               "reflectors; 0: one for each of them",
-                       .fallback = "0",
-                       .minimum = 0,
-                       .maximum = 1000,
-                       .is_live = true}},
-       .read = [](const scene::Node& node, methods::Settings& settings) {
-         settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_per_frame"));
-       }});
+  registry.add({.name = "time_sliced_cube_map",
+                .help = "the same maps, a face or a few per frame",
+                .make = make<TimeSlicedCubeMap>,
+                .attributes = {integer("faces_per_frame",
+                                       "of time_sliced_cube_map: how many faces of maps a frame draws, over "
+                                       "all reflectors; 0: one for each of them")
+                                   .between(0, 1000)
+                                   .by_default("0")
+                                   .live()},
+                .read = [](const scene::Node& node, methods::Settings& settings) {
+                  settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_per_frame"));
+                }});
   registry.add({.name = "shared_cube_map",
                 .help = "one cube map for all reflectors, drawn about the largest on the screen",
                 .make = make<SharedCubeMap>});

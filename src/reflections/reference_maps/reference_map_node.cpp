@@ -2,66 +2,45 @@
 
 #include "reflections/reference_maps/settings.h"
 #include "scene/data/path.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::reference_maps {
 namespace {
 
-using scene::AttributeType;
+using namespace scene::attribute;
 
 constexpr std::size_t max_places = 2000;
 
 scene::NodeSchema reference_maps_schema() {
-  return {.type = "referenceMaps",
-          .help =
-              "The maps that reflection(method=\"multiple_environment_maps\") looks into. Without places "
-              "they stand along the streets, where they show most of what vehicles mirror.",
-          .attributes = {{.name = "position",
-                          .type = AttributeType::points,
-                          .help = "where a map is taken, at the height of bodywork; may be repeated",
-                          .unit = "m",
-                          .minimum = -1e6,
-                          .maximum = 1e6,
-                          .is_repeatable = true},
-                         {.name = "path",
-                          .type = AttributeType::path,
-                          .help = "a line along which maps are taken, `spacing` apart",
-                          .unit = "m",
-                          .minimum = -1e6,
-                          .maximum = 1e6},
-                         {.name = "spacing",
-                          .type = AttributeType::number,
-                          .help = "of the maps along `path`",
-                          .fallback = "20",
-                          .unit = "m",
-                          .minimum = 0.5,
-                          .maximum = 1e5},
-                         {.name = "maps",
-                          .type = AttributeType::integer,
-                          .help = "how many place themselves, at most; absent: as reflection has it",
-                          .minimum = 1,
-                          .maximum = double(max_places)},
-                         {.name = "resolution",
-                          .type = AttributeType::integer,
-                          .help = "edge of a cube map's face that is as sharp; absent: as reflection has it",
-                          .unit = "pixels",
-                          .minimum = 8,
-                          .maximum = 2048},
-                         {.name = "cell",
-                          .type = AttributeType::number,
-                          .help = "of the heights in which mirrored rays are traced; places that would take "
-                                  "more than 256 MB get larger ones, with a warning",
-                          .fallback = "1",
-                          .unit = "m",
-                          .minimum = 0.05,
-                          .maximum = 100},
-                         {.name = "compressed",
-                          .type = AttributeType::flag,
-                          .help = "colours take a quarter of the graphics memory, a little less true",
-                          .fallback = "0"}},
-          .example = "referenceMaps(position=\"0 -20 1.2\", position=\"0 20 1.2\", compressed=yes)",
-          .is_unique = true,
-          .is_laid_out_once = true};
+  return {
+      .type = "referenceMaps",
+      .help =
+          "The maps that reflection(method=\"multiple_environment_maps\") looks into. Without places "
+          "they stand along the streets, where they show most of what vehicles mirror.",
+      .attributes =
+          {points("position", "where a map is taken, at the height of bodywork; may be repeated")
+               .in("m")
+               .between(-1e6, 1e6)
+               .repeatable(),
+           path("path", "a line along which maps are taken, `spacing` apart").in("m").between(-1e6, 1e6),
+           number("spacing", "of the maps along `path`").in("m").between(0.5, 1e5).by_default("20"),
+           integer("maps", "how many place themselves, at most; absent: as reflection has it")
+               .between(1, double(max_places)),
+           integer("resolution", "edge of a cube map's face that is as sharp; absent: as reflection has it")
+               .in("pixels")
+               .between(8, 2048),
+           number("cell",
+                  "of the heights in which mirrored rays are traced; places that would take more than 256 MB "
+                  "get larger ones, with a warning")
+               .in("m")
+               .between(0.05, 100)
+               .by_default("1"),
+           flag("compressed", "colours take a quarter of the graphics memory, a little less true")
+               .by_default("0")},
+      .example = "referenceMaps(position=\"0 -20 1.2\", position=\"0 20 1.2\", compressed=yes)",
+      .is_unique = true,
+      .is_laid_out_once = true};
 }
 
 void build_reference_maps(const scene::Node& node, scene::SceneBuilder& builder) {

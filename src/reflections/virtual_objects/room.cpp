@@ -4,8 +4,11 @@
 #include "reflections/reflector_maps/settings.h"
 #include "reflections/virtual_objects/long_edges.h"
 #include "reflections/virtual_objects/virtual_objects.h"
+#include "scene/script/attribute.h"
 
 namespace parvis::virtual_objects {
+
+using namespace scene::attribute;
 using namespace reflection_search;
 using namespace reflector_maps;
 namespace {
@@ -14,41 +17,33 @@ using scene::AttributeSchema, scene::AttributeType;
 
 std::vector<AttributeSchema> virtual_object_attributes() {
   const VirtualObjectSettings defaults;
-  return {{.name = "virtual_within",
-           .type = AttributeType::number,
-           .help = "people, trees, cars that stand wholly within this distance of a mirror are drawn as "
-                   "virtual objects, where ray tracing has them, over what the method shows beyond; 0: "
-                   "none. (virtual_objects draws everything so, whatever its distance.)",
-           .fallback = fmt::format("{}", defaults.within_m),
-           .unit = "m",
-           .minimum = 0,
-           .maximum = 1000,
-           .is_live = true},
-          {.name = "virtual_grid",
-           .type = AttributeType::number,
-           .help = "of virtual objects: reflection points are searched for the corners of a grid about "
-                   "each mesh, at most this share of as many as it has vertices, and its vertices are "
-                   "interpolated between them; 1: for each vertex itself. With level_of_detail fewer "
-                   "where that is not seen",
-           .fallback = fmt::format("{}", defaults.grid_share),
-           .minimum = 0,
-           .maximum = 1,
-           .is_live = true},
-          {.name = "search",
-           .type = AttributeType::choice,
-           .help = "of virtual objects: how reflection points are searched for; midpoint is the method "
-                   "of Estalella and others 2005, drawn however far it has come (mirrors in mirrors are "
-                   "searched for by newton)",
-           .fallback = search_method_names[0],
-           .choices = {search_method_names.begin(), search_method_names.end()},
-           .is_live = true},
-          {.name = "iterations",
-           .type = AttributeType::integer,
-           .help = "of search=midpoint",
-           .fallback = fmt::format("{}", defaults.iterations),
-           .minimum = 1,
-           .maximum = 100,
-           .is_live = true}};
+  return {
+      number("virtual_within",
+             "people, trees, cars that stand wholly within this distance of a mirror are drawn as virtual "
+             "objects, where ray tracing has them, over what the method shows beyond; 0: none. "
+             "(virtual_objects draws everything so, whatever its distance.)")
+          .in("m")
+          .between(0, 1000)
+          .by_default(fmt::format("{}", defaults.within_m))
+          .live(),
+      number("virtual_grid",
+             "of virtual objects: reflection points are searched for the corners of a grid about each mesh, "
+             "at most this share of as many as it has vertices, and its vertices are interpolated between "
+             "them; 1: for each vertex itself. With level_of_detail fewer where that is not seen")
+          .between(0, 1)
+          .by_default(fmt::format("{}", defaults.grid_share))
+          .live(),
+      choice(
+          "search",
+          "of virtual objects: how reflection points are searched for; midpoint is the method of Estalella "
+          "and others 2005, drawn however far it has come (mirrors in mirrors are searched for by newton)",
+          {search_method_names.begin(), search_method_names.end()})
+          .by_default(search_method_names[0])
+          .live(),
+      integer("iterations", "of search=midpoint")
+          .between(1, 100)
+          .by_default(fmt::format("{}", defaults.iterations))
+          .live()};
 }
 
 void read_virtual_objects(const scene::Node& node, methods::Settings& settings) {

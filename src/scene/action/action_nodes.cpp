@@ -4,10 +4,13 @@
 
 #include "scene/action/actions.h"
 #include "scene/action/animation_process.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::action {
 namespace {
+
+using namespace scene::attribute;
 
 using scene::AttributeSchema, scene::AttributeType, scene::MessageSchema, scene::NodeSchema;
 
@@ -45,44 +48,31 @@ void check_tour(const scene::Node& node, scene::SceneBuilder& builder) {
   check_times(node, "stops", builder);
 }
 
-const AttributeSchema name{.name = "name", .help = "by which other nodes refer to it"};
-
-AttributeSchema flag(const char* of, const char* help, const char* fallback) {
-  return {.name = of, .type = AttributeType::flag, .help = help, .fallback = fallback};
-}
+const AttributeSchema name = text("name", "by which other nodes refer to it");
 
 AttributeSchema event(const char* of, const char* help, AttributeType source,
                       std::vector<std::string> choices = {}) {
   std::string lower = of;
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = char(c + 'a' - 'A');
-  return {.name = of,
-          .type = AttributeType::event,
-          .help = help,
-          .choices = std::move(choices),
-          .source = source,
-          .spellings = {lower},
-          .is_repeatable = true};
+  AttributeSchema schema = of_type(AttributeType::event, of, help);
+  schema.source = source;
+  return std::move(schema).or_one_of(std::move(choices)).spelled({lower}).repeatable();
 }
 
 /// Of what runs in time.
 AttributeSchema running(const char* fallback) {
-  AttributeSchema schema = flag("running", "it runs when the scene begins", fallback);
-  schema.is_live = true;
-  return schema;
+  return flag("running", "it runs when the scene begins").by_default(fallback).live();
 }
 
 const std::vector<MessageSchema> running_messages{{"start", "runs from the beginning", {}},
                                                   {"stop", "halts where it is", {}},
                                                   {"resume", "goes on from where it halted", {}}};
 
-const AttributeSchema time_s{.name = "time_s",
-                             .type = AttributeType::number,
-                             .help = "when, from the beginning; later than the one before",
-                             .unit = "s",
-                             .minimum = 0,
-                             .maximum = 1e6,
-                             .is_required = true};
+const AttributeSchema time_s = number("time_s", "when, from the beginning; later than the one before")
+                                   .in("s")
+                                   .between(0, 1e6)
+                                   .required();
 
 NodeSchema keys_schema() {
   return {.type = "keys",
@@ -103,16 +93,10 @@ NodeSchema timer_schema() {
   return {
       .type = "timer",
       .help = "Messages sent at times.",
-      .attributes = {name,
-                     running("1"),
-                     {.name = "period_s",
-                      .type = AttributeType::number,
-                      .help = "after which it begins anew; 0: never",
-                      .fallback = "0",
-                      .unit = "s",
-                      .minimum = 0,
-                      .maximum = 1e6},
-                     event("onTime", "sent so many seconds after the timer began", AttributeType::number)},
+      .attributes =
+          {name, running("1"),
+           number("period_s", "after which it begins anew; 0: never").in("s").between(0, 1e6).by_default("0"),
+           event("onTime", "sent so many seconds after the timer began", AttributeType::number)},
       .example =
           "group(name=\"lamps\", visible=0) { }\n"
           "timer(period_s=20, onTime=\"5, lamps, show\", onTime=\"15, lamps, hide\")",
@@ -120,28 +104,16 @@ NodeSchema timer_schema() {
 }
 
 NodeSchema proximity_schema() {
-  return {.type = "proximity",
-          .help = "Messages sent when the visitor or an object comes near a point, or leaves.",
-          .attributes = {name,
-                         {.name = "position",
-                          .type = AttributeType::vec3,
-                          .help = "of the point",
-                          .fallback = "0 0 0",
-                          .unit = "m",
-                          .is_live = true},
-                         {.name = "radius_m",
-                          .type = AttributeType::number,
-                          .help = "what counts as near",
-                          .fallback = "5",
-                          .unit = "m",
-                          .minimum = 0,
-                          .maximum = 1e6,
-                          .is_live = true},
-                         event("onEnter", "sent when it comes near", AttributeType::reference, {"visitor"}),
-                         event("onLeave", "sent when it leaves", AttributeType::reference, {"visitor"})},
-          .example =
-              "group(name=\"terrace\", visible=0) { }\n"
-              "proximity(position=\"12 4 0\", radius_m=8, onEnter=\"visitor, terrace, show\")"};
+  return {
+      .type = "proximity",
+      .help = "Messages sent when the visitor or an object comes near a point, or leaves.",
+      .attributes = {name, vec3("position", "of the point").in("m").by_default("0 0 0").live(),
+                     number("radius_m", "what counts as near").in("m").between(0, 1e6).by_default("5").live(),
+                     event("onEnter", "sent when it comes near", AttributeType::reference, {"visitor"}),
+                     event("onLeave", "sent when it leaves", AttributeType::reference, {"visitor"})},
+      .example =
+          "group(name=\"terrace\", visible=0) { }\n"
+          "proximity(position=\"12 4 0\", radius_m=8, onEnter=\"visitor, terrace, show\")"};
 }
 
 NodeSchema path_schema() {
@@ -152,18 +124,15 @@ NodeSchema path_schema() {
           "computed once.",
       .attributes =
           {name,
-           {.name = "of",
-            .type = AttributeType::reference,
-            .help = "the node that moves; its position and heading are those of the path",
-            .refers_to = {"model", "group", "camera"},
-            .is_required = true},
-           running("1"),
-           flag("loop", "begins anew after the last key", "0"),
-           flag("smooth", "runs in curves through the keys; else straight", "1"),
+           reference("of", "the node that moves; its position and heading are those of the path",
+                     {"model", "group", "camera"})
+               .required(),
+           running("1"), flag("loop", "begins anew after the last key").by_default("0"),
+           flag("smooth", "runs in curves through the keys; else straight").by_default("1"),
            flag("along",
                 "looks where it goes: an object's x axis, a camera's view; an object's own heading_deg "
-                "counts from there",
-                "0"),
+                "counts from there")
+               .by_default("0"),
            event("onPass", "sent when it reaches the key of this number", AttributeType::integer)},
       .example =
           "group(name=\"tram\") { }\n"
@@ -179,21 +148,11 @@ NodeSchema key_schema() {
   return {.type = "key",
           .help = "Where a path is at a time. Without angles on any key, the node keeps its own.",
           .attributes = {time_s,
-                         {.name = "position",
-                          .type = AttributeType::vec3,
-                          .help = "in the frame in which the moving node stands",
-                          .unit = "m",
-                          .is_required = true},
-                         {.name = "heading_deg",
-                          .type = AttributeType::angle,
-                          .help = "as the moving node's own; on no key or on all",
-                          .unit = "degrees"},
-                         {.name = "pitch_deg",
-                          .type = AttributeType::angle,
-                          .help = "of a camera, upward from the horizon; on no key or on all",
-                          .unit = "degrees",
-                          .minimum = -90,
-                          .maximum = 90}},
+                         vec3("position", "in the frame in which the moving node stands").in("m").required(),
+                         angle("heading_deg", "as the moving node's own; on no key or on all").in("degrees"),
+                         angle("pitch_deg", "of a camera, upward from the horizon; on no key or on all")
+                             .in("degrees")
+                             .between(-90, 90)},
           .stands_in = {"path"},
           .example =
               "camera(name=\"crane\")\n"
@@ -206,10 +165,9 @@ NodeSchema key_schema() {
 NodeSchema tour_schema() {
   return {.type = "tour",
           .help = "The view glides through cameras: what parvis render --tour and parvis view --tour show.",
-          .attributes = {{.name = "name", .help = "what --tour takes", .is_required = true},
-                         running("0"),
-                         flag("loop", "begins anew after the last stop", "0"),
-                         flag("smooth", "runs in curves through the stops; else straight", "1")},
+          .attributes = {text("name", "what --tour takes").required(), running("0"),
+                         flag("loop", "begins anew after the last stop").by_default("0"),
+                         flag("smooth", "runs in curves through the stops; else straight").by_default("1")},
           .example =
               "camera(name=\"street\", position=\"0 -20 1.6\")\n"
               "camera(name=\"balcony\", position=\"8 0 9\", heading_deg=270)\n"
@@ -223,12 +181,7 @@ NodeSchema tour_schema() {
 NodeSchema stop_schema() {
   return {.type = "stop",
           .help = "A camera through which a tour goes; one that follows an object is where it is then.",
-          .attributes = {time_s,
-                         {.name = "camera",
-                          .type = AttributeType::reference,
-                          .help = "which",
-                          .refers_to = {"camera"},
-                          .is_required = true}},
+          .attributes = {time_s, reference("camera", "which", {"camera"}).required()},
           .stands_in = {"tour"},
           .example =
               "camera(name=\"street\", position=\"0 -20 1.6\")\n"

@@ -8,12 +8,15 @@
 #include "scene/roads/road_builder.h"
 #include "scene/roads/road_from_polygons.h"
 #include "scene/roads/road_nodes.h"
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::scene {
 namespace {
+
+using namespace attribute;
 
 constexpr float m_s_per_km_h = 1.0f / 3.6f;
 
@@ -22,39 +25,16 @@ NodeSchema road_schema() {
           .help =
               "A street for vehicles. Where roads cross or touch they meet in a crossing; traffic keeps to "
               "the right.",
-          .attributes = {{.name = "name", .help = "by which errors call it"},
-                         {.name = "path",
-                          .type = AttributeType::path,
-                          .help = "centre line on the ground; repeated, the pieces follow each other",
-                          .unit = "m",
-                          .minimum = -1e6,
-                          .maximum = 1e6,
-                          .is_required = true,
-                          .is_repeatable = true},
-                         {.name = "lanes",
-                          .type = AttributeType::integer,
-                          .help = "in each direction",
-                          .fallback = "1",
-                          .minimum = 1,
-                          .maximum = 8},
-                         {.name = "one_way",
-                          .type = AttributeType::flag,
-                          .help = "all lanes run from the first point to the last",
-                          .fallback = "0"},
-                         {.name = "lane_width",
-                          .type = AttributeType::number,
-                          .help = "of one lane",
-                          .fallback = "3",
-                          .unit = "m",
-                          .minimum = 1,
-                          .maximum = 20},
-                         {.name = "speed_km_h",
-                          .type = AttributeType::number,
-                          .help = "the limit",
-                          .fallback = "50",
-                          .unit = "km/h",
-                          .minimum = 1,
-                          .maximum = 300}},
+          .attributes = {text("name", "by which errors call it"),
+                         path("path", "centre line on the ground; repeated, the pieces follow each other")
+                             .in("m")
+                             .between(-1e6, 1e6)
+                             .required()
+                             .repeatable(),
+                         integer("lanes", "in each direction").between(1, 8).by_default("1"),
+                         flag("one_way", "all lanes run from the first point to the last").by_default("0"),
+                         number("lane_width", "of one lane").in("m").between(1, 20).by_default("3"),
+                         number("speed_km_h", "the limit").in("km/h").between(1, 300).by_default("50")},
           .example = "road(path=\"0 0, 120 0, 200 40\", lanes=2, speed_km_h=30)",
           .is_laid_out_once = true};
 }
@@ -79,20 +59,16 @@ NodeSchema streets_schema() {
           "Roads of a model: the centre lines that its file gives (OpenStreetMap), else along the middle of "
           "its road surfaces: of the parts that match target, those whose names do not speak of footpaths, "
           "cycle paths, parking or rails. Stands after the model.",
-      .attributes = {{.name = "of", .help = "name of the model", .is_required = true},
-                     {.name = "target",
-                      .help =
+      .attributes = {text("of", "name of the model").required(),
+                     text("target",
                           "name of objects, nodes or materials of the file; * and ? stand for any text and "
-                          "any character",
-                      .fallback = "*Road*",
-                      .is_repeatable = true},
-                     {.name = "speed_km_h",
-                      .type = AttributeType::number,
-                      .help = "the limit where the file gives none",
-                      .fallback = "30",
-                      .unit = "km/h",
-                      .minimum = 1,
-                      .maximum = 300}},
+                          "any character")
+                         .by_default("*Road*")
+                         .repeatable(),
+                     number("speed_km_h", "the limit where the file gives none")
+                         .in("km/h")
+                         .between(1, 300)
+                         .by_default("30")},
       .example =
           "model(name=\"quarter\", file=\"quarter.city.json\")\n"
           "streets(of=\"quarter\")",

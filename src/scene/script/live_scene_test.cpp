@@ -7,6 +7,7 @@
 #include "formats/gltf/gltf_writer.h"
 #include "life/traffic/demand.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
 
@@ -253,12 +254,10 @@ TEST_F(LiveSceneTest, AKindOfVehicleStaysAsItIs) {
 }
 
 TEST(Messages, TheShadowMapOfTheThesisUnderstandsBothSpellings) {
-  NodeSchema schema{
-      .type = "xpShadowMap",
-      .messages = {
-          {"spot", "", {{.name = "on", .type = AttributeType::flag, .is_required = true}}},
-          {"lightPosition", "", {{.name = "at", .type = AttributeType::vec3, .is_required = true}}},
-          {"lightAngle", "", {{.name = "deg", .type = AttributeType::number, .is_required = true}}}}};
+  NodeSchema schema{.type = "xpShadowMap",
+                    .messages = {{"spot", "", {attribute::flag("on", "").required()}},
+                                 {"lightPosition", "", {attribute::vec3("at", "").required()}},
+                                 {"lightAngle", "", {attribute::number("deg", "").required()}}}};
   EXPECT_EQ(std::get<bool>(parse_message(schema, "spot on", {})->arguments.at(0)), true);
   EXPECT_EQ(std::get<bool>(parse_message(schema, "spot off", {})->arguments.at(0)), false);
   for (const char* text : {"lightPosition 0 0 -200", "lightposition  0 0 -200 "})

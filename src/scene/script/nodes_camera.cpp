@@ -1,6 +1,7 @@
 // camera: a named place to look from.
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -8,6 +9,8 @@
 
 namespace parvis::scene {
 namespace {
+
+using namespace attribute;
 
 /// The width over height at which fov_deg is the horizontal field of view.
 constexpr float nominal_aspect = 16.0f / 9.0f;
@@ -18,52 +21,31 @@ NodeSchema camera_schema() {
       .help =
           "A named place to look from, towards a target or by heading and pitch; or one that stays with a "
           "moving object.",
-      .attributes = {{.name = "name", .help = "what parvis render --camera takes", .is_required = true},
-                     {.name = "position",
-                      .type = AttributeType::vec3,
-                      .help = "of the eye",
-                      .fallback = "0 0 1.6",
-                      .unit = "m",
-                      .is_live = true},
-                     {.name = "target",
-                      .type = AttributeType::vec3,
-                      .help = "the point to look at",
-                      .unit = "m",
-                      .is_live = true,
-                      .in_place_of = {"heading_deg", "pitch_deg"}},
-                     {.name = "heading_deg",
-                      .type = AttributeType::angle,
-                      .help = "compass direction: 0 north, 90 east",
-                      .fallback = "0",
-                      .unit = "degrees",
-                      .is_live = true,
-                      .in_place_of = {"target"}},
-                     {.name = "pitch_deg",
-                      .type = AttributeType::angle,
-                      .help = "upward from the horizon",
-                      .fallback = "0",
-                      .unit = "degrees",
-                      .minimum = -90,
-                      .maximum = 90,
-                      .is_live = true,
-                      .in_place_of = {"target"}},
-                     {.name = "fov_deg",
-                      .type = AttributeType::angle,
-                      .help = "horizontal field of view at 16:9",
-                      .fallback = "65",
-                      .unit = "degrees",
-                      .minimum = 1,
-                      .maximum = 170,
-                      .is_live = true},
-                     {.name = "follows",
-                      .type = AttributeType::reference,
-                      .help = "name of the object to stay with"},
-                     {.name = "offset",
-                      .type = AttributeType::vec3,
-                      .help = "of the eye from the followed object: forward, left, up",
-                      .fallback = "-7 2.5 1.8",
-                      .unit = "m",
-                      .is_live = true}},
+      .attributes =
+          {text("name", "what parvis render --camera takes").required(),
+           vec3("position", "of the eye").in("m").by_default("0 0 1.6").live(),
+           vec3("target", "the point to look at").in("m").replacing({"heading_deg", "pitch_deg"}).live(),
+           angle("heading_deg", "compass direction: 0 north, 90 east")
+               .in("degrees")
+               .by_default("0")
+               .replacing({"target"})
+               .live(),
+           angle("pitch_deg", "upward from the horizon")
+               .in("degrees")
+               .between(-90, 90)
+               .by_default("0")
+               .replacing({"target"})
+               .live(),
+           angle("fov_deg", "horizontal field of view at 16:9")
+               .in("degrees")
+               .between(1, 170)
+               .by_default("65")
+               .live(),
+           reference("follows", "name of the object to stay with"),
+           vec3("offset", "of the eye from the followed object: forward, left, up")
+               .in("m")
+               .by_default("-7 2.5 1.8")
+               .live()},
       .example = "camera(name=\"street\", position=\"12 -4 1.6\", target=\"40 10 4\", fov_deg=60)",
       .messages = {{"look", "the visitor looks from it", {}}}};
 }

@@ -1,4 +1,5 @@
 // include, group: nodes that hold others.
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -7,11 +8,12 @@
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema include_schema() {
   return {.type = include_type,
           .help = "The nodes of another script, as if they were written here.",
-          .attributes =
-              {{.name = "file", .type = AttributeType::file, .help = "a scene script", .is_required = true}},
+          .attributes = {file("file", "a scene script").required()},
           .stands_in = {top_level, "group", "scenario"},
           .example = "include(file=\"evening_light.xp\")"};
 }
@@ -25,11 +27,9 @@ NodeSchema group_schema() {
                         "group(position=\"120 40 0\", heading_deg=30) {\n"
                         "  camera(name=\"corner\", position=\"0 0 1.6\", target=\"10 0 2\")\n"
                         "}"};
-  schema.attributes.insert(schema.attributes.begin(),
-                           {.name = "name", .help = "by which other nodes refer to it"});
+  schema.attributes.insert(schema.attributes.begin(), text("name", "by which other nodes refer to it"));
   schema.attributes.push_back(visible_attribute());
-  const AttributeSchema one{
-      .name = "node", .type = AttributeType::child, .help = "which", .is_required = true};
+  const AttributeSchema one = child("node", "which").required();
   AttributeSchema any = one;
   any.is_required = false;
   schema.messages = {{"show", "makes the group, or a node inside it, visible", {any}},

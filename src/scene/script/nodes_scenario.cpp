@@ -1,4 +1,5 @@
 // scenario, override: named states of a scene.
+#include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/script_nodes.h"
@@ -6,30 +7,28 @@
 namespace parvis::scene {
 namespace {
 
+using namespace attribute;
+
 NodeSchema scenario_schema() {
-  return {.type = "scenario",
-          .help =
-              "A state of the scene: attributes of other nodes as they are while it is chosen, and nodes "
-              "that stand "
-              "only in it. One scenario is chosen at a time, or none: that is the base scene.",
-          .attributes = {{.name = "name", .help = "what parvis render --scenario takes", .is_required = true},
-                         {.name = "title", .help = "what people call it"},
-                         {.name = "extends",
-                          .type = AttributeType::reference,
-                          .help = "a scenario that comes first: this one changes what that one gives",
-                          .refers_to = {"scenario"}},
-                         {.name = "chosen",
-                          .type = AttributeType::flag,
-                          .help = "the scene begins with it",
-                          .fallback = "0"}},
-          .example =
-              "group(name=\"stone\") { }\n"
-              "group(name=\"oaks\", visible=0) { }\n"
-              "scenario(name=\"green\", title=\"Two rows of oaks\") {\n"
-              "  override(of=\"stone\", visible=0)\n"
-              "  override(of=\"oaks\", visible=1, position=\"0 2 0\")\n"
-              "}",
-          .messages = {{"choose", "makes it the scene's state", {}}}};
+  return {
+      .type = "scenario",
+      .help =
+          "A state of the scene: attributes of other nodes as they are while it is chosen, and nodes "
+          "that stand "
+          "only in it. One scenario is chosen at a time, or none: that is the base scene.",
+      .attributes = {text("name", "what parvis render --scenario takes").required(),
+                     text("title", "what people call it"),
+                     reference("extends", "a scenario that comes first: this one changes what that one gives",
+                               {"scenario"}),
+                     flag("chosen", "the scene begins with it").by_default("0")},
+      .example =
+          "group(name=\"stone\") { }\n"
+          "group(name=\"oaks\", visible=0) { }\n"
+          "scenario(name=\"green\", title=\"Two rows of oaks\") {\n"
+          "  override(of=\"stone\", visible=0)\n"
+          "  override(of=\"oaks\", visible=1, position=\"0 2 0\")\n"
+          "}",
+      .messages = {{"choose", "makes it the scene's state", {}}}};
 }
 
 NodeSchema override_schema() {
@@ -38,10 +37,7 @@ NodeSchema override_schema() {
               "Attributes of a node while the scenario is chosen: beside of=, any that the node's own type "
               "has (of what "
               "is laid out once, roads and traffic, only visible=). Materials of models are nodes, too.",
-          .attributes = {{.name = "of",
-                          .type = AttributeType::reference,
-                          .help = "the node; %TYPE for the one node of a type, as %sun",
-                          .is_required = true}},
+          .attributes = {reference("of", "the node; %TYPE for the one node of a type, as %sun").required()},
           .stands_in = {"scenario"},
           .example =
               "sun(elevation_deg=50)\n"

@@ -2,36 +2,23 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/script/attribute.h"
+
 namespace parvis::scene {
 
+using namespace attribute;
+
 std::vector<AttributeSchema> placement_attributes() {
-  return {{.name = "position",
-           .type = AttributeType::vec3,
-           .help = "where its origin stands in its parent",
-           .fallback = "0 0 0",
-           .unit = "m",
-           .is_live = true},
-          {.name = "heading_deg",
-           .type = AttributeType::angle,
-           .help = "turn about the vertical, clockwise from above",
-           .fallback = "0",
-           .unit = "degrees",
-           .is_live = true},
-          {.name = "scale",
-           .type = AttributeType::number,
-           .help = "size relative to the file's",
-           .fallback = "1",
-           .minimum = 1e-6,
-           .maximum = 1e6,
-           .is_live = true}};
+  return {vec3("position", "where its origin stands in its parent").in("m").by_default("0 0 0").live(),
+          angle("heading_deg", "turn about the vertical, clockwise from above")
+              .in("degrees")
+              .by_default("0")
+              .live(),
+          number("scale", "size relative to the file's").between(1e-6, 1e6).by_default("1").live()};
 }
 
 AttributeSchema visible_attribute() {
-  return {.name = "visible",
-          .type = AttributeType::flag,
-          .help = "whether it is to be seen at first",
-          .fallback = "1",
-          .is_live = true};
+  return flag("visible", "whether it is to be seen at first").by_default("1").live();
 }
 
 glm::mat4 turned(float heading) {

@@ -6,6 +6,7 @@
 
 #include "base/test_folder.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/attribute.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_loader.h"
@@ -13,6 +14,8 @@
 
 namespace parvis::scene {
 namespace {
+
+using namespace attribute;
 
 /// An item: one jet of a fountain, in the world.
 struct Jet {
@@ -39,13 +42,7 @@ struct WaterNeed {
 NodeSchema jet_schema() {
   return {.type = "jet",
           .help = "One jet.",
-          .attributes = {{.name = "height",
-                          .type = AttributeType::number,
-                          .help = "of the water",
-                          .fallback = "2",
-                          .minimum = 0,
-                          .maximum = 9,
-                          .is_live = true}},
+          .attributes = {number("height", "of the water").between(0, 9).by_default("2").live()},
           .stands_in = {"fountain"},
           .example = "fountain() { jet(height=3) }"};
 }

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "base/test_folder.h"
 #include "life/traffic/demand.h"
+#include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/script_checker.h"
 #include "scene/script/test_house.h"
@@ -12,6 +13,8 @@
 
 namespace parvis::scene {
 namespace {
+
+using namespace attribute;
 
 /// Scripts in a folder of their own, and what the loader says of them.
 class SceneLoader : public ::testing::Test {
@@ -45,15 +48,10 @@ class SceneLoader : public ::testing::Test {
   static House house_with_print() {
     House house = test_house();
     NodeRegistry& registry = house.get<NodeRegistry>();
-    registry.add(
-        {.type = "print",
-         .attributes = {{.name = "paper", .type = AttributeType::choice, .choices = {"plain", "glossy"}},
-                        {.name = "resolution",
-                         .type = AttributeType::integer,
-                         .unit = "pixels",
-                         .minimum = 8,
-                         .maximum = 4096}}},
-        [](const Node&, SceneBuilder&) {});
+    registry.add({.type = "print",
+                  .attributes = {choice("paper", "", {"plain", "glossy"}),
+                                 integer("resolution", "").in("pixels").between(8, 4096)}},
+                 [](const Node&, SceneBuilder&) {});
     return house;
   }
 };

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -52,6 +53,38 @@ struct AttributeSchema {
   std::vector<std::string> in_place_of = {};  ///< attributes that a message to this one clears
   bool is_required = false;
   bool is_repeatable = false;
+
+  // What scene/script/attribute.h chains to the type, name and help of an attribute; each returns the changed
+  // schema.
+
+  /// `unit`.
+  AttributeSchema in(std::string of_value) && { return unit = std::move(of_value), std::move(*this); }
+  /// `fallback`.
+  AttributeSchema by_default(std::string value) && { return fallback = std::move(value), std::move(*this); }
+  /// `minimum` and `maximum`.
+  AttributeSchema between(double min, double max) && {
+    return minimum = min, maximum = max, std::move(*this);
+  }
+  /// `minimum`.
+  AttributeSchema from(double min) && { return minimum = min, std::move(*this); }
+  /// Words that stand beside the values of the type: `choices`.
+  AttributeSchema or_one_of(std::vector<std::string> words) && {
+    return choices = std::move(words), std::move(*this);
+  }
+  /// `spellings`.
+  AttributeSchema spelled(std::vector<std::string> also) && {
+    return spellings = std::move(also), std::move(*this);
+  }
+  /// `in_place_of`.
+  AttributeSchema replacing(std::vector<std::string> others) && {
+    return in_place_of = std::move(others), std::move(*this);
+  }
+  /// `is_live`.
+  AttributeSchema live() && { return is_live = true, std::move(*this); }
+  /// `is_required`.
+  AttributeSchema required() && { return is_required = true, std::move(*this); }
+  /// `is_repeatable`.
+  AttributeSchema repeatable() && { return is_repeatable = true, std::move(*this); }
 };
 
 /// A message that a node accepts while the scene runs: "name argument argument". The last argument takes all
