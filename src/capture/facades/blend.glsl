@@ -1,22 +1,26 @@
-// Which photographs colour a point of a surface, and how much each (thesis 3.6.2; weights after Debevec et al. 1998 and
-// Buehler et al. 2001, unstructured lumigraph rendering). GLSL that is C++, too (shading/glsl.h).
+// Which photographs colour a point of a surface, and how much each (thesis 3.6.2; weights after Debevec et
+// al. 1998 and Buehler et al. 2001, unstructured lumigraph rendering). GLSL that is C++, too
+// (shading/glsl.h).
 
 // Penalty of angle beyond which a photograph says nothing about a point, radians.
 #define MAX_PENALTY 3.2f
-// Keeps the weight of a photograph that is seen from its own viewpoint finite: it then outweighs all others by far.
+// Keeps the weight of a photograph that is seen from its own viewpoint finite: it then outweighs all others
+// by far.
 #define MIN_PENALTY 1e-4f
 
-// Penalty of looking at a point through a photograph: the angle between the directions from the point to the eye and to the
-// photograph's camera (unit vectors), radians, and `resolution_weight` for each doubling of the size of the photograph's pixels on
-// the surface over the display's. A photograph that is finer than needed is not penalised.
-GLSL_FUNCTION float view_penalty(vec3 to_eye, vec3 to_photograph, float pixel_size_ratio, float resolution_weight) {
+// Penalty of looking at a point through a photograph: the angle between the directions from the point to the
+// eye and to the photograph's camera (unit vectors), radians, and `resolution_weight` for each doubling of
+// the size of the photograph's pixels on the surface over the display's. A photograph that is finer than
+// needed is not penalised.
+GLSL_FUNCTION float view_penalty(vec3 to_eye, vec3 to_photograph, float pixel_size_ratio,
+                                 float resolution_weight) {
   // Stable for small angles, where acos(dot) is not.
   float angle = 2.0f * atan(length(to_eye - to_photograph), length(to_eye + to_photograph));
   return max(angle + resolution_weight * max(log2(max(pixel_size_ratio, 1e-6f)), 0.0f), MIN_PENALTY);
 }
 
-// Weight of a photograph among the k best: zero where it stops being one of them (max_penalty is that of the next one), so that
-// nothing jumps when the eye moves.
+// Weight of a photograph among the k best: zero where it stops being one of them (max_penalty is that of the
+// next one), so that nothing jumps when the eye moves.
 GLSL_FUNCTION float blend_weight(float penalty, float max_penalty) {
   return max(1.0f - penalty / max_penalty, 0.0f) / penalty;
 }
@@ -27,24 +31,27 @@ GLSL_FUNCTION float border_feather(vec2 pixel, vec2 size, float feather) {
   return clamp(min(inside.x, inside.y) / feather, 0.0f, 1.0f);
 }
 
-// 1 where a point at linear depth `depth` is the surface that a photograph sees at `seen_depth`, 0 where that hides it; the
-// tolerance is a part of the depth. Smooth between one and two tolerances.
+// 1 where a point at linear depth `depth` is the surface that a photograph sees at `seen_depth`, 0 where that
+// hides it; the tolerance is a part of the depth. Smooth between one and two tolerances.
 GLSL_FUNCTION float not_hidden(float depth, float seen_depth, float tolerance) {
   return 1.0f - smoothstep(1.0f, 2.0f, (depth - seen_depth) / (tolerance * depth));
 }
 
-// How far the four pixels that a bilinear lookup mixes show one surface: at silhouettes they mix it with what lies before or
-// behind, and another photograph is better, if there is one. `depths` are those of the four, `depth` the point's.
+// How far the four pixels that a bilinear lookup mixes show one surface: at silhouettes they mix it with what
+// lies before or behind, and another photograph is better, if there is one. `depths` are those of the four,
+// `depth` the point's.
 GLSL_FUNCTION float not_mixed(float depth, vec4 depths, float tolerance) {
   vec4 d = abs(depths - vec4(depth)) / (tolerance * depth);
   return mix(0.02f, 1.0f, 1.0f - smoothstep(1.0f, 2.0f, max(max(d.x, d.y), max(d.z, d.w))));
 }
 
-// A value that differs about as much as what is seen of it does: the square root of linear light is near sRGB and cheap.
+// A value that differs about as much as what is seen of it does: the square root of linear light is near sRGB
+// and cheap.
 GLSL_FUNCTION vec3 perceived(vec3 linear) { return sqrt(max(linear, vec3(0.0f))); }
 
-// How much photographs contradict each other about a point: standard deviation of their perceived colours, by the channel
-// that deviates most. `mean_of_squares` and `mean` are of the perceived colours, with the weights of the blend.
+// How much photographs contradict each other about a point: standard deviation of their perceived colours, by
+// the channel that deviates most. `mean_of_squares` and `mean` are of the perceived colours, with the weights
+// of the blend.
 GLSL_FUNCTION float contradiction(vec3 mean_of_squares, vec3 mean) {
   vec3 variance = max(mean_of_squares - mean * mean, vec3(0.0f));
   return sqrt(max(variance.x, max(variance.y, variance.z)));

@@ -1,33 +1,35 @@
-// The colour of a point of a captured facade from its photographs' layers, in one pass (thesis 3.6): the k = 2 best
-// photographs by angle and resolution, with feathered borders; at a photograph's own viewpoint plainly its layers.
-// GLSL that is C++, too. Around it stand the functions that read the packed layers:
+// The colour of a point of a captured facade from its photographs' layers, in one pass (thesis 3.6): the k =
+// 2 best photographs by angle and resolution, with feathered borders; at a photograph's own viewpoint plainly
+// its layers. GLSL that is C++, too. Around it stand the functions that read the packed layers:
 //   FacadePhoto facade_photo(int photo)       a row of the table of photographs (facade_photo.glsl)
-//   uvec4 facade_layer(int layer)             x: left | top << 16 of its box in the photograph, pixels; y: tiles across |
+//   uvec4 facade_layer(int layer)             x: left | top << 16 of its box in the photograph, pixels; y:
+//   tiles across |
 //                                             tiles down << 16; z: its first tile; w: its photograph
 //   int facade_candidate(int index)           a layer, of the lists of layers that hold each triangle
 //   uvec4 facade_tile(int tile)               x: 0 where nothing is stored, else a TILE_ kind; y: its slot
 //   vec4 facade_texel(int slot, vec2 at, float level)   sRGB and alpha, filtered; `at` in texels of the slot
 
-#define TILE_SEEN 1u    // the photograph sees all of it
-#define TILE_MIXED 2u   // alpha says how much of a texel the photograph sees
-#define TILE_ALPHA 3u   // seen, with an artist's alpha
-#define TILE_INNER 60.0f   // texels of a tile; 2 more on every side repeat its neighbours, for filters
+#define TILE_SEEN 1u      // the photograph sees all of it
+#define TILE_MIXED 2u     // alpha says how much of a texel the photograph sees
+#define TILE_ALPHA 3u     // seen, with an artist's alpha
+#define TILE_INNER 60.0f  // texels of a tile; 2 more on every side repeat its neighbours, for filters
 #define TILE_BORDER 2.0f
-#define TILE_LEVELS 3   // mipmaps whose filters stay within a slot of 64 texels
+#define TILE_LEVELS 3  // mipmaps whose filters stay within a slot of 64 texels
 
 // Confidence in what was filled over what a photograph sees: it counts where nothing else does.
 #define FILLED_CONFIDENCE 0.01f
-// Below this angle between eye and camera, radians, a photograph is shown plainly; it counts more and more from 4 times that.
+// Below this angle between eye and camera, radians, a photograph is shown plainly; it counts more and more
+// from 4 times that.
 #define OWN_VIEWPOINT_ANGLE 0.002f
 #define BORDER_FEATHER 0.05f    // of the picture's width
 #define RESOLUTION_WEIGHT 0.1f  // see view_penalty
 
 // What one photograph says about a point.
 struct FacadeOpinion {
-  float key;         // the best is least; above 100: filled
+  float key;  // the best is least; above 100: filled
   float penalty;
   float confidence;
-  float own;         // 1: the eye is at the photograph's own viewpoint
+  float own;  // 1: the eye is at the photograph's own viewpoint
   float level;
   vec2 at;
   int slot;
@@ -47,7 +49,8 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   vec2 size = vec2(photo.size.x, photo.size.y);
   vec2 in_box = pixel - vec2(float(layer.x & 65535u), float(layer.x >> 16u));
   vec2 tiles = vec2(float(layer.y & 65535u), float(layer.y >> 16u));
-  if (min(in_box.x, in_box.y) < -1.0f || in_box.x > TILE_INNER * tiles.x || in_box.y > TILE_INNER * tiles.y) return none;
+  if (min(in_box.x, in_box.y) < -1.0f || in_box.x > TILE_INNER * tiles.x || in_box.y > TILE_INNER * tiles.y)
+    return none;
   vec2 cell = clamp(floor(in_box / TILE_INNER), vec2(0.0f), tiles - vec2(1.0f));
   uvec4 tile = facade_tile(int(layer.z) + int(cell.y * tiles.x + cell.x));
   if (tile.x == 0u) return none;
@@ -65,7 +68,8 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   found.own = 1.0f - smoothstep(OWN_VIEWPOINT_ANGLE, 4.0f * OWN_VIEWPOINT_ANGLE, angle);
   float seen = 1.0f;
   if (tile.x == TILE_MIXED) seen = smoothstep(0.75f, 1.0f, facade_texel(found.slot, found.at, 0.0f).w);
-  found.confidence = max(border_feather(pixel, size, BORDER_FEATHER * size.x), 1e-4f) * mix(FILLED_CONFIDENCE, 1.0f, seen);
+  found.confidence =
+      max(border_feather(pixel, size, BORDER_FEATHER * size.x), 1e-4f) * mix(FILLED_CONFIDENCE, 1.0f, seen);
   found.confidence = mix(found.confidence, 1.0f, found.own);
   found.key = found.penalty + (found.confidence > 2.0f * FILLED_CONFIDENCE ? 0.0f : 100.0f);
   return found;
@@ -80,9 +84,11 @@ GLSL_FUNCTION vec4 facade_colour_of(FacadeOpinion opinion) {
   return vec4(mix(balanced, own, opinion.own), opinion.kind == int(TILE_ALPHA) ? texel.w : 1.0f);
 }
 
-// sRGB and alpha of a point. `count` candidates from `first` on hold its triangle; `pixel_m` is what a pixel of the display
-// covers there (0: not known); `to_eye` is of unit length; `fallback`, sRGB, stands where no photograph says anything. All in the facade's frame.
-GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int first, int count, vec3 fallback) {
+// sRGB and alpha of a point. `count` candidates from `first` on hold its triangle; `pixel_m` is what a pixel
+// of the display covers there (0: not known); `to_eye` is of unit length; `fallback`, sRGB, stands where no
+// photograph says anything. All in the facade's frame.
+GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int first, int count,
+                                 vec3 fallback) {
   FacadeOpinion best = FacadeOpinion(1e9f, MAX_PENALTY, 0.0f, 0.0f, 0.0f, vec2(0.0f), 0, 0, 0);
   FacadeOpinion second = best;
   float third_key = 1e9f;
@@ -102,7 +108,8 @@ GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int 
   if (best.key >= 1e9f) return vec4(fallback, 1.0f);
   vec4 colour = facade_colour_of(best);
   if (second.key >= 1e9f) return colour;
-  // Of the next photograph, which takes over when the choice changes; what is filled takes over from nothing seen.
+  // Of the next photograph, which takes over when the choice changes; what is filled takes over from nothing
+  // seen.
   bool has_third = third_key < 1e9f && (third_key < 100.0f || best.key >= 100.0f);
   float max_penalty = has_third ? (third_key >= 100.0f ? third_key - 100.0f : third_key) : MAX_PENALTY;
   float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);

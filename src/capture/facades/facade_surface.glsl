@@ -4,9 +4,9 @@
 #include "capture/facades/recorded_light.glsl"
 #include "capture/facades/facade_photo.glsl"
 
-uniform highp sampler2D facade_photos;  // a row of 7 texels per photograph
+uniform highp sampler2D facade_photos;                                    // a row of 7 texels per photograph
 uniform highp usampler2D facade_layers, facade_candidates, facade_tiles;  // lists in rows of 1024
-uniform highp sampler2DArray facade_atlas;  // pages of 16 x 16 slots
+uniform highp sampler2DArray facade_atlas;                                // pages of 16 x 16 slots
 uniform mat4 facade_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
 
@@ -15,10 +15,11 @@ in vec3 fallback_colour;
 flat in uvec2 candidates;
 
 FacadePhoto facade_photo(int photo) {
-  return FacadePhoto(texelFetch(facade_photos, ivec2(0, photo), 0), texelFetch(facade_photos, ivec2(1, photo), 0),
-                     texelFetch(facade_photos, ivec2(2, photo), 0), texelFetch(facade_photos, ivec2(3, photo), 0),
-                     texelFetch(facade_photos, ivec2(4, photo), 0), texelFetch(facade_photos, ivec2(5, photo), 0),
-                     texelFetch(facade_photos, ivec2(6, photo), 0));
+  return FacadePhoto(
+      texelFetch(facade_photos, ivec2(0, photo), 0), texelFetch(facade_photos, ivec2(1, photo), 0),
+      texelFetch(facade_photos, ivec2(2, photo), 0), texelFetch(facade_photos, ivec2(3, photo), 0),
+      texelFetch(facade_photos, ivec2(4, photo), 0), texelFetch(facade_photos, ivec2(5, photo), 0),
+      texelFetch(facade_photos, ivec2(6, photo), 0));
 }
 ivec2 place_in_list(int index) { return ivec2(index & 1023, index >> 10); }
 uvec4 facade_layer(int layer) { return texelFetch(facade_layers, place_in_list(layer), 0); }
@@ -41,8 +42,8 @@ vec3 linear_of_srgb(vec3 srgb) {
 Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   float pixel_m = min(length(dFdx(position_in_facade)), length(dFdy(position_in_facade)));
   vec3 to_eye = normalize((facade_from_world * vec4(seen.to_viewer, 0.0f)).xyz);
-  vec4 colour =
-      facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y), fallback_colour);
+  vec4 colour = facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y),
+                              fallback_colour);
   alpha = colour.a;
   Surface s;
   s.normal = seen.normal;

@@ -1,4 +1,5 @@
-// Light that a photograph has recorded, turned back into radiance. GLSL that is C++, too; goes with tone_curve.glsl.
+// Light that a photograph has recorded, turned back into radiance. GLSL that is C++, too; goes with
+// tone_curve.glsl.
 
 // The exposed radiance that `tone_mapped` shows as this display light, 0..1: its inverse.
 GLSL_FUNCTION vec3 tone_unmapped(vec3 display) {

@@ -1,7 +1,8 @@
-// Billboards of a tree's cells: the mathematics of their display (003_d5b01da2d2f805f6, section 4.6), for shaders and, as
-// C++ (graphics/shading/glsl.h), for the fit of the textures and the evaluation on the CPU.
+// Billboards of a tree's cells: the mathematics of their display (003_d5b01da2d2f805f6, section 4.6), for
+// shaders and, as C++ (graphics/shading/glsl.h), for the fit of the textures and the evaluation on the CPU.
 //
-// A billboard faces the eye, upright, and is as large as the cell's silhouette; its texture holds one view of the cell.
+// A billboard faces the eye, upright, and is as large as the cell's silhouette; its texture holds one view of
+// the cell.
 
 /// The billboard's axis to the right, for a unit direction from the cell to the eye.
 GLSL_FUNCTION vec3 billboard_right(vec3 to_eye) {
@@ -18,9 +19,10 @@ GLSL_FUNCTION vec2 billboard_half_size(vec3 right, vec3 up, vec3 cell_half_m) {
   return vec2(dot(abs(right), cell_half_m), dot(abs(up), cell_half_m));
 }
 
-/// The silhouette of the cell's box on its billboard, whose points are -1..1 to the right and upward (q): within the
-/// rectangle it is where |dot(q, xy)| <= 1 and |dot(q, zw)| <= 1. Boxes of neighbouring cells share the edges of their
-/// silhouettes, so that every ray passes exactly the billboards of the cells that it passes.
+/// The silhouette of the cell's box on its billboard, whose points are -1..1 to the right and upward (q):
+/// within the rectangle it is where |dot(q, xy)| <= 1 and |dot(q, zw)| <= 1. Boxes of neighbouring cells
+/// share the edges of their silhouettes, so that every ray passes exactly the billboards of the cells that it
+/// passes.
 GLSL_FUNCTION vec4 silhouette_slants(vec3 right, vec3 up, vec3 cell_half_m) {
   vec2 x = cell_half_m.x * vec2(right.x, up.x), y = cell_half_m.y * vec2(right.y, up.y);
   vec2 z = cell_half_m.z * vec2(right.z, up.z);
@@ -40,9 +42,9 @@ GLSL_FUNCTION float silhouette_reach(vec2 q, vec4 slants) {
 /// Texture coordinates of a point of the billboard (-1..1); v runs downward.
 GLSL_FUNCTION vec2 billboard_uv(vec2 q) { return vec2(0.5f + 0.5f * q.x, 0.5f - 0.5f * q.y); }
 
-/// Weights of the two closest cameras from the angles (ascending, radians) of the three closest ones to the eye's
-/// direction: (1 / p)(1 - p / p_third), as in unstructured lumigraphs, so that no camera enters or leaves with a jump.
-/// At a camera's own place its weight is 1.
+/// Weights of the two closest cameras from the angles (ascending, radians) of the three closest ones to the
+/// eye's direction: (1 / p)(1 - p / p_third), as in unstructured lumigraphs, so that no camera enters or
+/// leaves with a jump. At a camera's own place its weight is 1.
 GLSL_FUNCTION vec2 two_closest_weights(vec3 angles) {
   float first = max(angles.x, 1e-6f), second = max(angles.y, first), third = max(angles.z, second);
   float a = (1.0f - first / third) / first, b = (1.0f - second / third) / second;
@@ -52,8 +54,8 @@ GLSL_FUNCTION vec2 two_closest_weights(vec3 angles) {
 /// Porter and Duff's over of premultiplied colours.
 GLSL_FUNCTION vec4 over(vec4 front, vec4 behind) { return front + (1.0f - front.w) * behind; }
 
-/// 0..1, as if at random, for a point of space: a surface of opacity alpha that is there where alpha exceeds this lets
-/// the right share of light through in the mean of a pixel (Wyman and McGuire 2017, hashed alpha).
+/// 0..1, as if at random, for a point of space: a surface of opacity alpha that is there where alpha exceeds
+/// this lets the right share of light through in the mean of a pixel (Wyman and McGuire 2017, hashed alpha).
 GLSL_FUNCTION float opacity_threshold(vec3 at) {
   vec3 p = fract(at * vec3(443.897f, 441.423f, 437.195f));
   float mixed = dot(p, vec3(p.y + 19.19f, p.z + 19.19f, p.x + 19.19f));

@@ -1,5 +1,6 @@
-// Foliage as a surface of graphics/shading/surface.glsl, for shaders and the ray tracer: leaves of all directions scatter light
-// to all sides alike, so the normal that light asks for is the direction of the sun, and both hemispheres light it.
+// Foliage as a surface of graphics/shading/surface.glsl, for shaders and the ray tracer: leaves of all
+// directions scatter light to all sides alike, so the normal that light asks for is the direction of the sun,
+// and both hemispheres light it.
 GLSL_FUNCTION Surface foliage_surface(vec3 albedo, vec3 to_sun) {
   Surface s;
   s.normal = to_sun.z > 0.0f ? to_sun : vec3(0.0f, 0.0f, 1.0f);

@@ -1,5 +1,5 @@
-// Leaves and twigs of a captured tree: the textures of the two closest photographs, and light that comes from everywhere
-// (003_d5b01da2d2f805f6, section 4.6).
+// Leaves and twigs of a captured tree: the textures of the two closest photographs, and light that comes from
+// everywhere (003_d5b01da2d2f805f6, section 4.6).
 #include "capture/trees/billboard.glsl"
 #include "capture/trees/foliage.glsl"
 

@@ -12,7 +12,7 @@ layout(location = 2) in vec3 half_up;
 layout(location = 3) in vec4 billboard_slants;  // of the cell's silhouette, billboard.glsl
 layout(location = 4) in vec4 base_colour_of_cell;
 layout(location = 5) in uvec3 tiles_and_thing;  // textures of the two photographs; number of the thing
-layout(location = 6) in float reach;  // of the quad, in half billboards
+layout(location = 6) in float reach;            // of the quad, in half billboards
 
 flat out vec4 slants;
 flat out vec4 base_of_cell;  // sRGB and opacity, where a photograph has no texture
@@ -30,7 +30,7 @@ void surface_vertex() {
   second_share = billboard_centre.w;
   vec3 facing = normalize(vertex_normal);
   leaf_sun = visible_sun(position, facing);
-  leaf_sky_cell =
-      shaded_cell(sky_visibility_cell(position, facing), sky_share_beside_bodies(position, facing, int(tiles_and_thing.z)));
+  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, facing),
+                              sky_share_beside_bodies(position, facing, int(tiles_and_thing.z)));
   object_of_surface = int(tiles_and_thing.z);
 }

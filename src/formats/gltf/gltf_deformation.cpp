@@ -45,7 +45,7 @@ void read_weights(const GltfFile& file, const Json& attributes, const std::strin
   const std::vector<glm::vec4> joints = gltf_attribute<4>(file, attributes, "JOINTS_0");
   skin.weights = gltf_attribute<4>(file, attributes, "WEIGHTS_0");
   if (joints.empty() || skin.weights.empty())
-    gltf_fail("skin \"{}\" bends a mesh without joints or weights", name);
+    gltf_fail("skin \"{}\" deforms a mesh without joints or weights", name);
   if (joints.size() != vertex_count || skin.weights.size() != vertex_count)
     gltf_fail("skin \"{}\": {} joints and {} weights for {} vertices", name, joints.size(),
               skin.weights.size(), vertex_count);

@@ -7,7 +7,7 @@
 
 namespace parvis::scene {
 
-/// How `mesh`, a primitive of a mesh that hangs on a node, bends; an empty Deformation where it does not.
+/// How `mesh`, a primitive of a mesh that hangs on a node, deforms; an empty Deformation where it does not.
 /// Throws GltfProblem, which names the skin or the mesh: joints that are missing or not in the scene, a
 /// vertex that hangs on a joint that there is not, targets of another length, weights that are not as many as
 /// targets.

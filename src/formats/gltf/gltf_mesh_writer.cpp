@@ -11,13 +11,13 @@ using Use = GltfChunk::Use;
 
 constexpr std::size_t max_joints = 65536;  // a vertex names its joints by 16 bits
 
-/// A bent mesh hangs where its weights are animated: its skin places it wherever it hangs.
+/// A deformed mesh hangs where its weights are animated: its skin places it wherever it hangs.
 int hanging_node(const Part& part) {
   const bool follows_weights = part.deformation && part.deformation->weights_node != no_index;
   return follows_weights ? part.deformation->weights_node : part.node;
 }
 
-bool bend_alike(const Deformation* a, const Deformation* b) {
+bool deform_alike(const Deformation* a, const Deformation* b) {
   if (!a || !b) return a == b;
   return a->targets.size() == b->targets.size() && a->weights == b->weights &&
          a->skin.joints == b->skin.joints && a->skin.joint_from_mesh == b->skin.joint_from_mesh;
@@ -63,17 +63,18 @@ Json targets_json(const Deformation& deformation, GltfChunk& chunk) {
 }
 
 Json primitive_json(const Part& part, int first_material, GltfChunk& chunk) {
-  const Deformation* bends = part.deformation.get();
-  Json attributes{{"POSITION", chunk.add_positions(bends ? bends->positions : part.mesh.positions)},
-                  {"NORMAL", chunk.add_vectors(bends ? bends->normals : part.mesh.normals)},
-                  {"TEXCOORD_0", chunk.add(part.mesh.uvs, "VEC2", Component::float32, Use::vertices)}};
-  if (bends && !bends->skin.joints.empty()) write_skin(bends->skin, chunk, attributes);
+  const Deformation* deformation = part.deformation.get();
+  Json attributes{
+      {"POSITION", chunk.add_positions(deformation ? deformation->positions : part.mesh.positions)},
+      {"NORMAL", chunk.add_vectors(deformation ? deformation->normals : part.mesh.normals)},
+      {"TEXCOORD_0", chunk.add(part.mesh.uvs, "VEC2", Component::float32, Use::vertices)}};
+  if (deformation && !deformation->skin.joints.empty()) write_skin(deformation->skin, chunk, attributes);
   Json primitive{{"attributes", attributes},
                  {"indices", chunk.add(part.mesh.indices, "SCALAR", Component::uint32, Use::indices)},
                  {"material", first_material + part.material},
                  {"extras", {{"object", part.object}}}};
   if (!part.casts_shadow) primitive["extras"]["casts_shadow"] = false;
-  if (bends && !bends->targets.empty()) primitive["targets"] = targets_json(*bends, chunk);
+  if (deformation && !deformation->targets.empty()) primitive["targets"] = targets_json(*deformation, chunk);
   return primitive;
 }
 
@@ -84,19 +85,20 @@ Result<std::vector<WrittenMesh>> write_meshes(const Model& model, int first_mate
   std::vector<WrittenMesh> written;
   for (const Part& part : model.parts) {
     if (part.mesh.indices.empty()) continue;
-    const Deformation* bends = part.deformation.get();
+    const Deformation* deformation = part.deformation.get();
     const int node = hanging_node(part);
     auto mesh = std::find_if(written.begin(), written.end(), [&](const WrittenMesh& other) {
-      return other.node == node && bend_alike(other.deformation, bends);
+      return other.node == node && deform_alike(other.deformation, deformation);
     });
     if (mesh == written.end()) {
-      mesh = written.insert(written.end(), {int(meshes.size()), node, bends});
+      mesh = written.insert(written.end(), {int(meshes.size()), node, deformation});
       meshes.push_back({{"name", part.object}, {"primitives", Json::array()}});
-      if (bends && !bends->weights.empty()) meshes.back()["weights"] = bends->weights;
-      if (bends && bends->skin.joints.size() > max_joints)
-        return error("\"{}\" hangs on {} joints; glTF can number {}", part.object, bends->skin.joints.size(),
-                     max_joints);
-      if (bends && !bends->skin.joints.empty()) mesh->inverse_bind = write_inverse_bind(bends->skin, chunk);
+      if (deformation && !deformation->weights.empty()) meshes.back()["weights"] = deformation->weights;
+      if (deformation && deformation->skin.joints.size() > max_joints)
+        return error("\"{}\" hangs on {} joints; glTF can number {}", part.object,
+                     deformation->skin.joints.size(), max_joints);
+      if (deformation && !deformation->skin.joints.empty())
+        mesh->inverse_bind = write_inverse_bind(deformation->skin, chunk);
     }
     meshes[std::size_t(mesh->mesh)]["primitives"].push_back(primitive_json(part, first_material, chunk));
   }

@@ -17,8 +17,8 @@ struct WrittenMesh {
   int inverse_bind = no_index;               ///< accessor, where it has a skin
 };
 
-/// Appends the parts of `model` to the list `meshes` of the file: those that hang on one node and bend alike
-/// are one mesh. `model` must outlive the result. More joints than glTF can number are an error.
+/// Appends the parts of `model` to the list `meshes` of the file: those that hang on one node and deform
+/// alike are one mesh. `model` must outlive the result. More joints than glTF can number are an error.
 Result<std::vector<WrittenMesh>> write_meshes(const Model& model, int first_material, GltfChunk& chunk,
                                               GltfChunk::Json& meshes);
 

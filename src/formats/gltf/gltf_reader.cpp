@@ -44,12 +44,12 @@ void read_mesh(const GltfFile& file, const GltfNodes& nodes, int node, Model& mo
 }
 
 /// All nodes are there now, and with them all joints.
-void bend_to_rest(Model& model) {
+void deform_to_rest(Model& model) {
   const std::vector<glm::mat4> model_from_node = rest_pose(model);
   for (Part& part : model.parts) {
     if (!part.deformation) continue;
     deform(*part.deformation, part.deformation->weights, model_from_node, part.node, part.mesh);
-    if (const Status status = check(part.mesh, "mesh \"" + part.object + "\", bent"); !status)
+    if (const Status status = check(part.mesh, "mesh \"" + part.object + "\", deformed"); !status)
       gltf_fail("{}", status.errors().front().message);
   }
 }
@@ -62,7 +62,7 @@ Model read_model(const GltfFile& file, Errors& warnings) {
   read_materials(file, model, warnings);
   const GltfNodes nodes = read_nodes(file, model, warnings);
   for (std::size_t node = 1; node < model.nodes.size(); ++node) read_mesh(file, nodes, int(node), model);
-  bend_to_rest(model);
+  deform_to_rest(model);
   model.animations = read_animations(file, nodes);
   if (model.parts.empty()) gltf_fail("no triangles are in this model");
   return model;

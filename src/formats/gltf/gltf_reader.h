@@ -1,6 +1,6 @@
 // glTF 2.0 (.gltf, .glb) to a Model: meshes, nodes, materials with KHR_texture_transform, _clearcoat,
 // _emissive_strength and _transmission, EXT_meshopt_compression, KHR_draco_mesh_compression, animations,
-// skins and morph targets (these parts stand as they do at rest, and know how they bend).
+// skins and morph targets (these parts stand as they do at rest, and know how they deform).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What is written reads the same: shapes, how they bend and move, and where objects stand.
+// What is written reads the same: shapes, how they deform and move, and where objects stand.
 #include "formats/gltf/gltf_writer.h"
 
 #include <gtest/gtest.h>
@@ -31,21 +31,21 @@ Model flag() {
   model.nodes.push_back({.name = "pole", .parent = 0});
   model.nodes.push_back({.name = "edge", .parent = 2, .translation = {1, 0, 0}});
   Part& part = model.parts.front();
-  Deformation bends{part.mesh.positions, part.mesh.normals, {}, {0.25f}, 1, {}};
-  bends.targets.push_back({{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 0}}, {}});
-  bends.skin.joints = {2, 3};
-  bends.skin.joint_from_mesh = {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), glm::vec3(-1, 0, 0))};
-  bends.skin.joints_of_vertex.assign(4, {0, 1, 1, 0});  // a joint twice, which glTF does not have
-  bends.skin.weights = {{1, 0, 0, 0}, {0, 0.5f, 0.5f, 0}, {0.25f, 0.5f, 0.25f, 0}, {1, 0, 0, 0}};
-  part.deformation = std::make_shared<const Deformation>(bends);
-  deform(*part.deformation, bends.weights, rest_pose(model), part.node, part.mesh);
+  Deformation deformation{part.mesh.positions, part.mesh.normals, {}, {0.25f}, 1, {}};
+  deformation.targets.push_back({{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 0}}, {}});
+  deformation.skin.joints = {2, 3};
+  deformation.skin.joint_from_mesh = {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), glm::vec3(-1, 0, 0))};
+  deformation.skin.joints_of_vertex.assign(4, {0, 1, 1, 0});  // a joint twice, which glTF does not have
+  deformation.skin.weights = {{1, 0, 0, 0}, {0, 0.5f, 0.5f, 0}, {0.25f, 0.5f, 0.25f, 0}, {1, 0, 0, 0}};
+  part.deformation = std::make_shared<const Deformation>(deformation);
+  deform(*part.deformation, deformation.weights, rest_pose(model), part.node, part.mesh);
   AnimationChannel turn{3, AnimationChannel::Property::rotation, Interpolation::linear, {0, 1, 1, 2}, {}};
   turn.values = {{0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, 0, 1}, {1, 0, 0, 0}};  // a jump after a second
   model.animations.push_back({"wave", {turn}, {{1, Interpolation::step, {0, 1}, {{0.0f}, {1.0f}}}}, 2.0f});
   return model;
 }
 
-/// All vertices in the frame of the object's model, as it is bent `time_s` into an animation.
+/// All vertices in the frame of the object's model, as it is deformed `time_s` into an animation.
 std::vector<glm::vec3> vertices_at(std::shared_ptr<const Model> model, int animation, double time_s) {
   Scene scene;
   Object& object = scene.objects.emplace_back();

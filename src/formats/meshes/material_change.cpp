@@ -111,7 +111,7 @@ std::span<const MaterialPreset> material_presets() {
         .alpha = 0.25f,
         .is_mirror_like = true}},
       {"solid_glass",
-       "a closed body of clear glass that bends light: a ball, a lens, a paperweight; where it is open, a "
+       "a closed body of clear glass that refracts light: a ball, a lens, a paperweight; where it is open, a "
        "pane",
        {.roughness = 0.0f, .metallic = 0.0f, .clear_coat = 0.0f, .ior = 1.5f, .is_mirror_like = true}},
       {"lamp",

@@ -126,15 +126,15 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
 /// ends.
 bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const {
   const vec3 normal = point.surface.normal, before = path.ray.direction;
-  const vec3 bent = shading::refracted(before, normal, point.is_back ? ior : 1.0f / ior);
-  const vec3 outside = point.is_back ? bent : before;
+  const vec3 refracted = shading::refracted(before, normal, point.is_back ? ior : 1.0f / ior);
+  const vec3 outside = point.is_back ? refracted : before;
   const float reflected =
-      bent == vec3(0.0f) ? 1.0f : shading::inner_reflectance(ior, -glm::dot(outside, normal));
+      refracted == vec3(0.0f) ? 1.0f : shading::inner_reflectance(ior, -glm::dot(outside, normal));
   const glm::vec2 choices = path.numbers.next_2d();
   if (!(choices.y < max_survival)) return false;
   path.throughput /= max_survival;
   const bool reflects = choices.x < reflected;
-  const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : bent;
+  const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : refracted;
   path.ray = {point.position + (reflects ? off_surface_m : -off_surface_m) * point.geometric_normal, after};
   path.density = 0.0f;  // as a mirror's
   path.width_m = width_m;

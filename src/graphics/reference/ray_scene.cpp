@@ -182,7 +182,7 @@ bool RayScene::update(const scene::Scene& scene) {
           move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
                object.is_visible);
       if (&mesh == &object.model->parts[p].mesh || !places_[next]->is_traced) continue;
-      bend(next);
+      deform(next);
       has_changed = true;
     }
   }
@@ -304,8 +304,8 @@ RTCScene RayScene::mesh_scene(const Mesh& mesh) {
   return entry->second;
 }
 
-/// The hierarchy keeps its tree and fits it to the corners as they are bent now.
-void RayScene::bend(std::size_t place) {
+/// The hierarchy keeps its tree and fits it to the corners as they are deformed now.
+void RayScene::deform(std::size_t place) {
   const Mesh& mesh = *places_[place]->mesh;
   const RTCScene scene = mesh_scene(mesh);
   const RTCGeometry geometry = rtcGetGeometry(scene, 0);

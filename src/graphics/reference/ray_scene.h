@@ -65,7 +65,7 @@ class RayScene {
   ~RayScene();
 
   /// Takes over where objects and traced things stand now, which of them are visible, and how meshes are
-  /// bent. The objects and their models must be those of the scene that this was made of.
+  /// deformed. The objects and their models must be those of the scene that this was made of.
   /// True where anything has changed.
   bool update(const scene::Scene& scene);
 
@@ -94,7 +94,7 @@ class RayScene {
   void forget_meshes_but_those_placed();
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
   RTCScene mesh_scene(const Mesh& mesh);
-  void bend(std::size_t place);
+  void deform(std::size_t place);
 
   scene::SunShadows shadows_;
   RTCDevice device_;

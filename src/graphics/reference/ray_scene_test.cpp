@@ -84,19 +84,19 @@ TEST(RayScene, HiddenObjectsAppear) {
 /// A skinned body: its mesh changes in place, and may be elsewhere in memory.
 TEST(RayScene, BentMeshesAreFollowed) {
   scene::Scene scene = three_things();
-  auto bending = std::make_shared<scene::Model>(*scene.objects[2].model);
-  bending->parts[0].deformation = std::make_shared<const scene::Deformation>();
-  scene.objects[2].model = bending;
-  scene.objects[2].bent_meshes = {bending->parts[0].mesh};
+  auto deforming = std::make_shared<scene::Model>(*scene.objects[2].model);
+  deforming->parts[0].deformation = std::make_shared<const scene::Deformation>();
+  scene.objects[2].model = deforming;
+  scene.objects[2].deformed_meshes = {deforming->parts[0].mesh};
   RayScene rays(scene);
   for (const float height : {2.0f, 0.5f, 3.0f}) {
-    for (std::size_t i = 0; i < bending->parts[0].mesh.positions.size(); ++i)
-      scene.objects[2].bent_meshes[0].positions[i] =
-          bending->parts[0].mesh.positions[i] * glm::vec3(1, 1, height);
+    for (std::size_t i = 0; i < deforming->parts[0].mesh.positions.size(); ++i)
+      scene.objects[2].deformed_meshes[0].positions[i] =
+          deforming->parts[0].mesh.positions[i] * glm::vec3(1, 1, height);
     rays.update(scene);
-    expect_same(rays, scene, "bent");
+    expect_same(rays, scene, "deformed");
   }
-  scene.objects[2].bent_meshes = {bending->parts[0].mesh};
+  scene.objects[2].deformed_meshes = {deforming->parts[0].mesh};
   rays.update(scene);
   expect_same(rays, scene, "at rest again");
 }

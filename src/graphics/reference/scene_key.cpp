@@ -50,7 +50,7 @@ std::uint64_t key_of(const scene::Scene& scene, Counts&& counts, CountsData&& co
     hash.add(entry->second);
     hash.add(object.world_from_model);
     hash.add(object.pose);
-    for (const Mesh& mesh : object.bent_meshes) {
+    for (const Mesh& mesh : object.deformed_meshes) {
       hash.add(mesh.positions);
       hash.add(mesh.normals);
     }

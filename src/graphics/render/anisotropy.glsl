@@ -1,5 +1,5 @@
-// The base colour of a surface seen at a grazing angle. Where hardware has no anisotropic lookup that is worth its time,
-// a few trilinear ones along the longer side of the pixel's footprint stand in for it.
+// The base colour of a surface seen at a grazing angle. Where hardware has no anisotropic lookup that is
+// worth its time, a few trilinear ones along the longer side of the pixel's footprint stand in for it.
 #include "graphics/render/material.glsl"
 
 // `along_x`, `along_y`: by how much `at` changes to the neighbouring pixels, were the surface flat.

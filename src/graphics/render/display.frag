@@ -8,11 +8,13 @@ in vec2 screen_uv;
 out vec4 colour;
 
 vec3 srgb_encoded(vec3 linear) {
-  return mix(1.055f * pow(linear, vec3(1.0f / 2.4f)) - 0.055f, 12.92f * linear, vec3(lessThanEqual(linear, vec3(0.0031308f))));
+  return mix(1.055f * pow(linear, vec3(1.0f / 2.4f)) - 0.055f, 12.92f * linear,
+             vec3(lessThanEqual(linear, vec3(0.0031308f))));
 }
 
 void main() {
   vec2 pixel = clamp(screen_uv * drawn, vec2(0.5f), drawn - 0.5f);
-  vec3 exposed = exposure * textureLod(radiance_texture, pixel / vec2(textureSize(radiance_texture, 0)), 0.0f).rgb;
+  vec3 exposed =
+      exposure * textureLod(radiance_texture, pixel / vec2(textureSize(radiance_texture, 0)), 0.0f).rgb;
   colour = vec4(srgb_encoded(tone_mapped(exposed)), 1.0f);
 }

@@ -4,7 +4,7 @@
 
 namespace parvis::render {
 
-MeshRange GpuGeometry::add_bending(const Mesh& mesh) {
+MeshRange GpuGeometry::add_deforming(const Mesh& mesh) {
   const MeshRange range{std::uint32_t(indices_.size()), std::uint32_t(mesh.indices.size()),
                         std::int32_t(vertices_.size())};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
@@ -15,7 +15,7 @@ MeshRange GpuGeometry::add_bending(const Mesh& mesh) {
 
 MeshRange GpuGeometry::add(const Mesh& mesh) {
   assert(vertices_.size() == rigid_vertices_);
-  const MeshRange range = add_bending(mesh);
+  const MeshRange range = add_deforming(mesh);
   rigid_vertices_ = vertices_.size();
   return range;
 }
@@ -34,7 +34,7 @@ void GpuGeometry::upload() {
   indices_ = {};
 }
 
-void GpuGeometry::bend(const MeshRange& range, const Mesh& mesh) {
+void GpuGeometry::deform(const MeshRange& range, const Mesh& mesh) {
   Vertex* vertex = vertices_.data() + (std::size_t(range.base_vertex) - rigid_vertices_);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++vertex) {
     vertex->position = mesh.positions[i];
@@ -42,7 +42,7 @@ void GpuGeometry::bend(const MeshRange& range, const Mesh& mesh) {
   }
 }
 
-void GpuGeometry::upload_bent() {
+void GpuGeometry::upload_deformed() {
   if (vertices_.empty()) return;
   glNamedBufferSubData(vertex_buffer_.name(), GLintptr(rigid_vertices_ * sizeof(Vertex)),
                        GLsizeiptr(vertices_.size() * sizeof(Vertex)), vertices_.data());

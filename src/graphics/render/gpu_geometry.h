@@ -31,15 +31,15 @@ class GpuGeometry {
   /// Appends further triangles over the vertices of `mesh` (a coarser level of detail).
   MeshRange add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices);
   /// Appends a mesh that deforms; no rigid mesh may follow.
-  MeshRange add_bending(const Mesh& mesh);
+  MeshRange add_deforming(const Mesh& mesh);
   /// Creates the buffers: nothing can be added afterwards.
   void upload();
 
   /// Copies positions and normals of a deformed mesh, which has as many vertices as the one added;
-  /// `upload_bent` sends them to the GPU.
-  void bend(const MeshRange& range, const Mesh& mesh);
+  /// `upload_deformed` sends them to the GPU.
+  void deform(const MeshRange& range, const Mesh& mesh);
   /// Uploads all deforming vertices in one call; does nothing where there are none.
-  void upload_bent();
+  void upload_deformed();
 
   GLuint vertex_buffer() const { return vertex_buffer_.name(); }  ///< interleaved Vertex; 0 before `upload`
   /// Buffer of 32-bit indices relative to MeshRange::base_vertex.

@@ -96,7 +96,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
 
   add_models(scene);
   add_levels(scene);
-  add_bent_parts(scene);
+  add_deformed_parts(scene);
   geometry_.upload();
   material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
   material_bytes_ = {};
@@ -148,27 +148,27 @@ void GpuScene::add_levels(const scene::Scene& scene) {
   }
 }
 
-/// An object that bends has parts of its own: those of its model, with other vertices where a mesh bends.
-void GpuScene::add_bent_parts(const scene::Scene& scene) {
+/// An object that deforms has parts of its own: those of its model, with other vertices where a mesh deforms.
+void GpuScene::add_deformed_parts(const scene::Scene& scene) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
-    if (object.bent_meshes.empty()) continue;
+    if (object.deformed_meshes.empty()) continue;
     const std::size_t first = std::size_t(std::exchange(first_part_[o], int(parts_.size())));
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
       parts_.push_back(PartRange(parts_[first + p]));
       if (!object.model->parts[p].deformation) continue;
-      static_cast<MeshRange&>(parts_.back()) = geometry_.add_bending(object.mesh(p));
+      static_cast<MeshRange&>(parts_.back()) = geometry_.add_deforming(object.mesh(p));
       parts_.back().level_count = 0;
     }
   }
 }
 
-void GpuScene::bend(const scene::Object& object, std::size_t o) {
-  for (std::size_t p = 0; p < object.bent_meshes.size(); ++p) {
+void GpuScene::deform(const scene::Object& object, std::size_t o) {
+  for (std::size_t p = 0; p < object.deformed_meshes.size(); ++p) {
     if (!object.model->parts[p].deformation) continue;
     PartRange& part = parts_[std::size_t(first_part_[o]) + p];
     part.bounds = object.mesh(p).bounds();
-    geometry_.bend(part, object.mesh(p));
+    geometry_.deform(part, object.mesh(p));
   }
 }
 
@@ -222,7 +222,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
   object_bounds_.resize(scene.objects.size());
   world_from_model_.resize(scene.objects.size());
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    bend(scene.objects[o], o);
+    deform(scene.objects[o], o);
     place(scene, o);
   }
   find_body_shapes(scene);
@@ -284,7 +284,7 @@ void GpuScene::update(const scene::Scene& scene) {
     const scene::Object& object = scene.objects[o];
     const bool was_visible = std::exchange(is_visible_[o], object.is_visible) != 0;
     if (is_moving_[o]) {
-      if (object.is_visible) bend(object, o);
+      if (object.is_visible) deform(object, o);
       place(scene, o);
       if (!object.is_visible) continue;
       moving_bounds_.push_back(object_bounds_[o]);
@@ -297,7 +297,7 @@ void GpuScene::update(const scene::Scene& scene) {
       is_newcomer_[o] = object.is_visible;
     }
   }
-  geometry_.upload_bent();
+  geometry_.upload_deformed();
 }
 
 std::vector<GpuMaterial> GpuScene::mirror_materials() const {

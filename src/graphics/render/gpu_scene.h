@@ -41,7 +41,7 @@ enum SurfaceFeature : std::uint16_t {
   surface_has_holes = 32,
   surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
   surface_has_relief = 128,
-  surface_is_glass = 256  ///< solid: light goes through it, bent
+  surface_is_glass = 256  ///< solid: refracts light
 };
 inline constexpr std::size_t surface_feature_combinations = 512;
 
@@ -124,8 +124,8 @@ class GpuScene {
  private:
   void add_models(const scene::Scene& scene);
   void add_levels(const scene::Scene& scene);
-  void add_bent_parts(const scene::Scene& scene);
-  void bend(const scene::Object& object, std::size_t o);
+  void add_deformed_parts(const scene::Scene& scene);
+  void deform(const scene::Object& object, std::size_t o);
   void upload_model_materials(const scene::Model& model);
   void make_items(const scene::Scene& scene);
   void place(const scene::Scene& scene, std::size_t object);
@@ -135,7 +135,7 @@ class GpuScene {
   GLuint plain_texture(glm::u8vec4 colour);
 
   std::unordered_map<const scene::Model*, int> first_part_of_model_;
-  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it bends
+  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it deforms
   GpuGeometry geometry_;
   std::vector<PartRange> parts_;
   std::vector<LevelRange> levels_;

@@ -1,14 +1,15 @@
-// What a surface is like by its material: the block of material.glsl and its textures. A room that draws by itself has a
-// file of its own in place of this one, with
+// What a surface is like by its material: the block of material.glsl and its textures. A room that draws by
+// itself has a file of its own in place of this one, with
 //   Surface surface_at(SeenPoint seen, inout float sun, out float alpha)
-// which may take from `sun` what the surface itself keeps out. `alpha` counts where HAS_HOLES is defined, and in passes
-// that blend.
+// which may take from `sun` what the surface itself keeps out. `alpha` counts where HAS_HOLES is defined, and
+// in passes that blend.
 #include "graphics/render/anisotropy.glsl"
 #include "graphics/shading/texture_frame.glsl"
 
 #define surface_mirrors material_mirrors
 
-// Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel is.
+// Texture lookups where relief has moved the coordinates: neighbouring pixels no longer tell how wide a pixel
+// is.
 #ifdef HAS_RELIEF
 vec4 looked_up(sampler2D picture, vec2 at, vec2 along_x, vec2 along_y) {
   return textureGrad(picture, at, along_x, along_y);
@@ -30,7 +31,8 @@ vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 alo
   float depth_m = material_relief_m * relief_share(pixel_m, material_relief_m);
   if (depth_m <= 0.0f) return at;
   vec2 size = vec2(textureSize(normal_texture, 0));
-  relief_level = 0.5f * log2(max(abs(along_x.x * along_y.y - along_x.y * along_y.x) * size.x * size.y, 1e-8f));
+  relief_level =
+      0.5f * log2(max(abs(along_x.x * along_y.y - along_x.y * along_y.x) * size.x * size.y, 1e-8f));
   vec3 hit = relief_hit(at, uv_through_relief(frame, normal, -to_viewer, depth_m));
   if (dot(normal, frame_to_sun.xyz) > 0.0f && hit.z > 0.0f)
     sun *= relief_light(hit, uv_through_relief(frame, normal, frame_to_sun.xyz, depth_m));
@@ -41,7 +43,8 @@ vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 alo
 vec3 normal_at(SeenPoint seen, vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #ifdef HAS_NORMAL_MAP
   vec3 texel = looked_up(normal_texture, texture_uv, along_x, along_y).xyz;
-  return mapped_normal(TextureFrame(dFdx(position), dFdy(position), along_x, along_y), seen.normal, texel, material_emission.a);
+  return mapped_normal(TextureFrame(dFdx(position), dFdy(position), along_x, along_y), seen.normal, texel,
+                       material_emission.a);
 #else
   return seen.normal;
 #endif
@@ -83,8 +86,9 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   vec3 detail = detail_at(texture_uv, along_x, along_y);
   alpha = base.a;
 
-  Surface s = assembled_surface(normal_at(seen, texture_uv, along_x, along_y), base.rgb, detail,
-                                emission_at(texture_uv, along_x, along_y), material_layers, material_texture_u.w);
+  Surface s =
+      assembled_surface(normal_at(seen, texture_uv, along_x, along_y), base.rgb, detail,
+                        emission_at(texture_uv, along_x, along_y), material_layers, material_texture_u.w);
 #ifndef HAS_COAT
   s.clear_coat = 0.0f;
 #endif

@@ -1,5 +1,6 @@
-// Four samples become a pixel. A sample weighs less the brighter it displays (Karis 2013, Tone Mapping): else one
-// highlight of a hundred times white would leave its whole pixel white, and edges against the sky would show steps.
+// Four samples become a pixel. A sample weighs less the brighter it displays (Karis 2013, Tone Mapping): else
+// one highlight of a hundred times white would leave its whole pixel white, and edges against the sky would
+// show steps.
 #include "graphics/shading/tone_curve.glsl"
 
 uniform highp sampler2DMS samples;

@@ -24,7 +24,7 @@ void SceneOccluders::keep_moving_shapes(const scene::Scene& scene, const GpuScen
     for (const scene::Part& part : object.model->parts) {
       int& shape = shape_of_part_[std::size_t(gpu.items()[item++].part)];
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      const bool is_rigid = object.bent_meshes.empty() || !part.deformation;
+      const bool is_rigid = object.deformed_meshes.empty() || !part.deformation;
       if (object.is_dynamic && is_rigid && material.alpha_mode == scene::Alpha::opaque && shape < 0)
         shape = culler_.add_shape(part.mesh, material.is_double_sided);
     }

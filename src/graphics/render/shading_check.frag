@@ -1,5 +1,6 @@
-// For tests: what the shared shading functions give on the GPU. Each pixel is a case, numbered from the bottom left;
-// render/shading_check.glsl makes its surface and light out of the number, here and in C++ alike.
+// For tests: what the shared shading functions give on the GPU. Each pixel is a case, numbered from the
+// bottom left; render/shading_check.glsl makes its surface and light out of the number, here and in C++
+// alike.
 #include "graphics/shading/surface.glsl"
 #include "graphics/shading/sky.glsl"
 #include "graphics/shading/lighting.glsl"

@@ -31,10 +31,11 @@ GLSL_FUNCTION vec3 checked_shading(float x, float y) {
 
   vec3 viewer = case_direction(x, y, 30.0f);
   vec3 to_viewer = dot(viewer, s.normal) < 0.0f ? -viewer : viewer;
-  vec4 cell = vec4(case_number(x, y, 33.0f), case_number(x, y, 34.0f), case_number(x, y, 35.0f), case_number(x, y, 36.0f));
+  vec4 cell = vec4(case_number(x, y, 33.0f), case_number(x, y, 34.0f), case_number(x, y, 35.0f),
+                   case_number(x, y, 36.0f));
   vec3 reflection = vec3(sky_share_of_direction(cell, reflect(-to_viewer, s.normal)));
-  vec3 lit = lit_radiance(s, light, to_viewer, case_number(x, y, 37.0f), sky_share_of_normal(cell, s.normal), reflection,
-                          0.5f * reflection);
+  vec3 lit = lit_radiance(s, light, to_viewer, case_number(x, y, 37.0f), sky_share_of_normal(cell, s.normal),
+                          reflection, 0.5f * reflection);
   vec3 hazy = through_haze(lit, 1000.0f * case_number(x, y, 38.0f), light.haze_per_m, light.haze_radiance);
   vec2 uv = equirect_uv(case_direction(x, y, 39.0f), 0.3f);
   return tone_mapped(hazy) + vec3(0.01f * sample_weight(hazy), 0.01f * uv.y, 0.0f);

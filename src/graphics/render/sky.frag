@@ -2,7 +2,8 @@
 #include "graphics/render/sky_lookup.glsl"
 
 uniform mat4 world_from_clip;
-uniform float shows_sun;  // 1, or 0: a cube face has no texel so small, and the shader of surfaces has the sun's light already
+uniform float shows_sun;  // 1, or 0: a cube face has no texel so small, and the shader of surfaces has the
+                          // sun's light already
 in vec2 screen_uv;
 out vec4 radiance;
 
@@ -14,5 +15,6 @@ void main() {
   float share = clamp((1.0f - from_centre) / max(fwidth(from_centre), 1e-6f) + 0.5f, 0.0f, 1.0f);
   float is_sun = frame_spot.w > -1.5f ? 0.0f : shows_sun;
   vec3 sun = is_sun * share / (3.14159265f * sun_radius * sun_radius) * frame_sun_irradiance.rgb;
-  radiance = vec4(min(sky_radiance(direction, 0.0f) + sun, vec3(30000.0f)), 1.0f);  // the target holds half floats
+  radiance =
+      vec4(min(sky_radiance(direction, 0.0f) + sun, vec3(30000.0f)), 1.0f);  // the target holds half floats
 }

@@ -7,11 +7,12 @@ uniform sampler2D sky_texture;
 uniform sampler3D sky_visibility_texture;
 
 vec3 sky_radiance(vec3 direction, float roughness) {
-  return textureLod(sky_texture, equirect_uv(direction, frame_haze.w), sky_level(roughness, frame_size.z)).rgb;
+  return textureLod(sky_texture, equirect_uv(direction, frame_haze.w), sky_level(roughness, frame_size.z))
+      .rgb;
 }
 
 vec4 sky_visibility_cell(vec3 at, vec3 geometric_normal) {
-  SkyVisibilityGrid grid = SkyVisibilityGrid(frame_visibility_origin.xyz, frame_visibility_size.xyz,
-                                             frame_visibility_origin.w);
+  SkyVisibilityGrid grid =
+      SkyVisibilityGrid(frame_visibility_origin.xyz, frame_visibility_size.xyz, frame_visibility_origin.w);
   return textureLod(sky_visibility_texture, sky_visibility_coordinates(grid, at, geometric_normal), 0.0f);
 }

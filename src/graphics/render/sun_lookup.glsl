@@ -39,5 +39,6 @@ float visible_sun(vec3 position, vec3 normal) {
 float visible_fixed_sun(vec3 position, vec3 normal) {
   ShadowMaps maps = frame_shadow_maps();
   vec3 uvz = shadow_coordinates(maps, shadow_far_map, position, normal, frame_to_sun.xyz, maps.texel_m.x);
-  return is_inside_map(uvz, 2.0f * maps.texel_uv) ? filtered_shadow(shadow_far_map, uvz, maps.texel_uv) : 1.0f;
+  return is_inside_map(uvz, 2.0f * maps.texel_uv) ? filtered_shadow(shadow_far_map, uvz, maps.texel_uv)
+                                                  : 1.0f;
 }

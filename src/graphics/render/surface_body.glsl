@@ -1,10 +1,12 @@
-// Fragment shader of all surfaces, in four steps: viewing geometry, material, incident light, radiance toward the viewer.
-// The including file defines
+// Fragment shader of all surfaces, in four steps: viewing geometry, material, incident light, radiance toward
+// the viewer. The including file defines
 //   void look_along(vec3 position, vec3 direction)   evaluates the mirror direction
-//   vec3 reflected_radiance(float roughness, int layer)   radiance from there, prefiltered; called for each layer of a surface
-// Both may use `surface_sky_cell`, the sky visibility of the point. The define SURFACE names the file that evaluates the
-// material: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY are expressions of rooms
-// above (SurfaceSource in surface_programs.h). A view may ask for other output than radiance:
+//   vec3 reflected_radiance(float roughness, int layer)   radiance from there, prefiltered; called for each
+//   layer of a surface
+// Both may use `surface_sky_cell`, the sky visibility of the point. The define SURFACE names the file that
+// evaluates the material: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY
+// are expressions of rooms above (SurfaceSource in surface_programs.h). A view may ask for other output than
+// radiance:
 //   WRITES_SURFACE  void write_surface(Surface surface, vec3 to_viewer) of the including file
 //   WRITES_OBJECT   the object's number plus 1
 //   WRITES_DEPTH    depth alone
@@ -28,7 +30,7 @@ in vec4 leaf_sky_cell;
 #endif
 flat in int object_of_surface;
 #ifdef IS_MIRRORED
-in vec3 seen_from;  // origin of the mirrored ray
+in vec3 seen_from;             // origin of the mirrored ray
 const float seen_back = 0.1f;  // cosine: interpolated normals face away slightly before their triangles do
 #else
 #define seen_from viewer_position.xyz
@@ -97,8 +99,8 @@ SeenPoint seen_point() {
   return seen;
 }
 
-// Coverage by alpha, for multisampled targets sharpened to the width of a pixel, so that distant leaves neither swell nor thin
-// out. (A shader without discard is faster.)
+// Coverage by alpha, for multisampled targets sharpened to the width of a pixel, so that distant leaves
+// neither swell nor thin out. (A shader without discard is faster.)
 float covered(float alpha) {
 #if defined(HAS_HOLES) && defined(ONE_SAMPLE)
   if (alpha < 0.5f) discard;
@@ -131,7 +133,8 @@ float traced_sun(float drawn, float distance_m) {
   int taps = frame_shadow_extra.y > 0.5f ? 5 : 0;  // no branch: a loop without rounds is left out
   for (int i = 0; i < taps; ++i) {
     ivec2 beside = ivec2(int(i == 1) - int(i == 2), int(i == 3) - int(i == 4));
-    vec2 traced = texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
+    vec2 traced =
+        texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
     float off = abs(traced.g - distance_m);
     share = off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
     nearest = min(off, nearest);
@@ -157,7 +160,8 @@ float visible_light(SeenPoint seen) {
 }
 
 #ifndef WRITES_SURFACE  // a file that writes the surface has no reflected_radiance: references would not link
-// Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets in.
+// Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets
+// in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   SceneLight light = scene_light();
   sun *= visible_light(seen);
@@ -170,11 +174,12 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   vec3 coat_reflection = vec3(0.0f);
 #endif
 #ifdef IS_GLASS
-  s.emission +=
-      (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, seen.to_viewer), 1e-4f, 1.0f))) * light_through(-seen.to_viewer);
+  s.emission += (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, seen.to_viewer), 1e-4f, 1.0f))) *
+                light_through(-seen.to_viewer);
 #endif
-  vec3 light_out = lit_radiance(s, light, seen.to_viewer, sun, sky_share_of_normal(surface_sky_cell, s.normal),
-                                base_reflection, coat_reflection);
+  vec3 light_out =
+      lit_radiance(s, light, seen.to_viewer, sun, sky_share_of_normal(surface_sky_cell, s.normal),
+                   base_reflection, coat_reflection);
   return through_haze(light_out, seen.distance_m, light.haze_per_m, light.haze_radiance);
 }
 #endif

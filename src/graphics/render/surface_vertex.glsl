@@ -32,7 +32,8 @@ void surface_vertex() {
   vec3 normal = normalize(vertex_normal);
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = visible_sun(position, normal);
-  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number));
+  leaf_sky_cell =
+      shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number));
 #endif
   object_of_surface = receives ? number : ~number;
 }

@@ -1,7 +1,10 @@
-// Solid glass: smooth, without a colour of its own. What meets its surface is reflected or goes through, bent by Snell's law; the
-// share by Schlick's weight, which is the same from both sides. Shared by shaders and ray tracer. Needs surface.glsl.
+// Solid glass: smooth, without a colour of its own. Light at its surface is reflected or refracted by Snell's
+// law, in fractions by Schlick's weight, which is the same from both sides. Shared by shaders and ray tracer.
+// Needs surface.glsl.
 
-GLSL_FUNCTION float glass_f0(float ior) { return (ior - 1.0f) * (ior - 1.0f) / ((ior + 1.0f) * (ior + 1.0f)); }
+GLSL_FUNCTION float glass_f0(float ior) {
+  return (ior - 1.0f) * (ior - 1.0f) / ((ior + 1.0f) * (ior + 1.0f));
+}
 
 // The surface as one that reflects like glass; what comes through is light that it sends out, like emission.
 GLSL_FUNCTION Surface glass_surface(Surface s, float ior) {
@@ -12,8 +15,9 @@ GLSL_FUNCTION Surface glass_surface(Surface s, float ior) {
   return s;
 }
 
-// Where a ray goes on behind a surface. `direction` and `normal` of unit length, the normal against the direction; `ratio`: the
-// index of refraction before the surface over the one behind it. Zero where all light is reflected.
+// Where a ray goes on behind a surface. `direction` and `normal` of unit length, the normal against the
+// direction; `ratio`: the index of refraction before the surface over the one behind it. Zero where all light
+// is reflected.
 GLSL_FUNCTION vec3 refracted(vec3 direction, vec3 normal, float ratio) {
   float cosine = -dot(direction, normal);
   float squared = 1.0f - ratio * ratio * (1.0f - cosine * cosine);

@@ -1,20 +1,22 @@
-// A surface in the light of a scene: the sun, the sky, the air. One recipe for every view and for the ray tracer.
+// A surface in the light of a scene: the sun, the sky, the air. One recipe for every view and for the ray
+// tracer.
 
 struct SceneLight {
-  vec3 to_sun;           // unit
-  vec3 sun_irradiance;   // on a plane that faces the sun
-  vec3 sky_sh[9];        // irradiance of the sky, shading/sky.glsl
+  vec3 to_sun;          // unit
+  vec3 sun_irradiance;  // on a plane that faces the sun
+  vec3 sky_sh[9];       // irradiance of the sky, shading/sky.glsl
   vec3 haze_radiance;
   float haze_per_m;
 };
 
-// Radiance that leaves `position` toward the viewer. `sun_visible` 0..1; `sky_visible` 0..1, the open share of the sky
-// above the surface; the two reflections are the radiance from the mirror direction blurred for the roughness of the
-// base and of the coat. Haze is not yet in.
-GLSL_FUNCTION vec3 lit_radiance(Surface s, SceneLight light, vec3 to_viewer, float sun_visible, float sky_visible,
-                                vec3 base_reflection, vec3 coat_reflection) {
+// Radiance that leaves `position` toward the viewer. `sun_visible` 0..1; `sky_visible` 0..1, the open share
+// of the sky above the surface; the two reflections are the radiance from the mirror direction blurred for
+// the roughness of the base and of the coat. Haze is not yet in.
+GLSL_FUNCTION vec3 lit_radiance(Surface s, SceneLight light, vec3 to_viewer, float sun_visible,
+                                float sky_visible, vec3 base_reflection, vec3 coat_reflection) {
   vec3 sun = direct_radiance(s, to_viewer, light.to_sun, sun_visible * light.sun_irradiance);
   vec3 irradiance = sky_visible * sky_irradiance(light.sky_sh, s.normal);
   vec3 irradiance_behind = sky_visible * sky_irradiance(light.sky_sh, -s.normal);
-  return sun + ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
+  return sun +
+         ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
 }

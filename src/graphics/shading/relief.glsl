@@ -1,7 +1,8 @@
-// What lies behind a flat surface, such as a window in its reveal: a ray goes on until it meets the relief that a
-// texture gives, and the sun's light comes in only where the relief lets it (Policarpo et al. 2005, Real-Time Relief
-// Mapping on Arbitrary Polygonal Surfaces). Openings with flat floors need few lookups: a floor is hit at once, and a
-// wall that hides it is found by bisection. Needs texture_frame.glsl, and from the host:
+// What lies behind a flat surface, such as a window in its reveal: a ray goes on until it meets the relief
+// that a texture gives, and the sun's light comes in only where the relief lets it (Policarpo et al. 2005,
+// Real-Time Relief Mapping on Arbitrary Polygonal Surfaces). Openings with flat floors need few lookups: a
+// floor is hit at once, and a wall that hides it is found by bisection. Needs texture_frame.glsl, and from
+// the host:
 //   float relief_depth(vec2 uv)   0: at the surface, 1: at the floor of the deepest
 
 const float relief_tolerance = 0.03f;  // in depths: less is the same floor
@@ -13,11 +14,13 @@ GLSL_FUNCTION vec2 uv_through_relief(TextureFrame frame, vec3 normal, vec3 direc
   vec3 across = cross(frame.step_1, frame.step_2);
   float area = dot(across, across);
   if (area < 1e-30f) return vec2(0.0f);
-  return (dot(cross(along, frame.step_2), across) * frame.uv_1 + dot(cross(frame.step_1, along), across) * frame.uv_2) /
+  return (dot(cross(along, frame.step_2), across) * frame.uv_1 +
+          dot(cross(frame.step_1, along), across) * frame.uv_2) /
          area;
 }
 
-// Where a ray that comes to `uv` and moves by `uv_to_floor` until it is 1 deep meets the relief: its uv, and the depth.
+// Where a ray that comes to `uv` and moves by `uv_to_floor` until it is 1 deep meets the relief: its uv, and
+// the depth.
 GLSL_FUNCTION vec3 relief_hit(vec2 uv, vec2 uv_to_floor) {
   float deep = relief_depth(uv);
   if (deep < relief_tolerance) return vec3(uv.x, uv.y, 0.0f);
@@ -41,8 +44,8 @@ GLSL_FUNCTION vec3 relief_hit(vec2 uv, vec2 uv_to_floor) {
   return vec3(at.x, at.y, deep);
 }
 
-// 1 where light comes in to a point of the relief, 0 where the edge of the opening keeps it out; `uv_to_floor` of the
-// light's way back, toward its source.
+// 1 where light comes in to a point of the relief, 0 where the edge of the opening keeps it out;
+// `uv_to_floor` of the light's way back, toward its source.
 GLSL_FUNCTION float relief_light(vec3 hit, vec2 uv_to_floor) {
   if (hit.z < relief_tolerance) return 1.0f;
   vec2 out_of_it = hit.z * uv_to_floor;

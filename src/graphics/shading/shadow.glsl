@@ -1,7 +1,7 @@
-// Where a point of the world lies in the sun's two shadow maps: the whole place, coarse, and what is near the viewer,
-// fine. They have the same size. Depth grows from 0 at the sun's side to 1 at the far side. The far map is orthographic; the
-// near one may be a projection that a view asks for (perspective shadow maps), or hold up to four tiles of different
-// scales (cascades).
+// Where a point of the world lies in the sun's two shadow maps: the whole place, coarse, and what is near the
+// viewer, fine. They have the same size. Depth grows from 0 at the sun's side to 1 at the far side. The far
+// map is orthographic; the near one may be a projection that a view asks for (perspective shadow maps), or
+// hold up to four tiles of different scales (cascades).
 
 const int shadow_far_map = 0;   // all that stands still, over the whole scene
 const int shadow_near_map = 1;  // what stands or moves near the viewer
@@ -12,13 +12,14 @@ struct ShadowMaps {
   mat4 uvz_from_world[2];
   vec2 texel_m;    // size of a texel of each map on a plane that faces the sun; in a projection, at w = 1
   float texel_uv;  // and in texture coordinates
-  float growth;    // of the near map's texel along its longer side: texel_m * w * max(1, growth * w); 0: not projected
+  float growth;    // of the near map's texel along its longer side: texel_m * w * max(1, growth * w); 0: not
+                   // projected
   int tile_count;  // of the near map; 0: it is one
   vec4 tiles[4];   // scale and offset from its uv to those of each quarter, from coarse to fine
 };
 
-// How much of a spot light arrives, by the cosine of the angle to its axis and that of its cone: its edge is soft within a
-// twentieth of the cone.
+// How much of a spot light arrives, by the cosine of the angle to its axis and that of its cone: its edge is
+// soft within a twentieth of the cone.
 GLSL_FUNCTION float spot_share(float cosine, float cone_cosine) {
   return smoothstep(cone_cosine, cone_cosine + 0.05f * (1.0f - cone_cosine), cosine);
 }
@@ -35,9 +36,10 @@ GLSL_FUNCTION float shadow_texel(ShadowMaps maps, int map, vec3 position) {
   return maps.texel_m[map] * w * max(1.0f, maps.growth * w);
 }
 
-// Where to look: pushed off the surface along its normal by a texel or so, more at grazing light (Holbert 2011).
-GLSL_FUNCTION vec3 shadow_coordinates(ShadowMaps maps, int map, vec3 position, vec3 geometric_normal, vec3 to_sun,
-                                      float texel) {
+// Where to look: pushed off the surface along its normal by a texel or so, more at grazing light (Holbert
+// 2011).
+GLSL_FUNCTION vec3 shadow_coordinates(ShadowMaps maps, int map, vec3 position, vec3 geometric_normal,
+                                      vec3 to_sun, float texel) {
   float slope = sqrt(clamp(1.0f - dot(geometric_normal, to_sun) * dot(geometric_normal, to_sun), 0.0f, 1.0f));
   vec3 lifted = position + (texel * (0.3f + 1.2f * slope)) * geometric_normal + (0.3f * texel) * to_sun;
   vec4 p = maps.uvz_from_world[map] * vec4(lifted, 1.0f);
@@ -59,13 +61,15 @@ GLSL_FUNCTION vec4 shadow_tile(ShadowMaps maps, vec2 uv) {
 }
 
 // The same for the near map: outside of it where uv are negative.
-GLSL_FUNCTION vec3 near_shadow_coordinates(ShadowMaps maps, vec3 position, vec3 geometric_normal, vec3 to_sun) {
+GLSL_FUNCTION vec3 near_shadow_coordinates(ShadowMaps maps, vec3 position, vec3 geometric_normal,
+                                           vec3 to_sun) {
   float texel = shadow_texel(maps, shadow_near_map, position);
   if (maps.tile_count == 0)
     return shadow_coordinates(maps, shadow_near_map, position, geometric_normal, to_sun, texel);
   vec4 p = maps.uvz_from_world[shadow_near_map] * vec4(position, 1.0f);
   vec4 tile = shadow_tile(maps, vec2(p.x, p.y));
   if (tile.x <= 0.0f) return vec3(-1.0f);
-  vec3 uvz = shadow_coordinates(maps, shadow_near_map, position, geometric_normal, to_sun, texel / min(tile.x, tile.y));
+  vec3 uvz = shadow_coordinates(maps, shadow_near_map, position, geometric_normal, to_sun,
+                                texel / min(tile.x, tile.y));
   return vec3(uvz.x * tile.x + tile.z, uvz.y * tile.y + tile.w, uvz.z);
 }

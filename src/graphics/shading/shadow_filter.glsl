@@ -1,8 +1,9 @@
 // Is a point in the sun? Needs shading/shadow.glsl, and from the host
-//   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear over four texels.
+//   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear over four
+//   texels.
 
-// A tent over 3x3 texels out of four bilinear comparisons (Castano 2013, Shadow Mapping Summary): an edge about as soft
-// as the sun's penumbra under a cornice.
+// A tent over 3x3 texels out of four bilinear comparisons (Castano 2013, Shadow Mapping Summary): an edge
+// about as soft as the sun's penumbra under a cornice.
 GLSL_FUNCTION float filtered_shadow(int map, vec3 uvz, float texel_uv) {
   vec2 texels = vec2(uvz.x, uvz.y) / texel_uv + vec2(0.5f);
   vec2 corner = floor(texels);

@@ -1,22 +1,24 @@
-// What light does at a surface: Lambert and GGX (Walter 2007) with all bounces between facets (Kulla and Conty 2017)
-// under a clear coat (glTF KHR_materials_clearcoat), translucent leaves. Shared by shaders and ray tracer.
+// What light does at a surface: Lambert and GGX (Walter 2007) with all bounces between facets (Kulla and
+// Conty 2017) under a clear coat (glTF KHR_materials_clearcoat), translucent leaves. Shared by shaders and
+// ray tracer.
 
 struct Surface {
-  vec3 normal;        // unit, on the viewer's side
-  vec3 base_colour;   // linear
+  vec3 normal;       // unit, on the viewer's side
+  vec3 base_colour;  // linear
   float metallic;
-  float roughness;    // perceptual, alpha = roughness^2
+  float roughness;  // perceptual, alpha = roughness^2
   float clear_coat;
   float clear_coat_roughness;
   float translucency;
-  float occlusion;    // 1: open to the sky
+  float occlusion;  // 1: open to the sky
   vec3 emission;
 };
 
-// By the factors of a material (`layers`: metallic, roughness, clear coat, its roughness) and what its textures have at a
-// point (`detail`: occlusion, roughness, metallic; glTF 2.0, section 3.9.2). Colours are products already.
-GLSL_FUNCTION Surface assembled_surface(vec3 normal, vec3 base_colour, vec3 detail, vec3 emission, vec4 layers,
-                                        float translucency) {
+// By the factors of a material (`layers`: metallic, roughness, clear coat, its roughness) and what its
+// textures have at a point (`detail`: occlusion, roughness, metallic; glTF 2.0, section 3.9.2). Colours are
+// products already.
+GLSL_FUNCTION Surface assembled_surface(vec3 normal, vec3 base_colour, vec3 detail, vec3 emission,
+                                        vec4 layers, float translucency) {
   Surface s;
   s.normal = normal;
   s.base_colour = base_colour;
@@ -30,7 +32,8 @@ GLSL_FUNCTION Surface assembled_surface(vec3 normal, vec3 base_colour, vec3 deta
   return s;
 }
 
-// Highlights of the sun are not allowed to get sharper than this: a mirror would show the sun's disc, of 0.5 degrees.
+// Highlights of the sun are not allowed to get sharper than this: a mirror would show the sun's disc, of 0.5
+// degrees.
 const float min_roughness = 0.05f;
 const float pi = 3.14159265f;
 
@@ -60,8 +63,9 @@ GLSL_FUNCTION float ggx_specular(float roughness, float n_dot_l, float n_dot_v, 
   return ggx_distribution(alpha, n_dot_h) * visibility;
 }
 
-// What that lobe gives back of light from everywhere, each fitted to the integral: the share that would bounce again
-// between facets and is lost (to 0.010), and the share that Schlick's weight has in the rest (to 0.006).
+// What that lobe gives back of light from everywhere, each fitted to the integral: the share that would
+// bounce again between facets and is lost (to 0.010), and the share that Schlick's weight has in the rest (to
+// 0.006).
 struct LobeShares {
   float lost;
   float grazing;
@@ -81,8 +85,8 @@ GLSL_FUNCTION LobeShares lobe_shares(float roughness, float n_dot_v) {
   float g1 = -0.327583f + r * (5.34836f + r * (-10.0836f + 4.99311f * r));
   float g2 = -1.17042f + r * (-4.43852f + 5.24253f * r);
   float g3 = 2.78988f + 3.44565f * r;
-  shares.grazing =
-      clamp(schlick_weight(n_dot_v) * (g0 + u * (g1 + u * (g2 + u * (g3 - 1.50824f * u)))), 0.0f, 1.0f - shares.lost);
+  shares.grazing = clamp(schlick_weight(n_dot_v) * (g0 + u * (g1 + u * (g2 + u * (g3 - 1.50824f * u)))), 0.0f,
+                         1.0f - shares.lost);
   return shares;
 }
 
@@ -90,14 +94,16 @@ GLSL_FUNCTION LobeShares lobe_shares(float roughness, float n_dot_v) {
 GLSL_FUNCTION LobeShares mean_lobe_shares(float roughness) {
   float r = max(roughness, min_roughness);
   LobeShares shares;
-  shares.lost = 0.00043645f +
-                r * (0.231088f + r * (-2.8266f + r * (12.2797f + r * (-19.7938f + r * (15.7166f - 5.01274f * r)))));
-  shares.grazing = 0.0436666f + r * (0.107383f + r * (-0.793991f + r * (1.38353f + r * (-1.00881f + 0.271954f * r))));
+  shares.lost =
+      0.00043645f +
+      r * (0.231088f + r * (-2.8266f + r * (12.2797f + r * (-19.7938f + r * (15.7166f - 5.01274f * r)))));
+  shares.grazing =
+      0.0436666f + r * (0.107383f + r * (-0.793991f + r * (1.38353f + r * (-1.00881f + 0.271954f * r))));
   return shares;
 }
 
-// Share of the light lost between facets that leaves them after more bounces, coloured by each (Kulla and Conty 2017,
-// Hill 2018); `mean` of mean_lobe_shares.
+// Share of the light lost between facets that leaves them after more bounces, coloured by each (Kulla and
+// Conty 2017, Hill 2018); `mean` of mean_lobe_shares.
 GLSL_FUNCTION vec3 returned_share(vec3 f0, LobeShares mean) {
   vec3 fresnel = f0 + (vec3(1.0f) - f0) / 21.0f;
   return fresnel * fresnel * (1.0f - mean.lost) / (vec3(1.0f) - fresnel * mean.lost);
@@ -107,10 +113,12 @@ GLSL_FUNCTION vec3 reflected_share(vec3 f0, LobeShares shares, vec3 returned) {
   return f0 * (1.0f - shares.lost - shares.grazing) + vec3(shares.grazing) + returned * shares.lost;
 }
 
-// Share of the radiance from around the mirror direction that goes to the viewer, for the base layer and for the coat.
+// Share of the radiance from around the mirror direction that goes to the viewer, for the base layer and for
+// the coat.
 GLSL_FUNCTION vec3 base_reflectance(Surface s, float n_dot_v) {
   vec3 f0 = specular_f0(s);
-  return reflected_share(f0, lobe_shares(s.roughness, n_dot_v), returned_share(f0, mean_lobe_shares(s.roughness)));
+  return reflected_share(f0, lobe_shares(s.roughness, n_dot_v),
+                         returned_share(f0, mean_lobe_shares(s.roughness)));
 }
 
 GLSL_FUNCTION float coat_share(float coat, LobeShares shares) {
@@ -122,11 +130,13 @@ GLSL_FUNCTION float fresnel_of_coat(Surface s, float n_dot_v) {
   return coat_share(s.clear_coat, lobe_shares(s.clear_coat_roughness, n_dot_v));
 }
 
-// Share of the light from `to_light` that goes to the viewer: BRDF times cosine. What a layer reflects does not reach
-// the ones below, on the way in or out; what comes out of them in all directions is scaled so that light is kept (Kelemen
-// and Szirmay-Kalos 2001, Kulla and Conty 2017), and their highlight loses by the lower of the two directions. The
-// highlights of base and coat count by their weights: 1, or 0 where a path follows their mirror ray instead.
-GLSL_FUNCTION vec3 scattered_share(Surface s, vec3 to_viewer, vec3 to_light, float base_weight, float coat_weight) {
+// Share of the light from `to_light` that goes to the viewer: BRDF times cosine. What a layer reflects does
+// not reach the ones below, on the way in or out; what comes out of them in all directions is scaled so that
+// light is kept (Kelemen and Szirmay-Kalos 2001, Kulla and Conty 2017), and their highlight loses by the
+// lower of the two directions. The highlights of base and coat count by their weights: 1, or 0 where a path
+// follows their mirror ray instead.
+GLSL_FUNCTION vec3 scattered_share(Surface s, vec3 to_viewer, vec3 to_light, float base_weight,
+                                   float coat_weight) {
   float n_dot_l = dot(s.normal, to_light);
   vec3 colour = (1.0f - s.metallic) * s.base_colour;
   if (n_dot_l <= 0.0f) return s.translucency * colour / pi * max(-n_dot_l, 0.0f);
@@ -141,19 +151,23 @@ GLSL_FUNCTION vec3 scattered_share(Surface s, vec3 to_viewer, vec3 to_light, flo
   LobeShares met = lobe_shares(s.roughness, lit);
   LobeShares mean = mean_lobe_shares(s.roughness);
   vec3 returned = returned_share(f0, mean);
-  vec3 kept = (vec3(1.0f) - reflected_share(f0, seen, returned)) * (vec3(1.0f) - reflected_share(f0, met, returned)) /
+  vec3 kept = (vec3(1.0f) - reflected_share(f0, seen, returned)) *
+              (vec3(1.0f) - reflected_share(f0, met, returned)) /
               max(vec3(1.0f) - reflected_share(f0, mean, returned), vec3(1e-3f));
   vec3 spread = (kept * colour + returned * seen.lost * met.lost / max(mean.lost, 1e-3f)) / pi;
-  vec3 highlight = (f0 + (vec3(1.0f) - f0) * facing) * (base_weight * ggx_specular(s.roughness, lit, n_dot_v, n_dot_h));
+  vec3 highlight =
+      (f0 + (vec3(1.0f) - f0) * facing) * (base_weight * ggx_specular(s.roughness, lit, n_dot_v, n_dot_h));
   if (s.clear_coat <= 0.0f) return (spread + highlight) * n_dot_l;
 
   float coat_seen = 1.0f - fresnel_of_coat(s, n_dot_v);
   float coat_met = 1.0f - fresnel_of_coat(s, lit);
   // Base and coat both reflect most at grazing angles: what one keeps out the other would have, too.
-  float coat_mean = 1.0f - coat_share(s.clear_coat, mean_lobe_shares(s.clear_coat_roughness)) + 0.01f * s.clear_coat;
+  float coat_mean =
+      1.0f - coat_share(s.clear_coat, mean_lobe_shares(s.clear_coat_roughness)) + 0.01f * s.clear_coat;
   float coat = s.clear_coat * (0.04f + 0.96f * facing);
   float coat_highlight = coat * coat_weight * ggx_specular(s.clear_coat_roughness, lit, n_dot_v, n_dot_h);
-  return (spread * (coat_seen * coat_met / coat_mean) + highlight * min(coat_seen, coat_met) + vec3(coat_highlight)) *
+  return (spread * (coat_seen * coat_met / coat_mean) + highlight * min(coat_seen, coat_met) +
+          vec3(coat_highlight)) *
          n_dot_l;
 }
 
@@ -162,8 +176,9 @@ GLSL_FUNCTION vec3 direct_radiance(Surface s, vec3 to_viewer, vec3 to_light, vec
   return scattered_share(s, to_viewer, to_light, 1.0f, 1.0f) * irradiance;
 }
 
-// Radiance toward the viewer from the surroundings: `irradiance` of the normal's hemisphere and of the one behind
-// (leaves), and `base_reflection`, `coat_reflection`: radiance from the mirror direction, blurred for each roughness.
+// Radiance toward the viewer from the surroundings: `irradiance` of the normal's hemisphere and of the one
+// behind (leaves), and `base_reflection`, `coat_reflection`: radiance from the mirror direction, blurred for
+// each roughness.
 GLSL_FUNCTION vec3 ambient_radiance(Surface s, vec3 to_viewer, vec3 irradiance, vec3 irradiance_behind,
                                     vec3 base_reflection, vec3 coat_reflection) {
   float n_dot_v = clamp(dot(s.normal, to_viewer), 1e-4f, 1.0f);

@@ -1,5 +1,5 @@
-// From exposed radiance to display light in 0..1, before sRGB encoding. Hable's filmic curve (2010) has a toe and a
-// shoulder; it is scaled so that `white` comes out as 1.
+// From exposed radiance to display light in 0..1, before sRGB encoding. Hable's filmic curve (2010) has a toe
+// and a shoulder; it is scaled so that `white` comes out as 1.
 
 GLSL_FUNCTION vec3 hable(vec3 x) {
   return (x * (0.22f * x + vec3(0.03f)) + vec3(0.002f)) / (x * (0.22f * x + vec3(0.3f)) + vec3(0.06f)) -

@@ -1,13 +1,15 @@
-// Intersection of a ray with a dynamic body (a car, a walker), beside the heightfield of the static scene: the distance
-// from the body's surface, sampled in a box of cells (sphere tracing, Hart 1996). From the host:
-//   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within; `cell` in cells from the
+// Intersection of a ray with a dynamic body (a car, a walker), beside the heightfield of the static scene:
+// the distance from the body's surface, sampled in a box of cells (sphere tracing, Hart 1996). From the host:
+//   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within; `cell` in cells
+//   from the
 //                                                box's corner
 
 const vec3 field_cells = vec3(48.0f, 24.0f, 20.0f);
-const float field_reach = 1.75f;     // cells: so far from the surface distances are known, and cut off beyond
+const float field_reach = 1.75f;  // cells: so far from the surface distances are known, and cut off beyond
 const int max_field_steps = 40;
 const float min_field_step_m = 0.01f;
-const float field_clearance = 0.25f; // cells: a ray that starts on the body has left it when it is so far away
+const float field_clearance =
+    0.25f;  // cells: a ray that starts on the body has left it when it is so far away
 
 GLSL_FUNCTION float field_reach_m(vec3 half_size_m) {
   vec3 cell_m = 2.0f * half_size_m / field_cells;
@@ -18,7 +20,8 @@ GLSL_FUNCTION vec3 field_cell(vec3 point_m, vec3 half_size_m) {
   return (point_m / half_size_m * 0.5f + vec3(0.5f)) * field_cells;
 }
 
-// Distances at which a ray enters and leaves a box about the origin; the second is the lesser where it misses.
+// Distances at which a ray enters and leaves a box about the origin; the second is the lesser where it
+// misses.
 GLSL_FUNCTION vec2 ray_in_box(vec3 origin, vec3 direction, vec3 half_size_m) {
   vec3 inverse = vec3(1.0f) / (direction + vec3(1e-9f));
   vec3 low = (-half_size_m - origin) * inverse;
@@ -27,8 +30,8 @@ GLSL_FUNCTION vec2 ray_in_box(vec3 origin, vec3 direction, vec3 half_size_m) {
   return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0f)), min(leaves.x, min(leaves.y, leaves.z)));
 }
 
-// The distance along a unit direction at which the ray hits the body, in the frame of its box; `reach_m` where it does
-// not. A ray that starts on the body (`is_own`) may hit it once it has left it.
+// The distance along a unit direction at which the ray hits the body, in the frame of its box; `reach_m`
+// where it does not. A ray that starts on the body (`is_own`) may hit it once it has left it.
 GLSL_FUNCTION float distance_to_body(vec3 origin, vec3 direction, vec3 half_size_m, int field, float reach_m,
                                      bool is_own) {
   vec2 within = ray_in_box(origin, direction, half_size_m);

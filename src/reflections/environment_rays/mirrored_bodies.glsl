@@ -1,29 +1,31 @@
-// Cars, walkers and whatever moves, met by mirror rays: block at binding 3, filled by mirrored_bodies.cpp.
+// Dynamic objects that mirror rays may hit: block at binding 3, filled by mirrored_bodies.cpp.
 struct MirroredBody {
   vec4 box_from_world[3];  // rows: metres from the box's middle along its edges
   vec4 half_size_m;        // w: the field
-  uvec4 near;              // a byte a body that stands near it: its index and 1, the nearest first; 0: no more
+  uvec4 near;              // one byte per body near it: index plus 1, nearest first; 0 ends the list
 };
 const int max_mirrored_bodies = 200;
 
 layout(std140) uniform MirroredBodies { MirroredBody mirrored_bodies[max_mirrored_bodies]; };
 
-uniform highp sampler3D body_fields;  // one upon the other
-uniform int reflecting_body;          // the index of the one that is drawn, or below 0
+uniform highp sampler3D body_fields;  // stacked along z
+uniform int reflecting_body;          // index of the body that is drawn; negative: none
 
 vec4 field_texel(vec3 cell, int field);
 float field_distance(vec3 cell, int field);
 
 #include "reflections/environment_rays/body_field.glsl"
 
-float field_reach_now_m;  // of the body that is looked at
+float field_reach_now_m;  // of the body that is intersected
 
 vec4 field_texel(vec3 cell, int field) {
   float z = float(field) * field_cells.z + clamp(cell.z, 0.5f, field_cells.z - 0.5f);
   return textureLod(body_fields, vec3(cell.xy, z) / vec3(textureSize(body_fields, 0)), 0.0f);
 }
 
-float field_distance(vec3 cell, int field) { return (2.0f * field_texel(cell, field).a - 1.0f) * field_reach_now_m; }
+float field_distance(vec3 cell, int field) {
+  return (2.0f * field_texel(cell, field).a - 1.0f) * field_reach_now_m;
+}
 
 struct BodyHit {
   float distance;  // the length of the search where no body was hit
@@ -33,7 +35,8 @@ struct BodyHit {
 };
 
 vec3 in_box(MirroredBody body, vec4 at) {
-  return vec3(dot(body.box_from_world[0], at), dot(body.box_from_world[1], at), dot(body.box_from_world[2], at));
+  return vec3(dot(body.box_from_world[0], at), dot(body.box_from_world[1], at),
+              dot(body.box_from_world[2], at));
 }
 
 void look_up_surface(inout BodyHit hit, vec3 at, vec3 direction) {
@@ -42,17 +45,20 @@ void look_up_surface(inout BodyHit hit, vec3 at, vec3 direction) {
   vec3 cell = field_cell(in_box(body, vec4(at + hit.distance * direction, 1.0f)), body.half_size_m.xyz);
   vec4 texel = field_texel(cell, field);
   hit.base_colour = texel.rgb * texel.rgb;
-  vec3 slope = vec3(field_texel(cell + vec3(0.5f, 0.0f, 0.0f), field).a - field_texel(cell - vec3(0.5f, 0.0f, 0.0f), field).a,
-                    field_texel(cell + vec3(0.0f, 0.5f, 0.0f), field).a - field_texel(cell - vec3(0.0f, 0.5f, 0.0f), field).a,
-                    field_texel(cell + vec3(0.0f, 0.0f, 0.5f), field).a - field_texel(cell - vec3(0.0f, 0.0f, 0.5f), field).a);
+  vec3 slope = vec3(field_texel(cell + vec3(0.5f, 0.0f, 0.0f), field).a -
+                        field_texel(cell - vec3(0.5f, 0.0f, 0.0f), field).a,
+                    field_texel(cell + vec3(0.0f, 0.5f, 0.0f), field).a -
+                        field_texel(cell - vec3(0.0f, 0.5f, 0.0f), field).a,
+                    field_texel(cell + vec3(0.0f, 0.0f, 0.5f), field).a -
+                        field_texel(cell - vec3(0.0f, 0.0f, 0.5f), field).a);
   slope *= field_cells / body.half_size_m.xyz;
   vec3 normal = slope.x * body.box_from_world[0].xyz + slope.y * body.box_from_world[1].xyz +
                 slope.z * body.box_from_world[2].xyz;
   hit.normal = normalize(normal - 1e-4f * direction);
 }
 
-// The first body on a ray from the body that is drawn.
-BodyHit meet_bodies(vec3 at, vec3 direction, float reach_m) {
+// First body that a ray from the drawn body hits.
+BodyHit intersect_bodies(vec3 at, vec3 direction, float reach_m) {
   BodyHit hit = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
   if (reflecting_body < 0) return hit;
   uvec4 near = mirrored_bodies[reflecting_body].near;
@@ -65,8 +71,8 @@ BodyHit meet_bodies(vec3 at, vec3 direction, float reach_m) {
     vec2 within = ray_in_box(origin, along, body.half_size_m.xyz);
     if (within.x >= min(within.y, hit.distance)) continue;
     field_reach_now_m = field_reach_m(body.half_size_m.xyz);
-    float distance_m = distance_to_body(origin, along, body.half_size_m.xyz, int(body.half_size_m.w), hit.distance,
-                                        index == reflecting_body);
+    float distance_m = distance_to_body(origin, along, body.half_size_m.xyz, int(body.half_size_m.w),
+                                        hit.distance, index == reflecting_body);
     if (distance_m < hit.distance) hit.distance = distance_m, hit.body = index;
   }
   if (hit.body >= 0) look_up_surface(hit, at, direction);

@@ -1,5 +1,5 @@
-// Mirror-like surfaces that look their surroundings up in the local map of their body, as if it were infinitely far; bodies
-// without one look simply blended reference maps up.
+// Mirror-like surfaces that look their surroundings up in the local map of their body, as if it were
+// infinitely far; bodies without one look simply blended reference maps up.
 #include "graphics/render/sky_lookup.glsl"
 #include "graphics/shading/octahedral.glsl"
 #include "reflections/local_maps/local_map_faces.glsl"
@@ -11,7 +11,7 @@ uniform vec3 local_map;     // south-west corner in texels, texels a side of a t
 uniform vec2 picture_size;  // of all local maps
 uniform float local_border;
 
-const float max_taps = 4.0f;  // each way
+const float max_taps = 4.0f;        // each way
 const float coarsest_level = 3.0f;  // as far as the tiles' borders reach
 
 vec3 local_radiance(vec3 direction, float level) {
@@ -23,8 +23,8 @@ vec3 mirrored_direction;
 
 void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
-// Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
-// pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur.
+// Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread
+// over the pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur.
 vec3 reflected_radiance(float roughness, int layer) {
   vec3 direction = mirrored_direction;
   if (local_map.z < 1.0f) return simple_blend(direction, roughness);

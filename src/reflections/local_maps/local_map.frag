@@ -1,4 +1,5 @@
-// A local map's texels (Meyer and Loscos 2003, section 4.1): what the two reference maps show of the point, blended.
+// A local map's texels (Meyer and Loscos 2003, section 4.1): what the two reference maps show of the point,
+// blended.
 #include "graphics/shading/octahedral.glsl"
 
 uniform highp sampler2DArray map_colours;
@@ -11,7 +12,8 @@ in float is_seen;
 flat in vec3 maps_and_span;
 out vec4 radiance;
 
-const float texel_rad = 3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much
+const float texel_rad =
+    3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much
 
 vec3 colour_of(float map, vec3 from_place) {
   float distance_m = length(from_place);

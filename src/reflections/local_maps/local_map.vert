@@ -1,11 +1,12 @@
-// The corners of local maps' meshes, all maps in one picture: what each corner's ray hit, and how the two reference maps
-// share in it.
+// The corners of local maps' meshes, all maps in one picture: what each corner's ray hit, and how the two
+// reference maps share in it.
 #include "graphics/shading/octahedral.glsl"
 #include "reflections/reference_maps/validity.glsl"
 #include "reflections/local_maps/local_map_weights.glsl"
 
-layout(location = 0) in vec4 corner;  // place in the picture in texels; distance along the face's axis; what a texel spans
-layout(location = 1) in vec3 met;     // in the world
+layout(location = 0)
+    in vec4 corner;  // place in the picture in texels; distance along the face's axis; what a texel spans
+layout(location = 1) in vec3 met;  // in the world
 layout(location = 2) in uint map_pair;
 
 uniform highp sampler2DArray map_distances;
@@ -29,7 +30,8 @@ float validity_of(vec3 from_place, int map) {
 
 void main() {
   int a = int(map_pair & 0xffffu), b = int(map_pair >> 16);
-  vec3 place_a = texelFetch(map_places, ivec2(a, 0), 0).xyz, place_b = texelFetch(map_places, ivec2(b, 0), 0).xyz;
+  vec3 place_a = texelFetch(map_places, ivec2(a, 0), 0).xyz,
+       place_b = texelFetch(map_places, ivec2(b, 0), 0).xyz;
   from_a = met - place_a;
   from_b = met - place_b;
   vec2 validities = vec2(validity_of(from_a, a), validity_of(from_b, b));
@@ -37,8 +39,8 @@ void main() {
   is_seen = max(validities.x, validities.y);
   maps_and_span = vec3(float(a), float(b), corner.w);
 
-  // Seen in perspective, what lies between the corners of a flat wall is on that wall. Depth is that of the drawn faces,
-  // reversed; the sky stands before nothing.
+  // Seen in perspective, what lies between the corners of a flat wall is on that wall. Depth is that of the
+  // drawn faces, reversed; the sky stands before nothing.
   float ahead = corner.z;
   float depth = max(near_far.x * (near_far.y - ahead) / (near_far.y - near_far.x), 1e-7f * ahead);
   gl_Position = vec4((corner.xy / picture_size * 2.0f - 1.0f) * ahead, depth, ahead);

@@ -1,13 +1,14 @@
-// The six faces of a local map (Meyer and Loscos 2003, section 4.4) in one picture: three tiles across, two up, in OpenGL's
-// order and orientation of a cube map's faces. Each tile's outermost `border` texels show what lies beyond the face, so that
-// filters and mipmaps find their neighbours.
+// The six faces of a local map (Meyer and Loscos 2003, section 4.4) in one picture: three tiles across, two
+// up, in OpenGL's order and orientation of a cube map's faces. Each tile's outermost `border` texels show
+// what lies beyond the face, so that filters and mipmaps find their neighbours.
 
 // x, y: place on the face, from -1 to 1; z: the face that the direction meets.
 GLSL_FUNCTION vec3 place_on_faces(vec3 d) {
   vec3 reach = abs(d);
   if (reach.x >= reach.y && reach.x >= reach.z)
     return vec3((d.x > 0.0f ? -d.z : d.z) / reach.x, -d.y / reach.x, d.x > 0.0f ? 0.0f : 1.0f);
-  if (reach.y >= reach.z) return vec3(d.x / reach.y, (d.y > 0.0f ? d.z : -d.z) / reach.y, d.y > 0.0f ? 2.0f : 3.0f);
+  if (reach.y >= reach.z)
+    return vec3(d.x / reach.y, (d.y > 0.0f ? d.z : -d.z) / reach.y, d.y > 0.0f ? 2.0f : 3.0f);
   return vec3((d.z > 0.0f ? d.x : -d.x) / reach.z, -d.y / reach.z, d.z > 0.0f ? 4.0f : 5.0f);
 }
 

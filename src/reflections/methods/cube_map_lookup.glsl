@@ -2,9 +2,10 @@
 
 const float max_taps = 4.0f;  // each way
 
-// Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread over the
-// pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur. Half a level less
-// keeps edges as sharp as many rays per pixel show them. To be called by all pixels alike: `d` is compared between them.
+// Curved mirrors squeeze wide angles into a pixel, and toward the rim in one direction only: lookups spread
+// over the pixel's footprint, each as wide as its share, keep what one as wide as the footprint would blur.
+// Half a level less keeps edges as sharp as many rays per pixel show them. To be called by all pixels alike:
+// `d` is compared between them.
 vec3 cube_map_radiance(samplerCube map, float levels, vec3 d, float roughness) {
   vec3 along_x = dFdx(d), along_y = dFdy(d);
   float texels_a_unit = 0.5f * exp2(levels) / max(abs(d.x), max(abs(d.y), abs(d.z)));

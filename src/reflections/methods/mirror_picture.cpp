@@ -5,7 +5,7 @@
 namespace parvis::methods {
 namespace {
 
-constexpr GLuint starts_unit = 0, ways_unit = 1;  // of materials, which come later
+constexpr GLuint starts_unit = 0, directions_unit = 1;  // of materials, which come later
 
 }  // namespace
 
@@ -76,9 +76,9 @@ void MirrorPicture::draw_rays(render::Renderer& renderer) {
 
 void MirrorPicture::bind_rays(const gl::Program& program) const {
   glBindTextureUnit(starts_unit, starts_.name());
-  glBindTextureUnit(ways_unit, ways_.name());
+  glBindTextureUnit(directions_unit, ways_.name());
   program.set("ray_starts", int(starts_unit));
-  program.set("ray_ways", int(ways_unit));
+  program.set("ray_directions", int(directions_unit));
 }
 
 void MirrorPicture::begin_light() const {

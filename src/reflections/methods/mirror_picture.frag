@@ -12,6 +12,7 @@ void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 vec3 reflected_radiance(float roughness, int layer) {
   vec4 base = texelFetch(base_light, ivec2(gl_FragCoord.xy), 0);
   if (base.a == 0.0f)
-    return sky_share_of_direction(surface_sky_cell, mirrored_direction) * sky_radiance(mirrored_direction, roughness);
+    return sky_share_of_direction(surface_sky_cell, mirrored_direction) *
+           sky_radiance(mirrored_direction, roughness);
   return layer == base_layer ? base.rgb : texelFetch(coat_light, ivec2(gl_FragCoord.xy), 0).rgb;
 }

@@ -33,7 +33,7 @@ class MirrorPicture {
   void draw_rays(render::Renderer& renderer);
 
   /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
-  /// fragment shader that reads ray_starts and ray_ways, as mirror_rays.frag writes them, and writes
+  /// fragment shader that reads ray_starts and ray_directions, as mirror_rays.frag writes them, and writes
   /// the light of base and coat.
   void draw_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                   const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const;

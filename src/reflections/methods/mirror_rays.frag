@@ -1,5 +1,6 @@
-// The mirror rays of surfaces, for methods that evaluate each pixel's reflection once: where a ray leaves (xyz; w: roughness of
-// the base) and its direction (xy: octahedral; z: roughness of the coat; w: the object's index and 1).
+// The mirror rays of surfaces, for methods that evaluate each pixel's reflection once: where a ray leaves
+// (xyz; w: roughness of the base) and its direction (xy: octahedral; z: roughness of the coat; w: the
+// object's index and 1).
 #define WRITES_SURFACE
 #include "graphics/render/surface_body.glsl"
 #include "graphics/shading/octahedral.glsl"

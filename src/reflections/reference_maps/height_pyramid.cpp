@@ -19,12 +19,12 @@ struct Walker {
 #define GLSL_FUNCTION
 #include "reflections/reference_maps/heightfield_walk.glsl"
 
-  static HeightGrid grid_of(const HeightPyramid& pyramid) {
+  static HeightfieldGrid grid_of(const HeightPyramid& pyramid) {
     return {pyramid.origin(), pyramid.cell_m(), pyramid.cells(), int(pyramid.levels().size()) - 1};
   }
 };
 
-reference_maps::HeightHit outside(const Walker::HeightHit& hit) { return {hit.distance, Met(hit.met)}; }
+reference_maps::HeightHit outside(const Walker::HeightHit& hit) { return {hit.distance, HitKind(hit.kind)}; }
 
 /// Half as large each way; each cell the highest of the four below it.
 ImageF maxima(const ImageF& fine) {

@@ -9,11 +9,11 @@
 namespace parvis::reference_maps {
 
 /// What a ray hits: nothing, the vertical side of a cell, or its top; see heightfield_walk.glsl.
-enum class Met { nothing, side, top };
+enum class HitKind { nothing, side, top };
 /// Result of casting a ray.
 struct HeightHit {
   float distance_m;  ///< along the unit direction; the reach if nothing is hit
-  Met met;
+  HitKind kind;
 };
 
 /// Heights on a grid of square cells, as columns with flat tops.

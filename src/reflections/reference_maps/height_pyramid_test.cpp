@@ -84,8 +84,8 @@ TEST(HeightPyramid, WalksMeetWhatTryingEveryCellMeets) {
       const HeightHit by_levels = pyramid.walk_by_levels(ray.origin, ray.direction, reach_m);
       ASSERT_NEAR(hit.distance_m, expected, 2e-3f) << "cells of " << cell_m << " m, ray " << i;
       ASSERT_NEAR(by_levels.distance_m, expected, 2e-3f) << "cells of " << cell_m << " m, ray " << i;
-      ASSERT_EQ(hit.met == Met::nothing, expected == reach_m);
-      hits += hit.met != Met::nothing;
+      ASSERT_EQ(hit.kind == HitKind::nothing, expected == reach_m);
+      hits += hit.kind != HitKind::nothing;
     }
     EXPECT_GT(hits, 500);
   }
@@ -111,7 +111,7 @@ TEST(HeightPyramid, TowersOnCellsAreMetWhereTheRayTracerMeetsThem) {
     const glm::vec3 at = ray.origin + hit.distance_m * ray.direction;
     const bool is_on_margin = std::max(at.x, at.y) > 24.0f * cell_m;  // the last cells reach beyond the mesh
     if (!truth && is_on_margin) continue;
-    ASSERT_EQ(hit.met != Met::nothing, truth.has_value()) << "ray " << i;
+    ASSERT_EQ(hit.kind != HitKind::nothing, truth.has_value()) << "ray " << i;
     if (!truth) continue;
     ASSERT_NEAR(hit.distance_m, truth->distance_m, 2e-3f) << "ray " << i;
     ++compared;
@@ -128,15 +128,15 @@ TEST(HeightPyramid, ThePapersWalkStopsWhereTheRayEntersAHigherCell) {
     const TestRay ray = chance_ray(random, 37.0f);
     const HeightHit exact = pyramid.walk(ray.origin, ray.direction, reach_m);
     const HeightHit entered = pyramid.walk_to_cell(ray.origin, ray.direction, reach_m);
-    if (entered.met == Met::nothing || entered.distance_m == 0.0f) continue;
+    if (entered.kind == HitKind::nothing || entered.distance_m == 0.0f) continue;
     const glm::vec3 at = ray.origin + entered.distance_m * ray.direction;
     const glm::vec2 in_cell = glm::fract(glm::vec2(at));
     const float off_border =
         std::min(std::min(in_cell.x, 1.0f - in_cell.x), std::min(in_cell.y, 1.0f - in_cell.y));
     ASSERT_LT(off_border, 1e-3f) << "a hit lies on a cell's side";
-    if (exact.met == Met::side) {
+    if (exact.kind == HitKind::side) {
       ASSERT_NEAR(entered.distance_m, exact.distance_m, 1e-3f);
-    } else if (exact.met == Met::top) {
+    } else if (exact.kind == HitKind::top) {
       ASSERT_GT(entered.distance_m, exact.distance_m);
       ++tops;
     }
@@ -148,17 +148,17 @@ TEST(HeightPyramid, ARayAlongTheAxesOrOutOfThePlaceEnds) {
   const HeightPyramid pyramid = pyramid_of(towers(9, 1.0f, 2), 1.0f);
   for (const glm::vec3 direction :
        {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(-0.6f, 0, 0.8f)})
-    EXPECT_EQ(pyramid.walk_by_levels({4.5f, 4.5f, 40.0f}, direction, reach_m).met, Met::nothing);
+    EXPECT_EQ(pyramid.walk_by_levels({4.5f, 4.5f, 40.0f}, direction, reach_m).kind, HitKind::nothing);
   const HeightHit down = pyramid.walk_by_levels({4.5f, 4.5f, 40.0f}, {0, 0, -1}, reach_m);
-  EXPECT_EQ(down.met, Met::top);
+  EXPECT_EQ(down.kind, HitKind::top);
   EXPECT_NEAR(down.distance_m, 40.0f - *pyramid.levels().front().at(4, 4), 1e-3f);
-  EXPECT_EQ(pyramid.walk_by_levels({-50, -50, 3}, {-1, 0, 0}, reach_m).met, Met::nothing);
+  EXPECT_EQ(pyramid.walk_by_levels({-50, -50, 3}, {-1, 0, 0}, reach_m).kind, HitKind::nothing);
 }
 
 TEST(HeightPyramid, AnEmptyPlaceIsMetNowhere) {
   const HeightPyramid pyramid{shading::Heightfield(Bounds{})};
-  EXPECT_EQ(pyramid.walk_by_levels({0, 0, 1}, {1, 0, 0}, reach_m).met, Met::nothing);
-  EXPECT_EQ(pyramid.walk({0, 0, 1}, {0, 0, -1}, reach_m).met, Met::nothing);
+  EXPECT_EQ(pyramid.walk_by_levels({0, 0, 1}, {1, 0, 0}, reach_m).kind, HitKind::nothing);
+  EXPECT_EQ(pyramid.walk({0, 0, 1}, {0, 0, -1}, reach_m).kind, HitKind::nothing);
 }
 
 }  // namespace

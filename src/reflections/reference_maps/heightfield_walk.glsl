@@ -1,27 +1,28 @@
-// Where does a ray first meet a heightfield? Meyer and Loscos 2003, section 4.2: grid traversal after Amanatides and Woo
-// (1987), stopped by the first cell that is higher than the ray. The paper takes the point where the ray enters that
-// cell; `walk_heightfield` meets the cell's side or its top exactly, and `walk_pyramid` skips wide low parts at once
-// (Tevs, Ihrke and Seidel 2008, Maximum Mipmaps). From the host:
+// First intersection of a ray with a heightfield. Meyer and Loscos 2003, section 4.2: grid traversal after
+// Amanatides and Woo (1987), stopped by the first cell that is higher than the ray. The paper takes the point
+// where the ray enters that cell; `walk_heightfield` intersects the cell's side or its top exactly, and
+// `walk_pyramid` skips wide low regions at once (Tevs, Ihrke and Seidel 2008, Maximum Mipmaps). Required from
+// the host:
 //   float cell_height(ivec2 cell, int level)   metres; the highest of 2^level by 2^level cells
 
-struct HeightGrid {
+struct HeightfieldGrid {
   vec2 origin;  // south-west corner
   float cell_m;
   ivec2 cells;
   int top_level;  // of the pyramid: one cell covers everything
 };
 
-// What a ray hit: nothing, the upright side of a cell, or its level top.
-const int met_nothing = 0;
-const int met_side = 1;
-const int met_top = 2;
+// What a ray hits: nothing, the vertical side of a cell, or its level top.
+const int hit_nothing = 0;
+const int hit_side = 1;
+const int hit_top = 2;
 
 struct HeightHit {
   float distance;  // in units of the direction's length
-  int met;
+  int kind;
 };
 
-// The way of a ray through the grid's plan, in cells.
+// Path of a ray through the grid's plan, in cells.
 struct GridRay {
   vec2 start;
   vec2 inverse;  // of the direction in cells
@@ -30,14 +31,14 @@ struct GridRay {
   float to;
 };
 
-GLSL_FUNCTION GridRay grid_ray(HeightGrid grid, vec3 origin, vec3 direction, float reach) {
+GLSL_FUNCTION GridRay grid_ray(HeightfieldGrid grid, vec3 origin, vec3 direction, float reach) {
   GridRay ray;
   ray.start = (vec2(origin.x, origin.y) - grid.origin) / grid.cell_m;
-  vec2 way = vec2(direction.x, direction.y) / grid.cell_m;
-  if (abs(way.x) < 1e-7f) way.x = 1e-7f;
-  if (abs(way.y) < 1e-7f) way.y = 1e-7f;
-  ray.inverse = vec2(1.0f) / way;
-  ray.turn = ivec2(way.x > 0.0f ? 1 : 0, way.y > 0.0f ? 1 : 0);
+  vec2 step = vec2(direction.x, direction.y) / grid.cell_m;
+  if (abs(step.x) < 1e-7f) step.x = 1e-7f;
+  if (abs(step.y) < 1e-7f) step.y = 1e-7f;
+  ray.inverse = vec2(1.0f) / step;
+  ray.turn = ivec2(step.x > 0.0f ? 1 : 0, step.y > 0.0f ? 1 : 0);
   vec2 low = (vec2(0.0f) - ray.start) * ray.inverse;
   vec2 high = (vec2(grid.cells) - ray.start) * ray.inverse;
   ray.from = max(0.0f, max(min(low.x, high.x), min(low.y, high.y)));
@@ -45,7 +46,7 @@ GLSL_FUNCTION GridRay grid_ray(HeightGrid grid, vec3 origin, vec3 direction, flo
   return ray;
 }
 
-GLSL_FUNCTION ivec2 cell_at(HeightGrid grid, GridRay ray, float distance) {
+GLSL_FUNCTION ivec2 cell_at(HeightfieldGrid grid, GridRay ray, float distance) {
   ivec2 cell = ivec2(floor(ray.start + distance / ray.inverse));
   return clamp(cell, ivec2(0), grid.cells - ivec2(1));
 }
@@ -67,34 +68,35 @@ GLSL_FUNCTION ivec2 cell_beyond(GridRay ray, ivec2 block, int level, vec2 exits)
   return cell;
 }
 
-GLSL_FUNCTION bool is_in_grid(HeightGrid grid, ivec2 cell) {
+GLSL_FUNCTION bool is_in_grid(HeightfieldGrid grid, ivec2 cell) {
   return min(cell.x, cell.y) >= 0 && cell.x < grid.cells.x && cell.y < grid.cells.y;
 }
 
 // The paper's walk: the distance at which the ray enters the first cell that is higher than the ray is there.
-GLSL_FUNCTION HeightHit walk_to_cell(HeightGrid grid, vec3 origin, vec3 direction, float reach) {
+GLSL_FUNCTION HeightHit walk_to_cell(HeightfieldGrid grid, vec3 origin, vec3 direction, float reach) {
   GridRay ray = grid_ray(grid, origin, direction, reach);
   ivec2 cell = cell_at(grid, ray, ray.from);
   float enters_at = ray.from;
   while (enters_at < ray.to && is_in_grid(grid, cell)) {
-    if (cell_height(cell, 0) > origin.z + enters_at * direction.z) return HeightHit(enters_at, met_side);
+    if (cell_height(cell, 0) > origin.z + enters_at * direction.z) return HeightHit(enters_at, hit_side);
     vec2 exits = block_exits(ray, cell, 0);
     cell = cell_beyond(ray, cell, 0, exits);
     enters_at = min(exits.x, exits.y);
   }
-  return HeightHit(reach, met_nothing);
+  return HeightHit(reach, hit_nothing);
 }
 
-// Side or top of a cell between two distances; `is_first`: the ray starts here, and where it starts below the cell's
-// top (beside a wall that the cell holds, under a tree) it leaves freely.
-GLSL_FUNCTION HeightHit meet_cell(float height, float z, float rise, float enters_at, float leaves_at, bool is_first) {
+// Hit on the side or top of a cell between two distances. `is_first`: the ray starts in this cell; if it
+// starts below the cell's top (beside a wall in the cell, under a tree), it leaves the cell without a hit.
+GLSL_FUNCTION HeightHit intersect_cell(float height, float z, float rise, float enters_at, float leaves_at,
+                                       bool is_first) {
   float z_in = z + enters_at * rise, z_out = z + leaves_at * rise;
-  if (height > z_in) return HeightHit(enters_at, is_first ? met_nothing : met_side);
-  if (height > z_out) return HeightHit((height - z) / rise, met_top);
-  return HeightHit(leaves_at, met_nothing);
+  if (height > z_in) return HeightHit(enters_at, is_first ? hit_nothing : hit_side);
+  if (height > z_out) return HeightHit((height - z) / rise, hit_top);
+  return HeightHit(leaves_at, hit_nothing);
 }
 
-GLSL_FUNCTION HeightHit walk_heightfield(HeightGrid grid, vec3 origin, vec3 direction, float reach) {
+GLSL_FUNCTION HeightHit walk_heightfield(HeightfieldGrid grid, vec3 origin, vec3 direction, float reach) {
   GridRay ray = grid_ray(grid, origin, direction, reach);
   ivec2 cell = cell_at(grid, ray, ray.from);
   float enters_at = ray.from;
@@ -102,17 +104,18 @@ GLSL_FUNCTION HeightHit walk_heightfield(HeightGrid grid, vec3 origin, vec3 dire
   while (enters_at < ray.to && is_in_grid(grid, cell)) {
     vec2 exits = block_exits(ray, cell, 0);
     float leaves_at = min(min(exits.x, exits.y), ray.to);
-    HeightHit hit = meet_cell(cell_height(cell, 0), origin.z, direction.z, enters_at, leaves_at, is_first);
-    if (hit.met != met_nothing) return hit;
+    HeightHit hit =
+        intersect_cell(cell_height(cell, 0), origin.z, direction.z, enters_at, leaves_at, is_first);
+    if (hit.kind != hit_nothing) return hit;
     cell = cell_beyond(ray, cell, 0, exits);
     enters_at = leaves_at;
     is_first = false;
   }
-  return HeightHit(reach, met_nothing);
+  return HeightHit(reach, hit_nothing);
 }
 
-// The same by the pyramid of maxima: a block below the ray is left at once, one that is not is looked into.
-GLSL_FUNCTION HeightHit walk_pyramid(HeightGrid grid, vec3 origin, vec3 direction, float reach) {
+// The same with the pyramid of maxima: blocks below the ray are skipped, others are refined.
+GLSL_FUNCTION HeightHit walk_pyramid(HeightfieldGrid grid, vec3 origin, vec3 direction, float reach) {
   GridRay ray = grid_ray(grid, origin, direction, reach);
   ivec2 cell = cell_at(grid, ray, ray.from);
   float enters_at = ray.from;
@@ -129,13 +132,13 @@ GLSL_FUNCTION HeightHit walk_pyramid(HeightGrid grid, vec3 origin, vec3 directio
       continue;
     }
     if (!is_above) {
-      HeightHit hit = meet_cell(height, origin.z, direction.z, enters_at, leaves_at, is_first);
-      if (hit.met != met_nothing) return hit;
+      HeightHit hit = intersect_cell(height, origin.z, direction.z, enters_at, leaves_at, is_first);
+      if (hit.kind != hit_nothing) return hit;
     }
     cell = cell_beyond(ray, block, level, exits);
     enters_at = leaves_at;
     is_first = false;
     level = min(level + 1, grid.top_level);
   }
-  return HeightHit(reach, met_nothing);
+  return HeightHit(reach, hit_nothing);
 }

@@ -37,8 +37,8 @@ MapChoice::MapChoice(const std::vector<glm::vec3>& places, const HeightPyramid& 
         const glm::vec3 place = places[std::size_t(nearest[i])];
         const glm::vec3 way = glm::vec3(middle, place.z) - place;
         const float distance = glm::length(way);
-        const bool is_seen =
-            distance < 1e-3f || heights.walk_by_levels(place, way / distance, distance).met == Met::nothing;
+        const bool is_seen = distance < 1e-3f ||
+                             heights.walk_by_levels(place, way / distance, distance).kind == HitKind::nothing;
         ranked[i] = {distance * (is_seen ? 1.0f : unseen_penalty), nearest[i]};
       }
       std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(kept));

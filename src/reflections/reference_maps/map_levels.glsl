@@ -1,13 +1,15 @@
-// How a reference map is blurred for rough surfaces: as far as its mipmaps' border reaches by these, and beyond by small
-// tiles, side by side in one layer a map, blurred beforehand with the lobe of a surface seen from the front (Karis 2013).
+// How a reference map is blurred for rough surfaces: as far as its mipmaps' border reaches by these, and
+// beyond by small tiles, side by side in one layer a map, blurred beforehand with the lobe of a surface seen
+// from the front (Karis 2013).
 
-const float layer_rad = 3.545f;   // the sphere's area over the square's: a layer of one texel spans so much
-const float min_gloss = 0.25f;  // roughness of the first tile; they are as far apart
+const float layer_rad = 3.545f;  // the sphere's area over the square's: a layer of one texel spans so much
+const float min_gloss = 0.25f;   // roughness of the first tile; they are as far apart
 const float gloss_tile_count = 4.0f;
-const float gloss_side = 32.0f;   // texels
+const float gloss_side = 32.0f;  // texels
 const float gloss_border = 1.0f;
 
-// Texels of a layer of `resolution` that a sharp lobe covers: half of what it mirrors lies within twice alpha.
+// Texels of a layer of `resolution` that a sharp lobe covers: half of what it mirrors lies within twice
+// alpha.
 GLSL_FUNCTION float lobe_texels(float roughness, float resolution) {
   return 3.0f * roughness * roughness * resolution / layer_rad;
 }

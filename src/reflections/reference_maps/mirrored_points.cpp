@@ -22,8 +22,9 @@ constexpr float valid = 0.5f;             // of validity.glsl: most of the map's
 constexpr std::size_t tries_a_point = 8;  // a place that is mostly sky gives fewer points
 
 /// Of the cell's side or top that a ray has met.
-glm::vec3 normal_met(const HeightPyramid& heights, const HeightHit& hit, glm::vec3 at, glm::vec3 direction) {
-  if (hit.met == Met::top) return {0, 0, 1};
+glm::vec3 normal_of_hit(const HeightPyramid& heights, const HeightHit& hit, glm::vec3 at,
+                        glm::vec3 direction) {
+  if (hit.kind == HitKind::top) return {0, 0, 1};
   const glm::vec2 in_cells = (glm::vec2(at) - heights.origin()) / heights.cell_m();
   const glm::vec2 off_side = glm::abs(in_cells - glm::round(in_cells));
   return off_side.x < off_side.y ? glm::vec3(direction.x > 0 ? -1 : 1, 0, 0)
@@ -47,9 +48,9 @@ std::vector<MirroredPoint> mirrored_points(const scene::Scene& scene, const Heig
     const float across = std::sqrt(1.0f - rise * rise);
     const glm::vec3 direction(across * std::cos(turn), across * std::sin(turn), rise);
     const HeightHit hit = heights.walk_by_levels(vehicle, direction, reach_m);
-    if (hit.met == Met::nothing) continue;
+    if (hit.kind == HitKind::nothing) continue;
     MirroredPoint point{vehicle + hit.distance_m * direction, {}, 0.0f};
-    point.normal = normal_met(heights, hit, point.position, direction);
+    point.normal = normal_of_hit(heights, hit, point.position, direction);
     point.vehicle_footprint = footprint(vehicle, point);
     points.push_back(point);
   }

@@ -1,4 +1,5 @@
-// A cube map drawn onto an octahedral layer: of each texel the mean of a few points, each as sharp as the cube map is.
+// A cube map drawn onto an octahedral layer: of each texel the mean of a few points, each as sharp as the
+// cube map is.
 #include "graphics/shading/octahedral.glsl"
 
 uniform highp samplerCube cube;

@@ -1,5 +1,6 @@
-// A cube map blurred for the roughnesses of the tiles: half vectors of the GGX distribution about the direction, which is
-// normal and view at once (Karis 2013), each looked up as wide as its share of the lobe (Colbert and Krivanek 2007).
+// A cube map blurred for the roughnesses of the tiles: half vectors of the GGX distribution about the
+// direction, which is normal and view at once (Karis 2013), each looked up as wide as its share of the lobe
+// (Colbert and Krivanek 2007).
 #include "graphics/shading/octahedral.glsl"
 #include "reflections/reference_maps/map_levels.glsl"
 
@@ -27,7 +28,8 @@ void main() {
   vec3 normal = layer_direction(uv, gloss_side, gloss_border);
   float roughness = gloss_of_tile(tile);
   float alpha = roughness * roughness;
-  vec3 across = normalize(cross(abs(normal.z) < 0.9f ? vec3(0.0f, 0.0f, 1.0f) : vec3(1.0f, 0.0f, 0.0f), normal));
+  vec3 across =
+      normalize(cross(abs(normal.z) < 0.9f ? vec3(0.0f, 0.0f, 1.0f) : vec3(1.0f, 0.0f, 0.0f), normal));
   vec3 along = cross(normal, across);
   float face_texels = float(textureSize(cube, 0).x);
   vec3 sum = vec3(0.0f);

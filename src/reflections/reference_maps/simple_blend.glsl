@@ -1,11 +1,12 @@
-// Simple blending (Meyer and Loscos 2003, sections 3 and 5): two reference maps looked up by the direction alone and mixed
-// half and half. Wrong near by, where it shows everything twice; far away a body is too small to tell.
-// Needs octahedral.glsl.
+// Simple blending (Meyer and Loscos 2003, sections 3 and 5): two reference maps looked up by the direction
+// alone and mixed half and half. Wrong near by, where it shows everything twice; far away a body is too small
+// to tell. Needs octahedral.glsl.
 uniform highp sampler2DArray map_colours;
 uniform vec2 layer_size;  // texels a side, and of its border
 uniform vec2 map_pair;
 
-const float layer_texel_rad = 3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much
+const float layer_texel_rad =
+    3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much
 
 vec3 simple_blend(vec3 direction, float roughness) {
   float spread = max(length(dFdx(direction)), length(dFdy(direction)));

@@ -1,10 +1,11 @@
-// Which part of all directions a reflector map holds: a square window of an octahedral layer about the patch's middle, so that
-// a patch that its centre sees in a narrow cone has all the texels; or a band about an axis, so that a rim or a bar has. Needs
-// octahedral.glsl.
+// Which part of all directions a reflector map holds: a square window of an octahedral layer about the
+// patch's middle, so that a patch that its centre sees in a narrow cone has all the texels; or a band about
+// an axis, so that a rim or a bar has. Needs octahedral.glsl.
 
 struct MapWindow {
   vec3 centre;
-  mat3 axes;     // columns; the third points to the middle, or along a band's axis, the first then to the band's middle
+  mat3 axes;  // columns; the third points to the middle, or along a band's axis, the first then to the band's
+              // middle
   float extent;  // of the layer; 1: all directions; 0: a band
   float side;    // texels
   float reach;   // greatest distance from the centre
@@ -18,8 +19,8 @@ const float kind_closed = 2.0f;  // none: what closes an open surface, so that s
 
 const float map_border = 1.0f;  // texels that repeat what lies across the sides
 
-// 1 or 0, for loops in place of branches: software renderers run both sides of those. ALL_PLAIN: every patch is convex, shows a vertex
-// once, and is no band: what others cost falls away.
+// 1 or 0, for loops in place of branches: software renderers run both sides of those. ALL_PLAIN: every patch
+// is convex, shows a vertex once, and is no band: what others cost falls away.
 #ifdef ALL_PLAIN
 #define band_count(window) 0
 #else
@@ -27,7 +28,8 @@ GLSL_FUNCTION int band_count(MapWindow window) { return window.extent > 0.0f ? 0
 #endif
 
 GLSL_FUNCTION vec2 window_uv(MapWindow window, vec3 direction) {
-  vec3 d = vec3(dot(window.axes[0], direction), dot(window.axes[1], direction), dot(window.axes[2], direction));
+  vec3 d =
+      vec3(dot(window.axes[0], direction), dot(window.axes[1], direction), dot(window.axes[2], direction));
   vec2 uv = (octahedral_uv(d) - vec2(0.5f)) / max(window.extent, 1e-12f) + vec2(0.5f);
   for (int bands = band_count(window); bands > 0; --bands)
     uv = vec2(0.5f * atan(d.y, d.x) / window.band.x + 0.5f,
@@ -44,7 +46,9 @@ GLSL_FUNCTION vec3 window_direction(MapWindow window, vec2 uv) {
 }
 
 // Of the patch as its centre sees it, 1: all around.
-GLSL_FUNCTION float window_breadth(MapWindow window) { return band_count(window) == 0 ? window.extent : window.band.z; }
+GLSL_FUNCTION float window_breadth(MapWindow window) {
+  return band_count(window) == 0 ? window.extent : window.band.z;
+}
 
 // A step from a place of the patch, both from the centre; over a band it turns about the axis, as rims do.
 GLSL_FUNCTION vec3 window_step(MapWindow window, vec3 from_centre, vec3 step) {

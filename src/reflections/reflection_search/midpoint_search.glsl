@@ -1,13 +1,13 @@
-// The paper's search (Estalella and others 2005, sections 4.2 and 4.3): the midpoint method, of second order, follows the
-// projected bisector over a cube map about the reflector; two evaluations of the surface a step. Left open there, and chosen
-// here: the vector is the central projection of the bisector direction at P, as long as P is from the centre, so that nothing
-// depends on the reflector's size (the paper's other definition, by rays along normal and bisector, is the same on a ball
-// alone, and twice as often wrong by more than a degree on an ellipsoid of 1, 0.6, 0.8); steps begin small and change by
-// what was best on balls and ellipsoids.
-// Needs reflection_point.glsl.
+// The paper's search (Estalella and others 2005, sections 4.2 and 4.3): the midpoint method, of second order,
+// follows the projected bisector over a cube map about the reflector; two evaluations of the surface a step.
+// Left open there, and chosen here: the vector is the central projection of the bisector direction at P, as
+// long as P is from the centre, so that nothing depends on the reflector's size (the paper's other
+// definition, by rays along normal and bisector, is the same on a ball alone, and twice as often wrong by
+// more than a degree on an ellipsoid of 1, 0.6, 0.8); steps begin small and change by what was best on balls
+// and ellipsoids. Needs reflection_point.glsl.
 
-const float face_rim = 0.2f;           // least cosine to the face's axis: a ray along the face ends far outside
-const float first_step = 0.25f;        // of the projected bisector
+const float face_rim = 0.2f;     // least cosine to the face's axis: a ray along the face ends far outside
+const float first_step = 0.25f;  // of the projected bisector
 const float longest_step = 4.0f;
 const float similar_vectors = 0.2f;    // relative difference below which a step becomes twice as long
 const float different_vectors = 0.5f;  // and above which it becomes a quarter
@@ -36,7 +36,8 @@ GLSL_FUNCTION ProjectedBisector projected_bisector(ReflectionTask task, vec3 dir
   return ProjectedBisector(apart - dot(apart, axis) * axis, bisector_error(bisecting, at.normal), at);
 }
 
-GLSL_FUNCTION ReflectionPoint search_by_midpoint(ReflectionTask task, vec3 start, int iterations, float min_error) {
+GLSL_FUNCTION ReflectionPoint search_by_midpoint(ReflectionTask task, vec3 start, int iterations,
+                                                 float min_error) {
   vec3 direction = start;
   float step_length = first_step;
   for (int i = 0; i < iterations; ++i) {

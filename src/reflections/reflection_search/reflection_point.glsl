@@ -1,15 +1,15 @@
-// Where does a reflector show a vertex? Estalella and others 2005, sections 3 and 4.2: at the point R whose normal bisects the
-// directions to the viewer and to the vertex. From the host, for the reflector:
+// Where does a reflector show a vertex? Estalella and others 2005, sections 3 and 4.2: at the point R whose
+// normal bisects the directions to the viewer and to the vertex. From the host, for the reflector:
 //   SurfacePoint surface_at(vec3 direction)   what a ray from the centre meets; the direction has any length
-// Two slips of the paper are put right. The error is the angle between bisector and normal of the same point P (section 3
-// writes the normal of R, which nobody knows yet). And equation 1, (1 - B.N) / 2, is computed as |B - N|^2 / 4: the same
-// number, but in floats the first is 0 below 0.03 degrees.
-// Needs surface_point.glsl.
+// Two slips of the paper are put right. The error is the angle between bisector and normal of the same point
+// P (section 3 writes the normal of R, which nobody knows yet). And equation 1, (1 - B.N) / 2, is computed as
+// |B - N|^2 / 4: the same number, but in floats the first is 0 below 0.03 degrees. Needs surface_point.glsl.
 
 struct ReflectionTask {
   vec3 viewer;
   vec3 vertex;
-  vec3 centre;  // that directions start from: inside the body of a convex reflector, in front of the surface of a concave one
+  vec3 centre;  // that directions start from: inside the body of a convex reflector, in front of the surface
+                // of a concave one
 };
 
 // The last point of a search.
@@ -26,13 +26,15 @@ struct PatchPoint {
   float kind;  // of what the map holds there
 };
 
-// Section 6.1: a vertex behind the surface is hidden, and stands for its mirror image in the plane of the surface.
+// Section 6.1: a vertex behind the surface is hidden, and stands for its mirror image in the plane of the
+// surface.
 GLSL_FUNCTION vec3 seen_vertex(vec3 vertex, SurfacePoint at) {
   float height = dot(vertex - at.position, at.normal);
   return vertex - 2.0f * min(height, 0.0f) * at.normal;
 }
 
-// Unit length. Where the two directions are opposite, the viewer looks at the surface's back: no point to stay at.
+// Unit length. Where the two directions are opposite, the viewer looks at the surface's back: no point to
+// stay at.
 GLSL_FUNCTION vec3 bisector(vec3 viewer, vec3 vertex, SurfacePoint at) {
   vec3 to_viewer = normalize(viewer - at.position);
   vec3 to_vertex = normalize(seen_vertex(vertex, at) - at.position);
@@ -58,8 +60,8 @@ GLSL_FUNCTION vec3 virtual_vertex(vec3 vertex, vec3 position, vec3 normal) {
   return vertex - 2.0f * dot(vertex - position, normal) * normal;
 }
 
-// Where a search begins that knows nothing: where a flat mirror between the two would reflect, but no farther round a ball
-// than the viewer sees it.
+// Where a search begins that knows nothing: where a flat mirror between the two would reflect, but no farther
+// round a ball than the viewer sees it.
 GLSL_FUNCTION vec3 first_direction(ReflectionTask task) {
   vec3 to_viewer = task.viewer - task.centre, to_vertex = task.vertex - task.centre;
   float far_viewer = length(to_viewer), far_vertex = length(to_vertex);

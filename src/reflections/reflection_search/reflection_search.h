@@ -41,8 +41,8 @@ struct ReflectionSearch {
     }
   }
   SearchStart search_start(int i) {
-    const auto [position, normal, u, bend] = reflector.starts[std::size_t(i)];
-    return {{{position, normal, kind_surface}, u, cross(normal, u)}, bend};
+    const auto [position, normal, u, curvature] = reflector.starts[std::size_t(i)];
+    return {{{position, normal, kind_surface}, u, cross(normal, u)}, curvature};
   }
   SearchStart further_start(int i) { return search_start(i); }
   /// Of a ReflectorMap.

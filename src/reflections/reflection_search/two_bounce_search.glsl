@@ -1,9 +1,10 @@
-// Where does a first mirror show a vertex that a second one shows it? (Estalella and others 2005, section 8, "a straightforward
-// extension".) The whole way viewer - first - second - vertex is stationary in both points, each of which is a reflection point
-// between its neighbours. So both are searched for in turn, each from where it was, until they agree. A concave mirror may show the other
-// several times: in layers, as patch_search.glsl has them, of either of the two. From the host:
-//   void turn_to(int mirror)            which of the two, 0 or 1, all other functions of the host speak of
-//   vec3 across(vec3 point, int to)     from the frame of the other mirror
+// Reflection points of a vertex that a first mirror shows in a second one (Estalella and others 2005, section
+// 8, "a straightforward extension"). The length of the path viewer - first - second - vertex is stationary in
+// both points: each is a reflection point between its neighbours. Both are searched for alternately, each
+// from its last position, until they agree. A concave mirror may show the other several times: in layers of
+// either mirror, as in patch_search.glsl. Required from the host:
+//   void turn_to(int mirror)            selects the mirror, 0 or 1, to which all other functions of the host
+//   refer vec3 across(vec3 point, int to)     transforms from the frame of the other mirror
 // Needs patch_search.glsl.
 
 const int max_turns = 12;
@@ -14,14 +15,14 @@ struct TwoBounces {
   PatchPoint second;  // each in its mirror's frame
 };
 
-// One of the two again, from near where it was.
+// Searches for one of the two points again, from near its last position.
 GLSL_FUNCTION PatchPoint point_again(ReflectionTask task, vec3 direction, PatchKind kind, int layer) {
   return patch_point(task, direction, kind.is_convex && layer < 0, layer < 0 ? free_growth : steady_growth);
 }
 
-// The tasks' other ends are found here: `first.vertex` is where to look for the second mirror, `second.viewer` nothing yet.
-GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind first_kind, int first_layer, ReflectionTask second,
-                                            PatchKind second_kind, int second_layer) {
+// `first.vertex` is given as a first guess of the point on the second mirror; `second.viewer` is not read.
+GLSL_FUNCTION TwoBounces search_two_bounces(ReflectionTask first, PatchKind first_kind, int first_layer,
+                                            ReflectionTask second, PatchKind second_kind, int second_layer) {
   TwoBounces found;
   turn_to(0);
   found.first = search_patch(first, first_kind, first_layer);

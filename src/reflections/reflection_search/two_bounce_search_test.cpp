@@ -45,7 +45,7 @@ struct Pair {
     const TangentPlane plane = tangent_plane(
         surface_at({std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z}),
         vec3(0.0f));
-    return {plane, surface_bend(plane, vec3(0.0f), 1.0f)};
+    return {plane, surface_curvature(plane, vec3(0.0f), 1.0f)};
   }
   SearchStart further_start(int i) { return search_start(i); }
   static MapWindow map_window() { return all_directions; }
@@ -59,26 +59,26 @@ std::optional<glm::vec3> hit(const Ellipsoid& ellipsoid, glm::vec3 origin, glm::
                    d = glm::dvec3(direction) / glm::dvec3(ellipsoid.radii);
   const double a = glm::dot(d, d), b = glm::dot(o, d), c = glm::dot(o, o) - 1.0, root = b * b - a * c;
   if (root <= 0.0) return {};
-  const double way = (-b - std::sqrt(root)) / a;
-  if (way <= 0.0) return {};
-  return origin + float(way) * direction;
+  const double path = (-b - std::sqrt(root)) / a;
+  if (path <= 0.0) return {};
+  return origin + float(path) * direction;
 }
 
-glm::vec3 chance_direction(Random& random) {
+glm::vec3 random_direction(Random& random) {
   glm::vec3 d;
   do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
   return glm::normalize(d);
 }
 
-struct Way {
+struct LightPath {
   glm::vec3 viewer, first, second, vertex;  ///< in the first mirror's frame
 };
 
-/// A way of light by both mirrors, made from its first point on.
-std::optional<Way> chance_way(const Pair& pair, Random& random) {
-  const auto [first, normal] = pair.mirrors[0].surface(chance_direction(random));
-  const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * chance_direction(random) * pair.mirrors[0].radii;
+/// A light path over both mirrors, traced from its first point.
+std::optional<LightPath> random_path(const Pair& pair, Random& random) {
+  const auto [first, normal] = pair.mirrors[0].surface(random_direction(random));
+  const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * random_direction(random) * pair.mirrors[0].radii;
   const glm::vec3 in = glm::normalize(first - viewer);
   if (glm::dot(in, normal) > -0.15f) return {};  // not from behind, nor along it
   const glm::vec3 between = glm::reflect(in, normal);
@@ -87,27 +87,27 @@ std::optional<Way> chance_way(const Pair& pair, Random& random) {
   const glm::vec3 normal_there = pair.mirrors[1].surface(*second).second;
   if (glm::dot(between, normal_there) > -0.15f) return {};
   const glm::vec3 out = glm::reflect(between, normal_there), at = *second + pair.second_place;
-  return Way{viewer, first, at, at + random.uniform(0.3f, 4.0f) * out};
+  return LightPath{viewer, first, at, at + random.uniform(0.3f, 4.0f) * out};
 }
 
-/// The share of ways that are found again, each point within a thousandth of the mirrors' size.
+/// Fraction of paths that the search finds, each point within a thousandth of the mirrors' size.
 double share_found(Pair pair) {
   Random random(3);
-  int ways = 0, found = 0;
-  while (ways < 500) {
-    const std::optional<Way> way = chance_way(pair, random);
-    if (!way) continue;
-    ++ways;
+  int paths = 0, found = 0;
+  while (paths < 500) {
+    const std::optional<LightPath> path = random_path(pair, random);
+    if (!path) continue;
+    ++paths;
     const Pair::PatchKind whole{true, true};
     const Pair::TwoBounces at = pair.search_two_bounces(
-        {way->viewer, pair.second_place, glm::vec3(0.0f)}, whole, -1,
-        {glm::vec3(0.0f), way->vertex - pair.second_place, glm::vec3(0.0f)}, whole, -1);
-    const float off = glm::distance(at.first.point.position, way->first) +
-                      glm::distance(at.second.point.position + pair.second_place, way->second);
+        {path->viewer, pair.second_place, glm::vec3(0.0f)}, whole, -1,
+        {glm::vec3(0.0f), path->vertex - pair.second_place, glm::vec3(0.0f)}, whole, -1);
+    const float off = glm::distance(at.first.point.position, path->first) +
+                      glm::distance(at.second.point.position + pair.second_place, path->second);
     found +=
         at.first.point.angle < pair.found_angle && at.second.point.angle < pair.found_angle && off < 2e-3f;
   }
-  return double(found) / ways;
+  return double(found) / paths;
 }
 
 TEST(TwoBounceSearch, FindsTheWayThatLightTakes) {

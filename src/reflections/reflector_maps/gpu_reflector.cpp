@@ -7,13 +7,13 @@ namespace {
 
 constexpr std::size_t starts_in_row = 8;  // as in virtual_point.glsl
 
-/// A map's texels, and below them in rows its starts, four texels each: position, normal, axis, bend.
+/// A map's texels, and below them in rows its starts, four texels each: position, normal, axis, curvature.
 gl::Texture upload(const ReflectorMap& map) {
   const ImageF& texels = map.texels;
   std::vector<glm::vec4> starts;
   for (std::size_t i = 0; i < start_count; ++i) {
     const MapStart start = map.starts[i];
-    for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
+    for (const glm::vec3& value : {start.position, start.normal, start.u, start.curvature})
       starts.emplace_back(value, 0.0f);
   }
   constexpr int width = 4 * starts_in_row, rows = start_count / starts_in_row;
@@ -48,7 +48,7 @@ GpuReflector::GpuReflector(const Reflector& reflector) : vertex_array_(gl::Verte
     for (std::size_t k = 0; k < layer_start_count; ++k) {
       const MapStart start = map.starts[k];
       patch.start_positions[k] = start.position, patch.start_normals[k] = start.normal;
-      patch.start_axes[k] = start.u, patch.start_bends[k] = start.bend;
+      patch.start_axes[k] = start.u, patch.start_curvatures[k] = start.curvature;
     }
     for (const std::uint32_t t : reflector.patches[i].triangles)
       indices.insert(indices.end(), &reflector.mesh.mesh.indices[3 * t],
@@ -70,15 +70,15 @@ void GpuReflector::bind(const gl::Program& program, const Patch& patch, const gl
   // By mirror: each begins in the arrays of uniforms where the one before it ends.
   struct Names {
     const char *texels, *from_world, *to_world, *centre, *size, *band, *axes, *kind, *layer, *positions,
-        *normals, *start_axes, *start_bends;
+        *normals, *start_axes, *start_curvatures;
   };
   constexpr std::array<Names, 2> names{
       {{"reflector_texels", "reflectors_from_world[0]", "world_from_reflectors[0]", "map_centres[0]",
         "map_sizes[0]", "map_bands[0]", "map_axes[0]", "patch_kinds[0]", "patch_layers[0]",
-        "start_positions[0]", "start_normals[0]", "start_axes[0]", "start_bends[0]"},
+        "start_positions[0]", "start_normals[0]", "start_axes[0]", "start_curvatures[0]"},
        {"second_reflector_texels", "reflectors_from_world[1]", "world_from_reflectors[1]", "map_centres[1]",
         "map_sizes[1]", "map_bands[1]", "map_axes[3]", "patch_kinds[1]", "patch_layers[1]",
-        "start_positions[16]", "start_normals[16]", "start_axes[16]", "start_bends[16]"}}};
+        "start_positions[16]", "start_normals[16]", "start_axes[16]", "start_curvatures[16]"}}};
   static_assert(layer_start_count == 16);
   const Names& name = names[std::size_t(mirror)];
   glBindTextureUnit(unit, patch.texels.name());
@@ -94,7 +94,7 @@ void GpuReflector::bind(const gl::Program& program, const Patch& patch, const gl
   program.set(name.positions, std::span<const glm::vec3>(patch.start_positions));
   program.set(name.normals, std::span<const glm::vec3>(patch.start_normals));
   program.set(name.start_axes, std::span<const glm::vec3>(patch.start_axes));
-  program.set(name.start_bends, std::span<const glm::vec3>(patch.start_bends));
+  program.set(name.start_curvatures, std::span<const glm::vec3>(patch.start_curvatures));
 }
 
 void GpuReflector::draw(const Patch& patch) const {

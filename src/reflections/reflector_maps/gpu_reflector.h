@@ -17,7 +17,7 @@ class GpuReflector {
     PatchBounds bounds;
     MapWindow window;
     bool is_convex, is_whole_body, shows_once;
-    std::array<glm::vec3, layer_start_count> start_positions, start_normals, start_axes, start_bends;
+    std::array<glm::vec3, layer_start_count> start_positions, start_normals, start_axes, start_curvatures;
     GLsizei first_index, index_count;  ///< of its own triangles
   };
   const std::vector<Patch>& patches() const { return patches_; }

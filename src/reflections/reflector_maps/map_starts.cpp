@@ -15,9 +15,9 @@ namespace {
 using Search = ReflectionSearch<ReflectorMap>;
 
 constexpr float pi = 3.14159265f;
-constexpr float middle_share = 0.3f;             // of a band's breadth, in which searches begin
-constexpr int bend_probes = 16, min_probes = 4;  // about a start
-constexpr float bend_reach = 0.6f;               // of the way to the next start
+constexpr float middle_share = 0.3f;                  // of a band's breadth, in which searches begin
+constexpr int curvature_probes = 16, min_probes = 4;  // about a start
+constexpr float curvature_reach = 0.6f;               // of the distance to the next start
 
 /// Directions to triangles of a patch, where the map says what the surface is; of a rim, to those along its
 /// middle: beside its edges normals point away from most that it shows.
@@ -75,15 +75,15 @@ std::vector<glm::vec3> side_by_side(const std::vector<glm::vec3>& directions) {
   return ordered;
 }
 
-/// How a surface bends about a start, as far as `reach`: the symmetric matrix (uu, uv, vv) by which, over
-/// rings of probes, the normal's turn is best told from the way (least squares).
-glm::vec3 bend_about(const ReflectorMap& map, const Search::TangentPlane& plane, float reach) {
+/// Curvature of the surface around a start, as far as `reach`: the symmetric matrix (uu, uv, vv) by which,
+/// over rings of probes, the normal's turn is best told from the way (least squares).
+glm::vec3 curvature_around(const ReflectorMap& map, const Search::TangentPlane& plane, float reach) {
   Search search{map};
   glm::dmat3 sums(0.0);
   glm::dvec3 turned(0.0);
   int met = 0;
-  for (int i = 0; i < bend_probes; ++i) {
-    const float turn = 2.0f * pi * float(i) / bend_probes, way = i % 2 ? reach : 0.5f * reach;
+  for (int i = 0; i < curvature_probes; ++i) {
+    const float turn = 2.0f * pi * float(i) / curvature_probes, way = i % 2 ? reach : 0.5f * reach;
     const glm::vec2 off = way * glm::vec2(std::cos(turn), std::sin(turn));
     const MapPoint at = map.sample(search.on_tangent_plane(plane, off) - map.window.centre);
     if (at.kind == kind_closed) continue;
@@ -96,7 +96,7 @@ glm::vec3 bend_about(const ReflectorMap& map, const Search::TangentPlane& plane,
     turned += weight * (n.x * across_u + n.y * across_v);
   }
   if (met < min_probes || map.window.extent == 0.0f)  // a rim is narrower than the way to the next start
-    return search.surface_bend(plane, map.window.centre, window_breadth(map.window));
+    return search.surface_curvature(plane, map.window.centre, window_breadth(map.window));
   return {glm::inverse(sums) * turned};
 }
 
@@ -113,7 +113,8 @@ std::vector<MapStart> starts_at(const ReflectorMap& map, const std::vector<glm::
     const auto plane = search.tangent_plane({start.position, start.normal, kind_surface},
                                             window_frame(map.window, from_centre, glm::vec3(0.0f)));
     start.u = plane.u;
-    start.bend = bend_about(map, plane, bend_reach * std::max(nearest, 1e-3f * glm::length(from_centre)));
+    start.curvature =
+        curvature_around(map, plane, curvature_reach * std::max(nearest, 1e-3f * glm::length(from_centre)));
   }
   return starts;
 }
@@ -122,7 +123,7 @@ std::vector<MapStart> starts_at(const ReflectorMap& map, const std::vector<glm::
 
 void MapStarts::set(std::size_t i, const MapStart& start) {
   std::size_t number = 0;
-  for (const glm::vec3& value : {start.position, start.normal, start.u, start.bend})
+  for (const glm::vec3& value : {start.position, start.normal, start.u, start.curvature})
     for (int axis = 0; axis < 3; ++axis) numbers_[number++][i] = value[axis];
 }
 

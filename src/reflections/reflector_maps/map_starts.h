@@ -18,7 +18,7 @@ inline constexpr std::size_t layer_start_count = 16, starts_beside = 8,
 /// A surface point and the curvature there, in the tangent plane spanned by `normal` and `u`
 /// (patch_search.glsl).
 struct MapStart {
-  glm::vec3 position, normal, u, bend;
+  glm::vec3 position, normal, u, curvature;
 };
 
 /// All starting points of a map, as a structure of arrays for vectorised evaluation. The first 16 are spread

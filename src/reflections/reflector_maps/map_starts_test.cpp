@@ -14,7 +14,7 @@ TEST(MapStarts, KnowHowTheSurfaceBends) {
     EXPECT_NEAR(glm::length(start.position), 2.0f, 0.005f);
     EXPECT_NEAR(glm::dot(start.normal, start.u), 0.0f, 1e-4f);
     // 1 / radius all round; the mesh's interpolated normals turn by a few hundredths more here, less there.
-    EXPECT_LT(glm::distance(start.bend, glm::vec3(0.5f, 0.0f, 0.5f)), 0.02f);
+    EXPECT_LT(glm::distance(start.curvature, glm::vec3(0.5f, 0.0f, 0.5f)), 0.02f);
   }
 }
 

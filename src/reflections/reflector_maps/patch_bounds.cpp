@@ -45,9 +45,9 @@ float PatchBounds::image_width(glm::vec3 viewer, glm::vec3 centre, float radius,
   const float viewer_distance = std::max(distance_to_box(viewer), 1e-6f);
   const float patch_width = 2.0f * box.radius() / viewer_distance;
   if (!is_convex) return patch_width;
-  const float bend_radius = box.radius() / std::max(std::sin(std::min(spread, 1.5707964f)), 1e-6f);
+  const float curvature_radius = box.radius() / std::max(std::sin(std::min(spread, 1.5707964f)), 1e-6f);
   const float distance = std::max(distance_to_box(centre) - radius, 0.0f);
-  const float share = bend_radius / (2.0f * distance + bend_radius);
+  const float share = curvature_radius / (2.0f * distance + curvature_radius);
   return std::min(patch_width, 2.0f * radius * share / (viewer_distance + distance * share));
 }
 

@@ -11,15 +11,16 @@ uniform highp sampler2D reflector_texels;
 uniform mat4 reflectors_from_world[MIRRORS];  // turned, moved and scaled evenly
 uniform mat4 world_from_reflectors[MIRRORS];
 uniform vec3 map_centres[MIRRORS];
-uniform vec3 map_sizes[MIRRORS];      // extent, side and reach of the window
+uniform vec3 map_sizes[MIRRORS];  // extent, side and reach of the window
 uniform vec3 map_bands[MIRRORS];
 uniform vec3 map_axes[3 * MIRRORS];
-uniform vec2 patch_kinds[MIRRORS];    // convex; seen all around from the centre
-uniform int patch_layers[MIRRORS];    // of what may show a vertex several times (patch_search.glsl); -1: it does not
+uniform vec2 patch_kinds[MIRRORS];  // convex; seen all around from the centre
+uniform int
+    patch_layers[MIRRORS];  // of what may show a vertex several times (patch_search.glsl); -1: it does not
 uniform vec3 start_positions[16 * MIRRORS];
 uniform vec3 start_normals[16 * MIRRORS];
 uniform vec3 start_axes[16 * MIRRORS];
-uniform vec3 start_bends[16 * MIRRORS];
+uniform vec3 start_curvatures[16 * MIRRORS];
 
 int mirror = 0;  // that all here speaks of
 #define reflector_from_world reflectors_from_world[mirror]
@@ -41,7 +42,8 @@ vec4 reflector_texel(ivec2 texel) { return texelFetch(reflector_texels, texel, 0
 #include "reflections/reflector_maps/reflector_map.glsl"
 
 MapWindow map_window() {
-  return MapWindow(map_centre, mat3(map_axes[3 * mirror], map_axes[3 * mirror + 1], map_axes[3 * mirror + 2]), map_size.x, map_size.y, map_size.z, map_bands[mirror]);
+  return MapWindow(map_centre, mat3(map_axes[3 * mirror], map_axes[3 * mirror + 1], map_axes[3 * mirror + 2]),
+                   map_size.x, map_size.y, map_size.z, map_bands[mirror]);
 }
 
 SurfacePoint surface_at(vec3 direction) {

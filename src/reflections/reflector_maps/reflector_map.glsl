@@ -1,7 +1,7 @@
-// The reflector as a map of directions from a centre (Estalella and others 2005, section 4.1: position and normal cube maps).
-// One octahedral layer holds both: the normal, and how far the surface lies along the texel's direction, so that a position
-// is always on its own ray. Four texels around a direction make its surface; the first of them also says what kind it is.
-// From the host:
+// The reflector as a map of directions from a centre (Estalella and others 2005, section 4.1: position and
+// normal cube maps). One octahedral layer holds both: the normal, and how far the surface lies along the
+// texel's direction, so that a position is always on its own ray. Four texels around a direction make its
+// surface; the first of them also says what kind it is. From the host:
 //   vec4 reflector_texel(ivec2 texel)   normal; kind + distance / (2 reach)
 // Needs octahedral.glsl and map_window.glsl.
 

@@ -10,7 +10,7 @@ namespace parvis::reflector_maps {
 namespace {
 
 constexpr int smoothing_rounds = 10;      // over neighbouring triangles: noise of scanned meshes is no patch
-constexpr float flat_curvature = 0.1f;    // per size of the mesh: what bends less counts as convex
+constexpr float flat_curvature = 0.1f;    // per size of the mesh: smaller curvatures count as convex
 constexpr float saddle_curvature = 0.1f;  // product of the principal curvatures per size squared, negative
 constexpr double saddle_share = 0.2;      // of a patch's area, from which on it may show a vertex twice
 constexpr double small_patch = 0.01;      // of the surface
@@ -43,7 +43,7 @@ Facets facets_of(const ReflectorMesh& mesh) {
   return facets;
 }
 
-/// Sum of the principal curvatures, positive where the surface bends away from its normal: the divergence of
+/// Sum of the principal curvatures, positive where the surface curves away from its normal: the divergence of
 /// the normal.
 float curvature(const ReflectorMesh& mesh, std::size_t t) {
   const auto p = mesh.corners(t);
@@ -80,21 +80,21 @@ void smooth(const ReflectorMesh& mesh, const Facets& facets, std::vector<float>&
 }
 
 std::vector<char> convex_triangles(const ReflectorMesh& mesh, const Facets& facets) {
-  std::vector<float> bend(mesh.neighbours.size());
-  for (std::size_t t = 0; t < bend.size(); ++t) bend[t] = facets.size * curvature(mesh, t);
-  smooth(mesh, facets, bend);
-  std::vector<char> is_convex(bend.size());
-  for (std::size_t t = 0; t < bend.size(); ++t) is_convex[t] = bend[t] > -flat_curvature;
+  std::vector<float> curvatures(mesh.neighbours.size());
+  for (std::size_t t = 0; t < curvatures.size(); ++t) curvatures[t] = facets.size * curvature(mesh, t);
+  smooth(mesh, facets, curvatures);
+  std::vector<char> is_convex(curvatures.size());
+  for (std::size_t t = 0; t < curvatures.size(); ++t) is_convex[t] = curvatures[t] > -flat_curvature;
   return is_convex;
 }
 
 std::vector<char> saddle_triangles(const ReflectorMesh& mesh, const Facets& facets) {
-  std::vector<float> bend(mesh.neighbours.size());
-  for (std::size_t t = 0; t < bend.size(); ++t)
-    bend[t] = facets.size * facets.size * gaussian_curvature(mesh, t);
-  smooth(mesh, facets, bend);
-  std::vector<char> is_saddle(bend.size());
-  for (std::size_t t = 0; t < bend.size(); ++t) is_saddle[t] = bend[t] < -saddle_curvature;
+  std::vector<float> curvatures(mesh.neighbours.size());
+  for (std::size_t t = 0; t < curvatures.size(); ++t)
+    curvatures[t] = facets.size * facets.size * gaussian_curvature(mesh, t);
+  smooth(mesh, facets, curvatures);
+  std::vector<char> is_saddle(curvatures.size());
+  for (std::size_t t = 0; t < curvatures.size(); ++t) is_saddle[t] = curvatures[t] < -saddle_curvature;
   return is_saddle;
 }
 

@@ -1,5 +1,6 @@
-// Resolves the four samples of a pixel like those of the main view (render/resolve.frag). Samples that no patch has marked, of
-// alpha below 0, do not count: on a reflector's outline the pixel holds what the reflector shows within it.
+// Resolves the four samples of a pixel like those of the main view (render/resolve.frag). Samples that no
+// patch has marked, of alpha below 0, do not count: on a reflector's outline the pixel holds what the
+// reflector shows within it.
 #include "graphics/shading/tone_curve.glsl"
 
 uniform highp sampler2DMS samples;

@@ -1,6 +1,7 @@
-// What comes through a body of solid glass out of its surroundings: each pixel's ray is bent into the body, walks through its map, is
-// bent out again and looks the cube map of the surroundings up; so do the rays that are reflected inside. `shown_share` says which
-// part of it is wanted: what virtual objects show lies between them.
+// Light of the surroundings through a body of solid glass: each pixel's ray is refracted into the body,
+// traced through its map, refracted out again, and looks up the cube map of the surroundings; so do the rays
+// that are reflected inside. `shown_share` selects the part that is drawn: virtual objects are drawn in
+// between.
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/methods/cube_map_lookup.glsl"
 #include "graphics/shading/surface.glsl"
@@ -10,17 +11,17 @@
 
 uniform vec3 viewer_in_reflector;
 uniform float glass_ior;
-uniform vec3 glass_absorption;        // of a unit of the reflector's frame
+uniform vec3 glass_absorption;  // of a unit of the reflector's frame
 uniform samplerCube surroundings;
-uniform float surroundings_levels;    // below 0: none, the sky stands for them
+uniform float surroundings_levels;  // below 0: none, the sky stands for them
 uniform int shown_share;
 
 in vec3 at_reflector;
 out vec4 radiance;
 
-const int behind_glass = 0;   // the light that meets the glass where the ray leaves it first
-const int let_through = 1;    // the share of it that gets to the viewer
-const int from_inside = 2;    // what gets there after reflections inside
+const int behind_glass = 0;  // the light that meets the glass where the ray leaves it first
+const int let_through = 1;   // the share of it that gets to the viewer
+const int from_inside = 2;   // what gets there after reflections inside
 const int all_light = 3;
 const int inner_bounces = 3;
 
@@ -28,7 +29,8 @@ vec3 light_from(vec3 place, vec3 direction) {
   vec3 d = normalize(mat3(world_from_reflector) * direction);
   vec3 around = cube_map_radiance(surroundings, max(surroundings_levels, 0.0f), d, 0.0f);
   if (surroundings_levels >= 0.0f) return around;
-  return sky_share_of_direction(sky_visibility_cell(moved(world_from_reflector, place), d), d) * sky_radiance(d, 0.0f);
+  return sky_share_of_direction(sky_visibility_cell(moved(world_from_reflector, place), d), d) *
+         sky_radiance(d, 0.0f);
 }
 
 void main() {
@@ -55,8 +57,12 @@ void main() {
     direction = reflect(direction, exit.normal);
     position = exit.position;
   }
-  if (shown_share == behind_glass) radiance = vec4(behind, 1.0f);
-  else if (shown_share == let_through) radiance = vec4(let, 1.0f);
-  else if (shown_share == from_inside) radiance = vec4(inside, 1.0f);
-  else radiance = vec4(let * behind + inside, 1.0f);
+  if (shown_share == behind_glass)
+    radiance = vec4(behind, 1.0f);
+  else if (shown_share == let_through)
+    radiance = vec4(let, 1.0f);
+  else if (shown_share == from_inside)
+    radiance = vec4(inside, 1.0f);
+  else
+    radiance = vec4(let * behind + inside, 1.0f);
 }

@@ -1,5 +1,6 @@
-// Where a ray hits a body of solid glass, and where one within leaves it, by the body's map: Newton's method with tangent planes. A
-// convex body lies behind each of them, so that from outside every step comes nearer and none goes past. From the host:
+// Where a ray hits a body of solid glass, and where one within leaves it, by the body's map: Newton's method
+// with tangent planes. A convex body lies behind each of them, so that from outside every step comes nearer
+// and none goes past. From the host:
 //   SurfacePoint surface_at(vec3 direction)   what a ray from the centre meets; the direction has any length
 // Needs surface_point.glsl.
 

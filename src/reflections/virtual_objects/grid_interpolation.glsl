@@ -11,8 +11,8 @@ VirtualPoint searched_point(int corner, int first_row) {
 }
 
 struct InterpolatedPoint {
-  VirtualPoint point;   // lost where a corner is not sure, and where places that face too far apart show them
-  bool is_between_lost; // all corners are: so is what lies between
+  VirtualPoint point;  // lost where a corner is not sure, and where places that face too far apart show them
+  bool is_between_lost;  // all corners are: so is what lies between
 };
 
 // Of a vertex of a mesh, in the mesh's frame; `first_row` holds the grid's first corners.
@@ -37,5 +37,6 @@ InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     shown_by += share * point.shown_by;
   }
   bool is_sure = image.w == sure && dot(shown_by, shown_by) >= min_agreement;
-  return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_sure ? sure : lost), image.w >= 8.0f * lost);
+  return InterpolatedPoint(VirtualPoint(image.xyz, seen_from, normalize(shown_by), is_sure ? sure : lost),
+                           image.w >= 8.0f * lost);
 }

@@ -142,7 +142,7 @@ void divide_long_edges(scene::Scene& scene) {
   if (balls.empty()) return;
   std::unordered_map<const scene::Model*, std::shared_ptr<scene::Model>> divided;
   for (const scene::Object& object : scene.objects) {
-    if (!object.bent_meshes.empty() || object.takes_reflection) continue;
+    if (!object.deformed_meshes.empty() || object.takes_reflection) continue;
     std::shared_ptr<scene::Model>& model = divided[object.model.get()];
     if (!model) model = std::make_shared<scene::Model>(*object.model);
     const std::vector<glm::mat4> pose = scene::rest_pose(*model);
@@ -153,7 +153,7 @@ void divide_long_edges(scene::Scene& scene) {
   }
   for (scene::Object& object : scene.objects)
     if (const auto found = divided.find(object.model.get());
-        found != divided.end() && object.bent_meshes.empty() && !object.takes_reflection)
+        found != divided.end() && object.deformed_meshes.empty() && !object.takes_reflection)
       object.model = found->second;
 }
 

@@ -1,5 +1,5 @@
-// Edges of large polygons bend in a curved mirror, and corners alone are mirrored exactly (section 8): what
-// stands near a reflector is divided until each straight piece is off by less than a pixel.
+// Edges of large polygons are curved in a curved mirror, and only corners are mirrored exactly (section 8):
+// what stands near a reflector is divided until each straight piece is off by less than a pixel.
 #pragma once
 
 #include <span>

@@ -14,8 +14,9 @@ out vec4 radiance;
 void main() {
   if (!is_shown_whole(doubt, height, shown_by)) discard;
   // Layers hold the corners of a triangle in different images.
-  if (patch_layer >= 0 && !is_mirrored(moved(reflector_from_world, viewer_in_world), moved(reflector_from_world, seen_from),
-                                       moved(reflector_from_world, at_second)))
+  if (patch_layer >= 0 &&
+      !is_mirrored(moved(reflector_from_world, viewer_in_world), moved(reflector_from_world, seen_from),
+                   moved(reflector_from_world, at_second)))
     discard;
   radiance = vec4(0.0f);
 }

@@ -1,5 +1,5 @@
-// A concave surface that mirrors itself: the mirror ray of each pixel walks through the surface's own map, and where it hits the
-// surface, that mirrors the sky, as all that is mirrored does.
+// A concave surface that mirrors itself: the mirror ray of each pixel walks through the surface's own map,
+// and where it hits the surface, that mirrors the sky, as all that is mirrored does.
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 
@@ -26,14 +26,18 @@ void main() {
   float inside = 0.0f, outside = 0.0f;
   for (int i = 1; i <= walk_steps && outside == 0.0f; ++i) {
     float way = step_m * float(i);
-    if (beyond(at.position + way * direction) < 0.0f) inside = way;
-    else outside = way;
+    if (beyond(at.position + way * direction) < 0.0f)
+      inside = way;
+    else
+      outside = way;
   }
   if (inside == 0.0f || outside == 0.0f) discard;  // it leaves at once, or meets nothing
   for (int i = 0; i < halvings; ++i) {
     float way = 0.5f * (inside + outside);
-    if (beyond(at.position + way * direction) < 0.0f) inside = way;
-    else outside = way;
+    if (beyond(at.position + way * direction) < 0.0f)
+      inside = way;
+    else
+      outside = way;
   }
   vec3 from_centre = at.position + outside * direction - map_centre;
   if (surface_kind(from_centre) == kind_closed) discard;  // out through the opening
@@ -41,5 +45,7 @@ void main() {
   vec3 normal = normalize(mat3(world_from_reflector) * met.normal);
   vec3 mirrored = reflect(normalize(mat3(world_from_reflector) * direction), normal);
   vec4 cell = sky_visibility_cell(moved(world_from_reflector, met.position), normal);
-  radiance = vec4(mirror_colour * sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, mirror_roughness), 1.0f);
+  radiance =
+      vec4(mirror_colour * sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, mirror_roughness),
+           1.0f);
 }

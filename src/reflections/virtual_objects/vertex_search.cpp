@@ -69,7 +69,7 @@ std::vector<const Mesh*> meshes_of_parts(const scene::Scene& scene, const render
   for (const scene::Object& object : scene.objects)
     for (const scene::Part& part : object.model->parts) {
       const Mesh*& mesh = meshes[std::size_t(gpu.items()[item++].part)];
-      const bool is_rigid = object.bent_meshes.empty() || !part.deformation;
+      const bool is_rigid = object.deformed_meshes.empty() || !part.deformation;
       if (is_rigid && part.mesh.positions.size() >= min_vertices) mesh = &part.mesh;
     }
   return meshes;

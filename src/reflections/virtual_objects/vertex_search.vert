@@ -1,4 +1,5 @@
-// The vertices of one mesh, or the corners of its virtual grid, as a rectangle of a texel each: the texture's whole rows.
+// The vertices of one mesh, or the corners of its virtual grid, as a rectangle of a texel each: the texture's
+// whole rows.
 #include "reflections/virtual_objects/grid_table.glsl"
 
 layout(location = 0) in vec4 world_from_mesh_row0;  // of each instance, as all here

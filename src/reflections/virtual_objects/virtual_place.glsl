@@ -9,7 +9,8 @@ out float height;
 // Hands on a point that shows a vertex in the mirror's frame; the image, in the world.
 vec3 place_of(VirtualPoint point, vec3 vertex) {
   doubt = point.doubt;
-  height = point.doubt == sure ? dot(vertex - point.seen_from, point.shown_by) : 0.0f;  // leaves it to the sure ones
+  height = point.doubt == sure ? dot(vertex - point.seen_from, point.shown_by)
+                               : 0.0f;  // leaves it to the sure ones
   shown_by = point.shown_by;
   seen_from = moved(world_from_reflector, point.seen_from);
   return moved(world_from_reflector, point.image);

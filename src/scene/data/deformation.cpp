@@ -18,7 +18,7 @@ void morph(const Deformation& deformation, std::span<const float> weights, Mesh&
 }
 
 /// Linear blend skinning: each vertex moves by the weighted mean of its joints' motions.
-void bend(const Skin& skin, const std::vector<glm::mat4>& model_from_node, int node, Mesh& mesh) {
+void deform(const Skin& skin, const std::vector<glm::mat4>& model_from_node, int node, Mesh& mesh) {
   const glm::mat4 node_from_model = glm::inverse(model_from_node[std::size_t(node)]);
   std::vector<glm::mat4> node_from_mesh(skin.joints.size());
   for (std::size_t i = 0; i < skin.joints.size(); ++i)
@@ -39,7 +39,7 @@ void bend(const Skin& skin, const std::vector<glm::mat4>& model_from_node, int n
 void deform(const Deformation& deformation, std::span<const float> weights,
             const std::vector<glm::mat4>& model_from_node, int node, Mesh& mesh) {
   morph(deformation, weights, mesh);
-  if (!deformation.skin.joints.empty()) bend(deformation.skin, model_from_node, node, mesh);
+  if (!deformation.skin.joints.empty()) deform(deformation.skin, model_from_node, node, mesh);
   for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
     const float length = glm::length(mesh.normals[v]);
     mesh.normals[v] = length > 0.0f ? mesh.normals[v] / length : deformation.normals[v];

@@ -1,4 +1,4 @@
-// Meshes that bend while their model moves: morph targets and skins (glTF 2.0, sections 3.7.2.2 and 3.7.3).
+// Meshes that deform while their model moves: morph targets and skins (glTF 2.0, sections 3.7.2.2 and 3.7.3).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,7 +24,7 @@ struct Skin {
 
 /// How a part's mesh follows its model's pose. Lists of vertices are as long as the part's.
 struct Deformation {
-  std::vector<glm::vec3> positions, normals;  ///< before anything bends them
+  std::vector<glm::vec3> positions, normals;  ///< before anything deforms them
   std::vector<MorphTarget> targets;
   std::vector<float> weights;  ///< of the targets, at rest
   int weights_node = -1;       ///< the node whose animated weights are taken

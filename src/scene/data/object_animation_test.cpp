@@ -33,14 +33,14 @@ Model elbow() {
   Part part{"arm", strip, 0, 0, true};
   part.deformation = arm;
   model.parts.push_back(part);
-  Animation bending{"bend", {}, {}, 2.0f};
+  Animation deforming{"deform", {}, {}, 2.0f};
   const glm::quat turned = glm::angleAxis(quarter_turn, glm::vec3(0, 0, 1));
-  bending.channels.push_back({1,
-                              AnimationChannel::Property::rotation,
-                              Interpolation::linear,
-                              {0, 2},
-                              {{0, 0, 0, 1}, {turned.x, turned.y, turned.z, turned.w}}});
-  model.animations.push_back(bending);
+  deforming.channels.push_back({1,
+                                AnimationChannel::Property::rotation,
+                                Interpolation::linear,
+                                {0, 2},
+                                {{0, 0, 0, 1}, {turned.x, turned.y, turned.z, turned.w}}});
+  model.animations.push_back(deforming);
   return model;
 }
 
@@ -147,7 +147,7 @@ TEST(ObjectAnimation, HalvesOfDifferentMaterialBendAlike) {
     EXPECT_EQ(scene.objects[0].mesh(p).positions.size(), 4u) << "their deformation counts all four";
 }
 
-/// Of all parts in the world, as they are bent now.
+/// Of all parts in the world, as they are deformed now.
 Bounds bounds_now(const Scene& scene) {
   const Object& object = scene.objects[0];
   Bounds all;

@@ -8,8 +8,8 @@
 namespace parvis::scene {
 
 /// Parts like `part`, each of the triangles of one list alone. Vertices go with the triangles that need them;
-/// of a mesh that bends all stay in each, for its deformation counts them. Takes as long as the mesh is
-/// large, however many lists there are, unless it bends.
+/// of a mesh that deforms all stay in each, for its deformation counts them. Takes as long as the mesh is
+/// large, however many lists there are, unless it deforms.
 std::vector<Part> divided(const Part& part, std::span<const std::vector<std::uint32_t>> lists);
 
 /// Takes the triangles out of `part` for which `takes[i]`, and returns a part like it that has them alone,

@@ -36,12 +36,12 @@ struct Object {
   bool takes_reflection = false;  ///< its mirror-like parts use the scene's reflection method
   bool is_visible = true;         ///< rendered, casts shadows, appears in reflections; may change at any time
   PlayedAnimation played = {};    ///< `animate` computes the pose and the deformed meshes
-  std::vector<Mesh> bent_meshes = {};  ///< deformed mesh of each part; empty: the model's meshes
+  std::vector<Mesh> deformed_meshes = {};  ///< deformed mesh of each part; empty: the model's meshes
 
   /// The present mesh of one of the model's parts: deformed, or the model's.
   const Mesh& mesh(std::size_t part) const {
-    const bool is_bent = !bent_meshes.empty() && model->parts[part].deformation;
-    return is_bent ? bent_meshes[part] : model->parts[part].mesh;
+    const bool is_deformed = !deformed_meshes.empty() && model->parts[part].deformation;
+    return is_deformed ? deformed_meshes[part] : model->parts[part].mesh;
   }
 };
 
