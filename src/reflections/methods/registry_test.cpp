@@ -60,7 +60,7 @@ class Red final : public Overlay {
   float radiance_;
 };
 
-scene::AttributeSchema number(const char* name, const char* fallback) {
+scene::AttributeSchema radiance(const char* name, const char* fallback) {
   return number(name, "radiance").by_default(fallback);
 }
 
@@ -74,7 +74,7 @@ void furnish(House& house) {
          return std::unique_ptr<Reflections>(std::make_unique<Green>(own_settings<Paint>(scene).green));
        },
        .is_default = true,
-       .attributes = {number("green", "0.25")},
+       .attributes = {radiance("green", "0.25")},
        .read = [](const scene::Node& node,
                   Settings& settings) { settings.own.get<Paint>().green = float(node.number("green")); },
        .prepare = [](scene::Scene& scene) { own_settings<Paint>(scene).is_prepared = true; }});
@@ -86,7 +86,7 @@ void furnish(House& house) {
                   return below;
                 },
                 .lies_over = "green",
-                .attributes = {number("green", "0.25")}});
+                .attributes = {radiance("green", "0.25")}});
   registry.add(
       {.name = "red shine",
        .help = "red over any method",
@@ -97,7 +97,7 @@ void furnish(House& house) {
        },
        .is_overlay = true,
        .is_wanted = [](const scene::Scene& scene) { return own_settings<Paint>(scene).red > 0.0f; },
-       .attributes = {number("red", "0")},
+       .attributes = {radiance("red", "0")},
        .read = [](const scene::Node& node,
                   Settings& settings) { settings.own.get<Paint>().red = float(node.number("red")); }});
   add_reflection_node(house.get<scene::NodeRegistry>(), registry);
