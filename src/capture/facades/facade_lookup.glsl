@@ -2,9 +2,8 @@
 // 2 best photographs by angle and resolution, with feathered borders; at a photograph's own viewpoint plainly
 // its layers. GLSL that is C++, too. Around it stand the functions that read the packed layers:
 //   FacadePhoto facade_photo(int photo)       a row of the table of photographs (facade_photo.glsl)
-//   uvec4 facade_layer(int layer)             x: left | top << 16 of its box in the photograph, pixels; y:
-//   tiles across |
-//                                             tiles down << 16; z: its first tile; w: its photograph
+//   uvec4 facade_layer(int layer)             x: left | top << 16 of its box in the photograph, pixels;
+//                                             y: tiles across | tiles down << 16; z: first tile; w: photo
 //   int facade_candidate(int index)           a layer, of the lists of layers that hold each triangle
 //   uvec4 facade_tile(int tile)               x: 0 where nothing is stored, else a TILE_ kind; y: its slot
 //   vec4 facade_texel(int slot, vec2 at, float level)   sRGB and alpha, filtered; `at` in texels of the slot

@@ -1,8 +1,7 @@
 // Fragment shader of all surfaces, in four steps: viewing geometry, material, incident light, radiance toward
 // the viewer. The including file defines
-//   void look_along(vec3 position, vec3 direction)   evaluates the mirror direction
-//   vec3 reflected_radiance(float roughness, int layer)   radiance from there, prefiltered; called for each
-//   layer of a surface
+//   void look_along(vec3 position, vec3 direction)        prepares what the mirror ray hits
+//   vec3 reflected_radiance(float roughness, int layer)   its radiance, prefiltered for the layer
 // Both may use `surface_sky_cell`, the sky visibility of the point. The define SURFACE names the file that
 // evaluates the material: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY
 // are expressions of rooms above (SurfaceSource in surface_programs.h). A view may ask for other output than

@@ -1,8 +1,8 @@
 // The shade of all bodies near a point. Needs shading/body_shade.glsl, and from the host, which
 // shading/body_shade.h fills:
-//   vec4 body_grid;                 // xy: corner of the least coordinates of a square of cells, seen from
-//   above uvec4 body_cells[];             // of each cell a word, of each body near it a byte: its index and
-//   1 Body bodies[max_bodies];
+//   vec4 body_grid;          xy: south-west corner of a square of cells
+//   uvec4 body_cells[];      one word per cell, in it one byte per body near the cell: its index plus 1
+//   Body bodies[max_bodies];
 
 // Share 0..1 of its sky that bodies leave to a surface; `object` does not shade itself.
 GLSL_FUNCTION float sky_share_beside_bodies(vec3 position, vec3 normal, int object) {

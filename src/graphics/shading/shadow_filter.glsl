@@ -1,6 +1,5 @@
 // Is a point in the sun? Needs shading/shadow.glsl, and from the host
-//   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear over four
-//   texels.
+//   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear
 
 // A tent over 3x3 texels out of four bilinear comparisons (Castano 2013, Shadow Mapping Summary): an edge
 // about as soft as the sun's penumbra under a cornice.

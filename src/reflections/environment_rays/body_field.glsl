@@ -1,8 +1,7 @@
 // Intersection of a ray with a dynamic body (a car, a walker), beside the heightfield of the static scene:
 // the distance from the body's surface, sampled in a box of cells (sphere tracing, Hart 1996). From the host:
-//   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within; `cell` in cells
-//   from the
-//                                                box's corner
+//   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within;
+//                                                `cell` in cells from the box's corner
 
 const vec3 field_cells = vec3(48.0f, 24.0f, 20.0f);
 const float field_reach = 1.75f;  // cells: so far from the surface distances are known, and cut off beyond

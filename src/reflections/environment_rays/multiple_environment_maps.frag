@@ -1,9 +1,10 @@
 // Reflections from reference maps (Meyer and Loscos 2003, sections 4.1 to 4.3), per pixel. The mirror ray is
 // traced from the surface through the city's height field; the hit is moved onto the surface that the maps
 // have recorded, and looked up in the two maps that show it best:
-//   radiance = shade * sum_k w_k map_k(hit - place_k, footprint),   w_k ~ validity_k / (0.5 + d_k^2 + 0.2
-//   a_k^2)
-// d_k: distance of map k from the ray, a_k: along the ray, metres.
+//   radiance = shade * sum_k w_k map_k(hit - place_k, footprint)
+//   w_k ~ validity_k / (0.5 + d_k^2 + 0.2 a_k^2)
+// d_k: distance of map k from the ray, a_k: along the ray, metres; shade: what dynamic objects leave of the
+// light on the ground.
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"

@@ -26,7 +26,7 @@ const int max_newton_failures = 2;  // then gradient descent
 // Maximum growth of the error per step. Error valleys are curved, so allowing a small increase finds more
 // reflection points, at the price of neighbouring vertices converging to different ones.
 const float free_growth = 1.1f;
-const float steady_growth = 0.95f;
+const float steady_growth = 0.95f;  // for layers, whose vertices must converge to the same image
 
 // Starting point of searches.
 struct SearchStart {

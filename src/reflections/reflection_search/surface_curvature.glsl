@@ -1,8 +1,7 @@
 // Curvature of a surface at one of its points, which Newton's method needs beside position and normal:
 // measured once, by two further lookups, and updated after each step from the change of the normal (Powell's
 // symmetric secant update). Required from the host:
-//   SurfacePoint surface_at(vec3 direction)   the surface point that a ray from the centre hits; the
-//   direction has any length
+//   SurfacePoint surface_at(vec3 direction)   where a ray from the centre, of any length, hits the surface
 // Needs surface_point.glsl.
 
 const float probe_size =

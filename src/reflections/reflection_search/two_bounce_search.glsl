@@ -3,8 +3,8 @@
 // both points: each is a reflection point between its neighbours. Both are searched for alternately, each
 // from its last position, until they agree. A concave mirror may show the other several times: in layers of
 // either mirror, as in patch_search.glsl. Required from the host:
-//   void turn_to(int mirror)            selects the mirror, 0 or 1, to which all other functions of the host
-//   refer vec3 across(vec3 point, int to)     transforms from the frame of the other mirror
+//   void turn_to(int mirror)           selects the mirror, 0 or 1, of all other functions of the host
+//   vec3 across(vec3 point, int to)    transforms from the frame of the other mirror
 // Needs patch_search.glsl.
 
 const int max_turns = 12;

@@ -12,9 +12,8 @@
 //
 // A search starts from the best of some rays that were traced through the body for the viewer. Required from
 // the host:
-//   mat4 refraction_start(int i)   columns: entry, exit, direction of the ray behind the exit; w of the first
-//   two: distances of its
-//                                  foci behind the exit
+//   mat4 refraction_start(int i)   columns: entry, exit, direction of the ray behind the exit;
+//                                  w of the first two: distances of its foci behind the exit
 // Needs surface_point.glsl.
 #include "reflections/reflection_search/surface_curvature.glsl"
 
