@@ -74,6 +74,7 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
 }
 
 void Stage::follow_clock() {
+  reflections_->prefer_rate();
   double update_ms = 0.0, rest_ms = 0.0;
   for (const gl::PassTime& pass : pass_times_.latest())
     (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;

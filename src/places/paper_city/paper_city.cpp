@@ -39,9 +39,10 @@ std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
       const scene::Model tree = make_tree(species, seed);
       return write_gltf(folder / (tree.name + ".glb"), tree);
     });
-  std::vector<std::string> vehicle_files;
+  std::vector<std::string> vehicle_files, parking_files;
   for (scene::Model& car : city_cars()) {
     vehicle_files.push_back(car.name + ".glb");
+    if (!car.name.starts_with("bus")) parking_files.push_back(vehicle_files.back());
     jobs.push_back([car = std::move(car)](const fs::path& folder) {
       return write_gltf(folder / (car.name + ".glb"), car);
     });
@@ -60,7 +61,8 @@ std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
   jobs.push_back(
       [=](const fs::path& folder) { return write_file(folder / "people.xp", people_script(walker_files)); });
   jobs.push_back([](const fs::path& folder) { return write_file(folder / "figures.xp", figure_script()); });
-  jobs.push_back([](const fs::path& folder) { return write_file(folder / "paper_day.xp", day_script()); });
+  jobs.push_back(
+      [=](const fs::path& folder) { return write_file(folder / "paper_day.xp", day_script(parking_files)); });
   jobs.push_back([=](const fs::path& folder) {
     return write_file(folder / "paper.xp", paper_script(vehicle_files, seed));
   });

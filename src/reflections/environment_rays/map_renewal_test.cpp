@@ -4,6 +4,7 @@
 
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
+#include "reflections/environment_rays/map_table.h"
 #include "reflections/environment_rays/multiple_environment_maps.h"
 #include "reflections/methods/frame.h"
 #include "reflections/reference_maps/settings.h"
@@ -73,13 +74,72 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
     EXPECT_TRUE(methods::draw_frame(**renderer, scene_, reflections->get(), {camera, 64, 48}));
     return (*reflections)->faces_drawn();
   };
-  EXPECT_EQ(faces_per_frame(), 0);
+  EXPECT_EQ(faces_per_frame(), 18) << "all three maps are looked into, and none is baked";
   EXPECT_EQ(faces_per_frame(), 0);
   scene_.objects[lamp_].is_visible = false;
   for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(faces_per_frame(), 6) << frame;
   EXPECT_EQ(faces_per_frame(), 0);
   scene_.sun.direction_to_sun = glm::vec3(0.0f, 0.0f, 1.0f);
   EXPECT_EQ(faces_per_frame(), 6) << "the sun counts, too";
+}
+
+/// Maps in a long room, of which the mirror at one end looks into some.
+class MissingMapsTest : public gl::ContextTest {
+ protected:
+  void SetUp() override {
+    ContextTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    render::add_mirror(scene_, {27, 0, 0}, 0.5f);
+    methods::settings(scene_).method = "multiple_environment_maps";
+    methods::settings(scene_).resolution = face_resolution;
+    for (float x = -28.0f; x < 29.0f; x += 4.0f) map_plan(scene_).places.emplace_back(x, 0.0f, 0.0f);
+    renderer_ = std::move(*render::Renderer::create(scene_));
+    reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
+    EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
+  }
+  int faces_of_a_frame() {
+    Camera camera;
+    camera.world_from_camera = look_at({24, 3, 1}, {27, 0, 0});
+    EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera, 64, 48}));
+    return reflections_->faces_drawn();
+  }
+
+  scene::Scene scene_ = render::room_scene(32.0f);
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<methods::Reflections> reflections_;
+};
+
+TEST_F(MissingMapsTest, APictureDrawsThoseThatAreLookedInto) {
+  const int faces = faces_of_a_frame();
+  EXPECT_GE(faces, 6 * MapChoice::maps_per_cell);
+  EXPECT_LT(faces, 6 * int(map_plan(scene_).places.size())) << "the mirror sees no farther maps";
+  EXPECT_EQ(faces_of_a_frame(), 0) << "once";
+}
+
+TEST_F(MissingMapsTest, AWindowDrawsOneAFrameAndEndsWithTheSamePicture) {
+  faces_of_a_frame();
+  const Image8 whole = renderer_->read_picture(1.0f);
+  reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
+  ASSERT_TRUE(renderer_->set_reflection(reflections_.get()));
+  reflections_->prefer_rate();
+  int frames = 0;
+  while (faces_of_a_frame() == 6) ++frames;
+  EXPECT_GE(frames, int(MapChoice::maps_per_cell));
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
+}
+
+TEST_F(MissingMapsTest, DrawnMapsStandInForThoseThatAreMissing) {
+  const std::vector<glm::vec3> three{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
+  shading::Heightfield heights(Bounds{glm::vec3(-8, -8, 0), glm::vec3(8, 8, 1)}, 1.0f, 64);
+  const std::vector<std::size_t> missing{0, 2};
+  MapTable table(MapChoice(three, HeightPyramid(heights)), three, missing);
+  EXPECT_FALSE(table.is_complete());
+  EXPECT_EQ(table.drawn(), std::vector<std::size_t>{1});
+  const Bounds all{glm::vec3(-8), glm::vec3(8)};
+  EXPECT_EQ(table.missing_within(all).size(), 2u);
+  table.add(0), table.add(0), table.add(2);
+  EXPECT_TRUE(table.is_complete());
+  EXPECT_TRUE(table.missing_within(all).empty());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
-#include "reflections/reference_maps/map_choice.h"
 #include "reflections/reference_maps/scene_maps.h"
 
 namespace parvis::environment_rays {
@@ -20,6 +19,7 @@ enum Unit : GLuint {
   fields_unit
 };
 
+constexpr int faces_per_map = 6;
 // The declared costs, and what each level of detail is worth.
 constexpr double shown_share = 0.25;  // of the square about a body
 constexpr std::array<double, 3> pixel_ms{0.4e-3, 0.7e-3, 1.5e-3};
@@ -44,20 +44,12 @@ gl::Texture upload(const HeightPyramid& heights) {
   return texture;
 }
 
-gl::Texture upload(const MapChoice& choice) {
-  gl::Texture texture = nearest_texture(GL_RGBA16UI, choice.cells().x, choice.cells().y);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, choice.cells().x, choice.cells().y, GL_RGBA_INTEGER,
-                      GL_UNSIGNED_SHORT, choice.indices().data());
-  return texture;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
                                                                                  render::Renderer& renderer) {
   const HeightPyramid heights(heights_of(scene));
-  Result<ReferenceMaps> maps = bake_maps(scene, heights, renderer);
-  if (!maps) return maps.errors();
+  BakedMaps baked = read_baked_maps(scene, heights);
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
   if (!renewal) return renewal.errors();
   Result<methods::MirrorPicture> picture = methods::MirrorPicture::create(renderer);
@@ -71,13 +63,15 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
     render::assign_bindings(*program);
     programs[detail] = *std::move(program);
   }
-  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(
-      scene, heights, *std::move(maps), *std::move(renewal), *std::move(picture), std::move(programs)));
+  return std::unique_ptr<MultipleEnvironmentMaps>(
+      new MultipleEnvironmentMaps(scene, heights, std::move(baked.maps), baked.missing, *std::move(renewal),
+                                  *std::move(picture), std::move(programs)));
 }
 
 MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
-                                                 ReferenceMaps maps, MapRenewal renewal,
-                                                 methods::MirrorPicture picture, Programs programs)
+                                                 ReferenceMaps maps, std::span<const std::size_t> missing,
+                                                 MapRenewal renewal, methods::MirrorPicture picture,
+                                                 Programs programs)
     : uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       details_(scene.objects.size(), all),
       budget_(double(methods::settings(scene).budget_ms)),
@@ -90,10 +84,9 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
       cell_m_(heights.cell_m()),
       cells_(heights.cells()),
       top_level_(int(heights.levels().size()) - 1),
+      table_(MapChoice(maps_.places(), heights), maps_.places(), missing),
       heights_(upload(heights)) {
-  const MapChoice choice(maps_.places(), heights);
-  choice_grid_ = glm::vec3(choice.origin(), choice.cell_m());
-  choice_ = upload(choice);
+  renewal_.ask(maps_.places().size(), {});  // what is baked is up to date
 }
 
 MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
@@ -128,12 +121,29 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
     details_[std::size_t(reflectors[i].object)] = Detail(wishes_[i].level);
 }
 
+/// The largest reflectors come first.
+void MultipleEnvironmentMaps::draw_missing_maps(render::Renderer& renderer,
+                                                const std::vector<methods::VisibleReflector>& reflectors) {
+  if (table_.is_complete()) return;
+  const int drawn_before = faces_drawn_;
+  for (const methods::VisibleReflector& reflector : reflectors)
+    for (const std::size_t map :
+         table_.missing_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)])) {
+      if (prefers_rate_ && faces_drawn_ > drawn_before) break;
+      renewal_.renew(renderer, maps_, map);
+      table_.add(map);
+      faces_drawn_ += faces_per_map;
+    }
+  if (faces_drawn_ > drawn_before) table_.upload();
+}
+
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<methods::VisibleReflector>& reflectors) {
   prepared_.clear();
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
+  draw_missing_maps(renderer, reflectors);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
-    faces_drawn_ += 6;
+    faces_drawn_ += faces_per_map;
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
   picture_.draw_rays(renderer);
@@ -158,7 +168,7 @@ void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
   glBindTextureUnit(colours_unit, maps_.colours());
   glBindTextureUnit(glosses_unit, maps_.glosses());
   glBindTextureUnit(distances_unit, maps_.distances());
-  glBindTextureUnit(choice_unit, choice_.name());
+  glBindTextureUnit(choice_unit, table_.texture());
   glBindTextureUnit(places_unit, maps_.place_texture());
   program.set("heights", int(heights_unit));
   program.set("map_colours", int(colours_unit));
@@ -168,7 +178,7 @@ void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
   program.set("map_places", int(places_unit));
   program.set("height_grid", glm::vec4(origin_, cell_m_, float(top_level_)));
   program.set("height_cells", glm::vec2(cells_));
-  program.set("choice_grid", choice_grid_);
+  program.set("choice_grid", table_.grid());
   program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
 }
 

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "graphics/render/quality_budget.h"
+#include "reflections/environment_rays/map_table.h"
 #include "reflections/environment_rays/mirrored_bodies.h"
 #include "reflections/methods/mirror_picture.h"
 #include "reflections/methods/reflections.h"
@@ -16,8 +18,9 @@
 namespace parvis::environment_rays {
 using namespace reference_maps;
 
-/// Creates the method for a scene; baking the reference maps takes a few seconds. Errors: a shader, or the
-/// baking.
+/// Creates the method for a scene. Reference maps that are not baked are drawn when a reflector first looks
+/// into them: all of a frame's before a picture or a film's frame, one per frame of a window. Errors: a
+/// shader.
 Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
@@ -33,6 +36,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
     return {.fragment = "reflections/methods/mirror_picture.frag"};
   }
   void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
+  void prefer_rate() override { prefers_rate_ = true; }
   void bind(const gl::Program& program, int object) override;
 
   const ReferenceMaps& maps() const { return maps_; }  ///< as baked or re-rendered last
@@ -52,14 +56,17 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   using Programs = std::array<gl::Program, detail_count>;
 
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
-                          MapRenewal renewal, methods::MirrorPicture picture, Programs programs);
+                          std::span<const std::size_t> missing, MapRenewal renewal,
+                          methods::MirrorPicture picture, Programs programs);
   Detail best_detail_for(const methods::VisibleReflector& reflector) const;
   void choose_details(const render::Renderer& renderer,
                       const std::vector<methods::VisibleReflector>& reflectors);
   void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
-  void forget_surroundings() override { renewal_.ask(maps_.places().size()); }
+  void forget_surroundings() override { renewal_.ask(maps_.places().size(), table_.drawn()); }
+  void draw_missing_maps(render::Renderer& renderer,
+                         const std::vector<methods::VisibleReflector>& reflectors);
 
   bool uses_level_of_detail_;
   std::vector<Detail> details_;  ///< of each object
@@ -76,8 +83,9 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   float cell_m_;
   glm::ivec2 cells_;
   int top_level_;
-  glm::vec3 choice_grid_;  ///< south-west corner and metres per cell
-  gl::Texture heights_, choice_;
+  MapTable table_;
+  bool prefers_rate_ = false;  ///< draws at most one missing map per frame
+  gl::Texture heights_;
 };
 
 }  // namespace parvis::environment_rays

@@ -55,6 +55,10 @@ class Reflections : public render::SurfaceShader {
   /// Told in windows alone, so that pictures and films can be repeated.
   virtual void frame_took(double /*update_ms*/, double /*rest_ms*/) {}
 
+  /// Called in windows before each frame: what the method has not drawn yet may be spread over several
+  /// frames. Pictures and films are drawn whole, so that they can be repeated.
+  virtual void prefer_rate() {}
+
   /// Faces of surroundings drawn by the last update.
   int faces_drawn() const { return faces_drawn_; }
 
@@ -87,6 +91,9 @@ class Overlay : public Reflections {
   }
   void frame_took(double update_ms, double rest_ms) override {
     if (below_) below_->frame_took(update_ms, rest_ms);
+  }
+  void prefer_rate() override {
+    if (below_) below_->prefer_rate();
   }
 
  protected:

@@ -10,6 +10,11 @@ Result<MapRenewal> MapRenewal::create(int face_resolution) {
   return MapRenewal(*std::move(painter));
 }
 
+void MapRenewal::ask(std::size_t map_count, std::span<const std::size_t> maps) {
+  is_old_.assign(map_count, false);
+  for (const std::size_t map : maps) is_old_[map] = true;
+}
+
 bool MapRenewal::is_done() const { return std::ranges::find(is_old_, true) == is_old_.end(); }
 
 std::optional<std::size_t> MapRenewal::renew_one(render::Renderer& renderer, ReferenceMaps& maps,
@@ -18,13 +23,16 @@ std::optional<std::size_t> MapRenewal::renew_one(render::Renderer& renderer, Ref
   const auto off_m = [&](std::size_t map) { return glm::distance(maps.places()[map], looked_from); };
   for (std::size_t map = 0; map < is_old_.size(); ++map)
     if (is_old_[map] && (!nearest || off_m(map) < off_m(*nearest))) nearest = map;
-  if (!nearest) return nearest;
-  ReferenceMaps fresh({maps.places()[*nearest]}, maps.resolution());
+  if (nearest) renew(renderer, maps, *nearest);
+  return nearest;
+}
+
+void MapRenewal::renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map) {
+  ReferenceMaps fresh({maps.places()[map]}, maps.resolution());
   painter_.paint(renderer, fresh, 0);
   fresh.update_levels();
-  maps.copy(*nearest, fresh, 0);
-  is_old_[*nearest] = false;
-  return nearest;
+  maps.copy(map, fresh, 0);
+  is_old_[map] = false;
 }
 
 }  // namespace parvis::reference_maps

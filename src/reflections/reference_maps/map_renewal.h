@@ -1,8 +1,9 @@
-// Reference maps of surroundings that have changed while the scene runs: drawn anew, a few a frame, those
-// first that are looked into.
+// Reference maps that are out of date or were never drawn: drawn while the scene runs, those first that are
+// looked into.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "reflections/reference_maps/map_painter.h"
@@ -16,11 +17,15 @@ class MapRenewal {
 
   /// All of so many maps are out of date.
   void ask(std::size_t map_count) { is_old_.assign(map_count, true); }
+  /// Of so many maps, those of these numbers are out of date.
+  void ask(std::size_t map_count, std::span<const std::size_t> maps);
   bool is_done() const;
   /// Draws a map that is out of date, the one nearest to `looked_from`, in the light of the renderer's frame.
   /// Returns its number; none is old: nothing.
   std::optional<std::size_t> renew_one(render::Renderer& renderer, ReferenceMaps& maps,
                                        glm::vec3 looked_from);
+  /// The same for one map, whether it is out of date or not.
+  void renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map);
 
  private:
   explicit MapRenewal(MapPainter painter) : painter_(std::move(painter)) {}

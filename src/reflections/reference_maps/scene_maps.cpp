@@ -88,33 +88,42 @@ std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid
   return places;
 }
 
+BakedMaps read_baked_maps(const scene::Scene& scene, const HeightPyramid& heights) {
+  const MapCache cache(scene);
+  std::optional<MapFile> kept = cache.read(0);
+  BakedMaps baked{ReferenceMaps(kept ? kept->places : map_places(scene, heights),
+                                ReferenceMaps::layer_side(map_resolution(scene)))};
+  ReferenceMaps& maps = baked.maps;
+  for (std::size_t i = 0; i < maps.places().size(); ++i) {
+    if (i > 0) kept = cache.read(i);
+    if (!kept || kept->places != maps.places() || !maps.write(i, kept->textures)) baked.missing.push_back(i);
+  }
+  maps.update_levels();
+  if (map_plan(scene).is_compressed) maps = compressed(maps);
+  return baked;
+}
+
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
                                 render::Renderer& renderer, Keep keep) {
-  const int face_resolution = map_resolution(scene);
-  Result<MapPainter> painter = MapPainter::create(face_resolution);
+  Result<MapPainter> painter = MapPainter::create(map_resolution(scene));
   if (!painter) return painter.errors();
   const MapCache cache(scene);
   if (keep == Keep::no) cache.report_other_states();
-  const std::optional<MapFile> first = cache.read(0);
-  ReferenceMaps maps(first ? first->places : map_places(scene, heights),
-                     ReferenceMaps::layer_side(face_resolution));
-
-  Progress progress("reference maps", maps.places().size());
-  for (std::size_t i = 0; i < maps.places().size(); ++i) {
-    const std::optional<MapFile> kept = i == 0 ? first : cache.read(i);
-    if (!kept || kept->places != maps.places() || !maps.write(i, kept->textures)) {
-      renderer.begin_still_frame(scene, camera_at(maps.places()[i]));
-      painter->paint(renderer, maps, i);
-      if (keep == Keep::yes) {
-        const MapFile file{0, maps.places(), std::uint32_t(i), std::uint32_t(maps.resolution()),
-                           maps.read(i)};
-        if (Status status = cache.write(file); !status) return status.errors();
-      }
+  auto [maps, missing] = read_baked_maps(scene, heights);
+  Progress progress("reference maps", missing.size());
+  for (const std::size_t i : missing) {
+    ReferenceMaps drawn({maps.places()[i]}, maps.resolution());
+    renderer.begin_still_frame(scene, camera_at(maps.places()[i]));
+    painter->paint(renderer, drawn, 0);
+    drawn.update_levels();
+    maps.copy(i, drawn, 0);
+    if (keep == Keep::yes) {
+      const MapFile file{0, maps.places(), std::uint32_t(i), std::uint32_t(maps.resolution()), drawn.read(0)};
+      if (Status status = cache.write(file); !status) return status.errors();
     }
     progress.advance();
   }
-  maps.update_levels();
-  return map_plan(scene).is_compressed ? compressed(maps) : std::move(maps);
+  return std::move(maps);
 }
 
 }  // namespace parvis::reference_maps

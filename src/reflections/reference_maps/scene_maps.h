@@ -20,6 +20,15 @@ float fitting_cell_m(glm::vec2 size_m, float wanted_m);
 /// least.
 std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights);
 
+/// The scene's reference maps as far as they are baked.
+struct BakedMaps {
+  ReferenceMaps maps;
+  std::vector<std::size_t> missing;  ///< numbers of the maps that hold nothing yet
+};
+
+/// Reads what is baked; places without a baked map are computed. Unfit maps are reported on standard error.
+BakedMaps read_baked_maps(const scene::Scene& scene, const HeightPyramid& heights);
+
 /// Maps that are drawn are kept beside the scene, too.
 enum class Keep : bool { no, yes };
 
