@@ -1,5 +1,6 @@
 // parvis reference: the ray-traced truth of a picture, and the mask of what mirrors in it; with
 // --path-traced, photographs as a real camera would take them.
+#include <cmath>
 #include <csignal>
 
 #include "base/image_io.h"
@@ -65,8 +66,14 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& argument
   std::vector<scene::NamedCamera> cameras;
   if (!arguments.circle.empty()) {
     const std::vector<float>& c = arguments.circle;
-    cameras = house::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], std::clamp(int(c[5]), 1, 1000),
-                                       vertical_fov(glm::radians(arguments.circle_fov_deg), aspect));
+    const float count = c[5];
+    if (count != std::floor(count) || !(count >= 1.0f && count <= 1e6f))
+      return error("--circle: a count of {}; expected a whole number of cameras, 1 at least", count);
+    Result<std::vector<scene::NamedCamera>> circle =
+        house::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], int(count),
+                                 vertical_fov(glm::radians(arguments.circle_fov_deg), aspect));
+    if (!circle) return circle.errors();
+    cameras = *std::move(circle);
   } else if (names.empty()) {
     names.emplace_back();
   }

@@ -491,6 +491,81 @@ class BadModels(InAFolder):
             self.expect_bad_model(name, text, name + ":2:", "DOCTYPE")
 
 
+class Hostile(InAFolder):
+    """A few of script/attack's classes, each of which once crashed, escaped or wrapped."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nusemtl m\nf 1 2 3\n")
+        self.scene = self.write("scene.xp", 'model(file="m.obj")\ncamera(name="a", position="0 -9 2")\n')
+
+    def test_numbers_that_are_none_or_wrap(self):
+        photograph = ["reference", self.scene, "--path-traced", "--samples", "1", *SIZE, "-o", self.folder / "out.png"]
+        for arguments in [
+            ["render", self.scene, *SIZE, "--time=nan"],
+            ["render", self.scene, *SIZE, "--seconds=nan", "-o", self.folder / "out.mp4"],
+            ["render", self.scene, "--size=4294967360x48"],
+            [*photograph, "--fov=nan", "--circle=0,0,0,5,1,2"],
+            [*photograph, "--clamp=nan"],
+            [*photograph, "--seed=-1"],
+            [*photograph, "--circle=0,0,0,nan,1,2"],
+            [*photograph, "--circle=0,0,0,0,1,2"],
+            [*photograph, "--circle=0,0,0,5,1,-3"],
+            [*photograph, "--circle=0,0,0,5,1,1.5"],
+            [*photograph, "--circle=1e30,0,0,5,1,2"],
+        ]:
+            done = run(*arguments)
+            self.assertIn(done.returncode, (1, 2), arguments)
+            self.assertTrue(done.stderr, arguments)
+            self.assertEqual(self.files(), ["m.obj", "scene.xp"])
+
+    def test_a_material_library_outside_is_not_opened(self):
+        outside = self.folder.parent / (self.folder.name + "-outside.mtl")
+        outside.write_text("newmtl m\nKd 0.123 0.456 0.789\n")
+        self.addCleanup(outside.unlink)
+        (self.folder / "m.mtl").symlink_to(outside)
+        done = run("export", self.scene, "-o", self.folder / "out.glb")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn(b"0.456", (self.folder / "out.glb").read_bytes())
+
+    def test_formats_are_known_by_name_and_content(self):
+        for name, content in [("m.lws", "LWSC\n3\n"), ("m.obj", b"\x7fELF\0"), ("m.ply", "v 0 0 0\n"), ("m.GLTF", "no JSON")]:
+            self.expect_bad_model(name, content, name)
+        self.write("m.OBJ", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
+        self.write("scene.xp", 'model(file="m.OBJ")\n')
+        self.assertEqual(run("check", self.scene).returncode, 0)
+
+    def test_a_binary_ply_cut_short_is_named(self):
+        head = ("ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n").encode()
+        whole = head + struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 0, 1) + struct.pack("<B3i", 3, 0, 1, 2)
+        for size in range(len(head), len(whole), 9):
+            self.write("m.ply", whole[:size])
+            self.write("scene.xp", 'model(file="m.ply")\n')
+            done = run("check", self.scene)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+            if done.returncode == 1:
+                self.assertIn("m.ply", done.stderr)
+
+    def test_a_sparse_accessor_before_its_buffer(self):
+        document, data = triangle()
+        document["accessors"][0]["sparse"] = {
+            "count": 1, "indices": {"bufferView": 1, "componentType": 5125}, "values": {"bufferView": 0, "byteOffset": 2**64 - 12}}
+        self.expect_bad_model("sparse.gltf", gltf(document, data), "accessor 0")
+
+    def test_json_that_is_too_deep(self):
+        document, data = triangle()
+        document["extras"] = "DEEP"
+        self.expect_bad_model("deep.gltf", gltf(document, data).replace('"DEEP"', "[" * 80000 + "]" * 80000), "deep")
+        self.expect_bad_model("deep.json", city().replace("{", '{"a":' + "[" * 80000 + "]" * 80000 + ",", 1), "deep")
+
+    def test_a_full_output_is_an_error(self):
+        for arguments in (["check", self.scene], ["check", "--reference"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PARVIS, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 1, arguments)
+
+
 class Facades(InAFolder):
     def test_stages_say_what_is_missing(self):
         self.assertEqual(run("facade", "pack", self.folder / "nowhere").returncode, 2)

@@ -17,6 +17,7 @@
 #include "capture/trees/synthetic_capture.h"
 #include "capture/trees/tree_file.h"
 #include "commands.h"
+#include "strict_numbers.h"
 
 namespace parvis {
 namespace {
@@ -61,9 +62,9 @@ const std::map<std::string, trees::TextureMethod> texture_methods{
     {"random_texels", trees::TextureMethod::random_texels}};
 
 Status synthesize(SynthesizeArguments arguments) {
-  if (std::sscanf(arguments.size.c_str(), "%dx%d", &arguments.capture.width, &arguments.capture.height) !=
-          2 ||
-      arguments.capture.width < 16 || arguments.capture.height < 16 || arguments.capture.width > 8192 ||
+  if (Status status = parse_size(arguments.size, arguments.capture.width, arguments.capture.height); !status)
+    return status;
+  if (arguments.capture.width < 16 || arguments.capture.height < 16 || arguments.capture.width > 8192 ||
       arguments.capture.height > 8192)
     return error("--size {}: expected WIDTHxHEIGHT from 16x16 to 8192x8192", arguments.size);
   const Result<scene::Model> model = trees::make_sample_tree(arguments.name, arguments.seed);

@@ -1,11 +1,26 @@
 // The command: a table of subcommands, each of which reads its arguments and calls a room.
 // Exit status: 0 done, 1 failed, 2 bad usage.
-#include <fmt/format.h>
-
+#include <cstdio>
 #include <exception>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "base/isolated_process.h"
 #include "commands.h"
+#include "strict_numbers.h"
+
+namespace {
+
+/// Throws nothing, even where the standard error cannot be written.
+int failed(const std::string& message) {
+  std::fputs(message.c_str(), stderr);
+  return 1;
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   parvis::start_isolation();  // before there are threads
@@ -18,19 +33,30 @@ int main(int count, char** arguments) {
   std::function<parvis::Status()> chosen;
   for (const auto add : parvis::command_table) add(app, chosen);
 
+  parvis::be_strict_about_numbers(app);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
+    if (app.exit(problem) != 0) return 2;
+    std::cout.flush();
+    return std::cout ? 0 : 1;
   }
   try {
     if (const parvis::Status status = chosen(); !status) {
-      fmt::print(stderr, "{}", parvis::to_string(status.errors()));
-      return 1;
+      return failed(parvis::to_string(status.errors()));
     }
-  } catch (const std::exception& problem) {  // memory, threads: what no room can answer for
-    fmt::print(stderr, "parvis: {}\n", problem.what());
-    return 1;
+  } catch (const std::bad_alloc&) {  // what no room can answer for
+    return failed("parvis: there is not enough memory for this; use a smaller scene or --size\n");
+  } catch (const std::length_error&) {
+    return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
+  } catch (const std::system_error& problem) {  // threads, files
+    return failed("parvis: " + problem.code().message() + "\n");
+  } catch (const std::exception&) {
+    return failed("parvis: an error that Parvis does not know; please report it with the scene\n");
+  }
+  // What was printed may be the result: a full disk behind it is an error.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return failed("parvis: the standard output cannot be written; is its disk full?\n");
   }
   return 0;
 }

@@ -10,6 +10,7 @@
 #include "house/rooms.h"
 #include "house/stage/stage.h"
 #include "places/dressing/bare_file.h"
+#include "strict_numbers.h"
 
 namespace parvis {
 
@@ -67,13 +68,7 @@ struct SceneArguments {
   }
 
   /// Width and height out of "1280x720".
-  Status read_size(int& width, int& height) const {
-    char x = 0, rest = 0;
-    if (std::sscanf(size.c_str(), "%d%c%d%c", &width, &x, &height, &rest) != 3 || x != 'x' || width < 1 ||
-        height < 1 || width > 16384 || height > 16384)
-      return error("--size {}: expected width x height in pixels, as 1280x720, each up to 16384", size);
-    return Done{};
-  }
+  Status read_size(int& width, int& height) const { return parse_size(size, width, height); }
 
   /// The scene with its traffic, at the time given.
   Result<house::Play> open_play() const {
@@ -100,8 +95,8 @@ struct SceneArguments {
       const std::string key = press.substr(0, at);
       const std::vector<double> in_s =
           at == std::string::npos ? std::vector{0.0} : scene::parse_numbers(press.substr(at + 1));
-      if (in_s.size() != 1 || in_s[0] < 0.0)
-        return error("--press {}: expected KEY@SECONDS, as button2@1.5", press);
+      if (in_s.size() != 1 || in_s[0] < 0.0 || in_s[0] > 86400.0)
+        return error("--press {}: expected KEY@SECONDS, as button2@1.5, up to 86400", press);
       if (!actions.uses_key(key))
         return error("--press {}: nothing in the scene waits for the key \"{}\"", press, key);
       actions.press(key, in_s[0]);

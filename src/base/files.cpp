@@ -7,6 +7,8 @@
 #include <cstring>
 #include <random>
 
+#include "base/file_front.h"
+
 namespace parvis {
 namespace fs = std::filesystem;
 
@@ -86,13 +88,38 @@ bool is_kept(const fs::path& file) {
 
 }  // namespace
 
-Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
-  const OpenFile opened(file,
-                        O_RDONLY | O_NONBLOCK);  // a pipe without a writer is refused below, not waited for
+namespace {
+
+/// Whether the file is open, and a regular one.
+Status check_opened(const OpenFile& opened, const fs::path& file, struct stat& status) {
   if (!opened) return error("{}: cannot be opened for reading ({})", file.string(), reason());
-  struct stat status {};
   if (fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode))
     return error("{}: is not a regular file; expected one, no folder, pipe or device", file.string());
+  return Done{};
+}
+
+/// A pipe without a writer is refused by `check_opened`, not waited for.
+constexpr int to_read = O_RDONLY | O_NONBLOCK;
+
+}  // namespace
+
+Result<std::string> read_front(const fs::path& file, std::size_t count) {
+  const OpenFile opened(file, to_read);
+  struct stat status {};
+  if (Status checked = check_opened(opened, file, status); !checked) return checked.errors();
+  std::string text;
+  for (std::size_t before = std::size_t(-1); before != text.size() && text.size() < count;) {
+    before = text.size();
+    if (!read_some(opened.get(), text, count - before))
+      return error("{}: cannot be read ({})", file.string(), reason());
+  }
+  return text;
+}
+
+Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
+  const OpenFile opened(file, to_read);
+  struct stat status {};
+  if (Status checked = check_opened(opened, file, status); !checked) return checked.errors();
   const Error too_large =
       error("{}: is larger than the {:.1f} MB that are read", file.string(), double(max_bytes) / 1e6);
   if (std::uint64_t(status.st_size) > max_bytes) return too_large;

@@ -20,6 +20,7 @@
 #include <fstream>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 
 namespace parvis {
 namespace {
@@ -44,7 +45,7 @@ class Descriptor {
   int number_;
 };
 
-enum class Outcome : char { done = 'd', failed = 'f', out_of_memory = 'm' };
+enum class Outcome : char { done = 'd', failed = 'f', gave_up = 'g', out_of_memory = 'm' };
 
 /// A request as it travels to the server, with three descriptors: input, output, status.
 struct Request {
@@ -171,15 +172,24 @@ Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& out
     return status ? Outcome::done : fail(status.errors(), output);
   } catch (const std::bad_alloc&) {
     return Outcome::out_of_memory;
+  } catch (const std::length_error&) {  // of a container that was to have a size that the file claims
+    return Outcome::out_of_memory;
+  } catch (const std::logic_error&) {  // its text is about code, not about the file
+    return Outcome::gave_up;
   } catch (const std::exception& problem) {
-    return fail({error("the reader gave up: {}", problem.what())}, output);
+    fill(output, problem.what());
+    return Outcome::gave_up;
   } catch (...) {
-    return fail({error("the reader gave up")}, output);
+    return Outcome::gave_up;
   }
 }
 
+/// Whether this process is a worker: it has no server, and forks workers of its own for work inside work.
+bool is_worker = false;
+
 [[noreturn]] void be_worker(const Request& request, const Descriptors& descriptors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  is_worker = true;
   const Started started{getpid()};
   if (write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
   std::atexit([] { _exit(1); });  // a reader that calls exit must not run into the program's destructors
@@ -195,8 +205,8 @@ Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& out
     readable.emplace_back(paths.data());
     paths.remove_prefix(std::min(paths.size(), readable.back().size() + 1));
   }
+  limit_memory(request.memory_bytes);  // first: it asks how much there is already
   limit_files(readable);
-  limit_memory(request.memory_bytes);
   IsolatedOutput output(descriptors[1]);
   const Outcome outcome = carry_out(request.work, all.substr(request.readable_bytes), output);
   const ssize_t written = write(descriptors[2], &outcome, sizeof outcome);
@@ -207,7 +217,11 @@ Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& out
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGCHLD, SIG_IGN);  // workers leave no zombies
   signal(SIGINT, SIG_IGN);   // the program decides when its server ends
+  // What the program has open is none of the workers' business; an inherited end of a pipe would keep its
+  // reader waiting.
   const Descriptor nothing(open("/dev/null", O_RDWR));
+  for (int each = STDERR_FILENO + 1; each < int(sysconf(_SC_OPEN_MAX)) && each < 4096; ++each)
+    if (each != socket && each != nothing.get()) close(each);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing.get(), stream);
   Request request{};
   Descriptors descriptors{};
@@ -235,6 +249,33 @@ int server_socket() {
     return child < 0 ? -1 : ends[0];
   }();
   return socket;
+}
+
+/// Has a worker begin with the request.
+bool start_worker(const Request& request, const Descriptors& descriptors) {
+  if (!is_worker) return send_request(server_socket(), request, descriptors);
+  const pid_t child = fork();
+  if (child == 0) be_worker(request, descriptors);
+  return child > 0;
+}
+
+#if defined(SYS_landlock_create_ruleset)
+bool has_landlock() {
+  return syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 0;
+}
+#else
+bool has_landlock() { return false; }
+#endif
+
+/// Once: the readers' own checks of paths still hold.
+void warn_without_landlock() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    if (!is_worker && !has_landlock())
+      fmt::print(stderr,
+                 "parvis: this kernel has no Landlock: readers of files are kept to their folders by "
+                 "Parvis alone, not by the system\n");
+  });
 }
 
 Descriptor memory_file(const char* name) { return Descriptor(memfd_create(name, MFD_CLOEXEC)); }
@@ -303,10 +344,13 @@ IsolatedBytes::~IsolatedBytes() {
   if (file_ >= 0) close(file_);
 }
 
-void start_isolation() { server_socket(); }
+void start_isolation() {
+  if (!is_worker) server_socket();
+}
 
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits) {
+  start_isolation();
   std::string readable;
   for (const std::filesystem::path& path : limits.readable) readable += path.string() + '\0';
   Descriptor given = memory_file("input"), made = memory_file("output");
@@ -318,7 +362,8 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
   if (!write_all(given.get(), readable) || !write_all(given.get(), input))
     return error("{}: there is no memory to hand it to its reader ({})", subject, std::strerror(errno));
   const Request request{work, limits.memory_bytes, limits.seconds, std::uint32_t(readable.size())};
-  if (!send_request(server_socket(), request, {given.get(), made.get(), status_in.get()}))
+  warn_without_landlock();
+  if (!start_worker(request, {given.get(), made.get(), status_in.get()}))
     return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
   status_in = Descriptor();  // so that the worker's end is the last one
 
@@ -339,6 +384,12 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
     return error("{}: reading it needs more than {:.1f} GB of memory", subject,
                  double(limits.memory_bytes) / 1e9);
   IsolatedBytes result(made.release());
+  if (outcome == Outcome::gave_up) {
+    const std::string_view reason(reinterpret_cast<const char*>(result.bytes().data()),
+                                  result.bytes().size());
+    return error("{}: its reader gave up{}{}; the file is damaged", subject, reason.empty() ? "" : ": ",
+                 reason);
+  }
   if (outcome == Outcome::failed) return errors_of(result.bytes(), subject);
   return result;
 }

@@ -68,8 +68,9 @@ using IsolatedWork = Status (*)(std::string_view input, IsolatedOutput& output);
 /// first call of run_isolated does so.
 void start_isolation();
 
-/// Runs `work` on `input` in a worker process and returns its output. Errors are those of `work`, or say that
-/// the reader of `subject` (a file's name) crashed, took too long or needed too much memory.
+/// Runs `work` on `input` in a worker process and returns its output. Work that runs in a worker may call it,
+/// too: a model's reader has its pictures decoded by workers of its own. Errors are those of `work`, or say
+/// that the reader of `subject` (a file's name) crashed, took too long or needed too much memory.
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
 

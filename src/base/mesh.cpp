@@ -1,5 +1,6 @@
 #include "base/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace parvis {
@@ -49,6 +50,13 @@ Status check(const Mesh& mesh, const std::string& name) {
   const auto finite = [](glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
+  constexpr float max_coordinate = 1e9f;  // volumes, products of three lengths, stay finite within it
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::vec3 size = glm::abs(mesh.positions[i]);
+    if (std::max({size.x, size.y, size.z}) > max_coordinate)
+      return error("{}: vertex {} lies at {} {} {}; expected coordinates of up to {:g}", name, i,
+                   mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z, max_coordinate);
+  }
   for (std::size_t i = 0; i < count; ++i)
     if (!finite(mesh.positions[i]) || !finite(mesh.normals[i]) || !finite(glm::vec3(mesh.uvs[i], 0.0f)))
       return error("{}: vertex {} is not a finite number; export the model again without NaN or infinity",

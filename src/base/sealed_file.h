@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -69,6 +70,10 @@ class Taker {
     std::copy(part.begin(), part.end(), reinterpret_cast<char*>(values.data()));
     return values;
   }
+  /// The next `size` bytes; none of them, as beyond the end, where there are fewer or `size` is none.
+  std::string_view take_bytes(std::optional<std::uint64_t> size);
+  /// All that has not been read yet.
+  std::string_view rest() const { return bytes_; }
   /// True if everything has been read and nothing was missing.
   bool is_at_end() const { return bytes_.empty() && !ended_early_; }
   /// True if more was asked for than there was.

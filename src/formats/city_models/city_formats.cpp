@@ -3,21 +3,40 @@
 #include "formats/city_models/city_gml.h"
 #include "formats/city_models/city_json.h"
 #include "formats/city_models/osm_reader.h"
-#include "formats/readers/readers.h"
+#include "formats/readers/content.h"
+#include "formats/readers/isolated_reader.h"
 
 namespace parvis::scene {
+namespace {
+using formats::ModelReading;
+namespace fs = std::filesystem;
+
+Result<Model> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return read_city_model(file, warnings, reading.max_detail);
+}
+
+Result<Model> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return read_city_gml(file, warnings, reading.max_detail);
+}
+
+Result<Model> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return read_osm(file, warnings, reading.ground);
+}
+
+/// On a ground, of which only the program knows the heights, the map is read here.
+Result<Model> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  static const formats::ReadModel alone = formats::isolated<read_map>();
+  return reading.ground ? read_map(file, reading, warnings) : alone(file, reading, warnings);
+}
+
+}  // namespace
 
 void furnish_city_models(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
-  readers.add({".json", ".jsonl"},
-              [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_city_model(file, warnings, reading.max_detail); });
-  readers.add({".gml", ".citygml", ".xml"},
-              [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_city_gml(file, warnings, reading.max_detail); });
-  readers.add({".osm", ".pbf"},
-              [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_osm(file, warnings, reading.ground); });
+  readers.add({".json", ".jsonl"}, formats::isolated<read_json>(), formats::looks_like_json);
+  readers.add({".gml", ".citygml", ".xml"}, formats::isolated<read_gml>(), formats::looks_like_xml);
+  readers.add({".osm"}, read_map_on_ground, formats::looks_like_xml);
+  readers.add({".pbf"}, read_map_on_ground, formats::looks_like_osm_pbf);
 }
 
 }  // namespace parvis::scene

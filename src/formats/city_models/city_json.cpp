@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/json_guard.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_json_sequence.h"
 #include "formats/city_models/city_lod.h"
@@ -397,15 +398,17 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
   const FileLocation where{file.string(), 0, 0};
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return bytes.errors();
+  const bool is_sequence = file.extension().string().size() > 5;  // ".jsonl" in any case, against ".json"
+  if (Status depth = check_json_depth(*bytes, file.string()); !depth && !is_sequence) return depth.errors();
   try {
-    const Result<Json> json = file.extension() == ".jsonl" ? city_json_of_sequence(file, *bytes)
-                                                           : Result<Json>(Json::parse(*bytes));
+    const Result<Json> json =
+        is_sequence ? city_json_of_sequence(file, *bytes) : Result<Json>(Json::parse(*bytes));
     if (!json) return json.errors();
     return Reader(file, *json, warnings, max_detail).read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {
-    return error_at(where, "a value is not what CityJSON asks for ({})", problem.what());
+    return error_at(where, "a value is not what CityJSON asks for ({})", json_reason(problem.what()));
   }
 }
 

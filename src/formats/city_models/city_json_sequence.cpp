@@ -3,6 +3,8 @@
 #include <array>
 #include <sstream>
 
+#include "base/json_guard.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -85,6 +87,8 @@ Result<Json> city_json_of_sequence(const std::filesystem::path& file, const std:
   for (std::string line; std::getline(lines, line);) {
     const FileLocation where{file.string(), ++number, 0};
     if (line.find_first_not_of(" \t\r\x1e") == std::string::npos) continue;
+    if (const Status depth = check_json_depth(line, "this line"); !depth)
+      return Error{depth.errors().front().message, where};
     Json json = Json::parse(line, nullptr, false);
     const std::string type = json.is_object() ? json.value("type", Json()).dump() : "no JSON object";
     const char* expected = city.is_null() ? "\"CityJSON\"" : "\"CityJSONFeature\"";

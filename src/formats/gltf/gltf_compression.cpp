@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "base/checked.h"
 #include "formats/gltf/gltf_values.h"
 
 namespace parvis::scene {
@@ -71,8 +72,7 @@ Bytes unpacked_view(const GltfFile& file, const Json& packing, const std::vector
                     length = count_in(packing, "byteLength"), count = count_in(packing, "count"),
                     stride = count_in(packing, "byteStride");
   const std::string mode = packing.value("mode", ""), filter = packing.value("filter", "NONE");
-  if (buffer < 0 || offset > buffers[std::size_t(buffer)].size() ||
-      length > buffers[std::size_t(buffer)].size() - offset)
+  if (buffer < 0 || !bytes_fit(offset, length, buffers[std::size_t(buffer)].size()))
     gltf_fail("buffer view {}: its {} reaches beyond its buffer", view, meshopt);
   if (count > max_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
     gltf_fail("buffer view {}: {} elements of {} bytes, mode \"{}\", filter \"{}\" are none of {}'s", view,

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/checked.h"
 #include "base/files.h"
+#include "base/json_guard.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_values.h"
 
@@ -141,6 +143,12 @@ std::string percent_decoded(const std::string& text) {
 
 }  // namespace
 
+static Json guarded_json(std::string_view text) {
+  if (const Status depth = check_json_depth(text, "glTF"); !depth)
+    gltf_fail("{}", depth.errors().front().message);
+  return Json::parse(text);
+}
+
 /// Where an accessor's elements lie.
 struct GltfFile::Access {
   std::size_t count = 0, type = 5126, components = 1, stride = 0;
@@ -150,11 +158,11 @@ struct GltfFile::Access {
 
 GltfFile::GltfFile(const fs::path& file) : path_(file) {
   const Result<std::string> bytes = read_file(file);
-  if (!bytes) gltf_fail("cannot be opened for reading");
+  if (!bytes) gltf_fail("{}", bytes.errors().front().message);
   try {
     read_container(*bytes);
   } catch (const Json::exception& problem) {
-    gltf_fail("its JSON cannot be read: {}", problem.what());
+    gltf_fail("its JSON cannot be read: {}", json_reason(problem.what()));
   }
   if (!json_.is_object() || !json_.contains("asset")) gltf_fail("this is no glTF: it has no \"asset\"");
   const std::string version = json_["asset"].value("version", "");
@@ -175,7 +183,7 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
 
 void GltfFile::read_container(const std::string& bytes) {
   if (path_.extension() != ".glb" && !bytes.starts_with("glTF")) {
-    json_ = Json::parse(bytes);
+    json_ = guarded_json(bytes);
     return;
   }
   if (word(bytes, 0) != glb_magic) gltf_fail("this is no .glb: its first bytes are not \"glTF\"");
@@ -186,7 +194,7 @@ void GltfFile::read_container(const std::string& bytes) {
     const std::size_t length = word(bytes, at), type = word(bytes, at + 4);
     if (at + 8 + length > bytes.size()) gltf_fail("a chunk claims {} bytes, more than the file has", length);
     const char* data = bytes.data() + at + 8;
-    if (type == json_chunk && json_.is_null()) json_ = Json::parse(data, data + length);
+    if (type == json_chunk && json_.is_null()) json_ = guarded_json({data, length});
     if (type == binary_chunk && binary_chunk_.empty()) binary_chunk_.assign(data, data + length);
     at += 8 + (length + 3) / 4 * 4;
   }
@@ -247,7 +255,7 @@ std::span<const std::uint8_t> GltfFile::buffer_view(int view) const {
   if (buffer < 0) gltf_fail("buffer view {} names no buffer", view);
   const std::vector<std::uint8_t>& bytes = buffers_[std::size_t(buffer)];
   const std::size_t offset = size_of(description, "byteOffset"), length = size_of(description, "byteLength");
-  if (offset > bytes.size() || length > bytes.size() - offset)
+  if (!bytes_fit(offset, length, bytes.size()))
     gltf_fail("buffer view {} reaches from byte {} over {} bytes, beyond the {} of buffer {}", view, offset,
               length, bytes.size(), buffer);
   return std::span(bytes).subspan(offset, length);
@@ -269,9 +277,8 @@ GltfFile::Access GltfFile::access(int accessor, int components) const {
   const std::span<const std::uint8_t> bytes = buffer_view(view);
   access.stride = size_of(list("bufferViews")[std::size_t(view)], "byteStride", element);
   const std::size_t offset = size_of(description, "byteOffset");
-  const bool fits =
-      access.stride >= element && access.stride <= 65536 && offset <= bytes.size() &&
-      (access.count == 0 || offset + (access.count - 1) * access.stride + element <= bytes.size());
+  const bool fits = access.stride >= element && access.stride <= 65536 &&
+                    elements_fit(offset, access.count, access.stride, element, bytes.size());
   if (!fits)
     gltf_fail("accessor {} claims {} elements of {} bytes, more than its buffer view has", accessor,
               access.count, element);
@@ -306,8 +313,9 @@ void GltfFile::read_elements(int accessor, int components, const Store& store) c
                                       all_values = buffer_view(value_view);
   const std::size_t index_offset = size_of(indices, "byteOffset"),
                     value_offset = size_of(values, "byteOffset");
-  if (count > dense.count || index_offset + count * index_bytes > all_indices.size() ||
-      value_offset + count * element > all_values.size())
+  if (count > dense.count ||
+      !elements_fit(index_offset, count, index_bytes, index_bytes, all_indices.size()) ||
+      !elements_fit(value_offset, count, element, element, all_values.size()))
     gltf_fail("accessor {}: its sparse part claims {} elements, more than there are", accessor, count);
   for (std::size_t i = 0; i < count; ++i) {
     const double target = component(all_indices.data() + index_offset + i * index_bytes, index_type);

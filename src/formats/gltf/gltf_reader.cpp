@@ -1,5 +1,6 @@
 #include "formats/gltf/gltf_reader.h"
 
+#include "base/json_guard.h"
 #include "formats/gltf/gltf_animations.h"
 #include "formats/gltf/gltf_deformation.h"
 #include "formats/gltf/gltf_file.h"
@@ -77,7 +78,7 @@ Result<Model> read_gltf(const std::filesystem::path& file, Errors& warnings) {
   } catch (const GltfFile::GltfProblem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {
-    return error_at(where, "a value is not of the kind that glTF asks for ({})", problem.what());
+    return error_at(where, "a value is not of the kind that glTF asks for ({})", json_reason(problem.what()));
   }
 }
 

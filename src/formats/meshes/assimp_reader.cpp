@@ -1,13 +1,17 @@
 #include "formats/meshes/assimp_reader.h"
 
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <set>
 
 #include "base/files.h"
 #include "base/image_io.h"
@@ -135,16 +139,62 @@ class Converter {
   std::map<std::string, int> textures_;
 };
 
+/// Opens files for reading alone, and only below the folder of the model.
+class RootedFiles final : public Assimp::DefaultIOSystem {
+ public:
+  explicit RootedFiles(const fs::path& folder) : roots_(folder) {}
+
+  bool Exists(const char* name) const override { return find(name).has_value(); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    const std::optional<fs::path> file = find(name);
+    if (!file || std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
+    return DefaultIOSystem::Open(file->c_str(), mode);
+  }
+
+ private:
+  std::optional<fs::path> find(std::string name) const {
+    std::ranges::replace(name, '\\', '/');
+    const Result<fs::path> file = roots_.find(name, {});
+    std::error_code code;
+    if (!file || !fs::is_regular_file(*file, code) || fs::file_size(*file, code) > max_file_bytes || code)
+      return std::nullopt;
+    return *file;
+  }
+
+  Roots roots_;
+};
+
+/// Leaves the importers of files with this extension ("obj") alone: assimp would try all others by content.
+void keep_importers_of(const std::string& extension, Assimp::Importer& importer) {
+  std::vector<Assimp::BaseImporter*> others;
+  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+    std::set<std::string> extensions;
+    importer.GetImporter(i)->GetExtensionList(extensions);
+    if (!extensions.contains(extension)) others.push_back(importer.GetImporter(i));
+  }
+  for (Assimp::BaseImporter* const other : others) {
+    importer.UnregisterLoader(other);
+    delete other;  // it was the importer's until now
+  }
+}
+
+std::string lower_case_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
 }  // namespace
 
 Result<Model> read_with_assimp(const fs::path& file, formats::UpAxis up, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
-  const std::string extension = file.extension().string();
-  const bool is_z_up_format =
-      extension == ".ply" || extension == ".stl" || extension == ".PLY" || extension == ".STL";
+  const std::string extension = lower_case_extension(file);
+  const bool is_z_up_format = extension == ".ply" || extension == ".stl";
   const bool is_y_up = up == formats::UpAxis::y || (up == formats::UpAxis::file && !is_z_up_format);
   try {
     Assimp::Importer importer;
+    keep_importers_of(extension.substr(std::min<std::size_t>(1, extension.size())), importer);
+    importer.SetIOHandler(new RootedFiles(file.parent_path()));  // the importer deletes it
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     const aiScene* scene =
         importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |

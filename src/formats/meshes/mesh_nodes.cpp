@@ -1,6 +1,6 @@
 #include "formats/meshes/mesh_nodes.h"
 
-#include "formats/meshes/assimp_reader.h"
+#include "formats/meshes/mesh_formats.h"
 
 namespace parvis::scene {
 
@@ -11,8 +11,7 @@ void furnish_meshes(House& house) {
   add_material_nodes(registry);
   add_wheel_nodes(registry);
   registry.allow(include_type, "model");
-  readers.set_fallback([](const std::filesystem::path& file, const formats::ModelReading& reading,
-                          Errors& warnings) { return read_with_assimp(file, reading.up, warnings); });
+  add_mesh_formats(readers);
 }
 
 }  // namespace parvis::scene

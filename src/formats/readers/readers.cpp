@@ -1,26 +1,64 @@
 #include "formats/readers/readers.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cctype>
+
+#include "base/file_front.h"
+#include "base/utf8.h"
 
 namespace parvis::formats {
+namespace {
 
-void Readers::add(std::initializer_list<const char*> extensions, ReadModel read) {
+constexpr std::size_t front_bytes = 4096;
+
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+/// Names may come from any bytes of the file; they go into messages, panels and exported JSON.
+void repair_names(scene::Model& model) {
+  repair_utf8(model.name);
+  for (scene::Texture& texture : model.textures) repair_utf8(texture.name);
+  for (scene::Material& material : model.materials) repair_utf8(material.name);
+  for (scene::ModelNode& node : model.nodes) repair_utf8(node.name);
+  for (scene::Part& part : model.parts) repair_utf8(part.object);
+  for (scene::Animation& animation : model.animations) repair_utf8(animation.name);
+  for (scene::Road& road : model.roads) repair_utf8(road.name);
+}
+
+}  // namespace
+
+void Readers::add(std::initializer_list<const char*> extensions, ReadModel read, LooksRight looks_right) {
   for (const char* extension : extensions) {
-    [[maybe_unused]] const bool is_new = by_extension_.emplace(extension, read).second;
+    [[maybe_unused]] const bool is_new = by_extension_.emplace(extension, Reader{read, looks_right}).second;
     assert(is_new && "two rooms read files of this extension");
   }
 }
 
 Result<scene::Model> Readers::read(const std::filesystem::path& file, const ModelReading& reading,
                                    Errors& warnings) const {
-  const std::string extension = file.extension().string();
+  const FileLocation where{file.string(), 0, 0};
+  const std::string extension = lower_case(file.extension().string());
   const auto reader = by_extension_.find(extension);
-  if (reader != by_extension_.end()) return reader->second(file, reading, warnings);
-  if (fallback_) return fallback_(file, reading, warnings);
-  std::vector<std::string> known;
-  for (const auto& [each, read] : by_extension_) known.push_back(each);
-  return error_at({file.string(), 0, 0}, "no reader for files of the kind \"{}\"; models are read from {}",
-                  extension, fmt::join(known, ", "));
+  if (reader == by_extension_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [each, read] : by_extension_) known.push_back(each);
+    return error_at(where, "no reader for files of the kind \"{}\"; models are read from {}", extension,
+                    fmt::join(known, ", "));
+  }
+  const Result<std::string> front = read_front(file, front_bytes);
+  if (!front) return front.errors();
+  if (!reader->second.looks_right(*front))
+    return error_at(where,
+                    "is no {} file: its content is of another format; export it again, or give it the "
+                    "extension of what it is",
+                    extension);
+  Result<scene::Model> model = reader->second.read(file, reading, warnings);
+  if (model) repair_names(*model);
+  for (Error& warning : warnings) repair_utf8(warning.message);
+  return model;
 }
 
 }  // namespace parvis::formats

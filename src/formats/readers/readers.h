@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/result.h"
 #include "formats/readers/ground_on_map.h"
@@ -30,22 +31,27 @@ struct ModelReading {
 using ReadModel = std::function<Result<scene::Model>(const std::filesystem::path& file,
                                                      const ModelReading& reading, Errors& warnings)>;
 
-/// Readers by the extensions of their files.
+/// Whether the first bytes of a file (4096, or all that there are) are those of a format.
+using LooksRight = bool (*)(std::string_view front);
+
+/// An allow list: readers by the extensions of their files, each with what its files begin with.
 class Readers {
  public:
-  /// `extensions` with their dots, in lower case; each once.
-  void add(std::initializer_list<const char*> extensions, ReadModel read);
-  /// The reader of every other file.
-  void set_fallback(ReadModel read) { fallback_ = std::move(read); }
+  /// `extensions` with their dots, in lower case; each once. Third-party readers are wrapped by `isolated`.
+  void add(std::initializer_list<const char*> extensions, ReadModel read, LooksRight looks_right);
 
-  /// Without a fallback, a file whose extension nobody reads is an error that names the extensions that are
-  /// read.
+  /// Extensions count in any case. Errors: a file whose extension nobody reads (it names those that are
+  /// read), one whose content is of another format than its name, and what is no regular file. Names in the
+  /// model are valid UTF-8 whatever the file says.
   Result<scene::Model> read(const std::filesystem::path& file, const ModelReading& reading,
                             Errors& warnings) const;
 
  private:
-  std::map<std::string, ReadModel> by_extension_;
-  ReadModel fallback_;
+  struct Reader {
+    ReadModel read;
+    LooksRight looks_right;
+  };
+  std::map<std::string, Reader> by_extension_;
 };
 
 }  // namespace parvis::formats

@@ -1,6 +1,9 @@
 #include "formats/readers/readers.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/test_folder.h"
 
 namespace parvis::formats {
 namespace {
@@ -15,23 +18,45 @@ ReadModel reader(const char* name) {
   };
 }
 
-std::string read_by(const Readers& readers, const char* file, const ModelReading& reading = {}) {
+std::string read_by(const Readers& readers, const std::filesystem::path& file,
+                    const ModelReading& reading = {}) {
   Errors warnings;
   const Result<scene::Model> model = readers.read(file, reading, warnings);
   return model ? model->name : to_string(model.errors());
 }
 
-TEST(Readers, AreFoundByExtension) {
+bool is_any(std::string_view) { return true; }
+bool has_mark(std::string_view front) { return front.starts_with("digits"); }
+
+TEST(Readers, AreFoundByExtensionInAnyCase) {
+  const TestFolder folder;
   Readers readers;
-  readers.add({".abc", ".abd"}, reader("letters"));
-  readers.add({".123"}, reader("digits"));
-  EXPECT_EQ(read_by(readers, "a/b.abd"), "letters");
-  EXPECT_EQ(read_by(readers, "b.123", {.cell_m = 1.0}), "digits in cells");
-  const std::string unknown = read_by(readers, "c.xyz");
+  readers.add({".abc", ".abd"}, reader("letters"), is_any);
+  readers.add({".123"}, reader("digits"), has_mark);
+  EXPECT_EQ(read_by(readers, folder.write("b.abd", "")), "letters");
+  EXPECT_EQ(read_by(readers, folder.write("b.ABD", "")), "letters");
+  EXPECT_EQ(read_by(readers, folder.write("b.123", "digits"), {.cell_m = 1.0}), "digits in cells");
+  const std::string unknown = read_by(readers, folder.write("c.xyz", "digits"));
   for (const char* expected : {"c.xyz", "\".xyz\"", ".123, .abc, .abd"})
     EXPECT_NE(unknown.find(expected), std::string::npos) << unknown;
-  readers.set_fallback(reader("anything"));
-  EXPECT_EQ(read_by(readers, "c.xyz"), "anything");
+}
+
+TEST(Readers, ContentOfAnotherFormatIsRefused) {
+  const TestFolder folder;
+  Readers readers;
+  readers.add({".123"}, reader("digits"), has_mark);
+  EXPECT_NE(read_by(readers, folder.write("c.123", "letters")).find("of another format"), std::string::npos);
+  EXPECT_NE(read_by(readers, folder.path() / "absent.123").find("absent.123"), std::string::npos);
+  EXPECT_NE(read_by(readers, folder.path()).find("no reader"), std::string::npos);
+  ASSERT_EQ(mkfifo((folder.path() / "pipe.123").c_str(), 0600), 0);
+  EXPECT_NE(read_by(readers, folder.path() / "pipe.123").find("regular"), std::string::npos);
+}
+
+TEST(Readers, NamesBecomeValidUtf8) {
+  const TestFolder folder;
+  Readers readers;
+  readers.add({".123"}, reader("caf\xe9"), is_any);
+  EXPECT_EQ(read_by(readers, folder.write("c.123", "")), "caf\xef\xbf\xbd");
 }
 
 }  // namespace

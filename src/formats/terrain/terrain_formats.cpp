@@ -1,15 +1,28 @@
 #include "formats/terrain/terrain_formats.h"
 
-#include "formats/readers/readers.h"
+#include "formats/readers/isolated_reader.h"
 #include "formats/terrain/terrain.h"
 
 namespace parvis::scene {
+namespace {
+
+Result<Model> read_grid(const std::filesystem::path& file, const formats::ModelReading& reading,
+                        Errors& warnings) {
+  return read_terrain(file, reading.cell_m, warnings);
+}
+
+/// TIFF and BigTIFF, of either byte order.
+bool is_tiff(std::string_view front) {
+  using namespace std::string_view_literals;
+  return front.starts_with("II*\0"sv) || front.starts_with("MM\0*"sv) || front.starts_with("II+\0"sv) ||
+         front.starts_with("MM\0+"sv);
+}
+
+}  // namespace
 
 void furnish_terrain(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
-  readers.add({".tif", ".tiff"},
-              [](const std::filesystem::path& file, [[maybe_unused]] const formats::ModelReading& reading,
-                 Errors& warnings) { return read_terrain(file, reading.cell_m, warnings); });
+  readers.add({".tif", ".tiff"}, formats::isolated<read_grid>(), is_tiff);
 }
 
 }  // namespace parvis::scene

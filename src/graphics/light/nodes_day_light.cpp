@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/image_io.h"
 #include "graphics/light/day_light.h"
+#include "graphics/light/sky_picture.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
@@ -98,8 +98,8 @@ void build_sky_dome(const scene::Node& node, scene::SceneBuilder& builder) {
   if (file.empty()) {
     day.dome = nullptr;
   } else if (file != day.dome_file) {
-    Result<ImageF> picture = read_image_float(file);
-    if (!picture) return builder.fail(picture.errors(), node.where_of("texture"));
+    std::optional<ImageF> picture = read_sky_picture(node, "texture", builder);
+    if (!picture) return;
     if (picture->width != 2 * picture->height)
       return builder.fail(
           error_at(node.where_of("texture"),

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/image_io.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/light_nodes.h"
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
 #include "graphics/light/shadow_settings.h"
+#include "graphics/light/sky_picture.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -83,8 +83,8 @@ void build_sky(const Node& node, SceneBuilder& builder) {
   sky.heading = node.angle("heading_deg");
   const std::filesystem::path file = node.file("file");
   if (file == sky.file) return;  // it is there already
-  Result<ImageF> picture = file.empty() ? ImageF() : read_image_float(file);
-  if (!picture) return builder.fail(picture.errors(), node.where_of("file"));
+  std::optional<ImageF> picture = file.empty() ? ImageF() : light::read_sky_picture(node, "file", builder);
+  if (!picture) return;
   sky.picture = std::move(*picture);
   sky.file = file;
 }

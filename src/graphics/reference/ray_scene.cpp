@@ -318,7 +318,18 @@ void RayScene::deform(std::size_t place) {
   rtcCommitGeometry(rtcGetGeometry(top_, unsigned(place)));
 }
 
+/// Embree asserts that rays are finite. One that is not hits nothing: a surface so degenerate that it has no
+/// normal must not end the program.
+static bool is_finite(const Ray& ray) {
+  constexpr float embree_limit = 1.8e18f;
+  const auto fits = [](glm::vec3 v) {
+    return std::abs(v.x) < embree_limit && std::abs(v.y) < embree_limit && std::abs(v.z) < embree_limit;
+  };
+  return fits(ray.origin) && fits(ray.direction) && ray.min_m <= ray.max_m;
+}
+
 std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
+  if (!is_finite(ray)) return std::nullopt;
   QueryContext context(places_, passage);
   RTCRayHit query{};
   query.ray = embree_ray(ray);
@@ -329,6 +340,7 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const
 }
 
 bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
+  if (!is_finite(ray)) return false;
   QueryContext context(places_, passage);
   RTCRay query = embree_ray(ray);
   rtcOccluded1(top_, &context.embree, &query);

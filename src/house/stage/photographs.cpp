@@ -15,6 +15,7 @@ namespace parvis::house {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr int max_cameras_of_circle = 1000;
 constexpr int points_across = 48;  // of the grid of points that a COLMAP model gets from each picture
 
 /// What is left of a camera's name in the name of a file.
@@ -64,8 +65,12 @@ Status check(const PhotographJob& job) {
 
 }  // namespace
 
-std::vector<scene::NamedCamera> circle_of_cameras(glm::vec3 target, float radius_m, float eye_above_target_m,
-                                                  int count, float vertical_fov) {
+Result<std::vector<scene::NamedCamera>> circle_of_cameras(glm::vec3 target, float radius_m,
+                                                          float eye_above_target_m, int count,
+                                                          float vertical_fov) {
+  if (count < 1 || count > max_cameras_of_circle || !(radius_m > 0.0f))
+    return error("a circle of {} cameras of radius {} m; expected 1 to {} cameras and a radius above 0",
+                 count, radius_m, max_cameras_of_circle);
   std::vector<scene::NamedCamera> cameras;
   for (int i = 0; i < count; ++i) {
     const float turn = 6.2831853f * float(i) / float(count);
@@ -75,6 +80,11 @@ std::vector<scene::NamedCamera> circle_of_cameras(glm::vec3 target, float radius
     named.name = fmt::format("circle_{:02}", i + 1);
     named.camera.world_from_camera = look_at(eye, target);
     named.camera.vertical_fov = vertical_fov;
+    if (!is_usable(named.camera))
+      return error(
+          "a circle of cameras about {} {} {} of radius {} m, {} m above: expected finite numbers of "
+          "up to {:g} m",
+          target.x, target.y, target.z, radius_m, eye_above_target_m, max_coordinate_m);
     cameras.push_back(std::move(named));
   }
   return cameras;

@@ -25,8 +25,9 @@ struct PhotographJob {
 };
 
 /// Cameras evenly on a level circle, looking at its middle raised to `target`; named "circle_01" and so on.
-std::vector<scene::NamedCamera> circle_of_cameras(glm::vec3 target, float radius_m, float eye_above_target_m,
-                                                  int count, float vertical_fov);
+Result<std::vector<scene::NamedCamera>> circle_of_cameras(glm::vec3 target, float radius_m,
+                                                          float eye_above_target_m, int count,
+                                                          float vertical_fov);
 
 /// Takes all photographs. A job that is interrupted (or killed) goes on where it stopped when it is called
 /// again: finished tiles lie in files ".checkpoint" beside the first picture until all is written.

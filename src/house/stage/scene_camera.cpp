@@ -29,14 +29,21 @@ Bounds fixed_bounds(const scene::Scene& scene) {
 }  // namespace
 
 Result<Camera> scene_camera(const scene::Scene& scene, const std::string& name) {
-  if (name.empty() && scene.cameras.empty()) return view_of_all(fixed_bounds(scene));
+  if (name.empty() && scene.cameras.empty()) {
+    const Bounds bounds = fixed_bounds(scene);
+    return view_of_all(bounds.empty() ? Bounds{glm::vec3(-1.0f), glm::vec3(1.0f)} : bounds);
+  }
   const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
   if (!named) {
     std::string names;
     for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
     return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
   }
-  return scene.camera_now(*named);
+  const Result<Camera> camera = scene.camera_now(*named);
+  if (camera && !is_usable(*camera))
+    return error("camera \"{}\" stands beyond {:g} m, or nowhere; check where the object that it follows is",
+                 named->name, max_coordinate_m);
+  return camera;
 }
 
 }  // namespace parvis::house

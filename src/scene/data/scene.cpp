@@ -7,7 +7,9 @@ constexpr float followed_height_m = 0.8f;  // where the eye rests on a vehicle
 
 Camera following(const NamedCamera& named, const glm::mat4& world_from_object) {
   const glm::vec3 position(world_from_object[3]);
-  const glm::vec2 ahead = glm::normalize(glm::vec2(world_from_object[0]));
+  const glm::vec2 axis(world_from_object[0]);
+  // an object that stands on end heads north
+  const glm::vec2 ahead = glm::length(axis) > 0.0f ? glm::normalize(axis) : glm::vec2(0.0f, 1.0f);
   const glm::vec3 forward(ahead, 0.0f), left(-ahead.y, ahead.x, 0.0f), up(0.0f, 0.0f, 1.0f);
   const glm::vec3 eye =
       position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;

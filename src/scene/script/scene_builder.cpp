@@ -1,16 +1,39 @@
 #include "scene/script/scene_builder.h"
 
+#include <cmath>
 #include <functional>
 #include <set>
 
 namespace parvis::scene {
 
+namespace {
+
+/// Groups inside groups multiply their scales: the numbers that remain must be ones that meshes can be
+/// multiplied by.
+bool is_usable(const glm::mat4& world_from_object) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 3; ++row)
+      if (!(std::abs(world_from_object[column][row]) <= max_coordinate_m)) return false;
+  return true;
+}
+
+Error misplaced(const std::string& name, const Node* node) {
+  return error_at(node ? node->where : FileLocation{},
+                  "\"{}\" would stand further than {:g} m away, or be as large; check position= and scale= "
+                  "of it and of the groups around it",
+                  name, max_coordinate_m);
+}
+
+}  // namespace
+
 void SceneBuilder::add(Object object) {
+  if (!is_usable(object.world_from_model)) return fail(misplaced(object.name, node_));
   scene.objects.push_back(std::move(object));
   object_makers_.resize(scene.objects.size(), node_);
 }
 
 void SceneBuilder::add(NamedCamera camera) {
+  if (!parvis::is_usable(camera.camera)) return fail(misplaced(camera.name, node_));
   scene.cameras.push_back(std::move(camera));
   camera_makers_.resize(scene.cameras.size(), node_);
 }

@@ -1,0 +1,94 @@
+#include "formats/readers/isolated_reader.h"
+
+#include <cstring>
+
+#include "base/sealed_file.h"
+#include "formats/readers/model_bytes.h"
+
+namespace parvis::formats {
+namespace {
+namespace fs = std::filesystem;
+
+/// What a reader may take: a start, and more for each megabyte of its file, ten times what the slowest of
+/// them was seen to need.
+constexpr double start_s = 30.0, s_per_mb = 6.0, max_s = 1800.0;
+
+/// What libraries read of the system: map projections.
+constexpr std::array system_folders{"/usr/share/proj", "/usr/share/gdal"};
+
+/// The part of `ModelReading` that travels.
+struct Order {
+  UpAxis up;
+  bool has_detail, has_cell;
+  double max_detail, cell_m;
+};
+
+void append_text(std::string& bytes, const std::string& text) {
+  append_value(bytes, std::uint64_t(text.size()));
+  bytes += text;
+}
+
+std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
+
+IsolationLimits limits_for(const fs::path& file) {
+  IsolationLimits limits;
+  std::error_code code;
+  const std::uintmax_t size = fs::file_size(file, code);
+  limits.seconds = code ? start_s : std::min(start_s + s_per_mb * 1e-6 * double(size), max_s);
+  limits.readable.push_back(fs::weakly_canonical(file, code).parent_path());
+  limits.readable.insert(limits.readable.end(), system_folders.begin(), system_folders.end());
+  return limits;
+}
+
+}  // namespace
+
+Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output) {
+  Taker taker(input);
+  const Order order = taker.take<Order>();
+  ModelReading reading;
+  reading.up = order.up;
+  if (order.has_detail) reading.max_detail = order.max_detail;
+  if (order.has_cell) reading.cell_m = order.cell_m;
+  const fs::path file = take_text(taker);
+  Errors warnings;
+  const Result<scene::Model> model = read(file, reading, warnings);
+  if (!model) return model.errors();
+  std::string front;
+  append_value(front, std::uint64_t(warnings.size()));
+  for (const Error& warning : warnings) {
+    append_text(front, warning.message);
+    append_text(front, warning.where.file);
+    append_value(front, warning.where.line);
+    append_value(front, warning.where.column);
+  }
+  const std::string back = bytes_of(*model);
+  const std::span<std::byte> bytes = output.allocate(front.size() + back.size());
+  if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), back.size());
+  std::memcpy(bytes.data(), front.data(), front.size());
+  std::memcpy(bytes.data() + front.size(), back.data(), back.size());
+  return Done{};
+}
+
+Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, const ModelReading& reading,
+                                   Errors& warnings) {
+  const std::string subject = file.string();
+  if (reading.ground) return error("{}: its reader knows no ground=; leave it out", subject);
+  std::string input;
+  append_value(input, Order{reading.up, reading.max_detail.has_value(), reading.cell_m.has_value(),
+                            reading.max_detail.value_or(0.0), reading.cell_m.value_or(0.0)});
+  append_text(input, fs::absolute(file).string());
+  const Result<IsolatedBytes> made = run_isolated(work, input, subject, limits_for(file));
+  if (!made) return made.errors();
+  const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
+  Taker taker(bytes);
+  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
+    Error& warning = warnings.emplace_back();
+    warning.message = take_text(taker);
+    warning.where.file = take_text(taker);
+    warning.where.line = taker.take<int>();
+    warning.where.column = taker.take<int>();
+  }
+  return model_of(taker.rest(), subject);
+}
+
+}  // namespace parvis::formats

@@ -1,0 +1,35 @@
+// Readers of model files in a child process: `readers.add({".ifc"}, isolated<read_ifc>(), looks_like_ifc)` is
+// all that a room writes to have a third-party library crash, hang or grow without harm.
+#pragma once
+
+#include "base/isolated_process.h"
+#include "formats/readers/readers.h"
+
+namespace parvis::formats {
+
+/// A reader as a plain function, which the child process shares with the program.
+using ReadFunction = Result<scene::Model>(const std::filesystem::path& file, const ModelReading& reading,
+                                          Errors& warnings);
+
+/// In the child: reads the file that `input` names and fills `output` with warnings and model.
+Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output);
+
+/// In the program: has `work` read the file, and checks what comes back. The child may open files below the
+/// file's own folder alone, and has time and memory by the size of the file. A reading with a ground
+/// (`ModelReading::ground`) is an error: the child cannot ask for heights.
+Result<scene::Model> read_isolated(IsolatedWork work, const std::filesystem::path& file,
+                                   const ModelReading& reading, Errors& warnings);
+
+/// The reader `read` in a child process: a crash, an abort, an exit, an endless loop or a lack of memory in
+/// it is an error that names the file.
+template <ReadFunction* read>
+ReadModel isolated() {
+  return [](const std::filesystem::path& file, const ModelReading& reading, Errors& warnings) {
+    constexpr IsolatedWork work = [](std::string_view input, IsolatedOutput& output) {
+      return read_in_worker(read, input, output);
+    };
+    return read_isolated(work, file, reading, warnings);
+  };
+}
+
+}  // namespace parvis::formats
