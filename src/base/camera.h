@@ -52,32 +52,9 @@ struct Camera {
   }
 };
 
-/// A camera at `eye` looking at `target`, z up in the world. Rigid for all finite points: where the view is
-/// parallel to `up`, y is up in the image (or x, where `up` is y); an eye on its target looks north.
+/// A camera at `eye` looking at `target`, z up in the world.
 inline glm::mat4 look_at(glm::vec3 eye, glm::vec3 target, glm::vec3 up = {0.0f, 0.0f, 1.0f}) {
-  constexpr float parallel_sine = 1e-6f;
-  if (eye == target) target = eye + glm::max(1.0f, glm::length(eye)) * glm::vec3(0.0f, 1.0f, 0.0f);
-  const glm::vec3 view = target - eye;
-  if (!(glm::length(glm::cross(view, up)) > parallel_sine * glm::length(view) * glm::length(up)))
-    up = glm::abs(up.y) > 0.9f * glm::length(up) ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
   return glm::inverse(glm::lookAt(eye, target, up));
-}
-
-/// The largest coordinate of a place in a scene, in metres: beyond it floats are coarser than a house.
-inline constexpr float max_coordinate_m = 1e9f;
-
-/// Whether rays can be made from the camera: its pose is finite, rigid and within `max_coordinate_m`, its
-/// frustum open. To be asked where a camera is made from what a user gave.
-inline bool is_usable(const Camera& camera) {
-  constexpr float rigid_within = 1e-2f;
-  const glm::mat4& pose = camera.world_from_camera;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(glm::abs(glm::length(glm::vec3(pose[axis])) - 1.0f) <= rigid_within)) return false;
-  for (int i = 0; i < 3; ++i)
-    if (!(glm::abs(pose[3][i]) <= max_coordinate_m)) return false;
-  const FrustumTangents edges = camera.tangents(1.0f);
-  return camera.near_m > 0.0f && camera.far_m > camera.near_m && edges.right > edges.left &&
-         edges.top > edges.bottom && edges.top - edges.bottom < 1e6f;
 }
 
 /// Vertical field of view (radians) of a horizontal one, at width / height.

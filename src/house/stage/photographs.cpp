@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/camera_check.h"
 #include "base/image_io.h"
 #include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/camera_check.h"
 #include "scene/data/surroundings.h"
 
 namespace parvis::house {

@@ -14,7 +14,12 @@ Camera following(const NamedCamera& named, const glm::mat4& world_from_object) {
   const glm::vec3 eye =
       position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;
   Camera camera = named.camera;
-  camera.world_from_camera = look_at(eye, position + followed_height_m * up);
+  const glm::vec3 view = position + followed_height_m * up - eye;
+  const bool is_vertical = glm::length(glm::vec2(view)) < 1e-4f * glm::length(view);
+  if (glm::length(view) > 0.0f)
+    camera.world_from_camera = look_at(eye, eye + view, is_vertical ? forward : up);
+  else
+    camera.world_from_camera = look_at(eye, eye + forward);  // from within: where the object heads
   return camera;
 }
 

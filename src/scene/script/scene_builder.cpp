@@ -4,6 +4,8 @@
 #include <functional>
 #include <set>
 
+#include "base/camera_check.h"
+
 namespace parvis::scene {
 
 namespace {
