@@ -199,6 +199,8 @@ Result<Model> read_with_assimp(const fs::path& file, formats::UpAxis up, Errors&
     const aiScene* scene =
         importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                              aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+    if (!scene && std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
+      return error_at(where, "claims more vertices or faces than there is memory for; the file is damaged");
     if (!scene || !scene->mRootNode)
       return error_at(where, "cannot be read as a model ({})", importer.GetErrorString());
     Result<Model> model = Converter(file, *scene, warnings).convert(is_y_up);
