@@ -2,34 +2,26 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/files.h"
 #include "capture/facades/coarse_model_file.h"
-#include "capture/photographs/set_file.h"
+#include "capture/facades/place_model.h"
 #include "facade_stages.h"
 
 namespace parvis {
 namespace {
 
 struct Arguments {
-  std::filesystem::path folder, hints, output;
+  std::filesystem::path folder, output;
+  facades::ModelSettings settings;
 };
 
 Status propose(const Arguments& arguments) {
   const std::filesystem::path file =
       arguments.output.empty() ? arguments.folder / "model.glb" : arguments.output;
-  const Result<photographs::LoadedSet> loaded = photographs::read_photograph_set(arguments.folder);
-  if (!loaded) return loaded.errors();
-  fmt::print(stderr, "{}", to_string(loaded->problems));
-  Result<facades::CoarseModel> model = facades::propose_coarse_model(loaded->set);
+  const Result<facades::PlaceModel> model = facades::propose_place_model(arguments.folder, arguments.settings);
   if (!model) return model.errors();
-  if (!arguments.hints.empty()) {
-    const Result<std::string> text = read_file(arguments.hints);
-    if (!text) return text.errors();
-    if (Status status = facades::apply_hints(*model, *text, arguments.hints.string()); !status) return status;
-  }
   fmt::print(stderr, "{}", to_string(model->notes));
-  if (Status status = facades::write_coarse_model(file, *model); !status) return status;
-  for (const facades::CoarseSurface& surface : model->surfaces) {
+  if (Status status = facades::write_meshes(file, model->meshes); !status) return status;
+  for (const facades::CoarseSurface& surface : model->planes.surfaces) {
     fmt::print("{:<12} {:>6} points ", surface.name, surface.points);
     for (const glm::dvec3& corner : surface.corners)
       fmt::print(" ({:.2f} {:.2f} {:.2f})", corner.x, corner.y, corner.z);
@@ -48,10 +40,11 @@ void add_facade_model(CLI::App& stage, Chosen& chosen) {
       ->check(CLI::ExistingDirectory);
   stage
       .add_option(
-          "--hints", arguments->hints,
+          "--hints", arguments->settings.hints,
           "Corrections, one per line: remove NAME, rename NAME NEW, top|bottom NAME Z, left|right NAME X Y, "
           "plane NAME X Y Z X Y Z X Y Z ...")
       ->check(CLI::ExistingFile);
+  stage.add_flag("!--flat", arguments->settings.finds_relief, "Leave surfaces flat: no relief is searched");
   stage.add_option("-o,--output", arguments->output,
                    "glTF file (.glb) to write; FOLDER/model.glb where it is not given");
   stage.footer("Example: parvis facade model courtyard --hints corrections.txt");

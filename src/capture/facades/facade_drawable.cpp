@@ -21,24 +21,32 @@ using render::ViewKind;
 struct SurfaceRange {
   std::size_t first = 0, count = 0;
   Bounds bounds;  ///< in the facade's frame
+  bool is_backdrop = false;
 };
 
 std::vector<SurfaceRange> ranges_of(const PackedFacade& facade) {
   std::vector<SurfaceRange> ranges;
   for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
     if (t == 0 || facade.surface_of_triangle[t] != facade.surface_of_triangle[t - 1])
-      ranges.push_back({t, 0, {}});
+      ranges.push_back({t, 0, {}, facade.surfaces[facade.surface_of_triangle[t]] == backdrop_name});
     ++ranges.back().count;
     for (std::size_t k = 0; k < 3; ++k) ranges.back().bounds.add(facade.corners[3 * t + k]);
   }
   return ranges;
 }
 
+Bounds solid_bounds(const PackedFacade& facade) {
+  Bounds bounds;
+  for (const SurfaceRange& range : ranges_of(facade))
+    if (!range.is_backdrop) bounds.add(range.bounds);
+  return bounds;
+}
+
 /// What facades made of one packed file share.
 struct LoadedFacade {
   FacadeTextures textures;
   std::vector<SurfaceRange> ranges;
-  Bounds bounds;
+  Bounds bounds, solid_bounds;  ///< of all, and without the backdrop
   bool has_holes = false;
 };
 
@@ -86,7 +94,7 @@ class FacadeDrawable final : public render::Drawable {
       shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure, placed.is_visible};
       const Bounds all = transformed(placed.world_from_facade, loaded.bounds);
       const Bounds bounds = placed.is_visible ? all : Bounds{};
-      fixed_.add(all);
+      fixed_.add(transformed(placed.world_from_facade, loaded.solid_bounds));
       if (bounds.min == bounds_[i].min && bounds.max == bounds_[i].max) continue;
       is_newcomer_[i] = !bounds.empty();
       if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
@@ -106,6 +114,7 @@ class FacadeDrawable final : public render::Drawable {
         continue;
       for (const SurfaceRange& range : shown_[i].loaded->ranges) {
         const Bounds bounds = transformed(shown_[i].world_from_facade, range.bounds);
+        if (range.is_backdrop && view.kind == ViewKind::shadow) continue;
         if (!culling.may_see(bounds) || culling.is_hidden(bounds)) continue;
         const bool joins =
             !list.empty() && list.back().facade == i && list.back().first + list.back().count == range.first;
@@ -150,7 +159,7 @@ class FacadeDrawable final : public render::Drawable {
       if (!textures) return textures.errors();
       kept.emplace(placed.facade, std::make_unique<LoadedFacade>(
                                       LoadedFacade{*std::move(textures), ranges_of(*placed.facade),
-                                                   placed.facade->bounds(), has_holes(*placed.facade)}));
+                                                   placed.facade->bounds(), solid_bounds(*placed.facade), has_holes(*placed.facade)}));
     }
     loaded_ = std::move(kept);
     return Done{};

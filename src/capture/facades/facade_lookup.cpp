@@ -79,7 +79,7 @@ glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::
 
 LayerModel model_of(const PackedFacade& facade) {
   LayerModel model;
-  for (const std::string& name : facade.surfaces) model.objects.push_back({name, false});
+  for (const std::string& name : facade.surfaces) model.objects.push_back({name, false, name == backdrop_name});
   for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
     LayerTriangle triangle;
     for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = glm::dvec3(facade.corners[3 * t + k]);

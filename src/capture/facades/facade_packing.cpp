@@ -24,6 +24,7 @@ struct LayerPicture {
   Image8 rgba;                   ///< of the box; alpha: seen or an artist's
   std::vector<char> is_covered;  ///< by a surface, dilated
   std::vector<char> is_needed;
+  std::vector<char> is_own;  ///< by a surface: what other layers of the tile may not have
   bool has_alpha = false;
 };
 
@@ -57,15 +58,40 @@ void dilate(LayerPicture& picture) {
   }
 }
 
-LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::size_t l,
+/// What lies behind other surfaces, of the backdrop, is in no layer but may be looked up: it is not seen.
+void hide_rest(LayerPicture& picture) {
+  for (std::size_t i = 0; i < picture.is_own.size(); ++i)
+    if (!picture.is_own[i])
+      picture.rgba.pixels[4 * i + 3] = unseen_alpha, picture.is_own[i] = picture.is_covered[i] = 1;
+}
+
+/// The box with its left and top edges moved out to the photograph's grid of tiles, so that layers may share tiles.
+PixelBox on_tile_grid(const PixelBox& box) {
+  const int x = box.x / tile_inner * tile_inner, y = box.y / tile_inner * tile_inner;
+  return {x, y, box.x + box.width - x, box.y + box.height - y};
+}
+
+/// Per layer and pixel of its box: 1 where the layer has to be stored because this photograph shows it, or because no
+/// photograph does and this one has the finest pixels of it.
+using NeededPixels = std::vector<Image8>;
+
+bool holds_backdrop(const PlaceLayers& place, std::size_t photo, std::size_t layer) {
+  return std::ranges::any_of(place.layered[photo].layers[layer].items, [&](std::uint32_t item) {
+    return place.model.objects[place.visibility[photo].items[item].object].is_backdrop;
+  });
+}
+
+LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::size_t l, const Image8& needed,
                            const std::vector<std::uint32_t>& layer_of_pixel) {
-  const PixelBox& box = place.layered[photo].layers[l].box;
+  const PixelBox &box = place.layered[photo].layers[l].box, grid = on_tile_grid(box);
   const Filled& filled = place.filled[photo];
-  LayerPicture picture{Image8(box.width, box.height, 4),
-                       std::vector<char>(std::size_t(box.width) * std::size_t(box.height), 0),
+  LayerPicture picture{Image8(grid.width, grid.height, 4),
+                       std::vector<char>(std::size_t(grid.width) * std::size_t(grid.height), 0),
+                       {},
                        {},
                        false};
   picture.is_needed = picture.is_covered;
+  const int left = box.x - grid.x, top = box.y - grid.y;
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
       if (!place.layered[photo].masks[l].at(x, y)[0]) continue;
@@ -76,46 +102,76 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
       const bool takes_proposal = source == FillSource::painted || filled.states[l] == Filling::accepted ||
                                   (filled.states[l] == Filling::proposal && !is_first);
       const Image8& from = takes_proposal ? filled.pixels[l] : place.originals[photo][l];
-      std::uint8_t* p = picture.rgba.at(x, y);
+      std::uint8_t* p = picture.rgba.at(x + left, y + top);
       std::copy_n(from.at(x, y), 4, p);
       if (source == FillSource::painted && p[3] < 255) picture.has_alpha = true;
       if (source != FillSource::painted) p[3] = is_certain ? 255 : unseen_alpha;
-      picture.is_covered[at(box, x, y)] = 1;
-      picture.is_needed[at(box, x, y)] = is_first || source == FillSource::painted ||
-                                         source == FillSource::patches || source == FillSource::smooth;
+      picture.is_covered[at(grid, x + left, y + top)] = 1;
+      picture.is_needed[at(grid, x + left, y + top)] = is_first || *needed.at(x, y) != 0;
     }
   // Alpha then is the artist's alone.
   if (picture.has_alpha)
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x)
-        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted)) picture.rgba.at(x, y)[3] = 255;
+        if (*filled.sources[l].at(x, y) != std::uint8_t(FillSource::painted))
+          picture.rgba.at(x + left, y + top)[3] = 255;
+  picture.is_own = picture.is_covered;
   dilate(picture);
+  if (holds_backdrop(place, photo, l)) hide_rest(picture);
   return picture;
 }
 
-/// The tile's texels; what is far from any surface takes the mean colour, which compresses best.
-Image8 tile_texels(const LayerPicture& picture, int column, int row) {
+/// A slot's texels while layers are put into it.
+struct OpenSlot {
+  Image8 texels{tile_side, tile_side, 4};
+  std::vector<char> is_own = std::vector<char>(std::size_t(tile_side) * tile_side, 0), is_covered = is_own;
+  glm::ivec2 cell{0};  ///< of the photograph's grid of tiles
+
+  /// Adds a layer's tile, unless they want the same texel.
+  bool take(const OpenSlot& other) {
+    for (std::size_t i = 0; i < is_own.size(); ++i)
+      if (is_own[i] && other.is_own[i]) return false;
+    for (std::size_t i = 0; i < is_own.size(); ++i) {
+      if (!other.is_covered[i] || is_own[i] || (is_covered[i] && !other.is_own[i])) continue;
+      std::copy_n(other.texels.pixels.data() + 4 * i, 4, texels.pixels.data() + 4 * i);
+      is_covered[i] = 1, is_own[i] = other.is_own[i];
+    }
+    return true;
+  }
+};
+
+OpenSlot tile_of(const LayerPicture& picture, int column, int row) {
   const PixelBox box{0, 0, picture.rgba.width, picture.rgba.height};
-  Image8 tile(tile_side, tile_side, 4);
-  std::vector<char> is_covered(std::size_t(tile_side) * tile_side, 0);
-  std::array<long, 4> sum{};
-  long count = 0;
+  OpenSlot tile;
   for (int y = 0; y < tile_side; ++y)
     for (int x = 0; x < tile_side; ++x) {
       const int px = std::clamp(column * tile_inner + x - tile_border, 0, box.width - 1),
                 py = std::clamp(row * tile_inner + y - tile_border, 0, box.height - 1);
       if (!picture.is_covered[at(box, px, py)]) continue;
-      std::copy_n(picture.rgba.at(px, py), 4, tile.at(x, y));
-      is_covered[std::size_t(y * tile_side + x)] = 1;
-      for (std::size_t c = 0; c < 4; ++c) sum[c] += tile.at(x, y)[c];
+      std::copy_n(picture.rgba.at(px, py), 4, tile.texels.at(x, y));
+      tile.is_covered[std::size_t(y * tile_side + x)] = 1;
+      tile.is_own[std::size_t(y * tile_side + x)] = picture.is_own[at(box, px, py)];
+    }
+  return tile;
+}
+
+/// Texels far from any surface take the mean colour, which compresses best. Where all that is known was seen, alpha is 255
+/// throughout: then it costs no precision.
+void complete(OpenSlot& slot) {
+  std::array<long, 4> sum{};
+  long count = 0;
+  bool is_opaque = true;
+  for (std::size_t i = 0; i < slot.is_covered.size(); ++i)
+    if (slot.is_covered[i]) {
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += slot.texels.pixels[4 * i + c];
+      is_opaque &= !slot.is_own[i] || slot.texels.pixels[4 * i + 3] == 255;
       ++count;
     }
-  if (count > 0)
-    for (int y = 0; y < tile_side; ++y)
-      for (int x = 0; x < tile_side; ++x)
-        if (!is_covered[std::size_t(y * tile_side + x)])
-          for (std::size_t c = 0; c < 4; ++c) tile.at(x, y)[c] = std::uint8_t(sum[c] / count);
-  return tile;
+  for (std::size_t i = 0; i < slot.is_covered.size(); ++i) {
+    if (!slot.is_covered[i] && count > 0)
+      for (std::size_t c = 0; c < 4; ++c) slot.texels.pixels[4 * i + c] = std::uint8_t(sum[c] / count);
+    if (is_opaque) slot.texels.pixels[4 * i + 3] = 255;
+  }
 }
 
 Image8 halved(const Image8& image) {
@@ -144,27 +200,89 @@ TileKind kind_of(const LayerPicture& picture, int column, int row) {
   return is_all_seen ? TileKind::seen : picture.has_alpha ? TileKind::alpha : TileKind::mixed;
 }
 
-/// The needed tiles of a layer, compressed.
-struct LayerTiles {
-  std::vector<TileKind> kinds;
+std::vector<Bc7Block> blocks_of(OpenSlot& slot) {
+  complete(slot);
   std::vector<Bc7Block> blocks;
+  for (int level = 0; level < tile_levels; ++level) {
+    std::ranges::copy(bc7_blocks(slot.texels), std::back_inserter(blocks));
+    slot.texels = halved(slot.texels);
+  }
+  return blocks;
+}
+
+/// The needed tiles of a photograph's layers; layers that do not overlap share them.
+class PhotoTiles {
+ public:
+  /// Adds a layer's tiles to `facade`, whose slots so far are `first_slot`.
+  void add(const LayerPicture& picture, const PackedLayer& layer, std::size_t first_slot, PackedFacade& facade) {
+    for (int row = 0; row < layer.down(); ++row)
+      for (int column = 0; column < layer.across(); ++column) {
+        const TileKind kind = kind_of(picture, column, row);
+        std::uint32_t entry = std::uint32_t(kind);
+        if (kind != TileKind::none) {
+          OpenSlot tile = tile_of(picture, column, row);
+          tile.cell = glm::ivec2(layer.box.x / tile_inner + column, layer.box.y / tile_inner + row);
+          entry |= std::uint32_t(first_slot + place(std::move(tile), kind)) << 2;
+        }
+        facade.tiles.push_back(entry);
+      }
+  }
+  std::vector<OpenSlot>& slots() { return slots_; }
+
+ private:
+  /// An artist's alpha belongs to one layer alone.
+  std::size_t place(OpenSlot tile, TileKind kind) {
+    std::vector<std::size_t>& here = slots_of_cell_[{tile.cell.x, tile.cell.y}];
+    if (kind != TileKind::alpha)
+      for (const std::size_t slot : here)
+        if (slots_[slot].take(tile)) return slot;
+    if (kind != TileKind::alpha) here.push_back(slots_.size());
+    slots_.push_back(std::move(tile));
+    return slots_.size() - 1;
+  }
+
+  std::vector<OpenSlot> slots_;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> slots_of_cell_;
 };
 
-LayerTiles tiles_of(const LayerPicture& picture, const PackedLayer& layer) {
-  LayerTiles tiles;
-  for (int row = 0; row < layer.down(); ++row)
-    for (int column = 0; column < layer.across(); ++column) {
-      tiles.kinds.push_back(kind_of(picture, column, row));
-      if (tiles.kinds.back() == TileKind::none) continue;
-      Image8 texels = tile_texels(picture, column, row);
-      if (tiles.kinds.back() == TileKind::seen)
-        for (std::size_t i = 3; i < texels.pixels.size(); i += 4) texels.pixels[i] = 255;
-      for (int level = 0; level < tile_levels; ++level) {
-        std::ranges::copy(bc7_blocks(texels), std::back_inserter(tiles.blocks));
-        texels = halved(texels);
-      }
+/// Does this photograph have the finest pixels of a point that none shows?
+bool is_finest(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items, std::size_t photo,
+               std::uint32_t triangle, glm::dvec3 point, double pixel_size) {
+  for (std::size_t i = 0; i < place.views.size(); ++i) {
+    if (i == photo || items[i][triangle] == no_item) continue;
+    const View& view = place.views[i];
+    const glm::dvec3 p = view.to_camera(point);
+    if (p.z <= 0.0) continue;
+    const glm::dvec2 pixel = view.to_pixel(p);
+    if (pixel.x < 1.0 || pixel.y < 1.0 || pixel.x > view.width - 1.0 || pixel.y > view.height - 1.0) continue;
+    const double other = p.z / view.fx;
+    if (other < pixel_size || (other == pixel_size && i < photo)) return false;
+  }
+  return true;
+}
+
+NeededPixels needed_pixels(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
+                           std::size_t photo) {
+  const LayeredView& layered = place.layered[photo];
+  const View& view = place.views[photo];
+  NeededPixels needed;
+  for (const ImageLayer& layer : layered.layers) needed.emplace_back(layer.box.width, layer.box.height, 1);
+  visit_stacks(place.model, view, false, {}, [&](int x, int y, std::span<const Fragment> stack) {
+    for (const Fragment& fragment : stack) {
+      const std::uint32_t item = items[photo][fragment.triangle];
+      if (item == no_item || is_hidden_backdrop(place.model, fragment, stack)) continue;
+      const std::uint32_t l = layered.layer_of_item[item];
+      const PixelBox& box = layered.layers[l].box;
+      const FillSource source = FillSource(*place.filled[photo].sources[l].at(x - box.x, y - box.y));
+      const bool is_guess = source == FillSource::patches || source == FillSource::smooth;
+      const bool is_wanted = source == FillSource::painted ||
+                             (is_guess && is_finest(place, items, photo, fragment.triangle,
+                                                    view.to_world({x + 0.5, y + 0.5}, fragment.depth),
+                                                    fragment.depth / view.fx));
+      if (is_wanted) *needed[l].at(x - box.x, y - box.y) = 1;
     }
-  return tiles;
+  });
+  return needed;
 }
 
 /// Each pixel's layer: of the surface that is nearest.
@@ -261,11 +379,8 @@ void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, Pack
 }
 
 /// For each triangle the layers that hold it; equal lists are stored once.
-void add_candidates(const PlaceLayers& place, const std::vector<std::uint32_t>& first_layer,
-                    PackedFacade& facade) {
-  std::vector<std::vector<std::uint32_t>> items;
-  for (std::size_t i = 0; i < place.names.size(); ++i)
-    items.push_back(item_of_triangle(place.model, place.visibility[i].items));
+void add_candidates(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
+                    const std::vector<std::uint32_t>& first_layer, PackedFacade& facade) {
   std::map<std::vector<std::uint32_t>, std::uint32_t> known;
   for (const std::uint32_t triangle : by_surface(place.model)) {
     std::vector<std::uint32_t> list;
@@ -278,23 +393,21 @@ void add_candidates(const PlaceLayers& place, const std::vector<std::uint32_t>& 
   }
 }
 
-void add_layers(const PlaceLayers& place, std::size_t photo, const std::vector<std::uint32_t>& layers,
-                PackedFacade& facade) {
-  const std::size_t count = place.layered[photo].layers.size();
-  std::vector<PackedLayer> packed(count);
-  std::vector<LayerTiles> tiles(count);
-  parallel_for(count, [&](std::size_t l) {
-    packed[l] = {place.layered[photo].layers[l].box, std::uint32_t(photo), 0};
-    tiles[l] = tiles_of(layer_picture(place, photo, l, layers), packed[l]);
-  });
+void add_layers(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items, std::size_t photo,
+                const std::vector<std::uint32_t>& layers, PackedFacade& facade) {
+  const std::size_t count = place.layered[photo].layers.size(), first_slot = facade.slot_count();
+  const NeededPixels needed = needed_pixels(place, items, photo);
+  PhotoTiles tiles;
   for (std::size_t l = 0; l < count; ++l) {
-    packed[l].first_tile = std::uint32_t(facade.tiles.size());
-    std::uint32_t slot = std::uint32_t(facade.slot_count());
-    for (const TileKind kind : tiles[l].kinds)
-      facade.tiles.push_back(std::uint32_t(kind) | (kind == TileKind::none ? 0u : slot++ << 2));
-    facade.blocks.insert(facade.blocks.end(), tiles[l].blocks.begin(), tiles[l].blocks.end());
-    facade.layers.push_back(packed[l]);
+    PackedLayer packed{on_tile_grid(place.layered[photo].layers[l].box), std::uint32_t(photo),
+                       std::uint32_t(facade.tiles.size())};
+    tiles.add(layer_picture(place, photo, l, needed[l], layers), packed, first_slot, facade);
+    facade.layers.push_back(packed);
   }
+  std::vector<std::vector<Bc7Block>> blocks(tiles.slots().size());
+  parallel_for(blocks.size(), [&](std::size_t slot) { blocks[slot] = blocks_of(tiles.slots()[slot]); });
+  for (const std::vector<Bc7Block>& slot : blocks)
+    facade.blocks.insert(facade.blocks.end(), slot.begin(), slot.end());
 }
 
 }  // namespace
@@ -304,18 +417,21 @@ PackedFacade packed_facade(const PlaceLayers& place) {
   TriangleColours colours{std::vector<glm::dvec3>(place.model.triangles.size(), glm::dvec3(0.0)),
                           std::vector<double>(place.model.triangles.size(), 0.0)};
   std::vector<std::uint32_t> first_layer;
+  std::vector<std::vector<std::uint32_t>> items;
+  for (const VisibilityLayers& visibility : place.visibility)
+    items.push_back(item_of_triangle(place.model, visibility.items));
   Progress progress("packing layers", place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
     facade.photos.push_back({place.names[i], place.views[i], place.balances[i]});
     first_layer.push_back(std::uint32_t(facade.layers.size()));
     const ItemBuffer seen = item_buffer(place.model, place.views[i]);
     const std::vector<std::uint32_t> layers = layers_of_pixels(place, i, seen);
-    add_layers(place, i, layers, facade);
+    add_layers(place, items, i, layers, facade);
     add_colours(place, i, seen, layers, colours);
     progress.advance();
   }
   add_surfaces(place, colours, facade);
-  add_candidates(place, first_layer, facade);
+  add_candidates(place, items, first_layer, facade);
   return facade;
 }
 

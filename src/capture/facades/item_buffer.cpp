@@ -226,6 +226,10 @@ void visit_stacks(const LayerModel& model, const View& view, bool with_back_face
   });
 }
 
+bool is_hidden_backdrop(const LayerModel& model, const Fragment& fragment, std::span<const Fragment> stack) {
+  return &fragment != &stack.front() && model.objects[model.triangles[fragment.triangle].object].is_backdrop;
+}
+
 ItemBuffer item_buffer(const LayerModel& model, const View& view) {
   ItemBuffer buffer{view.width, view.height, {}, {}};
   const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);

@@ -132,7 +132,8 @@ Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes) {
       triangle.object = object;
       model.triangles.push_back(triangle);
     }
-    model.objects.push_back({named.name, bounds_a_body(named.mesh)});
+    const bool is_backdrop = named.name == backdrop_name;
+    model.objects.push_back({named.name, !is_backdrop && bounds_a_body(named.mesh), is_backdrop});
     if (degenerate)
       result.warnings.push_back(
           error("object \"{}\": {} triangles without area were left out", named.name, degenerate));

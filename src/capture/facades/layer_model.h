@@ -19,6 +19,10 @@ struct NamedMesh {
   Mesh mesh;
 };
 
+/// Name of the object that stands for all that is far away: sky, hills, other streets. It hides nothing, no hidden part of it is ever
+/// wanted, and it casts no shadow.
+inline constexpr const char* backdrop_name = "backdrop";
+
 /// A triangle of the coarse model, with the object and face that it belongs to.
 struct LayerTriangle {
   std::array<glm::dvec3, 3> corners;  ///< in world
@@ -33,6 +37,7 @@ struct LayerObject {
   /// Bounds a body, with triangles counter-clockwise seen from outside: its back faces are never seen. Other
   /// objects are seen from both sides.
   bool is_closed = false;
+  bool is_backdrop = false;  ///< see backdrop_name
 };
 
 /// The coarse model as triangles of named objects, the input of visibility layers.

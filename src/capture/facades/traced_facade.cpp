@@ -16,13 +16,14 @@ using namespace shading;  // GLSL's own functions and types, for the included te
 class FacadeSurface final : public scene::TracedSurface {
  public:
   FacadeSurface(std::shared_ptr<const PackedFacade> facade, const glm::mat4& world_from_facade,
-                float radiance_of_exposed)
+                float radiance_of_exposed, std::size_t first_triangle)
       : facade_(std::move(facade)),
         texels_(*facade_),
         facade_from_world_(glm::inverse(world_from_facade)),
         scale_(glm::length(glm::vec3(facade_from_world_[0]))),
         radiance_of_exposed_(radiance_of_exposed),
-        has_holes_(has_holes(*facade_)) {}
+        has_holes_(has_holes(*facade_)),
+        first_triangle_(first_triangle) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     scene::TracedPoint point;
@@ -42,7 +43,7 @@ class FacadeSurface final : public scene::TracedSurface {
     FacadeLookup lookup(*facade_, texels_);
     const glm::vec3 position(facade_from_world_ * glm::vec4(hit.position, 1.0f));
     const glm::vec3 to_eye = glm::normalize(glm::mat3(facade_from_world_) * hit.to_viewer);
-    return lookup.colour(hit.triangle, position, to_eye, scale_ * hit.width_m, hit.barycentric);
+    return lookup.colour(std::uint32_t(first_triangle_) + hit.triangle, position, to_eye, scale_ * hit.width_m, hit.barycentric);
   }
 
   std::shared_ptr<const PackedFacade> facade_;
@@ -50,6 +51,7 @@ class FacadeSurface final : public scene::TracedSurface {
   glm::mat4 facade_from_world_;
   float scale_, radiance_of_exposed_;
   bool has_holes_;
+  std::size_t first_triangle_;  ///< of the facade, at which the mesh begins
 };
 
 }  // namespace
@@ -87,17 +89,48 @@ void PlacedFacade::hash(ContentHash& hash) const {
   }
 }
 
+namespace {
+
+/// The mesh of triangles [first, last).
+Mesh part_of(const Mesh& mesh, std::size_t first, std::size_t last) {
+  Mesh part;
+  for (std::size_t i = 3 * first; i < 3 * last; ++i) {
+    part.indices.push_back(std::uint32_t(part.positions.size()));
+    part.positions.push_back(mesh.positions[i]), part.normals.push_back(mesh.normals[i]);
+    part.uvs.push_back(mesh.uvs[i]);
+  }
+  return part;
+}
+
+/// Its surfaces, and apart from them the backdrop, which casts no shadow.
+void add_traced(const PlacedFacade& placed, float exposure, int thing, scene::TracedScene& traced) {
+  const PackedFacade& facade = *placed.facade;
+  const Mesh mesh = mesh_of(facade);
+  const auto surface = [&](std::size_t first) {
+    return std::make_shared<const FacadeSurface>(placed.facade, placed.world_from_facade,
+                                                 placed.brightness / exposure, first);
+  };
+  const auto is_backdrop = [&](std::size_t t) {
+    return facade.surfaces[facade.surface_of_triangle[t]] == backdrop_name;
+  };
+  for (std::size_t first = 0, last = 0; first < facade.triangle_count(); first = last) {
+    for (last = first; last < facade.triangle_count() && is_backdrop(last) == is_backdrop(first);) ++last;
+    traced.add(std::make_shared<const Mesh>(part_of(mesh, first, last)), surface(first),
+               placed.world_from_facade, {thing, false, placed.is_visible, !is_backdrop(first)});
+  }
+}
+
+}  // namespace
+
 scene::TracedKind traced_facades() {
   scene::TracedKind kind;
   kind.name = "facades";
   kind.count = [](const scene::Scene& scene) { return int(scene.items<PlacedFacade>().size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     int thing = 0;
-    for (const PlacedFacade& placed : scene.items<PlacedFacade>())
-      traced.add(std::make_shared<const Mesh>(mesh_of(*placed.facade)),
-                 std::make_shared<const FacadeSurface>(placed.facade, placed.world_from_facade,
-                                                       placed.brightness / scene.exposure),
-                 placed.world_from_facade, {thing++, false, placed.is_visible, true});
+    for (const PlacedFacade& placed : scene.items<PlacedFacade>()) {
+      add_traced(placed, scene.exposure, thing++, traced);
+    }
   };
   return kind;
 }
