@@ -11,23 +11,18 @@ void CalibrationArguments::add(CLI::App& stage) {
   stage.add_option("photographs", job.pictures, "Folder of the photographs")
       ->required()
       ->check(CLI::ExistingDirectory);
-  stage.add_option("-o,--output", job.folder, "Folder to write to; it keeps what is finished")
-      ->required();
+  stage.add_option("-o,--output", job.folder, "Folder to write to; it keeps what is finished")->required();
   stage.add_option(
       "--cameras", job.cameras,
       "Cameras that are known: a COLMAP model, a folder of .camera files, .json, .wrl, .gltf, or a text with "
       "camera=\"x y z h p r fov aspect\"");
   stage.add_option("--lens", job.lens, "COLMAP's camera model")->capture_default_str();
-  stage.add_flag("!--lens-per-photograph", job.one_lens_for_all,
-                 "The zoom or the camera was changed");
+  stage.add_flag("!--lens-per-photograph", job.one_lens_for_all, "The zoom or the camera was changed");
   stage.add_option("--features", job.max_features, "Features per photograph; more take longer")
       ->capture_default_str()
       ->check(CLI::Range(500, 50000));
-  stage.add_option("--scale", job.scale, "Metres per unit of the reconstruction")
-      ->check(CLI::PositiveNumber);
-  stage
-      .add_option("--distance", distance,
-                  "Two photographs, and the metres between where they were taken")
+  stage.add_option("--scale", job.scale, "Metres per unit of the reconstruction")->check(CLI::PositiveNumber);
+  stage.add_option("--distance", distance, "Two photographs, and the metres between where they were taken")
       ->expected(3);
 }
 

@@ -17,7 +17,8 @@ struct Arguments {
 Status propose(const Arguments& arguments) {
   const std::filesystem::path file =
       arguments.output.empty() ? arguments.folder / "model.glb" : arguments.output;
-  const Result<facades::PlaceModel> model = facades::propose_place_model(arguments.folder, arguments.settings);
+  const Result<facades::PlaceModel> model =
+      facades::propose_place_model(arguments.folder, arguments.settings);
   if (!model) return model.errors();
   fmt::print(stderr, "{}", to_string(model->notes));
   if (Status status = facades::write_meshes(file, model->meshes); !status) return status;

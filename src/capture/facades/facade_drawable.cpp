@@ -157,9 +157,10 @@ class FacadeDrawable final : public render::Drawable {
       }
       Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade);
       if (!textures) return textures.errors();
-      kept.emplace(placed.facade, std::make_unique<LoadedFacade>(
-                                      LoadedFacade{*std::move(textures), ranges_of(*placed.facade),
-                                                   placed.facade->bounds(), solid_bounds(*placed.facade), has_holes(*placed.facade)}));
+      kept.emplace(placed.facade,
+                   std::make_unique<LoadedFacade>(
+                       LoadedFacade{*std::move(textures), ranges_of(*placed.facade), placed.facade->bounds(),
+                                    solid_bounds(*placed.facade), has_holes(*placed.facade)}));
     }
     loaded_ = std::move(kept);
     return Done{};

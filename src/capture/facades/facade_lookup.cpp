@@ -52,7 +52,7 @@ glm::vec4 FacadeTexels::at(int slot, glm::vec2 at, float level) const {
 }
 
 FacadeLookup::FacadePhoto FacadeLookup::facade_photo(int photo) const {
-  const PhotoRow row = photo_row(facade_.photos[std::size_t(photo)]);
+  const PhotoRow row = photo_row(facade_.photos[std::size_t(photo)], first_depths_[std::size_t(photo)]);
   return {row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
 }
 glm::uvec4 FacadeLookup::facade_layer(int layer) const {
@@ -67,6 +67,10 @@ glm::vec4 FacadeLookup::facade_texel(int slot, glm::vec2 at, float level) const 
   return texels_.at(slot, at, level);
 }
 
+float FacadeLookup::facade_depth(int index) const {
+  return float(facade_.depths[std::size_t(index)]) / 2048.0f - 16.0f;
+}
+
 glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::vec3 to_eye, float pixel_m,
                                glm::vec2 barycentric) {
   const glm::u8vec3* corner = facade_.fallback.data() + 3 * std::size_t(triangle);
@@ -79,7 +83,8 @@ glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::
 
 LayerModel model_of(const PackedFacade& facade) {
   LayerModel model;
-  for (const std::string& name : facade.surfaces) model.objects.push_back({name, false, name == backdrop_name});
+  for (const std::string& name : facade.surfaces)
+    model.objects.push_back({name, false, name == backdrop_name, false});
   for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
     LayerTriangle triangle;
     for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = glm::dvec3(facade.corners[3 * t + k]);

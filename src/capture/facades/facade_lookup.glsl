@@ -6,6 +6,7 @@
 //                                             y: tiles across | tiles down << 16; z: first tile; w: photo
 //   int facade_candidate(int index)           a layer, of the lists of layers that hold each triangle
 //   uvec4 facade_tile(int tile)               x: 0 where nothing is stored, else a TILE_ kind; y: its slot
+//   float facade_depth(int index)             log2 of how far a cell of a photograph sees, see encoded_depth
 //   vec4 facade_texel(int slot, vec2 at, float level)   sRGB and alpha, filtered; `at` in texels of the slot
 
 #define TILE_SEEN 1u      // the photograph sees all of it
@@ -20,6 +21,9 @@
 // Below this angle between eye and camera, radians, a photograph is shown plainly; it counts more and more
 // from 4 times that.
 #define OWN_VIEWPOINT_ANGLE 0.002f
+#define DEPTH_CELL 4.0f  // pixels
+// A point this much farther than its photograph sees is hidden by its own object, log2 (1.5 %).
+#define HIDDEN_LOG2 0.0215f
 #define BORDER_FEATHER 0.05f    // of the picture's width
 #define RESOLUTION_WEIGHT 0.1f  // see view_penalty
 
@@ -66,7 +70,17 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   float angle = view_penalty(to_eye, to_photo, 1.0f, 0.0f);
   found.own = 1.0f - smoothstep(OWN_VIEWPOINT_ANGLE, 4.0f * OWN_VIEWPOINT_ANGLE, angle);
   float seen = 1.0f;
-  if (tile.x == TILE_MIXED) seen = smoothstep(0.75f, 1.0f, facade_texel(found.slot, found.at, 0.0f).w);
+  if (tile.x == TILE_MIXED) {
+    float known = facade_texel(found.slot, found.at, 0.0f).w;
+    if (known < 0.4f) return none;  // a hidden part of the backdrop
+    seen = smoothstep(0.75f, 1.0f, known);
+  }
+  // What the layer shows there is what hides the point: another part of the same object.
+  vec2 cells = ceil(size / DEPTH_CELL),
+       place = clamp(floor(pixel / DEPTH_CELL), vec2(0.0f), cells - vec2(1.0f));
+  int first_depth = int(photo.size.z) * 4096 + int(photo.size.w);
+  float seen_depth = facade_depth(first_depth + int(place.y * cells.x + place.x));
+  if (seen > 0.5f && log2(depth) > seen_depth + HIDDEN_LOG2) return none;
   found.confidence =
       max(border_feather(pixel, size, BORDER_FEATHER * size.x), 1e-4f) * mix(FILLED_CONFIDENCE, 1.0f, seen);
   found.confidence = mix(found.confidence, 1.0f, found.own);

@@ -26,7 +26,8 @@ class FacadeTexels {
 class FacadeLookup {
  public:
   /// `texels` are those of `facade`.
-  FacadeLookup(const PackedFacade& facade, const FacadeTexels& texels) : facade_(facade), texels_(texels) {}
+  FacadeLookup(const PackedFacade& facade, const FacadeTexels& texels)
+      : facade_(facade), texels_(texels), first_depths_(first_depths(facade)) {}
 
   /// Balanced sRGB and alpha of a point of a triangle; see `facade_colour`.
   glm::vec4 colour(std::uint32_t triangle, glm::vec3 position, glm::vec3 to_eye, float pixel_m,
@@ -44,11 +45,13 @@ class FacadeLookup {
   int facade_candidate(int index) const;
   uvec4 facade_tile(int tile) const;
   vec4 facade_texel(int slot, vec2 at, float level) const;
+  float facade_depth(int index) const;
 #include "capture/facades/facade_lookup.glsl"
   // NOLINTEND
 
   const PackedFacade& facade_;
   const FacadeTexels& texels_;
+  std::vector<std::size_t> first_depths_;
 };
 
 /// What `view` sees of the facade: sRGB (0..1) with alpha 0 where there is nothing. `model` is the one that

@@ -58,21 +58,22 @@ void dilate(LayerPicture& picture) {
   }
 }
 
-/// What lies behind other surfaces, of the backdrop, is in no layer but may be looked up: it is not seen.
+/// What lies behind other surfaces, of the backdrop, is in no layer but may be looked up: alpha 0 says that
+/// nothing is known.
 void hide_rest(LayerPicture& picture) {
   for (std::size_t i = 0; i < picture.is_own.size(); ++i)
-    if (!picture.is_own[i])
-      picture.rgba.pixels[4 * i + 3] = unseen_alpha, picture.is_own[i] = picture.is_covered[i] = 1;
+    if (!picture.is_own[i]) picture.rgba.pixels[4 * i + 3] = 0, picture.is_own[i] = picture.is_covered[i] = 1;
 }
 
-/// The box with its left and top edges moved out to the photograph's grid of tiles, so that layers may share tiles.
+/// The box with its left and top edges moved out to the photograph's grid of tiles, so that layers may share
+/// tiles.
 PixelBox on_tile_grid(const PixelBox& box) {
   const int x = box.x / tile_inner * tile_inner, y = box.y / tile_inner * tile_inner;
   return {x, y, box.x + box.width - x, box.y + box.height - y};
 }
 
-/// Per layer and pixel of its box: 1 where the layer has to be stored because this photograph shows it, or because no
-/// photograph does and this one has the finest pixels of it.
+/// Per layer and pixel of its box: 1 where the layer has to be stored because this photograph shows it, or
+/// because no photograph does and this one has the finest pixels of it.
 using NeededPixels = std::vector<Image8>;
 
 bool holds_backdrop(const PlaceLayers& place, std::size_t photo, std::size_t layer) {
@@ -145,18 +146,19 @@ OpenSlot tile_of(const LayerPicture& picture, int column, int row) {
   OpenSlot tile;
   for (int y = 0; y < tile_side; ++y)
     for (int x = 0; x < tile_side; ++x) {
-      const int px = std::clamp(column * tile_inner + x - tile_border, 0, box.width - 1),
-                py = std::clamp(row * tile_inner + y - tile_border, 0, box.height - 1);
+      const int u = column * tile_inner + x - tile_border, v = row * tile_inner + y - tile_border;
+      const int px = std::clamp(u, 0, box.width - 1), py = std::clamp(v, 0, box.height - 1);
+      if (std::abs(u - px) > dilation_rings || std::abs(v - py) > dilation_rings) continue;
       if (!picture.is_covered[at(box, px, py)]) continue;
       std::copy_n(picture.rgba.at(px, py), 4, tile.texels.at(x, y));
       tile.is_covered[std::size_t(y * tile_side + x)] = 1;
-      tile.is_own[std::size_t(y * tile_side + x)] = picture.is_own[at(box, px, py)];
+      tile.is_own[std::size_t(y * tile_side + x)] = u == px && v == py && picture.is_own[at(box, px, py)];
     }
   return tile;
 }
 
-/// Texels far from any surface take the mean colour, which compresses best. Where all that is known was seen, alpha is 255
-/// throughout: then it costs no precision.
+/// Texels far from any surface take the mean colour, which compresses best. Where all that is known was seen,
+/// alpha is 255 throughout: then it costs no precision.
 void complete(OpenSlot& slot) {
   std::array<long, 4> sum{};
   long count = 0;
@@ -214,7 +216,8 @@ std::vector<Bc7Block> blocks_of(OpenSlot& slot) {
 class PhotoTiles {
  public:
   /// Adds a layer's tiles to `facade`, whose slots so far are `first_slot`.
-  void add(const LayerPicture& picture, const PackedLayer& layer, std::size_t first_slot, PackedFacade& facade) {
+  void add(const LayerPicture& picture, const PackedLayer& layer, std::size_t first_slot,
+           PackedFacade& facade) {
     for (int row = 0; row < layer.down(); ++row)
       for (int column = 0; column < layer.across(); ++column) {
         const TileKind kind = kind_of(picture, column, row);
@@ -246,8 +249,8 @@ class PhotoTiles {
 };
 
 /// Does this photograph have the finest pixels of a point that none shows?
-bool is_finest(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items, std::size_t photo,
-               std::uint32_t triangle, glm::dvec3 point, double pixel_size) {
+bool is_finest(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
+               std::size_t photo, std::uint32_t triangle, glm::dvec3 point, double pixel_size) {
   for (std::size_t i = 0; i < place.views.size(); ++i) {
     if (i == photo || items[i][triangle] == no_item) continue;
     const View& view = place.views[i];
@@ -270,7 +273,7 @@ NeededPixels needed_pixels(const PlaceLayers& place, const std::vector<std::vect
   visit_stacks(place.model, view, false, {}, [&](int x, int y, std::span<const Fragment> stack) {
     for (const Fragment& fragment : stack) {
       const std::uint32_t item = items[photo][fragment.triangle];
-      if (item == no_item || is_hidden_backdrop(place.model, fragment, stack)) continue;
+      if (item == no_item || !has_layer_pixel(place.model, fragment, stack)) continue;
       const std::uint32_t l = layered.layer_of_item[item];
       const PixelBox& box = layered.layers[l].box;
       const FillSource source = FillSource(*place.filled[photo].sources[l].at(x - box.x, y - box.y));
@@ -378,6 +381,22 @@ void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, Pack
       64);
 }
 
+/// The farthest that each cell sees, and a pixel around it: what is a little farther than all of these is
+/// hidden.
+void add_depths(const ItemBuffer& seen, const View& view, PackedFacade& facade) {
+  const glm::ivec2 cells = depth_cells(view);
+  for (int row = 0; row < cells.y; ++row)
+    for (int column = 0; column < cells.x; ++column) {
+      double farthest = 0.0;
+      for (int y = std::max(row * depth_cell - 1, 0); y <= std::min((row + 1) * depth_cell, view.height - 1);
+           ++y)
+        for (int x = std::max(column * depth_cell - 1, 0);
+             x <= std::min((column + 1) * depth_cell, view.width - 1); ++x)
+          farthest = std::max(farthest, double(seen.depths[seen.index(x, y)]));
+      facade.depths.push_back(encoded_depth(farthest));
+    }
+}
+
 /// For each triangle the layers that hold it; equal lists are stored once.
 void add_candidates(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
                     const std::vector<std::uint32_t>& first_layer, PackedFacade& facade) {
@@ -393,8 +412,8 @@ void add_candidates(const PlaceLayers& place, const std::vector<std::vector<std:
   }
 }
 
-void add_layers(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items, std::size_t photo,
-                const std::vector<std::uint32_t>& layers, PackedFacade& facade) {
+void add_layers(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
+                std::size_t photo, const std::vector<std::uint32_t>& layers, PackedFacade& facade) {
   const std::size_t count = place.layered[photo].layers.size(), first_slot = facade.slot_count();
   const NeededPixels needed = needed_pixels(place, items, photo);
   PhotoTiles tiles;
@@ -427,6 +446,7 @@ PackedFacade packed_facade(const PlaceLayers& place) {
     const ItemBuffer seen = item_buffer(place.model, place.views[i]);
     const std::vector<std::uint32_t> layers = layers_of_pixels(place, i, seen);
     add_layers(place, items, i, layers, facade);
+    add_depths(seen, place.views[i], facade);
     add_colours(place, i, seen, layers, colours);
     progress.advance();
   }

@@ -4,7 +4,7 @@ struct FacadePhoto {
   vec4 row_y;
   vec4 row_z;
   vec4 centre;  // of projection; w: focal length, pixels
-  vec4 size;    // width, height, pixels
+  vec4 size;    // width, height, pixels; the first of its depths / 4096, and the rest
   vec4 scale;   // balance of sRGB values
   vec4 offset;
 };

@@ -4,9 +4,10 @@
 #include "capture/facades/recorded_light.glsl"
 #include "capture/facades/facade_photo.glsl"
 
-uniform highp sampler2D facade_photos;                                    // a row of 7 texels per photograph
-uniform highp usampler2D facade_layers, facade_candidates, facade_tiles;  // lists in rows of 1024
-uniform highp sampler2DArray facade_atlas;                                // pages of 16 x 16 slots
+uniform highp sampler2D facade_photos;  // a row of 7 texels per photograph
+uniform highp usampler2D facade_layers, facade_candidates, facade_tiles,
+    facade_depths;                          // lists in rows of 1024
+uniform highp sampler2DArray facade_atlas;  // pages of 16 x 16 slots
 uniform mat4 facade_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
 
@@ -27,6 +28,9 @@ int facade_candidate(int index) { return int(texelFetch(facade_candidates, place
 uvec4 facade_tile(int tile) {
   uint entry = texelFetch(facade_tiles, place_in_list(tile), 0).x;
   return uvec4(entry & 3u, entry >> 2u, 0u, 0u);
+}
+float facade_depth(int index) {
+  return float(texelFetch(facade_depths, place_in_list(index), 0).x) / 2048.0f - 16.0f;
 }
 vec4 facade_texel(int slot, vec2 at, float level) {
   vec2 corner = 64.0f * vec2(float(slot & 15), float((slot >> 4) & 15));

@@ -57,7 +57,9 @@ gl::Texture list_texture(const std::vector<T>& values, GLenum format, GLenum upl
 
 gl::Texture photo_texture(const PackedFacade& facade) {
   std::vector<PhotoRow> rows;
-  for (const PackedPhoto& photo : facade.photos) rows.push_back(photo_row(photo));
+  const std::vector<std::size_t> depths = first_depths(facade);
+  for (std::size_t i = 0; i < facade.photos.size(); ++i)
+    rows.push_back(photo_row(facade.photos[i], depths[i]));
   if (rows.empty()) rows.emplace_back();
   gl::Texture texture = gl::texture_2d(GL_RGBA32F, int(rows[0].size()), int(rows.size()));
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -97,7 +99,8 @@ Status check_limits(const PackedFacade& facade) {
   GLint max_layers = 0, max_side = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_side);
-  const std::size_t longest = std::max({facade.tiles.size(), facade.layers.size(), facade.candidates.size()});
+  const std::size_t longest =
+      std::max({facade.depths.size(), facade.tiles.size(), facade.layers.size(), facade.candidates.size()});
   if (pages_of(facade) > max_layers || longest / list_width >= std::size_t(max_side) ||
       facade.photos.size() > std::size_t(max_side))
     return error(
@@ -120,6 +123,7 @@ Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade) {
   made.layers_ = list_texture(layers, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
   made.candidates_ = list_texture(facade.candidates, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
   made.tiles_ = list_texture(facade.tiles, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
+  made.depths_ = list_texture(facade.depths, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
   made.atlas_ = atlas_texture(facade);
   made.bytes_ = facade.texture_bytes() + facade.corners.size() * sizeof(Corner);
   return made;
@@ -133,7 +137,7 @@ void FacadeTextures::bind(const gl::Program& program) const {
   };
   bind_one("facade_photos", photos_), bind_one("facade_layers", layers_);
   bind_one("facade_candidates", candidates_), bind_one("facade_tiles", tiles_);
-  bind_one("facade_atlas", atlas_);
+  bind_one("facade_depths", depths_), bind_one("facade_atlas", atlas_);
   glBindVertexArray(vertices_.name());
 }
 

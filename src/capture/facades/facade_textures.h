@@ -24,7 +24,7 @@ class FacadeTextures {
  private:
   gl::Buffer corners_;
   gl::VertexArray vertices_;
-  gl::Texture photos_, layers_, candidates_, tiles_, atlas_;
+  gl::Texture photos_, layers_, candidates_, tiles_, depths_, atlas_;
   std::size_t bytes_ = 0;
 };
 

@@ -63,7 +63,7 @@ std::vector<std::vector<LayerPixel>> covered_pixels(const LayersOfModel& layers)
   visit_stacks(layers.model, layers.view, false, {}, [&](int x, int y, std::span<const Fragment> stack) {
     for (const Fragment& fragment : stack)
       if (const std::uint32_t item = item_of[fragment.triangle];
-          item != no_item && !is_hidden_backdrop(layers.model, fragment, stack))
+          item != no_item && has_layer_pixel(layers.model, fragment, stack))
         rows[std::size_t(y)].push_back(
             {layers.layered.layer_of_item[item], {x, y, float(fragment.depth), fragment.triangle}});
   });

@@ -106,7 +106,7 @@ std::vector<PixelBox> covered_boxes(const LayerModel& model, const View& view,
     const std::lock_guard lock(mutex);
     for (const Fragment& fragment : stack) {
       const std::uint32_t item = item_of[fragment.triangle];
-      if (item == no_item || is_hidden_backdrop(model, fragment, stack)) continue;
+      if (item == no_item || !has_layer_pixel(model, fragment, stack)) continue;
       Extent& e = extents[item];
       e.x0 = std::min(e.x0, x), e.y0 = std::min(e.y0, y), e.x1 = std::max(e.x1, x), e.y1 = std::max(e.y1, y);
     }
@@ -123,7 +123,7 @@ void draw_masks(const LayerModel& model, const View& view, const std::vector<std
   visit_stacks(model, view, false, {}, [&](int x, int y, std::span<const Fragment> stack) {
     for (const Fragment& fragment : stack) {
       const std::uint32_t item = item_of[fragment.triangle];
-      if (item == no_item || is_hidden_backdrop(model, fragment, stack)) continue;
+      if (item == no_item || !has_layer_pixel(model, fragment, stack)) continue;
       const std::uint32_t layer = result.layer_of_item[item];
       const PixelBox& box = result.layers[layer].box;
       std::uint8_t* mask = result.masks[layer].at(x - box.x, y - box.y);  // pixels of a row are one thread's

@@ -226,8 +226,16 @@ void visit_stacks(const LayerModel& model, const View& view, bool with_back_face
   });
 }
 
-bool is_hidden_backdrop(const LayerModel& model, const Fragment& fragment, std::span<const Fragment> stack) {
-  return &fragment != &stack.front() && model.objects[model.triangles[fragment.triangle].object].is_backdrop;
+bool has_layer_pixel(const LayerModel& model, const Fragment& fragment, std::span<const Fragment> stack) {
+  const std::uint32_t number = model.triangles[fragment.triangle].object;
+  const LayerObject& object = model.objects[number];
+  if (object.is_backdrop) return &fragment == &stack.front();
+  if (!object.is_dense) return true;
+  for (const Fragment& before : stack) {
+    if (&before == &fragment) break;
+    if (model.triangles[before.triangle].object == number) return false;
+  }
+  return true;
 }
 
 ItemBuffer item_buffer(const LayerModel& model, const View& view) {

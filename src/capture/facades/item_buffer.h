@@ -36,8 +36,9 @@ void visit_stacks(const LayerModel& model, const View& view, bool with_back_face
                   std::span<const std::uint32_t> triangles,
                   const std::function<void(int x, int y, std::span<const Fragment>)>& visit);
 
-/// A hidden part of the backdrop, which no layer holds.
-bool is_hidden_backdrop(const LayerModel& model, const Fragment& fragment, std::span<const Fragment> stack);
+/// May a layer hold the fragment of a pixel's stack? Not a hidden part of the backdrop, nor what a dense
+/// object hides of itself.
+bool has_layer_pixel(const LayerModel& model, const Fragment& fragment, std::span<const Fragment> stack);
 
 inline constexpr std::uint32_t no_triangle_seen = ~0u;
 

@@ -42,7 +42,8 @@ const Fragment* surface_of(const LayersOfModel& layers, const std::vector<std::u
   const Fragment* best = nullptr;
   for (const Fragment& fragment : stack) {
     const LayerTriangle& triangle = layers.model.triangles[fragment.triangle];
-    if (item_of[fragment.triangle] == no_item || layers.model.objects[triangle.object].name != object)
+    if (item_of[fragment.triangle] == no_item || !has_layer_pixel(layers.model, fragment, stack) ||
+        layers.model.objects[triangle.object].name != object)
       continue;
     const double off = std::abs(fragment.depth - depth);
     if (off <= same_surface_tolerance * depth && (!best || off < std::abs(best->depth - depth)))
@@ -69,7 +70,7 @@ LayerEdits edits_of(const LayersOfModel& layers, const LayerPixels& before, cons
   visit_stacks(layers.model, layers.view, false, {}, [&](int x, int y, std::span<const Fragment> stack) {
     for (const Fragment& fragment : stack) {
       const std::uint32_t item = item_of[fragment.triangle];
-      if (item == no_item) continue;
+      if (item == no_item || !has_layer_pixel(layers.model, fragment, stack)) continue;
       const std::uint32_t l = layers.layered.layer_of_item[item];
       const ImageLayer& layer = layers.layered.layers[l];
       const std::uint8_t* painted = after[l].at(x - layer.box.x, y - layer.box.y);

@@ -133,7 +133,7 @@ Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes) {
       model.triangles.push_back(triangle);
     }
     const bool is_backdrop = named.name == backdrop_name;
-    model.objects.push_back({named.name, !is_backdrop && bounds_a_body(named.mesh), is_backdrop});
+    model.objects.push_back({named.name, !is_backdrop && bounds_a_body(named.mesh), is_backdrop, false});
     if (degenerate)
       result.warnings.push_back(
           error("object \"{}\": {} triangles without area were left out", named.name, degenerate));
@@ -143,7 +143,9 @@ Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes) {
                 "one of the two "
                 "copies from the model",
                 named.name, twice, model.objects[other].name));
+    const std::uint32_t faces_before = model.face_count;
     assign_faces(model, first, 2.0 * bounds.radius());
+    model.objects.back().is_dense = model.face_count - faces_before > max_faces_in_layers;
   }
   for (std::size_t t = 0; t < model.triangles.size(); ++t) model.triangles[t].source = std::uint32_t(t);
   model.source_count = std::uint32_t(model.triangles.size());

@@ -19,9 +19,12 @@ struct NamedMesh {
   Mesh mesh;
 };
 
-/// Name of the object that stands for all that is far away: sky, hills, other streets. It hides nothing, no hidden part of it is ever
-/// wanted, and it casts no shadow.
+/// Name of the object that stands for all that is far away: sky, hills, other streets. It hides nothing, no
+/// hidden part of it is ever wanted, and it casts no shadow.
 inline constexpr const char* backdrop_name = "backdrop";
+
+/// Faces of an object beyond which it is dense.
+inline constexpr std::uint32_t max_faces_in_layers = 400;
 
 /// A triangle of the coarse model, with the object and face that it belongs to.
 struct LayerTriangle {
@@ -38,6 +41,9 @@ struct LayerObject {
   /// objects are seen from both sides.
   bool is_closed = false;
   bool is_backdrop = false;  ///< see backdrop_name
+  /// Of more faces than are worth a layer each (a scan, a relief): it is one layer, of what each pixel sees
+  /// of it first, and what it hides of itself is known by depth.
+  bool is_dense = false;
 };
 
 /// The coarse model as triangles of named objects, the input of visibility layers.

@@ -8,7 +8,7 @@
 namespace parvis::facades {
 namespace {
 
-constexpr SealedKind kind{"PVFACE_1", "packed facade"};
+constexpr SealedKind kind{"PVFACE_2", "packed facade"};
 constexpr std::size_t max_photos = 4096, max_name_bytes = 4096;
 constexpr int max_side = 65535;  // boxes are kept in 16 bits
 
@@ -61,6 +61,10 @@ std::string problem_of(const PackedFacade& facade) {
   for (const std::uint32_t tile : facade.tiles)
     if ((tile & 3u) != 0 && (tile >> 2) >= facade.slot_count()) return "a tile has no texture";
   if (!std::ranges::all_of(facade.photos, is_finite)) return "a photograph's camera is none";
+  std::size_t cells = 0;
+  for (const PackedPhoto& photo : facade.photos)
+    cells += std::size_t(depth_cells(photo.view).x) * std::size_t(depth_cells(photo.view).y);
+  if (facade.depths.size() != cells) return "its depths are not all there";
   return "";
 }
 
@@ -68,8 +72,8 @@ std::string problem_of(const PackedFacade& facade) {
 
 std::size_t PackedFacade::texture_bytes() const {
   return blocks.size() * bc7_block_bytes + tiles.size() * sizeof(std::uint32_t) +
-         layers.size() * sizeof(glm::uvec4) + photos.size() * sizeof(PhotoRow) +
-         candidates.size() * sizeof(std::uint32_t);
+         depths.size() * sizeof(std::uint16_t) + layers.size() * sizeof(glm::uvec4) +
+         photos.size() * sizeof(PhotoRow) + candidates.size() * sizeof(std::uint32_t);
 }
 
 std::size_t PackedFacade::photograph_bytes() const {
@@ -96,7 +100,7 @@ Status write_facade(const std::filesystem::path& file, const PackedFacade& facad
   for (const PackedPhoto& photo : facade.photos)
     append_text(bytes, photo.name), append_value(bytes, photo.view), append_value(bytes, photo.balance);
   append_values(bytes, facade.layers), append_values(bytes, facade.tiles);
-  append_values(bytes, facade.blocks);
+  append_values(bytes, facade.blocks), append_values(bytes, facade.depths);
   return write_sealed(file, kind, bytes);
 }
 
@@ -129,13 +133,29 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
   facade.layers = taker.take_values<PackedLayer>();
   facade.tiles = taker.take_values<std::uint32_t>();
   facade.blocks = taker.take_values<Bc7Block>();
+  facade.depths = taker.take_values<std::uint16_t>();
   if (!taker.is_at_end()) return cut_short(file);
   if (const std::string problem = problem_of(facade); !problem.empty())
     return error("{}: {}; pack the facade again (parvis facade pack)", file.string(), problem);
   return facade;
 }
 
-PhotoRow photo_row(const PackedPhoto& photo) {
+std::uint16_t encoded_depth(double depth) {
+  if (!(depth > 0.0)) return 0;
+  return std::uint16_t(std::lround(std::clamp(2048.0 * (std::log2(depth) + 16.0), 0.0, 65535.0)));
+}
+
+std::vector<std::size_t> first_depths(const PackedFacade& facade) {
+  std::vector<std::size_t> firsts;
+  std::size_t next = 0;
+  for (const PackedPhoto& photo : facade.photos) {
+    firsts.push_back(next);
+    next += std::size_t(depth_cells(photo.view).x) * std::size_t(depth_cells(photo.view).y);
+  }
+  return firsts;
+}
+
+PhotoRow photo_row(const PackedPhoto& photo, std::size_t first_depth) {
   const View& view = photo.view;
   const glm::dmat3 rotation_rows = glm::transpose(view.camera_from_world);  // columns are its rows
   const glm::dvec3 rows[3]{view.fx * rotation_rows[0] + view.cx * rotation_rows[2],
@@ -144,7 +164,8 @@ PhotoRow photo_row(const PackedPhoto& photo) {
   for (std::size_t i = 0; i < 3; ++i)
     row[i] = glm::vec4(glm::dvec4(rows[i], -glm::dot(rows[i], view.centre)));
   row[3] = glm::vec4(glm::dvec4(view.centre, view.fx));
-  row[4] = glm::vec4(view.width, view.height, 0.0f, 0.0f);
+  // In rows, so that the number is exact in 32 bits however many photographs there are.
+  row[4] = glm::vec4(view.width, view.height, float(first_depth >> 12), float(first_depth & 4095));
   const auto& b = photo.balance;
   row[5] = glm::vec4(b.scale[0], b.scale[1], b.scale[2], 0.0f);
   row[6] = glm::vec4(b.offset[0], b.offset[1], b.offset[2], 0.0f);

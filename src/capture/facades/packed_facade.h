@@ -28,9 +28,18 @@ static_assert(tile_side == 64);
 enum class TileKind : std::uint8_t {
   none,   ///< not stored
   seen,   ///< the photograph sees all of it
-  mixed,  ///< alpha: 255 where the photograph sees the surface, 191 where it was filled
+  mixed,  ///< alpha: 255 where the photograph sees the surface, 191 where it was filled, 0 where nothing is
+          ///< known
   alpha   ///< seen, with an artist's alpha
 };
+
+inline constexpr int depth_cell = 4;  ///< pixels per side of a cell of PackedFacade::depths
+/// Cells of a photograph.
+inline glm::ivec2 depth_cells(const View& view) {
+  return {(view.width + depth_cell - 1) / depth_cell, (view.height + depth_cell - 1) / depth_cell};
+}
+/// Depth in 16 bits: 1/2048 of an octave is 0.03 %; from 2^-16 to 2^16 world units, beyond it the most.
+std::uint16_t encoded_depth(double depth);
 
 /// A photograph's camera and colours.
 struct PackedPhoto {
@@ -62,6 +71,9 @@ struct PackedFacade {
   std::vector<PackedLayer> layers;
   std::vector<std::uint32_t> tiles;  ///< TileKind, and the slot above it
   std::vector<Bc7Block> blocks;      ///< blocks_per_slot for each slot, level by level
+  /// Per photograph, depth_cells.x * depth_cells.y values row by row: how far the photograph sees in each
+  /// cell of depth_cell x depth_cell pixels, see encoded_depth. They tell what an object hides of itself.
+  std::vector<std::uint16_t> depths;
 
   /// Number of triangles, three corners each.
   std::size_t triangle_count() const { return corners.size() / 3; }
@@ -88,8 +100,10 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
 
 /// The rows of the tables that facade_lookup.glsl reads.
 using PhotoRow = std::array<glm::vec4, 7>;
-/// FacadePhoto of facade_photo.glsl.
-PhotoRow photo_row(const PackedPhoto& photo);
+/// FacadePhoto of facade_photo.glsl, of a photograph whose depths begin at `first_depth`.
+PhotoRow photo_row(const PackedPhoto& photo, std::size_t first_depth);
+/// Where each photograph's depths begin.
+std::vector<std::size_t> first_depths(const PackedFacade& facade);
 /// What `facade_layer` of facade_lookup.glsl gives.
 glm::uvec4 layer_row(const PackedLayer& layer);
 

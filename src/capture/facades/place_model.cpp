@@ -37,8 +37,8 @@ NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::Phot
   const auto corner = [&](int row, int column) { return std::uint32_t(row * around + column % around); };
   for (int row = 0; row < up; ++row)
     for (int column = 0; column < around; ++column) {
-      const std::uint32_t a = corner(row, column), b = corner(row, column + 1), c = corner(row + 1, column + 1),
-                          d = corner(row + 1, column);
+      const std::uint32_t a = corner(row, column), b = corner(row, column + 1),
+                          c = corner(row + 1, column + 1), d = corner(row + 1, column);
       dome.mesh.indices.insert(dome.mesh.indices.end(), {a, c, b});
       if (row + 1 < up) dome.mesh.indices.insert(dome.mesh.indices.end(), {a, d, c});
     }

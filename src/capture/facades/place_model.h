@@ -9,9 +9,9 @@ namespace parvis::facades {
 
 /// What the stage made.
 struct PlaceModel {
-  CoarseModel planes;              ///< as proposed and corrected
-  std::vector<NamedMesh> meshes;   ///< with reliefs
-  Errors notes;                    ///< what was left out, and why
+  CoarseModel planes;             ///< as proposed and corrected
+  std::vector<NamedMesh> meshes;  ///< with reliefs
+  Errors notes;                   ///< what was left out, and why
 };
 
 /// Settings of the stage.
@@ -21,6 +21,7 @@ struct ModelSettings {
 };
 
 /// Proposes the model of a folder of calibrated photographs. Errors: those of the proposal and of the hints.
-Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, const ModelSettings& settings = {});
+Result<PlaceModel> propose_place_model(const std::filesystem::path& folder,
+                                       const ModelSettings& settings = {});
 
 }  // namespace parvis::facades

@@ -1,7 +1,7 @@
-// Departures from Collins: windows are compared by normalised correlation, which exposure does not change; of the pairs of
-// photographs those that agree best count, because the others look at what hides the surface.
-// Departures from Hirschmueller: costs live in the plane's own grid instead of a picture, so that eight directions smooth along
-// the surface and not across what a camera happens to see side by side.
+// Departures from Collins: windows are compared by normalised correlation, which exposure does not change; of
+// the pairs of photographs those that agree best count, because the others look at what hides the surface.
+// Departures from Hirschmueller: costs live in the plane's own grid instead of a picture, so that eight
+// directions smooth along the surface and not across what a camera happens to see side by side.
 #include "capture/facades/plane_sweep.h"
 
 #include <algorithm>
@@ -17,14 +17,15 @@ namespace {
 
 constexpr std::size_t max_photos = 12, max_partners = 4;
 constexpr double min_angle_deg = 3.0, max_angle_deg = 45.0, best_angle_deg = 14.0;
-constexpr int window_radius = 2;                 ///< grid points
+constexpr int window_radius = 2;  ///< grid points
 constexpr int min_heights = 12, max_heights = 144;
-constexpr std::size_t best_pairs = 4;            ///< that are averaged; fewer where fewer show a point
-constexpr float min_contrast = 1.5f;             ///< grey levels, standard deviation: what noise has
+constexpr std::size_t best_pairs = 4;  ///< that are averaged; fewer where fewer show a point
+constexpr float min_contrast = 1.5f;   ///< grey levels, standard deviation: what noise has
 // In hundredths of a correlation.
 constexpr int unknown_cost = 65, small_step = 7, large_step = 45;
 
-/// A view's rows as pixel = (x . p, y . p) / (z . p), for points p with 1 appended, at a level of the pyramid.
+/// A view's rows as pixel = (x . p, y . p) / (z . p), for points p with 1 appended, at a level of the
+/// pyramid.
 struct Projection {
   glm::dvec4 x, y, z;
   const Image8* picture;
@@ -41,7 +42,8 @@ Projection projection_of(const GreyPhoto& photo, std::size_t level) {
 
 glm::dvec3 point_of(const SweptRectangle& r, double s, double t) { return r.origin + s * r.u + t * r.v; }
 
-/// Where of 9 x 9 places of the rectangle a photograph sees it from the front: its foreshortening there, 0 elsewhere.
+/// Where of 9 x 9 places of the rectangle a photograph sees it from the front: its foreshortening there, 0
+/// elsewhere.
 std::array<double, 81> shown_by(const GreyPhoto& photo, const SweptRectangle& rectangle) {
   std::array<double, 81> shown{};
   for (int k = 0; k < 81; ++k) {
@@ -50,32 +52,11 @@ std::array<double, 81> shown_by(const GreyPhoto& photo, const SweptRectangle& re
     const double facing = glm::dot(glm::normalize(off), rectangle.normal);
     if (facing < 0.1 || p.z <= 0.0) continue;
     const glm::dvec2 pixel = photo.view.to_pixel(p);
-    if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x >= photo.view.width || pixel.y >= photo.view.height) continue;
+    if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x >= photo.view.width || pixel.y >= photo.view.height)
+      continue;
     shown[std::size_t(k)] = facing;
   }
   return shown;
-}
-
-/// The photographs that together show most, each place several times.
-std::vector<std::size_t> chosen_photos(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos) {
-  std::vector<std::array<double, 81>> shown;
-  for (const GreyPhoto& photo : photos) shown.push_back(shown_by(photo, rectangle));
-  std::vector<std::size_t> chosen;
-  std::array<double, 81> covered{};
-  while (chosen.size() < max_photos) {
-    double best_gain = 0.5;
-    std::size_t best = photos.size();
-    for (std::size_t i = 0; i < photos.size(); ++i) {
-      if (std::ranges::count(chosen, i) > 0) continue;
-      double gain = 0.0;
-      for (std::size_t k = 0; k < 81; ++k) gain += std::sqrt(covered[k] + shown[i][k]) - std::sqrt(covered[k]);
-      if (gain > best_gain) best_gain = gain, best = i;
-    }
-    if (best == photos.size()) break;
-    for (std::size_t k = 0; k < 81; ++k) covered[k] += shown[best][k];
-    chosen.push_back(best);
-  }
-  return chosen;
 }
 
 using Pair = std::pair<std::size_t, std::size_t>;
@@ -131,8 +112,10 @@ void project(const Projection& projection, const SweptRectangle& r, double heigh
   const glm::dvec4 du(r.u / double(r.columns - 1), 0.0), dv(r.v / double(r.rows - 1), 0.0);
   const glm::dvec3 start(glm::dot(projection.x, origin), glm::dot(projection.y, origin),
                          glm::dot(projection.z, origin));
-  const glm::dvec3 along_u(glm::dot(projection.x, du), glm::dot(projection.y, du), glm::dot(projection.z, du));
-  const glm::dvec3 along_v(glm::dot(projection.x, dv), glm::dot(projection.y, dv), glm::dot(projection.z, dv));
+  const glm::dvec3 along_u(glm::dot(projection.x, du), glm::dot(projection.y, du),
+                           glm::dot(projection.z, du));
+  const glm::dvec3 along_v(glm::dot(projection.x, dv), glm::dot(projection.y, dv),
+                           glm::dot(projection.z, dv));
   const Image8& picture = *projection.picture;
   for (int row = 0; row < r.rows; ++row)
     for (int column = 0; column < r.columns; ++column) {
@@ -182,7 +165,7 @@ struct Layer {
 class CostVolume {
  public:
   CostVolume(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos) : rectangle_(rectangle) {
-    const std::vector<std::size_t> chosen = chosen_photos(rectangle, photos);
+    const std::vector<std::size_t> chosen = photos_of_sweep(rectangle, photos);
     pairs_ = pairs_of(rectangle, photos, chosen);
     const double cell = std::max(glm::length(rectangle.u) / (rectangle.columns - 1),
                                  glm::length(rectangle.v) / (rectangle.rows - 1));
@@ -261,7 +244,8 @@ class CostVolume {
     for (std::size_t i = 0; i < points(); ++i) {
       if (count[i] == 0 || best[i][0] <= -1.0f) continue;
       // A third of the pairs that show the point, two at least: the others may look at what hides it.
-      const std::size_t used = std::clamp<std::size_t>(count[i] / 3, std::min<std::size_t>(count[i], 2), best_pairs);
+      const std::size_t used =
+          std::clamp<std::size_t>(count[i] / 3, std::min<std::size_t>(count[i], 2), best_pairs);
       float sum = 0.0f;
       for (std::size_t k = 0; k < used; ++k) sum += std::max(best[i][k], 0.0f);
       const float correlation = sum / float(used);
@@ -319,8 +303,9 @@ std::vector<std::uint16_t> smoothed(const CostVolume& costs, int columns, int ro
             std::size_t(columns),
             [&](std::size_t column) {
               const int from = int(column) - across;
-              const std::uint16_t* way =
-                  k > 0 && from >= 0 && from < columns ? before.data() + std::size_t(from) * heights : nullptr;
+              const std::uint16_t* way = k > 0 && from >= 0 && from < columns
+                                             ? before.data() + std::size_t(from) * heights
+                                             : nullptr;
               const std::size_t point = std::size_t(row) * std::size_t(columns) + column;
               extend_path(costs.at(point), way, int(heights), now.data() + column * heights);
               add(point, now.data() + column * heights);
@@ -368,6 +353,29 @@ GreyPhoto grey_photo(const View& view, const Image8& picture) {
     photo.levels.push_back(std::move(half));
   }
   return photo;
+}
+
+// They together show most, each place several times.
+std::vector<std::size_t> photos_of_sweep(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos) {
+  std::vector<std::array<double, 81>> shown;
+  for (const GreyPhoto& photo : photos) shown.push_back(shown_by(photo, rectangle));
+  std::vector<std::size_t> chosen;
+  std::array<double, 81> covered{};
+  while (chosen.size() < max_photos) {
+    double best_gain = 0.5;
+    std::size_t best = photos.size();
+    for (std::size_t i = 0; i < photos.size(); ++i) {
+      if (std::ranges::count(chosen, i) > 0) continue;
+      double gain = 0.0;
+      for (std::size_t k = 0; k < 81; ++k)
+        gain += std::sqrt(covered[k] + shown[i][k]) - std::sqrt(covered[k]);
+      if (gain > best_gain) best_gain = gain, best = i;
+    }
+    if (best == photos.size()) break;
+    for (std::size_t k = 0; k < 81; ++k) covered[k] += shown[best][k];
+    chosen.push_back(best);
+  }
+  return chosen;
 }
 
 SweptHeights swept_heights(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos) {

@@ -1,6 +1,6 @@
-// Heights of a surface over a rectangle of its plane, from photographs: for each height they are projected onto the lifted
-// rectangle and compared (plane sweep, Collins 1996), and the heights are chosen together (semi-global matching,
-// Hirschmueller 2008).
+// Heights of a surface over a rectangle of its plane, from photographs: for each height they are projected
+// onto the lifted rectangle and compared (plane sweep, Collins 1996), and the heights are chosen together
+// (semi-global matching, Hirschmueller 2008).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -33,8 +33,12 @@ struct SweptRectangle {
 struct SweptHeights {
   std::vector<float> heights;    ///< world units along the normal
   std::vector<float> agreement;  ///< correlation of the photographs that agree best there, 0..1
-  int photographs = 0;           ///< that were compared; 0: fewer than two show the rectangle, and nothing was found
+  int photographs = 0;  ///< that were compared; 0: fewer than two show the rectangle, and nothing was found
 };
+
+/// The photographs that a sweep of the rectangle compares, those that show most of it first; indices into
+/// `photos`.
+std::vector<std::size_t> photos_of_sweep(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos);
 
 /// Sweeps the rectangle. Photographs are chosen by what they show of it.
 SweptHeights swept_heights(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos);

@@ -10,7 +10,8 @@
 namespace parvis::facades {
 namespace {
 
-constexpr int grid_side = 257;  ///< points per edge: 2^8 + 1
+constexpr int extent_side = 129,
+              relief_side = 257;  ///< points per edge, 2^n + 1: to find a surface's extent, its relief
 // Shares of the median viewing distance.
 constexpr double max_height = 0.4, max_depth = 0.15;  ///< of a relief before and behind its plane
 constexpr double height_margin = 0.02;                ///< beyond the points' heights
@@ -18,12 +19,13 @@ constexpr double mesh_tolerance = 0.0035;
 constexpr double same_surface = 0.02;
 constexpr double min_share_on_relief = 0.6;  ///< of a surface that lies on another's relief, to be left out
 constexpr std::size_t min_points_for_range = 12;
-constexpr std::size_t max_triangles = 6000;           ///< of a surface: layers are cut by every one of them
-constexpr double min_agreement = 0.4;                 ///< median over the grid; below, photographs found no surface
-constexpr double max_growth = 0.3;          ///< of a surface beyond its points
-constexpr double corner_reach = 0.08;       ///< a side is free where no other surface is nearer than this
-constexpr float grown_agreement = 0.6f;     ///< of a point that the surface grows over
-constexpr double min_grown_share = 0.5;     ///< of such points in a line of the grid
+constexpr std::size_t max_triangles = 6000;  ///< of a surface: layers are cut by every one of them
+constexpr double max_disagreement = 0.03;  ///< of two halves of the photographs about a height, of its range
+constexpr double min_certain_share = 0.5;  ///< of a surface's points; else it stays flat
+constexpr double max_growth = 0.3;         ///< of a surface beyond its points
+constexpr double corner_reach = 0.08;      ///< a side is free where no other surface is nearer than this
+constexpr double min_grown_share =
+    0.5;  ///< of certain points in a line of the grid that the surface grows over
 constexpr double outer_quantile = 0.01;  ///< of points that do not count for the range
 
 /// The rectangle of a surface; nothing where it is no rectangle.
@@ -34,10 +36,10 @@ std::optional<SweptRectangle> rectangle_of(const CoarseSurface& surface) {
   rectangle.origin = c[0], rectangle.u = c[1] - c[0], rectangle.v = c[3] - c[0];
   const double size = glm::length(c[2] - c[0]);
   if (glm::length(c[2] - (c[1] + rectangle.v)) > 1e-3 * size ||
-      std::abs(glm::dot(rectangle.u, rectangle.v)) > 0.05 * glm::length(rectangle.u) * glm::length(rectangle.v))
+      std::abs(glm::dot(rectangle.u, rectangle.v)) >
+          0.05 * glm::length(rectangle.u) * glm::length(rectangle.v))
     return std::nullopt;
   rectangle.normal = glm::normalize(glm::cross(rectangle.u, rectangle.v));
-  rectangle.columns = rectangle.rows = grid_side;
   return rectangle;
 }
 
@@ -97,15 +99,18 @@ class Triangulation {
  private:
   std::size_t index(glm::ivec2 p) const { return std::size_t(p.y) * std::size_t(side_) + std::size_t(p.x); }
 
-  /// Each longest edge's middle gets the error of leaving it out, and the greatest of all within its two triangles: the smallest
-  /// triangles first. Triangles are numbered as a binary tree: 2 and 3 are the square's halves, 2 i and 2 i + 1 those of i.
+  /// Each longest edge's middle gets the error of leaving it out, and the greatest of all within its two
+  /// triangles: the smallest triangles first. Triangles are numbered as a binary tree: 2 and 3 are the
+  /// square's halves, 2 i and 2 i + 1 those of i.
   void find_errors() {
-    const std::size_t size = std::size_t(side_ - 1), count = 2 * size * size - 2, parents = count - size * size;
+    const std::size_t size = std::size_t(side_ - 1), count = 2 * size * size - 2,
+                      parents = count - size * size;
     for (std::size_t i = count; i-- > 0;) {
       const auto [a, b] = longest_edge(i + 2);
       const glm::ivec2 middle = (a + b) / 2, c(middle.x + middle.y - a.y, middle.y + a.x - middle.x);
       float& error = errors_[index(middle)];
-      error = std::max(error, std::abs(heights_[index(middle)] - 0.5f * (heights_[index(a)] + heights_[index(b)])));
+      error = std::max(error,
+                       std::abs(heights_[index(middle)] - 0.5f * (heights_[index(a)] + heights_[index(b)])));
       if (i < parents) error = std::max({error, errors_[index((a + c) / 2)], errors_[index((b + c) / 2)]});
     }
   }
@@ -144,7 +149,8 @@ class Triangulation {
   std::vector<std::size_t> corners_;
 };
 
-/// Which sides of a rectangle have no other surface beside them: at s = 0, s = 1, t = 1. Walls stand on the ground.
+/// Which sides of a rectangle have no other surface beside them: at s = 0, s = 1, t = 1. Walls stand on the
+/// ground.
 struct FreeSides {
   bool left = true, right = true, top = true;
 };
@@ -156,7 +162,8 @@ double distance_to(const SweptRectangle& r, glm::dvec3 point) {
   return glm::distance(nearest, point);
 }
 
-FreeSides free_sides(const CoarseModel& model, const CoarseSurface& surface, const SweptRectangle& r, double reach) {
+FreeSides free_sides(const CoarseModel& model, const CoarseSurface& surface, const SweptRectangle& r,
+                     double reach) {
   FreeSides sides;
   for (const CoarseSurface& other : model.surfaces) {
     const std::optional<SweptRectangle> beside = rectangle_of(other);
@@ -171,67 +178,68 @@ FreeSides free_sides(const CoarseModel& model, const CoarseSurface& surface, con
   return sides;
 }
 
-/// The part [s.x, s.y] x [t.x, t.y] of a relief, on as many grid points.
-Relief part_of(const Relief& whole, glm::dvec2 s, glm::dvec2 t) {
-  Relief part = whole;
-  const SweptRectangle& r = whole.rectangle;
-  part.rectangle.origin = r.origin + s.x * r.u + t.x * r.v;
-  part.rectangle.u = (s.y - s.x) * r.u, part.rectangle.v = (t.y - t.x) * r.v;
-  for (int y = 0; y < r.rows; ++y)
-    for (int x = 0; x < r.columns; ++x) {
-      const int from_x = int(std::lround(glm::mix(s.x, s.y, double(x) / (r.columns - 1)) * (r.columns - 1))),
-                from_y = int(std::lround(glm::mix(t.x, t.y, double(y) / (r.rows - 1)) * (r.rows - 1)));
-      const std::size_t to = std::size_t(y) * std::size_t(r.columns) + std::size_t(x),
-                        from = std::size_t(from_y) * std::size_t(r.columns) + std::size_t(from_x);
-      part.found.heights[to] = whole.found.heights[from], part.found.agreement[to] = whole.found.agreement[from];
-    }
-  return part;
-}
-
-/// How many lines of the grid, counted from a side, to cut off: those beyond the last where most points agree.
-template <class Agreement>
-int lines_to_cut(int max_lines, int length, Agreement&& agreement) {
+/// How many lines of the grid, counted from a side, to cut off: those beyond the last of whose points most
+/// are certain.
+template <class IsCertain>
+int lines_to_cut(int max_lines, IsCertain&& is_certain) {
   for (int line = 0; line < max_lines; ++line) {
-    int agreed = 0;
-    for (int k = 0; k < length; ++k) agreed += agreement(line, k) > grown_agreement;
-    if (agreed > min_grown_share * length) return line;
+    int certain = 0;
+    for (int k = 0; k < extent_side; ++k) certain += is_certain(line, k);
+    if (certain > min_grown_share * extent_side) return line;
   }
   return max_lines;
 }
 
-/// Sweeps the rectangle with margins at its free sides, and keeps of these what photographs agree on: sparse points seldom reach
-/// a wall's end.
-Relief grown_relief(const SweptRectangle& rectangle, const FreeSides& sides, double margin,
-                    std::span<const GreyPhoto> photos) {
+/// Where two halves of the photographs, each on its own, find a surface at the same height: what photographs
+/// agree on without reason (leaves, sky, what is too far away) they place differently. Empty where a half
+/// shows nothing.
+std::vector<char> certain_points(const SweptRectangle& rectangle, std::span<const GreyPhoto> photos) {
+  std::vector<std::size_t> order = photos_of_sweep(rectangle, photos);
+  std::vector<GreyPhoto> halves[2];
+  for (std::size_t i = 0; i < order.size(); ++i) halves[i % 2].push_back(photos[order[i]]);
+  const SweptHeights a = swept_heights(rectangle, halves[0]), b = swept_heights(rectangle, halves[1]);
+  if (a.photographs == 0 || b.photographs == 0) return {};
+  const double tolerance = std::max(max_disagreement * (rectangle.high - rectangle.low),
+                                    glm::length(rectangle.u) / (rectangle.columns - 1));
+  std::vector<char> certain(a.heights.size());
+  for (std::size_t i = 0; i < certain.size(); ++i)
+    certain[i] = std::abs(a.heights[i] - b.heights[i]) <= tolerance;
+  return certain;
+}
+
+/// The rectangle with margins at its free sides, as far as the photographs are certain of what is there:
+/// sparse points seldom reach a wall's end. Nothing where they are not certain of most of the surface itself.
+std::optional<SweptRectangle> certain_part(const SweptRectangle& rectangle, const FreeSides& sides,
+                                           double margin, std::span<const GreyPhoto> photos) {
   const double width = glm::length(rectangle.u), height = glm::length(rectangle.v);
   const double left = sides.left ? margin / width : 0.0, right = sides.right ? margin / width : 0.0,
                top = sides.top ? margin / height : 0.0;
-  SweptRectangle grown = rectangle;
-  grown.origin -= left * rectangle.u;
-  grown.u *= 1.0 + left + right, grown.v *= 1.0 + top;
-  Relief relief{grown, swept_heights(grown, photos)};
-  if (relief.found.photographs == 0) return relief;
-  const int columns = grown.columns, rows = grown.rows;
-  const auto agreement = [&](int x, int y) {
-    return relief.found.agreement[std::size_t(y) * std::size_t(columns) + std::size_t(x)];
+  SweptRectangle whole = rectangle;
+  whole.origin -= left * rectangle.u;
+  whole.u *= 1.0 + left + right, whole.v *= 1.0 + top;
+  whole.columns = whole.rows = extent_side;
+  const std::vector<char> certain = certain_points(whole, photos);
+  if (certain.empty()) return std::nullopt;
+  constexpr int last = extent_side - 1;
+  const auto is_certain = [&](int x, int y) {
+    return certain[std::size_t(y) * std::size_t(extent_side) + std::size_t(x)] != 0;
   };
-  const auto share = [&](double part, double whole) { return int(part / whole * (columns - 1)); };
-  const int cut_left = lines_to_cut(share(left, 1.0 + left + right), rows, [&](int l, int k) { return agreement(l, k); });
-  const int cut_right = lines_to_cut(share(right, 1.0 + left + right), rows,
-                                     [&](int l, int k) { return agreement(columns - 1 - l, k); });
-  const int cut_top =
-      lines_to_cut(share(top, 1.0 + top), columns, [&](int l, int k) { return agreement(k, rows - 1 - l); });
-  const double last = columns - 1;
-  return part_of(relief, {cut_left / last, 1.0 - cut_right / last}, {0.0, 1.0 - cut_top / last});
-}
-
-/// Few photographs, leaves or sky: what they agree on by chance is no surface.
-double median_agreement(const Relief& relief) {
-  if (relief.found.photographs == 0) return 0.0;
-  std::vector<float> agreement = relief.found.agreement;
-  const auto middle = agreement.begin() + std::ptrdiff_t(agreement.size() / 2);
-  std::ranges::nth_element(agreement, middle);
-  return *middle;
+  const auto lines = [](double part, double all) { return int(part / all * last); };
+  const int max_left = lines(left, 1.0 + left + right), max_right = lines(right, 1.0 + left + right),
+            max_top = lines(top, 1.0 + top);
+  long inside = 0, sure = 0;
+  for (int y = 0; y <= last - max_top; ++y)
+    for (int x = max_left; x <= last - max_right; ++x) ++inside, sure += is_certain(x, y);
+  if (double(sure) < min_certain_share * double(inside)) return std::nullopt;
+  const double cut_left = lines_to_cut(max_left, [&](int line, int k) { return is_certain(line, k); }),
+               cut_right =
+                   lines_to_cut(max_right, [&](int line, int k) { return is_certain(last - line, k); }),
+               cut_top = lines_to_cut(max_top, [&](int line, int k) { return is_certain(k, last - line); });
+  SweptRectangle part = whole;
+  part.origin += cut_left / last * whole.u;
+  part.u *= 1.0 - (cut_left + cut_right) / last, part.v *= 1.0 - cut_top / last;
+  part.columns = part.rows = relief_side;
+  return part;
 }
 
 /// As fine as the limit of triangles allows.
@@ -313,14 +321,17 @@ ReliefModel with_reliefs(const CoarseModel& model, const photographs::Photograph
       continue;
     }
     set_range(*rectangle, set, distance);
-    Relief relief = grown_relief(
-        *rectangle, free_sides(model, surface, *rectangle, corner_reach * distance), max_growth * distance, photos);
-    result.notes.push_back(error("{}: {} photographs compared, median agreement {:.2f}", surface.name,
-                                 relief.found.photographs, median_agreement(relief)));
-    if (median_agreement(relief) < min_agreement) {
+    const FreeSides sides = free_sides(model, surface, *rectangle, corner_reach * distance);
+    const std::optional<SweptRectangle> part = certain_part(*rectangle, sides, max_growth * distance, photos);
+    if (!part) {
+      result.notes.push_back(
+          error("{} stays flat: too few photographs show it from different places, or they do not agree on "
+                "its relief",
+                surface.name));
       meshes[i] = flat(surface);
       continue;
     }
+    Relief relief{*part, swept_heights(*part, photos)};
     meshes[i] = {surface.name, limited_mesh(relief, mesh_tolerance * distance)};
     names.push_back(surface.name), reliefs.push_back(std::move(relief));
   }

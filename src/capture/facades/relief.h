@@ -1,5 +1,6 @@
-// The relief of the coarse model's surfaces: how far the place lies off each surface's plane. A flat stand-in shows a basin or
-// a cornice of two photographs at two places; photographs agree on a surface only where it truly is.
+// The relief of the coarse model's surfaces: how far the place lies off each surface's plane. A flat stand-in
+// shows a basin or a cornice of two photographs at two places; photographs agree on a surface only where it
+// truly is.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,8 +24,9 @@ struct Relief {
   glm::dvec3 heights_around(double s, double t) const;
 };
 
-/// A relief as triangles that are off by `tolerance` (world units) at most, without cracks: a right-triangulated irregular
-/// network (Evans, Kirkpatrick and Townsend 2001). The grid has 2^n + 1 points per side.
+/// A relief as triangles that are off by `tolerance` (world units) at most, without cracks: a
+/// right-triangulated irregular network (Evans, Kirkpatrick and Townsend 2001). The grid has 2^n + 1 points
+/// per side.
 Mesh mesh_of(const Relief& relief, double tolerance);
 
 /// The model's surfaces with their reliefs, named as they were.
@@ -33,8 +35,9 @@ struct ReliefModel {
   Errors notes;  ///< surfaces that lie on the relief of a larger one, and were left out
 };
 
-/// Sweeps walls and roofs that are rectangles; the ground and other polygons stay flat, and so does what fewer than two
-/// photographs show from different places. `points` give the range of heights in front of each surface and behind it.
+/// Sweeps walls and roofs that are rectangles; the ground and other polygons stay flat, and so does what
+/// fewer than two photographs show from different places. `points` give the range of heights in front of each
+/// surface and behind it.
 ReliefModel with_reliefs(const CoarseModel& model, const photographs::PhotographSet& set,
                          std::span<const GreyPhoto> photos);
 

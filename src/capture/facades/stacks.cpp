@@ -94,7 +94,8 @@ Stacks distinct_stacks(const LayerModel& model, const View& view,
     if (first != no_item) found.is_visible[first] = true;
     Stack stack;
     for (const Fragment& fragment : fragments)
-      if (const std::uint32_t item = item_of_triangle[fragment.triangle]; item != no_item)
+      if (const std::uint32_t item = item_of_triangle[fragment.triangle];
+          item != no_item && has_layer_pixel(model, fragment, fragments))
         stack.push_back(item);
     if (stack.empty() || stack == found.last) return;
     found.last = stack;

@@ -43,7 +43,8 @@ class FacadeSurface final : public scene::TracedSurface {
     FacadeLookup lookup(*facade_, texels_);
     const glm::vec3 position(facade_from_world_ * glm::vec4(hit.position, 1.0f));
     const glm::vec3 to_eye = glm::normalize(glm::mat3(facade_from_world_) * hit.to_viewer);
-    return lookup.colour(std::uint32_t(first_triangle_) + hit.triangle, position, to_eye, scale_ * hit.width_m, hit.barycentric);
+    return lookup.colour(std::uint32_t(first_triangle_) + hit.triangle, position, to_eye,
+                         scale_ * hit.width_m, hit.barycentric);
   }
 
   std::shared_ptr<const PackedFacade> facade_;

@@ -120,6 +120,17 @@ void force_apart(const LayerModel& model, const std::vector<Stack>& stacks,
     }
 }
 
+/// The stacks without their dense objects, which become layers in the order in which stacks show them.
+std::vector<Stack> without_dense(const LayerModel& model, std::vector<Stack> stacks,
+                                 const std::vector<LayerItem>& items, Collector& collector) {
+  std::vector<bool> is_out(items.size(), false);
+  for (const Stack& stack : stacks)
+    for (const char32_t item : stack)
+      if (model.objects[items[item].object].is_dense && !is_out[item])
+        is_out[item] = true, collector.add_layer({std::uint32_t(item)}, items);
+  return without(stacks, is_out);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> next_layer(const std::vector<Stack>& stacks, std::uint32_t item_count) {
@@ -187,6 +198,9 @@ VisibilityLayers visibility_layers(LayerModel& model, const View& view, const st
     result.warnings.push_back(
         error("photograph {}: its camera sees nothing of the model; check the camera", name));
   rest = peel(std::move(rest), items, collector);
+
+  // Dense objects are never split: each of those that remain gets a layer, and depth decides what hides what.
+  rest = peel(without_dense(model, std::move(rest), items, collector), items, collector);
 
   // An empty layer: the remaining objects by their faces, cut until there is an order.
   std::vector<bool> is_split = present_in(rest, items.size());
