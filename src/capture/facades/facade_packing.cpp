@@ -26,6 +26,7 @@ struct LayerPicture {
   std::vector<char> is_needed;
   std::vector<char> is_own;  ///< by a surface: what other layers of the tile may not have
   bool has_alpha = false;
+  bool holds_backdrop = false;
 };
 
 std::size_t at(const PixelBox& box, int x, int y) {
@@ -118,7 +119,8 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
           picture.rgba.at(x + left, y + top)[3] = 255;
   picture.is_own = picture.is_covered;
   dilate(picture);
-  if (holds_backdrop(place, photo, l)) hide_rest(picture);
+  picture.holds_backdrop = holds_backdrop(place, photo, l);
+  if (picture.holds_backdrop) hide_rest(picture);
   return picture;
 }
 
@@ -148,11 +150,17 @@ OpenSlot tile_of(const LayerPicture& picture, int column, int row) {
     for (int x = 0; x < tile_side; ++x) {
       const int u = column * tile_inner + x - tile_border, v = row * tile_inner + y - tile_border;
       const int px = std::clamp(u, 0, box.width - 1), py = std::clamp(v, 0, box.height - 1);
+      const std::size_t i = std::size_t(y * tile_side + x);
+      if (picture.holds_backdrop &&
+          (u != px || v != py)) {  // beyond the box: known as little as behind surfaces
+        tile.texels.at(x, y)[3] = 0, tile.is_covered[i] = tile.is_own[i] = 1;
+        continue;
+      }
       if (std::abs(u - px) > dilation_rings || std::abs(v - py) > dilation_rings) continue;
       if (!picture.is_covered[at(box, px, py)]) continue;
       std::copy_n(picture.rgba.at(px, py), 4, tile.texels.at(x, y));
-      tile.is_covered[std::size_t(y * tile_side + x)] = 1;
-      tile.is_own[std::size_t(y * tile_side + x)] = u == px && v == py && picture.is_own[at(box, px, py)];
+      tile.is_covered[i] = 1;
+      tile.is_own[i] = u == px && v == py && picture.is_own[at(box, px, py)];
     }
   return tile;
 }
