@@ -97,7 +97,7 @@ class MissingMapsTest : public gl::ContextTest {
     reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
     EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
   }
-  int faces_of_a_frame() {
+  int faces_of_next_frame() {
     Camera camera;
     camera.world_from_camera = look_at({24, 3, 1}, {27, 0, 0});
     EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera, 64, 48}));
@@ -110,20 +110,20 @@ class MissingMapsTest : public gl::ContextTest {
 };
 
 TEST_F(MissingMapsTest, APictureDrawsThoseThatAreLookedInto) {
-  const int faces = faces_of_a_frame();
+  const int faces = faces_of_next_frame();
   EXPECT_GE(faces, 6 * MapChoice::maps_per_cell);
   EXPECT_LT(faces, 6 * int(map_plan(scene_).places.size())) << "the mirror sees no farther maps";
-  EXPECT_EQ(faces_of_a_frame(), 0) << "once";
+  EXPECT_EQ(faces_of_next_frame(), 0) << "once";
 }
 
-TEST_F(MissingMapsTest, AWindowDrawsOneAFrameAndEndsWithTheSamePicture) {
-  faces_of_a_frame();
+TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
+  faces_of_next_frame();
   const Image8 whole = renderer_->read_picture(1.0f);
   reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
   ASSERT_TRUE(renderer_->set_reflection(reflections_.get()));
   reflections_->prefer_rate();
   int frames = 0;
-  while (faces_of_a_frame() == 6) ++frames;
+  while (faces_of_next_frame() == 6) ++frames;
   EXPECT_GE(frames, int(MapChoice::maps_per_cell));
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
 }

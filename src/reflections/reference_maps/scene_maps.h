@@ -23,7 +23,7 @@ std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid
 /// The scene's reference maps as far as they are baked.
 struct BakedMaps {
   ReferenceMaps maps;
-  std::vector<std::size_t> missing;  ///< numbers of the maps that hold nothing yet
+  std::vector<std::size_t> missing = {};  ///< numbers of the maps that hold nothing yet
 };
 
 /// Reads what is baked; places without a baked map are computed. Unfit maps are reported on standard error.
