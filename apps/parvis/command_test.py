@@ -195,6 +195,15 @@ class Usage(InAFolder):
         self.assertEqual(shown.returncode, 0)
         self.assertRegex(shown.stdout, r"^parvis \d+\.\d+\.\d+\n$")
 
+    def test_a_data_folder_that_does_not_exist_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "a.xp")
+            scene.write_text("sun()\n")
+            for command in ("check", "render"):
+                said = run(command, scene, "--data", "/none/such", *(SIZE if command == "render" else []),
+                           *(["-o", pathlib.Path(folder, "a.png")] if command == "render" else []))
+                self.assertIn("/none/such: there is no such folder", said.stderr)
+
     def test_bad_usage_is_status_2(self):
         for arguments in [
             [],

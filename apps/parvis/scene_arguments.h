@@ -17,6 +17,9 @@ namespace parvis {
 /// Where `scene` names a model file instead of a script: writes a script that shows it into the working
 /// folder, says so, and names that script instead.
 inline Status describe_bare_file(std::filesystem::path& scene, std::vector<std::filesystem::path>& data) {
+  for (const std::filesystem::path& folder : data)
+    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
+      fmt::print(stderr, "warning: --data {}: there is no such folder\n", folder.string());
   if (!dressing::is_bare_file(scene)) return Done{};
   const Result<dressing::WrittenScene> written =
       dressing::write_bare_scene(scene, house::all_rooms().get<formats::Readers>(), ".");

@@ -74,6 +74,10 @@ std::string type_name(const citygml::CityObject& object) {
       return "Road";
     case Kind::COT_ReliefFeature:
     case Kind::COT_ReliefComponent:
+    case Kind::COT_TINRelief:
+    case Kind::COT_MassPointRelief:
+    case Kind::COT_BreaklineRelief:
+    case Kind::COT_RasterRelief:
       return "TINRelief";
     default:
       return object.getTypeAsString();
@@ -93,6 +97,12 @@ std::string semantics_of(const citygml::Geometry& geometry, const std::string& o
       return "OuterCeilingSurface";
     case Type::GT_OuterFloor:
       return "OuterFloorSurface";
+    case Type::GT_InteriorWall:
+      return "InteriorWallSurface";
+    case Type::GT_Ceiling:
+      return "CeilingSurface";
+    case Type::GT_Floor:
+      return "FloorSurface";
     default:
       return of_object;
   }

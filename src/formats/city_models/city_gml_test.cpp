@@ -65,6 +65,50 @@ void expect_refused(const std::string& text, const std::string& reason, int line
   EXPECT_EQ(city.errors().front().where.line, line);
 }
 
+/// A surface of 4 x 3 m at a height, which faces down where `corners` run clockwise.
+std::string surface(const std::string& corners) {
+  return "<gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>" + corners +
+         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
+}
+
+TEST(CityGml, RoomsKeepTheirCeilings) {
+  const auto bounded = [](const char* kind, const std::string& corners) {
+    return fmt::format(
+        "<bldg:boundedBy><bldg:{0}><bldg:lod4MultiSurface><gml:MultiSurface>{1}</gml:MultiSurface>"
+        "</bldg:lod4MultiSurface></bldg:{0}></bldg:boundedBy>",
+        kind, surface(corners));
+  };
+  const Result<Model> city = read(
+      R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0"
+xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.opengis.net/gml">
+<cityObjectMember><bldg:Building gml:id="house"><bldg:interiorRoom><bldg:Room gml:id="room">)" +
+      bounded("CeilingSurface", "0 0 3 0 3 3 4 3 3 4 0 3 0 0 3") +
+      bounded("FloorSurface", "0 0 0 4 0 0 4 3 0 0 3 0 0 0 0") +
+      bounded("InteriorWallSurface", "0 0 0 4 0 0 4 0 3 0 0 3 0 0 0") +
+      "</bldg:Room></bldg:interiorRoom></bldg:Building></cityObjectMember></CityModel>");
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "CeilingSurface"), 12.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "FloorSurface"), 12.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "InteriorWallSurface"), 12.0, 1e-3);
+  for (const Part& part : city->parts)
+    if (part.object == "CeilingSurface") {
+      EXPECT_LT(part.mesh.normals.front().z, 0.0f) << "it is seen from below";
+    }
+}
+
+TEST(CityGml, TerrainKeepsItsName) {
+  const Result<Model> city = read(
+      R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0"
+xmlns:dem="http://www.opengis.net/citygml/relief/2.0" xmlns:gml="http://www.opengis.net/gml">
+<cityObjectMember><dem:ReliefFeature gml:id="hill"><dem:lod>1</dem:lod><dem:reliefComponent><dem:TINRelief gml:id="tin">
+<dem:lod>1</dem:lod><dem:tin><gml:TriangulatedSurface><gml:trianglePatches><gml:Triangle><gml:exterior><gml:LinearRing>
+<gml:posList>0 0 0 4 0 0 4 3 0 0 0 0</gml:posList></gml:LinearRing></gml:exterior></gml:Triangle></gml:trianglePatches>
+</gml:TriangulatedSurface></dem:tin></dem:TINRelief></dem:reliefComponent></dem:ReliefFeature></cityObjectMember>
+</CityModel>)");
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "TINRelief"), 6.0, 1e-3) << "ground(target=\"TINRelief\") finds it";
+}
+
 TEST(CityGml, AWallKeepsItsSizeItsHoleAndItsPlace) {
   const Result<Model> city = read(wall());
   ASSERT_TRUE(city) << to_string(city.errors());

@@ -13,13 +13,17 @@ struct Look {
   float roughness;
   bool is_ground;
 };
-constexpr std::array<Look, 22> looks{{{"WallSurface", 203, 191, 168, 0.85f, false},
+constexpr std::array<Look, 26> looks{{{"WallSurface", 203, 191, 168, 0.85f, false},
                                       {"RoofSurface", 150, 92, 70, 0.8f, false},
                                       {"GroundSurface", 120, 114, 106, 0.9f, false},
                                       {"Window", 40, 46, 52, 0.08f, false},
                                       {"Door", 94, 72, 54, 0.6f, false},
                                       {"OuterCeilingSurface", 190, 186, 178, 0.85f, false},
                                       {"OuterFloorSurface", 150, 146, 140, 0.85f, false},
+                                      {"InteriorWallSurface", 226, 222, 212, 0.9f, false},
+                                      {"CeilingSurface", 236, 234, 228, 0.9f, false},
+                                      {"FloorSurface", 150, 120, 88, 0.6f, false},
+                                      {"BuildingFurniture", 148, 112, 76, 0.6f, false},
                                       {"Road", 62, 63, 66, 0.9f, true},
                                       {"TrafficArea", 62, 63, 66, 0.9f, true},
                                       {"AuxiliaryTrafficArea", 150, 144, 136, 0.9f, true},

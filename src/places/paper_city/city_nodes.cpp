@@ -4,6 +4,7 @@
 #include "places/paper_city/facades.h"
 #include "places/paper_city/ground_cover.h"
 #include "places/paper_city/roofs.h"
+#include "scene/data/model_parts.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
@@ -23,9 +24,10 @@ std::string example_of(const std::string& node) {
 }
 
 /// Nothing of the file answered to `target`.
-void warn(scene::SceneBuilder& builder, const scene::Node& node, const char* wanted) {
-  builder.warn(error_at(node.where_of("target"), "{}: nothing that matches \"{}\" has {}", node.schema->type,
-                        node.text("target"), wanted));
+void warn(scene::SceneBuilder& builder, const scene::Node& node, const scene::Model& model,
+          const char* wanted) {
+  builder.warn(error_at(node.where_of("target"), "{}: nothing that matches \"{}\" has {}; the model has {}",
+                        node.schema->type, node.text("target"), wanted, scene::part_names(model)));
 }
 
 scene::NodeSchema facades_schema() {
@@ -40,7 +42,7 @@ scene::NodeSchema facades_schema() {
 }
 
 void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_facades(model, node.text("target")) == 0) warn(builder, node, "walls");
+  if (add_facades(model, node.text("target")) == 0) warn(builder, node, model, "walls");
 }
 
 scene::NodeSchema roofs_schema() {
@@ -55,7 +57,7 @@ scene::NodeSchema roofs_schema() {
 }
 
 void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_roofs(model, node.text("target")) == 0) warn(builder, node, "roofs");
+  if (add_roofs(model, node.text("target")) == 0) warn(builder, node, model, "roofs");
 }
 
 scene::NodeSchema ground_schema() {
@@ -68,7 +70,8 @@ scene::NodeSchema ground_schema() {
 }
 
 void build_ground(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_ground_cover(model, node.text("target"), node.text("surface")) == 0) warn(builder, node, "ground");
+  if (add_ground_cover(model, node.text("target"), node.text("surface")) == 0)
+    warn(builder, node, model, "ground");
 }
 
 scene::NodeSchema greenery_schema() {
@@ -85,7 +88,7 @@ scene::NodeSchema greenery_schema() {
 
 void build_greenery(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
   if (add_greenery(model, node.text("target"), std::uint64_t(node.integer("seed"))) == 0)
-    warn(builder, node, "trees");
+    warn(builder, node, model, "trees");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "scene/data/model_parts.h"
 
+#include <set>
+
 #include "scene/data/name_pattern.h"
 
 namespace parvis::scene {
@@ -13,6 +15,21 @@ std::vector<std::size_t> matching_parts(const Model& model, std::string_view tar
       found.push_back(i);
   }
   return found;
+}
+
+std::string part_names(const Model& model) {
+  constexpr std::size_t enough = 10;
+  std::set<std::string> names;
+  for (const Part& part : model.parts)
+    for (const std::string& name : {part.object, model.materials[std::size_t(part.material)].name})
+      if (!name.empty()) names.insert(name);
+  std::string list;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (++count > enough) return list + ", ...";
+    list += (list.empty() ? "" : ", ") + ('"' + name + '"');
+  }
+  return list.empty() ? "none" : list;
 }
 
 }  // namespace parvis::scene
