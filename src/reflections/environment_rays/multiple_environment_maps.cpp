@@ -19,7 +19,6 @@ enum Unit : GLuint {
   fields_unit
 };
 
-constexpr int faces_per_map = 6;
 // The declared costs, and what each level of detail is worth.
 constexpr double shown_share = 0.25;  // of the square about a body
 constexpr std::array<double, 3> pixel_ms{0.4e-3, 0.7e-3, 1.5e-3};
@@ -122,28 +121,37 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
 }
 
 /// The largest reflectors come first.
-void MultipleEnvironmentMaps::draw_missing_maps(render::Renderer& renderer,
+void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer,
                                                 const std::vector<methods::VisibleReflector>& reflectors) {
+  wanted_.clear();
   if (table_.is_complete()) return;
-  const int drawn_before = faces_drawn_;
   for (const methods::VisibleReflector& reflector : reflectors)
     for (const std::size_t map :
-         table_.missing_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)])) {
-      if (prefers_rate_ && faces_drawn_ > drawn_before) break;
-      renewal_.renew(renderer, maps_, map);
-      table_.add(map);
-      faces_drawn_ += faces_per_map;
-    }
-  if (faces_drawn_ > drawn_before) table_.upload();
+         table_.missing_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)]))
+      if (std::ranges::find(wanted_, map) == wanted_.end()) wanted_.push_back(map);
+}
+
+bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Scene& scene) {
+  if (wanted_.empty()) return false;
+  const bool is_first = table_.drawn().empty();
+  if (prefers_rate_) wanted_.resize(1);
+  for (const std::size_t map : wanted_) {
+    renderer.begin_still_frame(scene, camera_at(maps_.places()[map]));
+    renewal_.renew(renderer, maps_, map);
+    table_.add(map);
+  }
+  table_.upload();
+  wanted_.clear();
+  return is_first || !prefers_rate_;
 }
 
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<methods::VisibleReflector>& reflectors) {
   prepared_.clear();
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
-  draw_missing_maps(renderer, reflectors);
+  find_missing_maps(renderer, reflectors);
   if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
-    faces_drawn_ += faces_per_map;
+    faces_drawn_ += 6;
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
   picture_.draw_rays(renderer);

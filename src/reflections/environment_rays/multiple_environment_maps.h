@@ -19,8 +19,7 @@ namespace parvis::environment_rays {
 using namespace reference_maps;
 
 /// Creates the method for a scene. Reference maps that are not baked are drawn when a reflector first looks
-/// into them: all of a frame's before a picture or a film's frame, one per frame of a window. Errors: a
-/// shader.
+/// into them: for a picture or a film's frame all of them, one per frame of a window. Errors: a shader.
 Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
@@ -37,9 +36,11 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   }
   void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
   void prefer_rate() override { prefers_rate_ = true; }
+  bool supply(render::Renderer& renderer, const scene::Scene& scene) override;
   void bind(const gl::Program& program, int object) override;
 
-  const ReferenceMaps& maps() const { return maps_; }  ///< as baked or re-rendered last
+  const ReferenceMaps& maps() const { return maps_; }               ///< as baked or re-rendered last
+  std::size_t drawn_maps() const { return table_.drawn().size(); }  ///< how many hold something
 
   /// Level of detail of one reflector; the numbers are those of multiple_environment_maps.frag.
   enum Detail : int {  // as multiple_environment_maps.frag has it
@@ -65,7 +66,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void forget_surroundings() override { renewal_.ask(maps_.places().size(), table_.drawn()); }
-  void draw_missing_maps(render::Renderer& renderer,
+  void find_missing_maps(const render::Renderer& renderer,
                          const std::vector<methods::VisibleReflector>& reflectors);
 
   bool uses_level_of_detail_;
@@ -84,7 +85,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   glm::ivec2 cells_;
   int top_level_;
   MapTable table_;
-  bool prefers_rate_ = false;  ///< draws at most one missing map per frame
+  std::vector<std::size_t> wanted_;  ///< maps that the last frame looked into and that are missing
+  bool prefers_rate_ = false;        ///< draws at most one missing map per frame
   gl::Texture heights_;
 };
 

@@ -9,7 +9,10 @@ Status draw_frame(render::Renderer& renderer, const scene::Scene& scene, Reflect
   steps.reflect = [&](const Camera& camera) {
     if (reflections) reflections->update(renderer, scene, camera);
   };
-  return render::draw_frame(renderer, scene, eye, steps);
+  Status status = render::draw_frame(renderer, scene, eye, steps);
+  while (status && reflections && reflections->supply(renderer, scene))
+    status = render::draw_frame(renderer, scene, eye, steps);
+  return status;
 }
 
 reference::TracedPicture trace_frame(render::Renderer& renderer, const scene::Scene& scene,

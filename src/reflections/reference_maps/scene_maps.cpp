@@ -36,13 +36,6 @@ void tell_if_coarse(glm::vec2 size_m, float cell_m, float wanted_m) {
              cell_m);
 }
 
-/// Where shadows are to be sharp.
-Camera camera_at(glm::vec3 place) {
-  Camera camera;
-  camera.world_from_camera = look_at(place, place - glm::vec3(0, 0, 1), {0, 1, 0});
-  return camera;
-}
-
 ReferenceMaps compressed(const ReferenceMaps& maps) {
   ReferenceMaps small(maps.places(), maps.resolution(), true);
   for (std::size_t i = 0; i < maps.places().size(); ++i) small.copy(i, maps, i);
@@ -50,6 +43,12 @@ ReferenceMaps compressed(const ReferenceMaps& maps) {
 }
 
 }  // namespace
+
+Camera camera_at(glm::vec3 place) {
+  Camera camera;
+  camera.world_from_camera = look_at(place, place - glm::vec3(0, 0, 1), {0, 1, 0});
+  return camera;
+}
 
 float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
   constexpr float step = 1.01f;

@@ -29,6 +29,9 @@ struct BakedMaps {
 /// Reads what is baked; places without a baked map are computed. Unfit maps are reported on standard error.
 BakedMaps read_baked_maps(const scene::Scene& scene, const HeightPyramid& heights);
 
+/// A view from a reference map's place, about which shadows are to be sharp.
+Camera camera_at(glm::vec3 place);
+
 /// Maps that are drawn are kept beside the scene, too.
 enum class Keep : bool { no, yes };
 

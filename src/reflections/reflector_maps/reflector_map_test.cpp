@@ -351,7 +351,7 @@ TEST(HostileMesh, IsRefusedByNameOrHasADefinedMap) {
   refused(flat, "has an area");
   Mesh infinite = scene::ground(1.0f);
   infinite.positions[0].x = std::numeric_limits<float>::infinity();
-  refused(infinite, "finite");
+  refused(infinite, "inf");
   Mesh short_of_normals = scene::ground(1.0f);
   short_of_normals.normals.pop_back();
   refused(short_of_normals, "normals");
