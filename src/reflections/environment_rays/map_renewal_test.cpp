@@ -98,7 +98,7 @@ class MissingMapsTest : public gl::ContextTest {
     EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
   }
   /// Draws a frame; how many maps are drawn then.
-  std::size_t maps_after_a_frame() {
+  std::size_t maps_after_next_frame() {
     Camera camera;
     camera.world_from_camera = look_at({24, 3, 1}, {27, 0, 0});
     EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera, 64, 48}));
@@ -111,23 +111,23 @@ class MissingMapsTest : public gl::ContextTest {
 };
 
 TEST_F(MissingMapsTest, APictureDrawsThoseThatAreLookedInto) {
-  const std::size_t drawn = maps_after_a_frame();
+  const std::size_t drawn = maps_after_next_frame();
   EXPECT_GE(drawn, std::size_t(MapChoice::maps_per_cell));
   EXPECT_LT(drawn, map_plan(scene_).places.size()) << "the mirror looks into no farther maps";
   const Image8 picture = renderer_->read_picture(1.0f);
-  EXPECT_EQ(maps_after_a_frame(), drawn);
+  EXPECT_EQ(maps_after_next_frame(), drawn);
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, picture.pixels) << "complete at once";
 }
 
 TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
-  const std::size_t wanted = maps_after_a_frame();
+  const std::size_t wanted = maps_after_next_frame();
   const Image8 whole = renderer_->read_picture(1.0f);
   reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
   ASSERT_TRUE(renderer_->set_reflection(reflections_.get()));
   reflections_->prefer_rate();
-  EXPECT_EQ(maps_after_a_frame(), 2u) << "the first frame is drawn again with its first map";
-  for (std::size_t drawn = 3; drawn <= wanted; ++drawn) EXPECT_EQ(maps_after_a_frame(), drawn);
-  EXPECT_EQ(maps_after_a_frame(), wanted);
+  EXPECT_EQ(maps_after_next_frame(), 2u) << "the first frame is drawn again with its first map";
+  for (std::size_t drawn = 3; drawn <= wanted; ++drawn) EXPECT_EQ(maps_after_next_frame(), drawn);
+  EXPECT_EQ(maps_after_next_frame(), wanted);
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
 }
 
