@@ -98,7 +98,7 @@ Status photograph(const Arguments& arguments) {
   job.pictures = arguments.outputs;
   job.options.samples_per_pixel = arguments.samples.value_or(photograph_samples);
   job.options.is_interrupted = &is_interrupted;
-  std::signal(SIGINT, [](int) { is_interrupted = true; });
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
   return house::take_photographs(play->scene, job);
 }
 
@@ -127,6 +127,11 @@ void Arguments::add_photograph(CLI::App& command) {
       "Most radiance from beyond the first surface, a sample: no white specks, a little light lost")
       ->check(CLI::PositiveNumber);
   photograph_option("--seed", job.options.seed, "Another seed, another noise")->capture_default_str();
+  command
+      .add_flag("--restart", job.options.replaces_checkpoint,
+                "Begin anew, even where tiles of another photograph lie beside the output")
+      ->needs(on)
+      ->group("Photographs");
   photograph_option("--depth", job.depth,
                     "Also write depth: metres along the camera's axis, 0 for the sky (.exr)");
   photograph_option("--alpha", job.alpha, "Also write which share of each pixel is not the sky");

@@ -1,7 +1,9 @@
 // parvis render: a picture or a film of a scene.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <set>
 
 #include "base/image_io.h"
 #include "base/progress.h"
@@ -35,10 +37,14 @@ Status draw(house::Stage& stage, const Arguments& arguments, int width, int heig
 
 Status render_film(house::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
                    int width, int height) {
-  std::signal(SIGINT, [](int) { is_interrupted = true; });  // half a film is taken away, not left
+  for (const int number : {SIGINT, SIGTERM})
+    std::signal(number, [](int) { is_interrupted = true; });  // half a film is taken away, not left
   Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
+  if (frames < 1)
+    return error("{}: {} s at {} frames per second are no frame; give it more --seconds", output.string(),
+                 arguments.seconds, arguments.frames_per_second);
   render::PictureReader reader;
   Progress progress("rendering film", std::size_t(frames));
   for (int frame = 0; frame < frames; ++frame) {
@@ -55,11 +61,20 @@ Status render_film(house::Stage& stage, const Arguments& arguments, const std::f
   return film->finish();
 }
 
-/// picture.png of the scenario "oaks": picture-oaks.png.
-std::filesystem::path named_after(const std::filesystem::path& output, std::string scenario) {
-  std::replace(scenario.begin(), scenario.end(), '/', '-');
+/// picture.png of the scenario "oaks": picture-oaks.png. No two of them share a file: where "a/b" and "a-b"
+/// would, the later one gets a number.
+std::filesystem::path named_after(const std::filesystem::path& output, std::string scenario,
+                                  std::set<std::filesystem::path>& known) {
+  std::ranges::replace(scenario, '/', '-');
+  const std::string stem = output.stem().string() + "-" + scenario;
   std::filesystem::path named = output;
-  return named.replace_filename(output.stem().string() + "-" + scenario + output.extension().string());
+  for (int number = 1;
+       !known
+            .insert(named.replace_filename(stem + (number == 1 ? "" : fmt::format("-{}", number)) +
+                                           output.extension().string()))
+            .second;)
+    ++number;
+  return named;
 }
 
 /// Pixels of --probe.
@@ -112,9 +127,10 @@ Status render_scene(const Arguments& arguments) {
   Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   if (arguments.scenarios.size() < 2) return render_one(**stage, arguments, arguments.output, width, height);
+  std::set<std::filesystem::path> known;
   for (const std::string& scenario : arguments.scenarios) {
     if (Status status = (*stage)->choose_scenario(scenario); !status) return status;
-    const std::filesystem::path output = named_after(arguments.output, scenario);
+    const std::filesystem::path output = named_after(arguments.output, scenario, known);
     if (Status status = render_one(**stage, arguments, output, width, height); !status) return status;
   }
   return Done{};

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/isolated_process.h"
+#include "base/partial_file.h"
 #include "commands.h"
 #include "strict_numbers.h"
 
@@ -24,6 +25,7 @@ int failed(const std::string& message) {
 
 int main(int count, char** arguments) {
   parvis::start_isolation();  // before there are threads
+  parvis::remove_partial_files_on_signals();
   CLI::App app{"Parvis shows a city square before it changes."};
   app.name("parvis");
   app.require_subcommand(1);

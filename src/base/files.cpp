@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <random>
 
 #include "base/file_front.h"
+#include "base/partial_file.h"
 
 namespace parvis {
 namespace fs = std::filesystem;
@@ -44,46 +44,6 @@ bool read_some(int file, std::string& text, std::size_t count) {
   while (got < 0 && errno == EINTR);
   text.resize(before + std::size_t(std::max<ssize_t>(got, 0)));
   return got >= 0;
-}
-
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(std::size_t(written));
-  }
-  return true;
-}
-
-Error cannot_write(const fs::path& file) {
-  return error("{}: cannot be written ({}); is the folder writable and the disk not full?", file.string(),
-               reason());
-}
-
-/// A new, empty file beside `file` that nobody else has opened, of a name that fits into a folder; empty if
-/// none can be made. Links are not followed.
-fs::path make_temporary(const fs::path& file, mode_t mode) {
-  constexpr std::size_t max_name = 255, random_digits = 8;
-  const std::string extension = file.extension().string(), front = ".partial-";
-  std::string stem = file.stem().string();
-  const std::size_t around = front.size() + random_digits + 1 + extension.size();
-  if (around > max_name) return {};
-  stem.resize(std::min(stem.size(), max_name - around));
-  std::random_device random;
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    fs::path temporary =
-        file.parent_path() / fmt::format("{}{:08x}-{}{}", front, std::uint32_t(random()), stem, extension);
-    if (OpenFile(temporary, O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY, mode)) return temporary;
-    if (errno != EEXIST) break;
-  }
-  return {};
-}
-
-/// Waits until the bytes are on the disk: a full one may say so only now.
-bool is_kept(const fs::path& file) {
-  OpenFile written(file, O_RDONLY);
-  return written && fsync(written.get()) == 0 && written.close();
 }
 
 }  // namespace
@@ -141,38 +101,18 @@ Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
   return text;
 }
 
-Status write_atomically(const fs::path& named, const std::function<Status(const fs::path&)>& write) {
-  std::error_code code;
-  const fs::path file = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
-  code.clear();  // that nothing of this name is there yet is no error
-  if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
-  if (code)
-    return error("{}: the folder cannot be made ({}); choose one that can be written",
-                 file.parent_path().string(), code.message());
-  struct stat before {};
-  const bool is_replaced = stat(file.c_str(), &before) == 0;
-  if (is_replaced && !S_ISREG(before.st_mode))
-    return error("{}: is not a regular file and is not replaced", file.string());
-  const fs::path temporary = make_temporary(file, 0666);
-  if (temporary.empty()) return cannot_write(file);
-  Status status = write(temporary);
-  if (status && is_replaced && chmod(temporary.c_str(), before.st_mode & 07777) != 0)
-    status = cannot_write(file);
-  if (status && !is_kept(temporary)) status = cannot_write(file);
-  if (status) {
-    fs::rename(temporary, file, code);
-    if (code) status = error("{}: cannot be written ({})", file.string(), code.message());
-  }
-  if (!status) fs::remove(temporary, code);
-  return status;
+Status write_atomically(const fs::path& file, const std::function<Status(const fs::path&)>& write) {
+  Result<PartialFile> partial = PartialFile::create(file);
+  if (!partial) return partial.errors();
+  if (Status status = write(partial->path()); !status) return status;
+  return partial->keep();
 }
 
 Status write_file(const fs::path& file, std::string_view text) {
-  return write_atomically(file, [&](const fs::path& temporary) -> Status {
-    OpenFile opened(temporary, O_WRONLY | O_TRUNC | O_NOFOLLOW);
-    if (!opened || !write_all(opened.get(), text) || !opened.close()) return cannot_write(file);
-    return Done{};
-  });
+  Result<PartialFile> partial = PartialFile::create(file);
+  if (!partial) return partial.errors();
+  if (Status status = partial->write(text); !status) return status;
+  return partial->keep();
 }
 
 namespace {

@@ -167,19 +167,28 @@ void GltfMaterialWriter::describe(Json& json, const fs::path& file) const {
           {{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
 }
 
-Status GltfMaterialWriter::write_pictures(const fs::path& file) const {
-  Errors errors;
-  std::mutex mutex;
-  parallel_for(textures_.size(), [&](std::size_t i) {
+Result<std::vector<PartialFile>> GltfMaterialWriter::write_pictures(const fs::path& file) const {
+  std::vector<Result<PartialFile>> written;
+  for (const std::string& name : names_)
+    written.push_back(PartialFile::create(file.parent_path() / file_name(file, name)));
+  std::vector<Errors> problems(written.size());
+  parallel_for(written.size(), [&](std::size_t i) {
     const Image8& image = textures_[i]->image;
-    const Status status = write_image(file.parent_path() / file_name(file, names_[i]),
-                                      uses_alpha(image) ? image : without_alpha(image));
-    if (status) return;
-    const std::scoped_lock lock(mutex);
-    errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+    const Result<std::string> bytes =
+        encode_image(uses_alpha(image) ? image : without_alpha(image), file_name(file, names_[i]));
+    const Status status = !written[i] ? Status(written[i].errors())
+                          : !bytes    ? Status(bytes.errors())
+                                      : written[i]->write(*bytes);
+    if (!status) problems[i] = status.errors();
   });
+  Errors errors;
+  std::vector<PartialFile> pictures;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    errors.insert(errors.end(), problems[i].begin(), problems[i].end());
+    if (written[i]) pictures.push_back(*std::move(written[i]));
+  }
   if (!errors.empty()) return errors;
-  return Done{};
+  return pictures;
 }
 
 }  // namespace parvis::scene

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/partial_file.h"
 #include "base/result.h"
 #include "scene/data/model.h"
 
@@ -23,8 +24,9 @@ class GltfMaterialWriter {
 
   /// Writes materials, textures, pictures' names and used extensions into the JSON of the file.
   void describe(Json& json, const std::filesystem::path& file) const;
-  /// Writes the pictures beside `file`, NAME_TEXTURE.jpg for colour without alpha, else .png.
-  Status write_pictures(const std::filesystem::path& file) const;
+  /// Writes the pictures beside `file`, NAME_TEXTURE.jpg for colour without alpha, else .png: each whole, but
+  /// not yet under its name.
+  Result<std::vector<PartialFile>> write_pictures(const std::filesystem::path& file) const;
 
  private:
   int add(const Texture& texture);

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
+#include "base/partial_file.h"
 #include "formats/gltf/gltf_animation_writer.h"
 #include "formats/gltf/gltf_cameras.h"
 #include "formats/gltf/gltf_chunk.h"
@@ -86,7 +86,8 @@ class Writer {
   }
 
   Status write(const fs::path& file) const {
-    if (Status status = materials_.write_pictures(file); !status) return status;
+    Result<std::vector<PartialFile>> pictures = materials_.write_pictures(file);
+    if (!pictures) return pictures.errors();
     Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}},
               {"scene", 0},
               {"scenes", {{{"nodes", {0}}}}},
@@ -96,7 +97,7 @@ class Writer {
       if (!list->empty()) json[name] = *list;
     materials_.describe(json, file);
     chunk_.describe(json);
-    return write_container(file, json);
+    return write_container(file, json, *pictures);
   }
 
  private:
@@ -133,7 +134,7 @@ class Writer {
     return node;
   }
 
-  Status write_container(const fs::path& file, const Json& json) const;
+  Status write_container(const fs::path& file, const Json& json, std::vector<PartialFile>& pictures) const;
 
   GltfMaterialWriter materials_;
   GltfChunk chunk_;
@@ -153,8 +154,11 @@ void append_chunk(std::string& bytes, const char* type, std::string_view data, c
   bytes.append(type, 4).append(data).append(padded - data.size(), padding);
 }
 
-Status Writer::write_container(const fs::path& file, const Json& json) const {
-  const std::string text = json.dump();
+/// Pictures and file take their places together, when all of them are on the disk: none does where one
+/// cannot be written.
+Status Writer::write_container(const fs::path& file, const Json& json,
+                               std::vector<PartialFile>& pictures) const {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string_view binary(reinterpret_cast<const char*>(chunk_.bytes().data()), chunk_.bytes().size());
   std::string chunks;
   append_chunk(chunks, "JSON", text, ' ');
@@ -166,7 +170,15 @@ Status Writer::write_container(const fs::path& file, const Json& json) const {
   std::string bytes = "glTF";
   append_word(bytes, 2);
   append_word(bytes, size);
-  return write_file(file, bytes + chunks);
+  Result<PartialFile> container = PartialFile::create(file);
+  if (!container) return container.errors();
+  if (Status status = container->write(bytes + chunks); !status) return status;
+  if (Status status = container->sync(); !status) return status;
+  for (const PartialFile& picture : pictures)
+    if (Status status = picture.sync(); !status) return status;
+  for (PartialFile& picture : pictures)
+    if (Status status = picture.keep(); !status) return status;
+  return container->keep();
 }
 
 }  // namespace

@@ -113,8 +113,9 @@ Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& sce
       put_tile(tile_at(index, width, height), values, photograph);
       is_done[index] = 1;
     };
-    Result<PhotographCheckpoint> opened = PhotographCheckpoint::open(
-        options.checkpoint, work_key(scene, camera, width, height, options), put_found);
+    Result<PhotographCheckpoint> opened =
+        PhotographCheckpoint::open(options.checkpoint, work_key(scene, camera, width, height, options),
+                                   options.replaces_checkpoint, put_found);
     if (!opened) return opened.errors();
     checkpoint.emplace(*std::move(opened));
   }

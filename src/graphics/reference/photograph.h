@@ -18,6 +18,7 @@ struct PhotographOptions {
   std::uint64_t seed = 1;
   PathOptions paths;
   std::filesystem::path checkpoint;  ///< file of finished tiles, the caller's to remove; empty: none
+  bool replaces_checkpoint = false;  ///< tiles of other work in that file may be lost; else they are an error
   const std::atomic<bool>* is_interrupted = nullptr;  ///< when it turns true, no further tile is begun
   std::string progress = "photographing";
 };

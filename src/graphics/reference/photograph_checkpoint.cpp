@@ -1,5 +1,9 @@
 #include "graphics/reference/photograph_checkpoint.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstring>
 
 #include "base/content_hash.h"
@@ -50,21 +54,42 @@ std::size_t read_records(const std::string& bytes, std::uint64_t key,
   return at;
 }
 
+/// Whether `bytes` may be replaced by work of `key`: they are its own, were cut short within the header, or
+/// hold no tile yet.
+Status check_owner(const fs::path& file, const std::string& bytes, std::uint64_t key) {
+  Header header{};
+  std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof header));
+  if (std::memcmp(header.magic, magic, std::min(bytes.size(), sizeof magic)) != 0)
+    return error("{}: is no checkpoint of a photograph and is not replaced; choose another output",
+                 file.string());
+  if (bytes.size() <= sizeof header || header.key == key) return Done{};
+  return error(
+      "{}: holds tiles of a photograph of another scene or with other settings; give the command of "
+      "that one to go on with it, or --restart to lose them",
+      file.string());
+}
+
 }  // namespace
 
 Result<PhotographCheckpoint> PhotographCheckpoint::open(
-    const fs::path& file, std::uint64_t key,
+    const fs::path& file, std::uint64_t key, bool replaces,
     const std::function<void(std::uint32_t, std::span<const float>)>& found) {
   std::error_code code;
   if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
-  std::size_t kept = 0;
-  if (fs::exists(file, code))
-    if (const Result<std::string> bytes = read_file(file)) kept = read_records(*bytes, key, found);
-  if (kept > 0) fs::resize_file(file, kept, code);
-  std::FILE* stream = std::fopen(file.c_str(), kept > 0 && !code ? "ab" : "wb");
-  if (!stream)
-    return error("{}: cannot be written; is the folder writable and the disk not full?", file.string());
+  const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  std::FILE* const stream = descriptor < 0 ? nullptr : fdopen(descriptor, "r+b");
+  if (!stream) {
+    if (descriptor >= 0) close(descriptor);
+    return error("{}: cannot be written, or is a link; is the folder writable and the disk not full?",
+                 file.string());
+  }
   PhotographCheckpoint checkpoint(file, stream);
+  const Result<std::string> bytes = read_file(file);
+  if (!bytes) return bytes.errors();
+  if (Status status = check_owner(file, *bytes, key); !status && !replaces) return status.errors();
+  const std::size_t kept = read_records(*bytes, key, found);
+  if (ftruncate(descriptor, off_t(kept)) != 0 || std::fseek(stream, long(kept), SEEK_SET) != 0)
+    return error("{}: cannot be written; is the disk full?", file.string());
   if (kept == 0) {
     Header header{};
     std::memcpy(header.magic, magic, sizeof magic);

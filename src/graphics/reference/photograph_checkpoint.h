@@ -16,9 +16,10 @@ namespace parvis::reference {
 class PhotographCheckpoint {
  public:
   /// Opens or begins `file` for work that `key` stands for, calls `found` with each tile that is there, and
-  /// keeps the file open. A file of another key is begun anew.
+  /// keeps the file open. Errors: it cannot be written; it is no regular file or a link; it holds something
+  /// else, or tiles of another key, and `replaces` does not say that they may be lost.
   static Result<PhotographCheckpoint> open(
-      const std::filesystem::path& file, std::uint64_t key,
+      const std::filesystem::path& file, std::uint64_t key, bool replaces,
       const std::function<void(std::uint32_t tile, std::span<const float> values)>& found);
   PhotographCheckpoint(PhotographCheckpoint&& other) noexcept;
   PhotographCheckpoint& operator=(PhotographCheckpoint&&) = delete;

@@ -100,12 +100,27 @@ TEST(Photograph, TilesOfAnotherSceneOrOfOtherOptionsDoNotCount) {
   const fs::path file = folder.path() / "photo.checkpoint";
   ASSERT_TRUE(corner.take(four_samples(file)));
   corner.scene.objects[1].world_from_model[3].x += 0.5f;
-  const Result<Photograph> moved = corner.take(four_samples(file));
+  const Result<Photograph> refused = corner.take(four_samples(file));
+  ASSERT_FALSE(refused) << "the work of another photograph would be lost";
+  EXPECT_NE(to_string(refused.errors()).find(file.string()), std::string::npos);
+  PhotographOptions options = four_samples(file);
+  options.replaces_checkpoint = true;
+  const Result<Photograph> moved = corner.take(options);
   ASSERT_TRUE(moved);
   expect_same(*moved, *corner.take(four_samples()));
-  PhotographOptions options = four_samples(file);
   options.paths.bounces = 1;
   EXPECT_GT(corner.take(options)->rays, 0u);
+}
+
+TEST(Photograph, WhatIsNoCheckpointStays) {
+  const TestFolder folder;
+  const fs::path file = folder.write("photo.checkpoint", "a text of somebody"), link = folder.path() / "link";
+  EXPECT_FALSE(Corner().take(four_samples(file)));
+  fs::create_symlink(file, link);
+  PhotographOptions options = four_samples(link);
+  options.replaces_checkpoint = true;
+  EXPECT_FALSE(Corner().take(options));
+  EXPECT_EQ(fs::file_size(file), 18u);
 }
 
 TEST(Photograph, ACheckpointThatCannotBeWrittenIsAnError) {

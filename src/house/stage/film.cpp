@@ -1,7 +1,12 @@
 #include "house/stage/film.h"
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <fstream>
 #include <utility>
+
+#include "base/checked.h"
 
 namespace parvis::house {
 namespace fs = std::filesystem;
@@ -14,6 +19,32 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
+/// Whether the boxes of an MP4 file (ISO/IEC 14496-12, section 4.2) follow each other up to its end, its
+/// index (moov) among them: ffmpeg may say that all is well on a disk that is full.
+bool has_end(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::error_code code;
+  const std::uint64_t size = fs::file_size(file, code);
+  bool has_index = false;
+  std::uint64_t at = 0;
+  while (in && at + 8 <= size) {
+    std::array<unsigned char, 16> head{};
+    in.seekg(std::streamoff(at));
+    if (!in.read(reinterpret_cast<char*>(head.data()), 8)) return false;
+    const auto number = [&](std::size_t first, std::size_t bytes) {
+      std::uint64_t value = 0;
+      for (std::size_t i = first; i < first + bytes; ++i) value = value << 8 | head[i];
+      return value;
+    };
+    std::uint64_t box = number(0, 4);
+    if (box == 1 && in.read(reinterpret_cast<char*>(head.data()) + 8, 8)) box = number(8, 8);
+    has_index = has_index || std::equal(head.begin() + 4, head.begin() + 8, "moov");
+    if (box < 8 || !bytes_fit(at, box, size)) return false;
+    at += box;
+  }
+  return !code && has_index && at == size;
+}
+
 }  // namespace
 
 Result<Film> Film::open(const fs::path& file, int width, int height, int frames_per_second) {
@@ -22,39 +53,33 @@ Result<Film> Film::open(const fs::path& file, int width, int height, int frames_
   if (file.extension() != ".mp4") return error("{}: films are written as .mp4", file.string());
   if (std::system("command -v ffmpeg > /dev/null") != 0)
     return error("{}: films are written by the program ffmpeg, which is not installed", file.string());
-  std::error_code code;
-  if (!file.parent_path().empty()) fs::create_directories(file.parent_path(), code);
-  if (code)
-    return error("{}: the folder cannot be made ({}); choose one that can be written",
-                 file.parent_path().string(), code.message());
-  const fs::path temporary = file.parent_path() / (".partial-" + file.filename().string());
+  Result<PartialFile> partial = PartialFile::create(file);
+  if (!partial) return partial.errors();
   const std::string command = fmt::format(
       "ffmpeg -y -loglevel error -f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i - "
       "-c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
       width, height, frames_per_second,
-      quoted("file:" + temporary.string()));  // a name with a colon is no protocol
+      quoted("file:" + partial->path().string()));  // a name with a colon is no protocol
   std::signal(SIGPIPE, SIG_IGN);  // an encoder that stops is noticed by a failed write, and does not end us
   std::FILE* pipe = popen(command.c_str(), "w");
   if (!pipe) return error("{}: ffmpeg cannot be started", file.string());
-  return Film(file, temporary, pipe, width, height);
+  return Film(file, *std::move(partial), pipe, width, height);
 }
 
-Film::Film(fs::path file, fs::path temporary, std::FILE* pipe, int width, int height)
-    : file_(std::move(file)), temporary_(std::move(temporary)), pipe_(pipe), width_(width), height_(height) {}
+Film::Film(fs::path file, PartialFile partial, std::FILE* pipe, int width, int height)
+    : file_(std::move(file)), partial_(std::move(partial)), pipe_(pipe), width_(width), height_(height) {}
 
 Film::Film(Film&& other) noexcept
     : file_(std::move(other.file_)),
-      temporary_(std::move(other.temporary_)),
+      partial_(std::move(other.partial_)),
       pipe_(std::exchange(other.pipe_, nullptr)),
       width_(other.width_),
       height_(other.height_),
+      frames_(other.frames_),
       bytes_(std::move(other.bytes_)) {}
 
 Film::~Film() {
-  if (!pipe_) return;
-  pclose(pipe_);
-  std::error_code code;
-  fs::remove(temporary_, code);
+  if (pipe_) pclose(pipe_);
 }
 
 Status Film::add(const Image8& frame) {
@@ -68,16 +93,16 @@ Status Film::add(const Image8& frame) {
     for (std::size_t c = 0; c < 3; ++c) bytes_[3 * i + c] = frame.pixels[i * channels + c];
   if (std::fwrite(bytes_.data(), 1, bytes_.size(), pipe_) != bytes_.size())
     return error("{}: ffmpeg stopped; is the disk full or the folder not writable?", file_.string());
+  ++frames_;
   return Done{};
 }
 
 Status Film::finish() {
   const int status = pclose(std::exchange(pipe_, nullptr));
-  std::error_code code;
-  if (status == 0) fs::rename(temporary_, file_, code);
-  if (status == 0 && !code) return Done{};
-  fs::remove(temporary_, code);
-  return error("{}: the film cannot be written", file_.string());
+  if (frames_ == 0) return error("{}: a film of no frames; give it more --seconds", file_.string());
+  if (status != 0 || !has_end(partial_.path()))
+    return error("{}: the film cannot be written whole; is the disk full?", file_.string());
+  return partial_.keep();
 }
 
 }  // namespace parvis::house

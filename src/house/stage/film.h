@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/partial_file.h"
 #include "base/result.h"
 
 namespace parvis::house {
@@ -22,14 +23,17 @@ class Film {
 
   /// Appends an 8-bit sRGB picture of the film's size with 3 or 4 channels.
   Status add(const Image8& frame);
+  /// Ends the film. Errors: it has no frame; ffmpeg failed, or left a file without an end (a full disk).
   Status finish();
 
  private:
-  Film(std::filesystem::path file, std::filesystem::path temporary, std::FILE* pipe, int width, int height);
+  Film(std::filesystem::path file, PartialFile partial, std::FILE* pipe, int width, int height);
 
-  std::filesystem::path file_, temporary_;
+  std::filesystem::path file_;
+  PartialFile partial_;
   std::FILE* pipe_;
   int width_, height_;
+  std::size_t frames_ = 0;
   std::vector<std::uint8_t> bytes_;  ///< a frame as RGB bytes
 };
 

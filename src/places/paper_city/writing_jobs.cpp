@@ -1,5 +1,9 @@
 #include "places/paper_city/writing_jobs.h"
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
 #include "base/parallel.h"
 
 namespace parvis::city {
@@ -43,9 +47,13 @@ Status move_files(const fs::path& from, const fs::path& to) {
 Status write_together(const std::vector<WritingJob>& jobs, const fs::path& folder) {
   std::error_code code;
   const bool is_new = !fs::exists(folder, code);
-  const fs::path unfinished = folder / ".unfinished";
-  Status status = make_folder(unfinished);
-  if (status) status = run_all(jobs, unfinished);
+  Status status = make_folder(folder);
+  if (!status) return status;
+  std::string unfinished = folder / ".unfinished-XXXXXX";  // one that nobody else has, link or folder
+  if (mkdtemp(unfinished.data()) == nullptr)
+    return error("{}: cannot be written to ({})", folder.string(), std::strerror(errno));
+  fs::permissions(unfinished, fs::perms::group_read | fs::perms::others_read, fs::perm_options::add, code);
+  status = run_all(jobs, unfinished);
   if (status) status = move_files(unfinished, folder);
   fs::remove_all(unfinished, code);
   if (!status && is_new) fs::remove(folder, code);

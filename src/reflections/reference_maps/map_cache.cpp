@@ -1,10 +1,12 @@
 #include "reflections/reference_maps/map_cache.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/content_hash.h"
 #include "graphics/reference/scene_key.h"
 #include "reflections/reference_maps/settings.h"
+#include "scene/data/baked_folder.h"
 
 namespace parvis::reference_maps {
 namespace {
@@ -29,8 +31,6 @@ std::uint64_t maps_key(const scene::Scene& scene) {
   return hash.value();
 }
 
-fs::path baked_folder(const scene::Scene& scene) { return fs::path(scene.file).replace_extension(".baked"); }
-
 bool is_state(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name.size() == name_length && name.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -41,7 +41,8 @@ bool is_state(const fs::path& folder) {
 MapCache::MapCache(const scene::Scene& scene) {
   if (scene.file.empty()) return;
   key_ = maps_key(scene);
-  folder_ = baked_folder(scene) / fmt::format("{:016x}", key_);
+  folder_ = scene::baked_folder(scene, fmt::format("{:016x}", key_));
+  max_places_ = std::max(std::size_t(std::max(max_maps(scene), 1)), map_plan(scene).places.size());
 }
 
 fs::path MapCache::file(std::size_t number) const {
@@ -53,7 +54,12 @@ std::optional<MapFile> MapCache::read(std::size_t number) const {
   const fs::path path = file(number);
   if (folder_.empty() || !fs::exists(path, code)) return std::nullopt;
   Result<MapFile> map = read_map_file(path);
-  if (map && map->key == key_ && map->number == number && number < map->places.size()) return *std::move(map);
+  const auto is_finite = [](glm::vec3 place) {
+    return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+  };
+  if (map && map->key == key_ && map->number == number && number < map->places.size() &&
+      map->places.size() <= max_places_ && std::ranges::all_of(map->places, is_finite))
+    return *std::move(map);
   fmt::print(stderr, "warning: {}; the map is drawn anew\n",
              map ? fmt::format("{}: is of another scene", path.string()) : map.errors().front().message);
   return std::nullopt;
@@ -70,6 +76,8 @@ void MapCache::report_other_states() const {
 }
 
 Status MapCache::write(MapFile map) const {
+  if (folder_.empty())
+    return error("{}", "the folder NAME.baked of the scene is a link; nothing is kept there");
   map.key = key_;
   return write_map_file(file(map.number), map);
 }
@@ -78,7 +86,7 @@ void forget_other_states(const scene::Scene& scene, const std::set<fs::path>& ke
   if (scene.file.empty()) return;
   std::error_code code;
   std::vector<fs::path> others;
-  for (const fs::directory_entry& entry : fs::directory_iterator(baked_folder(scene), code))
+  for (const fs::directory_entry& entry : fs::directory_iterator(scene::baked_folder(scene), code))
     if (is_state(entry.path()) && !kept.contains(entry.path())) others.push_back(entry.path());
   for (const fs::path& other : others) fs::remove_all(other, code);
 }

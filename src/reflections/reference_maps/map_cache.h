@@ -24,11 +24,13 @@ class MapCache {
   std::optional<MapFile> read(std::size_t number) const;
   /// Reports on standard error that there are maps of other states of the scene, but none of this one.
   void report_other_states() const;
+  /// An error, too, where the folder is a link: nothing is kept there.
   Status write(MapFile map) const;
 
  private:
   std::filesystem::path folder_;
   std::uint64_t key_ = 0;
+  std::size_t max_places_ = 0;
 };
 
 /// Removes what is kept of states of the scene, except the folders `kept`.

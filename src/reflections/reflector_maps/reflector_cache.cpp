@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "reflections/reflector_maps/reflector_file.h"
 #include "reflections/reflector_maps/settings.h"
+#include "scene/data/baked_folder.h"
 
 namespace parvis::reflector_maps {
 namespace {
@@ -45,7 +46,7 @@ Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::str
 }  // namespace
 
 ReflectorCache::ReflectorCache(const scene::Scene& scene) {
-  if (!scene.file.empty()) folder_ = fs::path(scene.file).replace_extension(".baked") / "reflectors";
+  folder_ = scene::baked_folder(scene, "reflectors");
 }
 
 fs::path ReflectorCache::file(const ReflectorSource& source) const {
@@ -57,7 +58,7 @@ Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const
   std::error_code code;
   const fs::path kept = file(source);
   if (!kept.empty() && fs::exists(kept, code)) {
-    Result<Reflector> read = read_reflector_file(kept);
+    Result<Reflector> read = read_reflector_file(kept, key_of(source));
     if (read) return read;
     fmt::print(stderr, "warning: {}; the reflector is rebuilt\n", read.errors().front().message);
   }
@@ -65,13 +66,15 @@ Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const
 }
 
 bool ReflectorCache::has(const ReflectorSource& source) const {
-  return bool(read_reflector_file(file(source)));
+  return !folder_.empty() && bool(read_reflector_file(file(source), key_of(source)));
 }
 
 Status ReflectorCache::keep(const ReflectorSource& source, const Reflector& reflector) const {
   std::error_code code;
+  if (folder_.empty())
+    return error("{}: its folder of reflectors is a link; nothing is kept there", source.name);
   fs::create_directories(folder_, code);
-  return write_reflector_file(file(source), reflector);
+  return write_reflector_file(file(source), key_of(source), reflector);
 }
 
 Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {

@@ -70,8 +70,8 @@ class ReflectorCacheTest : public testing::Test {
 TEST(ReflectorFile, WhatIsWrittenIsRead) {
   const TestFolder folder;
   const Reflector written = small_reflector();
-  ASSERT_TRUE(write_reflector_file(folder.path() / "a.reflector", written));
-  const Result<Reflector> read = read_reflector_file(folder.path() / "a.reflector");
+  ASSERT_TRUE(write_reflector_file(folder.path() / "a.reflector", 7, written));
+  const Result<Reflector> read = read_reflector_file(folder.path() / "a.reflector", 7);
   ASSERT_TRUE(read) << to_string(read.errors());
   expect_equal(*read, written);
 }
@@ -79,17 +79,45 @@ TEST(ReflectorFile, WhatIsWrittenIsRead) {
 TEST(ReflectorFile, CutShortForeignOrOfAnotherVersionItIsRefusedWithTheReason) {
   const TestFolder folder;
   const fs::path file = folder.path() / "a.reflector";
-  ASSERT_TRUE(write_reflector_file(file, small_reflector()));
+  ASSERT_TRUE(write_reflector_file(file, 7, small_reflector()));
   const std::string whole = *read_file(file);
   const auto complaint = [&](const std::string& bytes) {
     EXPECT_TRUE(write_file(file, bytes));
-    const Result<Reflector> read = read_reflector_file(file);
+    const Result<Reflector> read = read_reflector_file(file, 7);
     return read ? "" : to_string(read.errors());
   };
   for (std::size_t length = 8; length < whole.size(); length += whole.size() / 50)
     EXPECT_NE(complaint(whole.substr(0, length)).find("cut short or damaged"), std::string::npos);
   EXPECT_NE(complaint("PARVISR9" + whole.substr(8)).find("another version"), std::string::npos);
   EXPECT_NE(complaint("PARVISM1" + whole.substr(8)).find("no reflector"), std::string::npos);
+}
+
+TEST(ReflectorFile, OfAnotherReflectorOrWithIndicesThatLieItIsRefused) {
+  const TestFolder folder;
+  const fs::path file = folder.path() / "a.reflector";
+  const auto is_read = [&](const auto& spoil) {
+    Reflector reflector = small_reflector();
+    spoil(reflector);
+    EXPECT_TRUE(write_reflector_file(file, 7, reflector));  // the checksum is right
+    return bool(read_reflector_file(file, 7));
+  };
+  EXPECT_TRUE(is_read([](Reflector&) {}));
+  EXPECT_FALSE(read_reflector_file(file, 8)) << "two reflectors' files exchanged";
+  EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.mesh.indices[0] = ~0u; }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.neighbours[0][1] = 1u << 30; }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.neighbours.pop_back(); }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.mesh.normals.pop_back(); }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.patches[0].triangles.push_back(1u << 30); }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.maps[0].texels.width = 1 << 30; }));
+  EXPECT_FALSE(is_read([](Reflector& r) { r.maps.resize(r.patches.size() + 1); }));
+}
+
+TEST_F(ReflectorCacheTest, NothingIsReadOrWrittenThroughALink) {
+  const TestFolder elsewhere;
+  fs::create_directory_symlink(elsewhere.path(), fs::path(scene_.file).replace_extension(".baked"));
+  EXPECT_TRUE(ReflectorCache(scene_).folder().empty());
+  EXPECT_FALSE(bake_reflectors(scene_));
+  EXPECT_TRUE(fs::is_empty(elsewhere.path()));
 }
 
 TEST_F(ReflectorCacheTest, WhatIsBakedIsReadAndBakingGoesOnWhereItWasInterrupted) {

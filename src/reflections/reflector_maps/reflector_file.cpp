@@ -1,11 +1,13 @@
 #include "reflections/reflector_maps/reflector_file.h"
 
+#include <algorithm>
+
 #include "base/sealed_file.h"
 
 namespace parvis::reflector_maps {
 namespace {
 
-constexpr SealedKind kind{"PARVISR2", "reflector"};
+constexpr SealedKind kind{"PARVISR3", "reflector"};
 
 // What is written and what is read, in one order: `Archive` does the one or the other.
 
@@ -87,21 +89,57 @@ void pass(Archive& archive, AnyReflector& reflector) {
   archive.list(reflector.remarks, [](auto& a, auto& remark) { a.text(remark); });
 }
 
+bool is_right(const ReflectorPatch& patch, std::size_t triangles) {
+  const auto is_one = [&](std::uint32_t triangle) { return triangle < triangles; };
+  return std::ranges::all_of(patch.triangles, is_one) && std::ranges::all_of(patch.around, is_one);
+}
+
+bool is_right(const ReflectorMap& map) {
+  constexpr int max_side = 8192;
+  const ImageF& texels = map.texels;
+  return texels.width >= 0 && texels.height >= 0 && texels.width <= max_side && texels.height <= max_side &&
+         texels.channels == 4 &&
+         texels.pixels.size() == 4 * std::size_t(texels.width) * std::size_t(texels.height);
+}
+
+/// Every index lies in the list that it points into.
+bool is_right(const Reflector& reflector) {
+  const ReflectorMesh& mesh = reflector.mesh;
+  const std::size_t triangles = mesh.mesh.triangle_count(), vertices = mesh.mesh.positions.size();
+  const auto is_vertex = [&](std::uint32_t index) { return index < vertices; };
+  const auto is_neighbour = [&](std::uint32_t triangle) {
+    return triangle == no_triangle || triangle < triangles;
+  };
+  return mesh.mesh.normals.size() == vertices && std::ranges::all_of(mesh.mesh.indices, is_vertex) &&
+         mesh.neighbours.size() == triangles &&
+         std::ranges::all_of(mesh.neighbours,
+                             [&](const auto& edges) { return std::ranges::all_of(edges, is_neighbour); }) &&
+         reflector.maps.size() <= reflector.patches.size() &&
+         std::ranges::all_of(reflector.patches,
+                             [&](const auto& patch) { return is_right(patch, triangles); }) &&
+         std::ranges::all_of(reflector.maps, [](const auto& map) { return is_right(map); });
+}
+
 }  // namespace
 
-Status write_reflector_file(const std::filesystem::path& file, const Reflector& reflector) {
+Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key,
+                            const Reflector& reflector) {
   Writer writer;
+  writer.value(key);
   pass(writer, reflector);
   return write_sealed(file, kind, writer.bytes);
 }
 
-Result<Reflector> read_reflector_file(const std::filesystem::path& file) {
+Result<Reflector> read_reflector_file(const std::filesystem::path& file, std::uint64_t key) {
   const Result<std::string> content = read_sealed(file, kind);
   if (!content) return content.errors();
   Reader reader{Taker(*content)};
+  std::uint64_t kept_key = 0;
+  reader.value(kept_key);
+  if (kept_key != key) return error("{}: is of another reflector", file.string());
   Reflector reflector;
   pass(reader, reflector);
-  if (!reader.taker.is_at_end()) return cut_short(file);
+  if (!reader.taker.is_at_end() || !is_right(reflector)) return cut_short(file);
   return reflector;
 }
 

@@ -2,15 +2,18 @@
 // has them; lists begin with their length.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "reflections/reflector_maps/reflector_map.h"
 
 namespace parvis::reflector_maps {
 
-Status write_reflector_file(const std::filesystem::path& file, const Reflector& reflector);
+/// `key` is a hash of what the reflector was made of; it is sealed with it.
+Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key, const Reflector& reflector);
 
-/// Errors say whether the file is missing, foreign, of another version, cut short or damaged.
-Result<Reflector> read_reflector_file(const std::filesystem::path& file);
+/// Errors say whether the file is missing, foreign, of another version, cut short or damaged, of another key,
+/// or holds indices and counts that lie: anybody can make a right checksum.
+Result<Reflector> read_reflector_file(const std::filesystem::path& file, std::uint64_t key);
 
 }  // namespace parvis::reflector_maps

@@ -1,0 +1,153 @@
+#include "base/partial_file.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <random>
+#include <utility>
+
+namespace parvis {
+namespace {
+namespace fs = std::filesystem;
+
+std::string reason() { return std::strerror(errno); }
+
+Error cannot_write(const fs::path& file) {
+  return error("{}: cannot be written ({}); is the folder writable and the disk not full?", file.string(),
+               reason());
+}
+
+/// Paths of partial files where a signal handler finds them: it may not touch what allocates.
+struct Slot {
+  std::atomic<bool> is_taken = false, is_listed = false;
+  std::array<char, PATH_MAX> path{};
+};
+std::array<Slot, 64> slots;
+
+/// The slot that lists the file; -1 where all are taken.
+int list(const std::string& path) {
+  if (path.size() >= PATH_MAX) return -1;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].is_taken.exchange(true)) continue;
+    std::memcpy(slots[i].path.data(), path.c_str(), path.size() + 1);
+    slots[i].is_listed = true;
+    return int(i);
+  }
+  return -1;
+}
+
+void unlist(int slot) {
+  if (slot < 0) return;
+  slots[std::size_t(slot)].is_listed = false;
+  slots[std::size_t(slot)].is_taken = false;
+}
+
+void on_signal(int) {
+  for (const Slot& slot : slots)
+    if (slot.is_listed) unlink(slot.path.data());
+  constexpr std::string_view message = "parvis: interrupted; what was being written is removed\n";
+  const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  static_cast<void>(ignored);
+  _exit(1);
+}
+
+/// A new, empty file of a name that fits into a folder; empty if none can be made.
+fs::path make_partial(const fs::path& file) {
+  constexpr std::size_t max_name = 255, random_digits = 8;
+  const std::string extension = file.extension().string(), front = ".partial-";
+  std::string stem = file.stem().string();
+  const std::size_t around = front.size() + random_digits + 1 + extension.size();
+  if (around > max_name) return {};
+  stem.resize(std::min(stem.size(), max_name - around));
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    fs::path partial =
+        file.parent_path() / fmt::format("{}{:08x}-{}{}", front, std::uint32_t(random()), stem, extension);
+    const int made = open(partial.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+    if (made >= 0) {
+      close(made);
+      return partial;
+    }
+    if (errno != EEXIST) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PartialFile> PartialFile::create(const fs::path& named) {
+  std::error_code code;
+  const fs::path file = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
+  code.clear();  // that nothing of this name is there yet is no error
+  if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
+  if (code)
+    return error("{}: the folder cannot be made ({}); choose one that can be written",
+                 file.parent_path().string(), code.message());
+  struct stat before {};
+  if (stat(file.c_str(), &before) == 0 && !S_ISREG(before.st_mode))
+    return error("{}: is not a regular file and is not replaced", file.string());
+  fs::path partial = make_partial(file);
+  if (partial.empty()) return cannot_write(file);
+  const int slot = list(fs::absolute(partial, code).string());
+  return PartialFile(file, std::move(partial), slot);
+}
+
+PartialFile::PartialFile(PartialFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      partial_(std::exchange(other.partial_, {})),
+      slot_(std::exchange(other.slot_, -1)) {}
+
+PartialFile::~PartialFile() {
+  if (!partial_.empty()) unlink(partial_.c_str());
+  unlist(slot_);
+}
+
+Status PartialFile::write(std::string_view bytes) const {
+  const int file = open(partial_.c_str(), O_WRONLY | O_TRUNC | O_NOFOLLOW | O_CLOEXEC);
+  if (file < 0) return cannot_write(file_);
+  bool is_written = true;
+  while (is_written && !bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    is_written = count > 0;
+    if (is_written) bytes.remove_prefix(std::size_t(count));
+  }
+  const Status status = is_written ? Status(Done{}) : Status(cannot_write(file_));
+  if (close(file) != 0 && is_written) return cannot_write(file_);
+  return status;
+}
+
+Status PartialFile::sync() const {
+  const int written = open(partial_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (written < 0) return cannot_write(file_);
+  const bool is_on_disk = fsync(written) == 0;
+  const Status status = is_on_disk ? Status(Done{}) : Status(cannot_write(file_));
+  close(written);
+  return status;
+}
+
+Status PartialFile::keep() {
+  if (Status status = sync(); !status) return status;
+  struct stat before {};
+  if (stat(file_.c_str(), &before) == 0 && chmod(partial_.c_str(), before.st_mode & 07777) != 0)
+    return cannot_write(file_);
+  if (rename(partial_.c_str(), file_.c_str()) != 0) return cannot_write(file_);
+  partial_.clear();
+  unlist(std::exchange(slot_, -1));
+  return Done{};
+}
+
+void remove_partial_files_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+}
+
+}  // namespace parvis

@@ -1,0 +1,45 @@
+// A file that appears under its name when it is whole, or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace parvis {
+
+/// A new, empty file beside the one that it becomes: hidden, same extension, of a name that nobody can guess,
+/// opened by nobody else. Links are not followed. Unless `keep` is called, the destructor removes it, and a
+/// signal that ends the program does (`remove_partial_files_on_signals`).
+class PartialFile {
+ public:
+  /// Makes the folders above `file`. A link at `file` keeps its place: what it points to is replaced. Errors:
+  /// a folder that cannot be made or written to; something at `file` that is no regular file.
+  static Result<PartialFile> create(const std::filesystem::path& file);
+  PartialFile(PartialFile&& other) noexcept;
+  PartialFile& operator=(PartialFile&&) = delete;
+  ~PartialFile();
+
+  /// Where to write.
+  const std::filesystem::path& path() const { return partial_; }
+  /// Writes `bytes` in place of what is there.
+  Status write(std::string_view bytes) const;
+  /// Makes sure that the bytes are on the disk: a full one may say so only now.
+  Status sync() const;
+  /// `sync`, then takes the place of the file, with its permissions if there was one.
+  Status keep();
+
+ private:
+  PartialFile(std::filesystem::path file, std::filesystem::path partial, int slot)
+      : file_(std::move(file)), partial_(std::move(partial)), slot_(slot) {}
+
+  std::filesystem::path file_, partial_;
+  int slot_;  ///< in the list of what a signal removes; -1: none
+};
+
+/// From now on SIGINT, SIGTERM and SIGHUP remove all partial files, say so, and end the program with
+/// status 1. Commands that finish or resume their work in another way may handle SIGINT and SIGTERM
+/// themselves.
+void remove_partial_files_on_signals();
+
+}  // namespace parvis
