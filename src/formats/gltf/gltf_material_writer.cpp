@@ -39,7 +39,11 @@ bool is_same_picture(const Texture& a, const Texture& b) {
 }
 
 std::string file_name(const fs::path& file, const std::string& name) {
-  return plain_name(file.stem().string()) + "_" + name;
+  constexpr std::size_t max_name = 255;
+  const std::string back = "_" + name;
+  std::string stem = plain_name(file.stem().string());
+  stem.resize(std::min(stem.size(), max_name - std::min(max_name, back.size())));
+  return stem + back;
 }
 
 /// Solid glass. Its thickness is what panes of it have, and a hint for viewers that do not follow rays

@@ -34,7 +34,12 @@ fs::path file_of(const fs::path& file, const scene::NamedCamera& camera, const P
 }
 
 fs::path checkpoint_of(const scene::NamedCamera& camera, const PhotographJob& job) {
-  return file_of(job.pictures.front(), camera, job).string() + ".checkpoint";
+  constexpr std::size_t max_name = 255;
+  const std::string_view extension = ".checkpoint";
+  const fs::path picture = file_of(job.pictures.front(), camera, job);
+  std::string name = picture.filename().string();
+  name.resize(std::min(name.size(), max_name - extension.size()));
+  return picture.parent_path() / name.append(extension);
 }
 
 bool is_linear(const fs::path& file) { return file.extension() == ".exr" || file.extension() == ".hdr"; }

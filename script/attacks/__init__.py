@@ -1,0 +1,1 @@
+"""The cases of script/attack, one file for each class of input."""

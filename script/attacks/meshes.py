@@ -1,0 +1,149 @@
+"""Meshes that assimp reads, and files that are named like them."""
+
+import io
+import struct
+import zipfile
+
+from .case import SECRET, model_case, write, scene, CAMERA, Case
+
+OBJ = "mtllib m.mtl\no sail\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
+
+
+def ply_binary(vertices=40, faces=40):
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n"
+            f"element face {faces}\nproperty list uchar int vertex_indices\nend_header\n").encode()
+    body = b"".join(struct.pack("<3f", i % 7, i % 5, i % 3) for i in range(40))
+    return head + body + b"".join(struct.pack("<B3i", 3, i % 40, (i + 1) % 40, (i + 9) % 40) for i in range(40))
+
+
+def ply_text(face, vertices=3, faces=1):
+    return (f"ply\nformat ascii 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\nelement face {faces}\n"
+            f"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 0 1\n{face}\n")
+
+
+def dae(nodes):
+    return ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><up_axis>Z_UP</up_axis></asset>'
+            '<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 0 1</float_array>'
+            '<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+            '<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>'
+            '<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>'
+            + nodes + "</COLLADA>")
+
+
+INSTANCE = '<instance_geometry url="#g"/>'
+
+
+def zip_bomb(size):
+    target = io.BytesIO()
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("_rels/.rels", '<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+                         '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+        archive.writestr("3D/3dmodel.model", b"<model>" + b" " * size)
+    return target.getvalue()
+
+
+def scene_of(nodes):
+    return f'<library_visual_scenes><visual_scene id="s">{nodes}</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>'
+
+
+REFUSED = ["lws", "x3d", "x3db", "irr", "irrmesh", "assbin", "assxml", "ifc", "smd", "md2", "md3", "md5mesh", "mdl", "bvh", "ase", "blend",
+           "b3d", "cob", "csm", "dxf", "enff", "hmp", "lxo", "ms3d", "ndo", "nff", "pk3", "q3o", "raw", "sib", "ter", "vrml", "zgl", "xgl",
+           "mesh.xml", "ogex", "step", "stp", "amf", "m3d", "iqm", "pmx", "q3s", "scn", "", "obj ", "gltf2", "sh", "so"]
+
+
+def cases():
+    ply = ply_binary()
+    for size in range(0, len(ply), 17):
+        yield model_case("mesh", f"binary PLY cut at {size}", "m.ply", ply[:size])
+    for face in ("3 0 1 -1", "3 0 1 2147483647", "255 0 1 2", "3 0 1", "-3 0 1 2", "3 0 0 0", "4 0 1 2 9", "0"):
+        yield model_case("mesh", f"PLY face {face}", "m.ply", ply_text(face))
+    for vertices, faces in ((2**31, 1), (2**32 - 1, 2**32 - 1), (3, 2**31), (10**18, 1), (-1, 1)):
+        yield model_case("mesh", f"PLY of {vertices} vertices, {faces} faces", "m.ply", ply_text("3 0 1 2", vertices, faces), seconds=90)
+    for line in ("f 1 2 -9", "f 1 2 99", "f 0 0 0", "f 1 2 4294967297", "f -1 -2 -3", "f 1//9 2//9 3//9", "f " + "1 " * 20000, "l 1 2", "p 1",
+                 "v nan nan nan", "v 1e39 0 0", "v 3e38 3e38 3e38\nf 1 2 4", "o " + "n" * 200000, "g \xe9\xff", "usemtl nothing"):
+        yield model_case("mesh", f"OBJ {line[:24]!r}", "m.obj", OBJ.encode() + line.encode("latin-1") + b"\n", extra={"m.mtl": "newmtl m\nKd 1 0 0\n"})
+    for mtl in ("Kd 1 0 0\nmap_Kd t.png\n", "map_Kd\n", "newmtl m\nmap_Kd ../outside/secret.png\n", "newmtl m\nmap_Kd /etc/passwd\n",
+                "newmtl m\nmap_Kd link.png\n", "newmtl m\nmap_Kd pipe\n", "newmtl m\nKd nan nan nan\nd nan\nNs -1\n", "newmtl m\nNs inf\n",
+                "newmtl " + "m" * 100000 + "\n", "newmtl m\nmap_Kd " + "a/" * 5000 + "\n"):
+        yield model_case("mesh", f"MTL {mtl[:30]!r}", "m.obj", OBJ, extra={"m.mtl": mtl})
+    for library in ("../outside/secret.mtl", "link.mtl", "/etc/passwd", "pipe", "..\\outside\\secret.mtl", ".", "/dev/zero"):
+        yield model_case("mesh", f"mtllib {library}", "m.obj", OBJ.replace("m.mtl", library).replace("usemtl m", "usemtl SECRETMATERIAL"))
+    for depth in (2000, 20000, 200000):
+        yield model_case("mesh", f"DAE nested {depth}", "m.dae", lambda d=depth: dae(scene_of("<node>" * d + INSTANCE + "</node>" * d)))
+    yield model_case("mesh", "DAE that instances itself", "m.dae",
+                     dae('<library_nodes><node id="n"><instance_node url="#n"/>' + INSTANCE + "</node></library_nodes>" + scene_of('<instance_node url="#n"/><node><instance_node url="#n"/></node>')))
+    doubling = "".join(f'<node id="n{i}"><instance_node url="#n{i+1}"/><instance_node url="#n{i+1}"/></node>' for i in range(40))
+    yield model_case("mesh", "DAE that doubles 40 times", "m.dae",
+                     dae(f'<library_nodes>{doubling}<node id="n40">{INSTANCE}</node></library_nodes>' + scene_of('<node><instance_node url="#n0"/></node>')), seconds=120)
+    yield model_case("mesh", "DAE with a DOCTYPE", "m.dae", '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY e SYSTEM "../outside/secret.mtl">]>' + dae(scene_of("<node>&e;" + INSTANCE + "</node>"))[21:])
+    cycle = ("; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7300\n}\nObjects:  {\n"
+             '\tModel: 1, "Model::a", "Null" {\n\t}\n\tModel: 2, "Model::b", "Null" {\n\t}\n}\nConnections:  {\n\tC: "OO",1,2\n\tC: "OO",2,1\n\tC: "OO",1,0\n}\n')
+    yield model_case("mesh", "FBX in a circle", "m.fbx", cycle)
+    for size in (18, 23, 27, 60):
+        yield model_case("mesh", f"binary FBX cut at {size}", "m.fbx", (b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7400) + b"\xff" * 200)[:size])
+    for content in ("OFF\n1 1 0\n0 0 0\n3 0 1 2\n", "OFF\n4294967295 1 0\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 -7\n", "OFF\n", "OFF\n3 4294967295 0\n",
+                    "OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n99999999 0 1 2\n"):
+        yield model_case("mesh", f"OFF {content[:30]!r}", "m.off", content, seconds=90)
+    for count in (0, 1, 2**31, 2**32 - 1):
+        yield model_case("mesh", f"STL of {count}", "m.stl", b"\0" * 80 + struct.pack("<I", count) + b"\0" * 50)
+    yield model_case("mesh", "3MF zip bomb", "m.3mf", lambda: zip_bomb(2_000_000_000), seconds=120)
+    yield model_case("mesh", "3MF of nothing", "m.3mf", lambda: zip_bomb(1))
+    for content in (b"MM" + b"\xff" * 60, b"MM\x10\0\0\0=='\xff\xff\xff", b"MM\0\0\0\0"):
+        yield model_case("mesh", f"3DS {content[:8]}", "m.3ds", content)
+    for content in (b"FORM\xff\xff\xff\xffLWO2", b"FORM\0\0\0\x08LWO2LAYR", b"FORM"):
+        yield model_case("mesh", f"LWO {content[:12]}", "m.lwo", content)
+    for content in ("AC3Db\nOBJECT world\nkids 1\nOBJECT poly\nnumvert 4294967295\n", "AC3Db\n" + "OBJECT group\nkids 1\n" * 50000, "AC3Db\nOBJECT poly\nnumvert 1\n0 0 0\nnumsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n9 0 0\n-1 0 0\nkids 0\n"):
+        yield model_case("mesh", f"AC3D {content[:40]!r}", "m.ac", content)
+    yield model_case("mesh", "X in circles", "m.x", "xof 0303txt 0032\n" + "Frame a {\n" * 50000)
+    for extension in REFUSED:
+        yield model_case("format", f".{extension} is on no list", f"m.{extension}" if extension else "m", OBJ, "refused")
+    lws = "LWSC\n3\nLoadObjectLayer 1 ../outside/secret.lwo\nAddNullObject a\n"
+    for name in ("m.lws", "m.LWS", "m.obj", "m.lwo"):
+        yield model_case("format", f"LWS as {name}", name, lws, "refused")
+    x3d = '<X3D><Scene><Inline url="../outside/secret.x3d"/></Scene></X3D>'
+    for name in ("m.x3d", "m.X3D", "m.obj", "m.dae"):
+        yield model_case("format", f"X3D as {name}", name, x3d, "refused")
+    for name, content in (("m.obj", b"\x7fELF\0\0\0"), ("m.ply", OBJ), ("m.gltf", OBJ), ("m.glb", b"PK\x03\x04"), ("m.json", "[1]"), ("m.gml", "{}"),
+                          ("m.osm", "{}"), ("m.tif", b"\x89PNG"), ("m.fbx", b"PK"), ("m.3ds", b"ply"), ("m.stl", b"x"), ("m.dae", "{}"), ("m.3mf", b"Rar!")):
+        yield model_case("format", f"another content as {name}", name, content, "refused")
+    for name in ("m.OBJ", "m.Obj"):
+        yield model_case("format", f"{name} is OBJ", name, OBJ, "done", extra={"m.mtl": "newmtl m\n"})
+    for target, kind in (("pipe", "a pipe"), ("folder", "a folder"), ("zero", "an endless device"), ("sparse", "20 GB of nothing"), ("absent", "nothing"),
+                         ("loop", "a link to itself")):
+        for extension in ("obj", "gltf", "glb", "json", "gml", "osm", "tif", "ply"):
+            yield special(target, kind, extension)
+    for target in ("pipe", "folder", "zero", "sparse", "absent", "loop"):
+        yield special_script(target)
+
+
+def make_special(folder, target, name):
+    import os
+    path = os.path.join(folder, name)
+    if target == "pipe":
+        os.mkfifo(path)
+    elif target == "folder":
+        os.mkdir(path)
+    elif target == "zero":
+        os.symlink("/dev/zero", path)
+    elif target == "loop":
+        os.symlink(name, path)
+    elif target == "sparse":
+        with open(path, "wb") as file:
+            file.truncate(20_000_000_000)
+
+
+def special(target, kind, extension):
+    def build(folder):
+        make_special(folder, target, f"m.{extension}")
+        return [["export", scene(folder, f'model(file="m.{extension}")\n' + CAMERA), "-o", "out.glb"]]
+
+    return Case("file", f"{kind} as .{extension}", build, "refused", seconds=20)
+
+
+def special_script(target):
+    def build(folder):
+        make_special(folder, target, "s.xp")
+        include = scene(folder, 'include(file="s.xp")\n', "outer.xp")
+        return [["check", "s.xp"], ["format", "s.xp"], ["check", include]]
+
+    return Case("file", f"{target} as a script", build, "refused", seconds=20)

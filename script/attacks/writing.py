@@ -1,0 +1,108 @@
+"""Results that must be whole or not there at all, and never outside of their place."""
+
+import os
+
+from .case import CAMERA, Case, scene, write
+
+TRIANGLE = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
+OLD = b"OLD" * 100
+
+
+def place(folder):
+    from .pictures import png
+    write(folder, "t.png", png(64, 64))
+    write(folder, "m.mtl", "newmtl m\nmap_Kd t.png\n")
+    write(folder, "m.obj", TRIANGLE)
+    return scene(folder, 'model(file="m.obj", dynamic=1, reflective=1)\nmodel(file="m.obj", position="3 0 0")\nreferenceMaps(position="0 -3 1.2")\n' + CAMERA)
+
+
+def command(verb, script, output):
+    size = ["--size", "64x64"]
+    return {
+        "render": ["render", script, *size, "-o", output],
+        "film": ["render", script, *size, "--seconds", "0.2", "-o", output],
+        "reference": ["reference", script, *size, "--samples", "1", "-o", output],
+        "photograph": ["reference", script, *size, "--samples", "1", "--path-traced", "-o", output],
+        "export": ["export", script, "-o", output],
+        "bake": ["bake", script],
+        "city": ["city", "kitchen", "-o", output],
+        "format": ["format", script],
+    }[verb]
+
+
+def old_stays(output):
+    """The result is whole, or what was there before."""
+
+    def check(folder, results):
+        path = folder / output
+        if results[-1]["status"] == 0:
+            return "" if path.exists() and path.read_bytes() != OLD else "status 0 without a result"
+        return "" if path.exists() and path.read_bytes() == OLD else f"status {results[-1]['status']}, and the old {output} is gone"
+
+    return check
+
+
+def full_disk(verb, output, limit):
+    def build(folder):
+        script = place(folder)
+        write(folder, output, OLD)
+        return [command(verb, script, output)]
+
+    return Case("full disk", f"{verb} to {output}, {limit} bytes", build, "either", file_limit=limit, check=old_stays(output), needs_gl=verb in ("render", "film", "reference"))
+
+
+def linked(verb, output, link, target):
+    def build(folder):
+        script = place(folder)
+        path = os.path.join(folder, link)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        os.symlink(target, path)
+        return [command(verb, script, output)]
+
+    return Case("link", f"{verb} beside {link} -> {target}", build, "either", needs_gl=verb in ("render", "film", "reference", "bake"))
+
+
+def to_full_output(arguments):
+    def build(folder):
+        script = place(folder)
+        return [[word if word != "SCENE" else script for word in arguments]]
+
+    return Case("full output", " ".join(arguments), build, "refused", before=["bash", "-c", 'exec "$@" > /dev/full', "sh"])
+
+
+def bad_output(verb, output, expects="refused"):
+    def build(folder):
+        script = place(folder)
+        write(folder, "file", "x")
+        return [command(verb, script, output)]
+
+    return Case("output", f"{verb} to {output[:40]!r}", build, expects, needs_gl=verb in ("render", "film", "reference"))
+
+
+def cases():
+    for limit in (1, 200, 1000):
+        for extension in ("png", "jpg", "exr", "hdr", "tif", "bmp", "tga", "webp"):
+            for verb in ("render", "reference", "photograph"):
+                yield full_disk(verb, f"out.{extension}", limit)
+        yield full_disk("film", "out.mp4", limit)
+        yield full_disk("export", "out.glb", limit)
+    for target in ("../outside/keep", "../outside", "/"):
+        for verb in ("bake", "render"):
+            yield linked(verb, "out.png", "scene.baked", target)
+        yield linked("city", "city", "city/.unfinished", target if target != "/" else "../outside/keep")
+    for verb, output, link in (("render", "out.png", ".partial-out.png"), ("film", "out.mp4", ".partial-out.mp4"), ("export", "out.glb", ".partial-out.glb"),
+                               ("format", "", ".partial-scene.xp"), ("bake", "", ".partial-scene.xp"), ("photograph", "out.png", "out.png.checkpoint"),
+                               ("photograph", "out.png", ".partial-out.png"), ("reference", "out.png", ".partial-out.png")):
+        for target in ("../outside/secret.bin", "../outside/absent"):
+            yield linked(verb, output, link, target)
+    for arguments in (["check", "SCENE"], ["check", "--reference"], ["check", "--schema"], ["--help"], ["export", "SCENE", "-o", "out.glb"]):
+        yield to_full_output(arguments)
+    for verb, extension in (("render", "png"), ("film", "mp4"), ("export", "glb"), ("reference", "png"), ("photograph", "png")):
+        yield bad_output(verb, f"file/out.{extension}")
+        yield bad_output(verb, "a" * 300 + "." + extension)
+        yield bad_output(verb, "a" * (254 - len(extension)) + "." + extension, "done")
+        yield bad_output(verb, "out.gif")
+        yield bad_output(verb, "out.jp2")
+        yield bad_output(verb, "out")
+        yield bad_output(verb, "")
+        yield bad_output(verb, "/dev/full")
