@@ -1,6 +1,7 @@
 // The command: a table of subcommands, each of which reads its arguments and calls a room.
 // Exit status: 0 done, 1 failed, 2 bad usage.
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -15,15 +16,15 @@
 
 namespace {
 
-/// Throws nothing, even where the standard error cannot be written.
-int failed(const std::string& message) {
-  std::fputs(message.c_str(), stderr);
+/// Throws and allocates nothing: it speaks of what happened where there is no memory, too.
+int failed(const char* message) {
+  std::fputs(message, stderr);
   return 1;
 }
+int failed(const std::string& message) { return failed(message.c_str()); }
 
-}  // namespace
-
-int main(int count, char** arguments) {
+/// Reads the command line and does what it says. Throws what no room can answer for.
+int run(int count, char** arguments) {
   parvis::start_isolation();  // before there are threads
   parvis::remove_partial_files_on_signals();
   CLI::App app{"Parvis shows a city square before it changes."};
@@ -43,22 +44,29 @@ int main(int count, char** arguments) {
     std::cout.flush();
     return std::cout ? 0 : 1;
   }
-  try {
-    if (const parvis::Status status = chosen(); !status) {
-      return failed(parvis::to_string(status.errors()));
-    }
-  } catch (const std::bad_alloc&) {  // what no room can answer for
-    return failed("parvis: there is not enough memory for this; use a smaller scene or --size\n");
-  } catch (const std::length_error&) {
-    return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
-  } catch (const std::system_error& problem) {  // threads, files
-    return failed("parvis: " + problem.code().message() + "\n");
-  } catch (const std::exception&) {
-    return failed("parvis: an error that Parvis does not know; please report it with the scene\n");
+  if (const parvis::Status status = chosen(); !status) {
+    return failed(parvis::to_string(status.errors()));
   }
   // What was printed may be the result: a full disk behind it is an error.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     return failed("parvis: the standard output cannot be written; is its disk full?\n");
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (const std::bad_alloc&) {
+    return failed("parvis: there is not enough memory for this; use a smaller scene or --size\n");
+  } catch (const std::length_error&) {
+    return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
+  } catch (const std::system_error& problem) {  // threads, files
+    std::fprintf(stderr, "parvis: %s\n", std::strerror(problem.code().value()));
+    return 1;
+  } catch (const std::exception&) {
+    return failed("parvis: an error that Parvis does not know; please report it with the scene\n");
+  }
 }

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/checked.h"
 #include "base/files.h"
 #include "base/isolated_process.h"
+#include "base/memory_budget.h"
 
 namespace parvis {
 namespace {
@@ -59,9 +61,15 @@ Result<BasicImage<T>> decode_isolated(std::string_view file_bytes, const std::st
   const std::span<const std::byte> bytes = made->bytes();
   if (bytes.size() < sizeof header) return error("{}: its reader crashed", name);
   std::memcpy(&header, bytes.data(), sizeof header);
+  const auto claimed =
+      checked_product({std::uint64_t(std::max(header.width, 0)), std::uint64_t(std::max(header.height, 0)),
+                       std::uint64_t(std::max(header.channels, 0)), sizeof(T)});
+  if (claimed != bytes.size() - sizeof header) return error("{}: its reader crashed", name);
+  if (Status status =
+          check_memory(claimed, fmt::format("{}: its {} x {} pixels", name, header.width, header.height));
+      !status)
+    return status.errors();
   BasicImage<T> image(header.width, header.height, header.channels, T{});
-  if (bytes.size() != sizeof header + image.pixels.size() * sizeof(T))
-    return error("{}: its reader crashed", name);
   std::memcpy(image.pixels.data(), bytes.data() + sizeof header, image.pixels.size() * sizeof(T));
   return image;
 }

@@ -22,6 +22,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "base/memory_budget.h"
+
 namespace parvis {
 namespace {
 
@@ -114,9 +116,12 @@ std::uint64_t address_space_bytes() {
   return pages * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
+/// The address space holds more than memory: stacks of threads, and arenas that are never filled.
+constexpr std::uint64_t empty_address_space_bytes = std::uint64_t{1} << 29;
+
 void limit_memory(std::uint64_t bytes) {
   if (has_shadow_memory) return;
-  const rlim_t all = address_space_bytes() + bytes;
+  const rlim_t all = address_space_bytes() + bytes + empty_address_space_bytes;
   const rlimit limit{all, all};
   setrlimit(RLIMIT_AS, &limit);
 }
@@ -206,6 +211,7 @@ bool is_worker = false;
     paths.remove_prefix(std::min(paths.size(), readable.back().size() + 1));
   }
   limit_memory(request.memory_bytes);  // first: it asks how much there is already
+  set_max_memory(memory_in_use() + request.memory_bytes);
   limit_files(readable);
   IsolatedOutput output(descriptors[1]);
   const Outcome outcome = carry_out(request.work, all.substr(request.readable_bytes), output);
@@ -361,7 +367,8 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
   Descriptor status_in(status[1]);
   if (!write_all(given.get(), readable) || !write_all(given.get(), input))
     return error("{}: there is no memory to hand it to its reader ({})", subject, std::strerror(errno));
-  const Request request{work, limits.memory_bytes, limits.seconds, std::uint32_t(readable.size())};
+  const std::uint64_t memory_bytes = std::min(limits.memory_bytes, memory_left());
+  const Request request{work, memory_bytes, limits.seconds, std::uint32_t(readable.size())};
   warn_without_landlock();
   if (!start_worker(request, {given.get(), made.get(), status_in.get()}))
     return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
@@ -381,8 +388,10 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
     return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
   }
   if (outcome == Outcome::out_of_memory)
-    return error("{}: reading it needs more than {:.1f} GB of memory", subject,
-                 double(limits.memory_bytes) / 1e9);
+    return error(
+        "{}: reading it needs more than {:.1f} GB of memory; use a smaller one, or allow more with "
+        "--max-memory",
+        subject, double(memory_bytes) / 1e9);
   IsolatedBytes result(made.release());
   if (outcome == Outcome::gave_up) {
     const std::string_view reason(reinterpret_cast<const char*>(result.bytes().data()),

@@ -21,9 +21,10 @@ namespace parvis {
 
 /// What a worker may use.
 struct IsolationLimits {
-  std::uint64_t memory_bytes = std::uint64_t{8} << 30;  ///< address space beyond that of the program
-  double seconds = 120.0;                               ///< by the wall clock
-  std::vector<std::filesystem::path> readable;          ///< folders and files that may be opened for reading
+  /// Beyond what the program holds; less where the budget (memory_budget.h) has less left.
+  std::uint64_t memory_bytes = std::uint64_t{8} << 30;
+  double seconds = 120.0;                       ///< by the wall clock
+  std::vector<std::filesystem::path> readable;  ///< folders and files that may be opened for reading
 };
 
 /// Memory that a worker fills and its caller reads, without a copy between them.

@@ -2,13 +2,17 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <utility>
@@ -49,23 +53,81 @@ void unlist(int slot) {
   slots[std::size_t(slot)].is_taken = false;
 }
 
+/// A record of a folder as the kernel gives it (getdents64).
+struct FolderRecord {
+  std::uint64_t inode;
+  std::int64_t offset;
+  std::uint16_t bytes;
+  unsigned char kind;
+  char name[1];
+};
+
+/// Without the library's functions for folders: they allocate, which a signal handler must not.
+void remove_folder_in_signal(const char* path) {
+  alignas(FolderRecord) static std::array<char, 16384> records;
+  const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return;
+  for (long size = 0; (size = syscall(SYS_getdents64, folder, records.data(), records.size())) > 0;)
+    for (long at = 0; at < size;) {
+      const auto* record = reinterpret_cast<const FolderRecord*>(records.data() + at);
+      unlinkat(folder, record->name, 0);
+      at += record->bytes;
+    }
+  rmdir(path);
+}
+
 void on_signal(int) {
   for (const Slot& slot : slots)
-    if (slot.is_listed) unlink(slot.path.data());
+    if (slot.is_listed && unlink(slot.path.data()) != 0) remove_folder_in_signal(slot.path.data());
   constexpr std::string_view message = "parvis: interrupted; what was being written is removed\n";
   const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
   static_cast<void>(ignored);
   _exit(1);
 }
 
-/// A new, empty file of a name that fits into a folder; empty if none can be made.
-fs::path make_partial(const fs::path& file) {
+/// Whether nobody works on the file or folder any more: who does holds a lock on it.
+bool is_abandoned(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool is_free = flock(file, LOCK_EX | LOCK_NB) == 0;
+  close(file);
+  return is_free;
+}
+
+/// Removes what a program that was killed has left in a folder, of names with this front and back and
+/// `random` characters between them. Errors are ignored: it is only in the way.
+void remove_abandoned(const fs::path& folder, std::string_view front, std::size_t random,
+                      std::string_view back) {
+  std::error_code code;
+  std::vector<fs::path> left;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, code))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with(front) && name.ends_with(back) &&
+        name.size() == front.size() + random + back.size() && is_abandoned(entry.path()))
+      left.push_back(entry.path());
+  for (const fs::path& path : left) fs::remove_all(path, code);
+}
+
+/// Locks what was just made, so that others see that somebody works on it; -1 where another program was
+/// faster and has taken it for abandoned.
+int hold(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat status {};
+  if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 && status.st_nlink > 0)
+    return file;
+  if (file >= 0) close(file);
+  return -1;
+}
+
+/// A new, empty file of a name that fits into a folder, and the lock on it; empty if none can be made.
+fs::path make_partial(const fs::path& file, int& lock) {
   constexpr std::size_t max_name = 255, random_digits = 8;
   const std::string extension = file.extension().string(), front = ".partial-";
   std::string stem = file.stem().string();
   const std::size_t around = front.size() + random_digits + 1 + extension.size();
   if (around > max_name) return {};
   stem.resize(std::min(stem.size(), max_name - around));
+  remove_abandoned(file.parent_path(), front, random_digits, "-" + stem + extension);
   std::random_device random;
   for (int attempt = 0; attempt < 100; ++attempt) {
     fs::path partial =
@@ -73,7 +135,8 @@ fs::path make_partial(const fs::path& file) {
     const int made = open(partial.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
     if (made >= 0) {
       close(made);
-      return partial;
+      if (lock = hold(partial); lock >= 0) return partial;
+      continue;
     }
     if (errno != EEXIST) break;
   }
@@ -93,20 +156,23 @@ Result<PartialFile> PartialFile::create(const fs::path& named) {
   struct stat before {};
   if (stat(file.c_str(), &before) == 0 && !S_ISREG(before.st_mode))
     return error("{}: is not a regular file and is not replaced", file.string());
-  fs::path partial = make_partial(file);
+  int lock = -1;
+  fs::path partial = make_partial(file, lock);
   if (partial.empty()) return cannot_write(file);
   const int slot = list(fs::absolute(partial, code).string());
-  return PartialFile(file, std::move(partial), slot);
+  return PartialFile(file, std::move(partial), slot, lock);
 }
 
 PartialFile::PartialFile(PartialFile&& other) noexcept
     : file_(std::move(other.file_)),
       partial_(std::exchange(other.partial_, {})),
-      slot_(std::exchange(other.slot_, -1)) {}
+      slot_(std::exchange(other.slot_, -1)),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 PartialFile::~PartialFile() {
   if (!partial_.empty()) unlink(partial_.c_str());
   unlist(slot_);
+  if (lock_ >= 0) close(lock_);
 }
 
 Status PartialFile::write(std::string_view bytes) const {
@@ -142,6 +208,32 @@ Status PartialFile::keep() {
   partial_.clear();
   unlist(std::exchange(slot_, -1));
   return Done{};
+}
+
+Result<PartialFolder> PartialFolder::create(const fs::path& folder) {
+  const std::string front = ".unfinished-", random = "XXXXXX";
+  remove_abandoned(folder, front, random.size(), "");
+  std::string path = folder / (front + random);
+  if (mkdtemp(path.data()) == nullptr) return cannot_write(folder);
+  const int lock = hold(path);
+  std::error_code code;
+  fs::permissions(path, fs::perms::group_read | fs::perms::others_read, fs::perm_options::add, code);
+  const int slot = list(fs::absolute(path, code).string());
+  return PartialFolder(path, slot, lock);
+}
+
+PartialFolder::PartialFolder(PartialFolder&& other) noexcept
+    : folder_(std::move(other.folder_)),
+      slot_(std::exchange(other.slot_, -1)),
+      lock_(std::exchange(other.lock_, -1)) {
+  other.folder_.clear();
+}
+
+PartialFolder::~PartialFolder() {
+  std::error_code code;
+  if (!folder_.empty()) fs::remove_all(folder_, code);
+  unlist(slot_);
+  if (lock_ >= 0) close(lock_);
 }
 
 void remove_partial_files_on_signals() {

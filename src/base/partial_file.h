@@ -10,7 +10,8 @@ namespace parvis {
 
 /// A new, empty file beside the one that it becomes: hidden, same extension, of a name that nobody can guess,
 /// opened by nobody else. Links are not followed. Unless `keep` is called, the destructor removes it, and a
-/// signal that ends the program does (`remove_partial_files_on_signals`).
+/// signal that ends the program does (`remove_partial_files_on_signals`); what a program that was killed has
+/// left is removed by the next one that writes the same file.
 class PartialFile {
  public:
   /// Makes the folders above `file`. A link at `file` keeps its place: what it points to is replaced. Errors:
@@ -30,15 +31,39 @@ class PartialFile {
   Status keep();
 
  private:
-  PartialFile(std::filesystem::path file, std::filesystem::path partial, int slot)
-      : file_(std::move(file)), partial_(std::move(partial)), slot_(slot) {}
+  PartialFile(std::filesystem::path file, std::filesystem::path partial, int slot, int lock)
+      : file_(std::move(file)), partial_(std::move(partial)), slot_(slot), lock_(lock) {}
 
   std::filesystem::path file_, partial_;
   int slot_;  ///< in the list of what a signal removes; -1: none
+  int lock_;  ///< descriptor of the file while it is worked on
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove all partial files, say so, and end the program with
-/// status 1. Commands that finish or resume their work in another way may handle SIGINT and SIGTERM
+/// A new, empty folder of a name that nobody can guess, for files that later move to their places. The
+/// destructor removes it with all that is in it, and so does a signal that ends the program (its files, not
+/// folders inside it).
+class PartialFolder {
+ public:
+  /// Inside `folder`, which must exist. Errors: it cannot be written to.
+  static Result<PartialFolder> create(const std::filesystem::path& folder);
+  PartialFolder(PartialFolder&& other) noexcept;
+  PartialFolder& operator=(PartialFolder&&) = delete;
+  ~PartialFolder();
+
+  /// Where to write.
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  PartialFolder(std::filesystem::path folder, int slot, int lock)
+      : folder_(std::move(folder)), slot_(slot), lock_(lock) {}
+
+  std::filesystem::path folder_;
+  int slot_;  ///< in the list of what a signal removes; -1: none
+  int lock_;  ///< descriptor of the folder while it is worked on; -1: none
+};
+
+/// From now on SIGINT, SIGTERM and SIGHUP remove all partial files and folders, say so, and end the program
+/// with status 1. Commands that finish or resume their work in another way may handle SIGINT and SIGTERM
 /// themselves.
 void remove_partial_files_on_signals();
 

@@ -9,7 +9,9 @@
 #include <memory>
 #include <mutex>
 
+#include "base/checked.h"
 #include "base/colour.h"
+#include "base/memory_budget.h"
 
 namespace parvis {
 namespace {
@@ -117,6 +119,12 @@ Result<OpenPicture> open_picture(std::span<const std::uint8_t> bytes, const std:
 template <class T>
 Result<BasicImage<T>> read_pixels(OIIO::ImageInput& input, const std::string& name, int channels, T opaque) {
   const OIIO::ImageSpec& spec = input.spec();
+  const auto bytes = checked_product({std::uint64_t(spec.width), std::uint64_t(spec.height),
+                                      std::uint64_t(spec.nchannels + channels), sizeof(T)});
+  if (Status status =
+          check_memory(bytes, fmt::format("{}: its {} x {} pixels", name, spec.width, spec.height));
+      !status)
+    return status.errors();
   std::vector<T> pixels(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
   if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, pixels.data()))
     return error("{}: the picture is damaged or cut short ({})", name, input.geterror());

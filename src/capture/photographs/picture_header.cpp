@@ -1,8 +1,9 @@
 #include "capture/photographs/picture_header.h"
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
+
+#include "base/file_front.h"
 
 namespace parvis::photographs {
 namespace {
@@ -125,12 +126,9 @@ Result<PictureHeader> parse_picture_header(std::string_view bytes, const std::st
 }
 
 Result<PictureHeader> read_picture_header(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(header_bytes, '\0');
-  if (!in) return error("{}: cannot be opened", file.string());
-  in.read(bytes.data(), std::streamsize(bytes.size()));
-  bytes.resize(std::size_t(in.gcount()));
-  return parse_picture_header(bytes, file.string());
+  const Result<std::string> bytes = read_front(file, header_bytes);
+  if (!bytes) return bytes.errors();
+  return parse_picture_header(*bytes, file.string());
 }
 
 bool is_whole_jpeg(std::string_view bytes) {

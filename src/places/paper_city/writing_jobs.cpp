@@ -1,10 +1,7 @@
 #include "places/paper_city/writing_jobs.h"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-
 #include "base/parallel.h"
+#include "base/partial_file.h"
 
 namespace parvis::city {
 namespace {
@@ -42,6 +39,14 @@ Status move_files(const fs::path& from, const fs::path& to) {
   return Done{};
 }
 
+/// All files, then their move; what cannot be written leaves nothing behind.
+Status write_and_move(const std::vector<WritingJob>& jobs, const fs::path& folder) {
+  const Result<PartialFolder> unfinished = PartialFolder::create(folder);
+  if (!unfinished) return unfinished.errors();
+  if (Status status = run_all(jobs, unfinished->path()); !status) return status;
+  return move_files(unfinished->path(), folder);
+}
+
 }  // namespace
 
 Status write_together(const std::vector<WritingJob>& jobs, const fs::path& folder) {
@@ -49,13 +54,7 @@ Status write_together(const std::vector<WritingJob>& jobs, const fs::path& folde
   const bool is_new = !fs::exists(folder, code);
   Status status = make_folder(folder);
   if (!status) return status;
-  std::string unfinished = folder / ".unfinished-XXXXXX";  // one that nobody else has, link or folder
-  if (mkdtemp(unfinished.data()) == nullptr)
-    return error("{}: cannot be written to ({})", folder.string(), std::strerror(errno));
-  fs::permissions(unfinished, fs::perms::group_read | fs::perms::others_read, fs::perm_options::add, code);
-  status = run_all(jobs, unfinished);
-  if (status) status = move_files(unfinished, folder);
-  fs::remove_all(unfinished, code);
+  status = write_and_move(jobs, folder);
   if (!status && is_new) fs::remove(folder, code);
   return status;
 }
