@@ -55,6 +55,7 @@ void add_check(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("scene", arguments->scene, "The scene's script (.xp), or a model file");
   command->add_option("--data", arguments->data, "A further folder that the scene may read from");
+  add_max_memory(*command);
   command->add_flag("--reference", arguments->wants_reference,
                     "Print the reference of all nodes (docs/scene-reference.md)");
   command->add_flag("--schema", arguments->wants_schema,

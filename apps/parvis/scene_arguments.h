@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "base/result.h"
 #include "house/rooms.h"
 #include "house/stage/stage.h"
@@ -13,6 +14,15 @@
 #include "strict_numbers.h"
 
 namespace parvis {
+
+/// --max-memory.
+inline void add_max_memory(CLI::App& command) {
+  command
+      .add_option_function<double>(
+          "--max-memory", [](double gigabytes) { set_max_memory(std::uint64_t(1e9 * gigabytes)); },
+          "Memory that the scene may take, in GB (default: half of the machine's)")
+      ->check(CLI::Range(0.1, 1e6));
+}
 
 /// Where `scene` names a model file instead of a script: writes a script that shows it into the working
 /// folder, says so, and names that script instead.
@@ -50,6 +60,7 @@ struct SceneArguments {
     command.add_option("scene", scene, "The scene's script (.xp), or a model file to be shown by itself")
         ->required();
     command.add_option("--data", data, "A further folder that the scene may read from");
+    add_max_memory(command);
   }
   /// --camera.
   void add_camera(CLI::App& command) {

@@ -18,6 +18,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/exception_reason.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
@@ -331,7 +332,7 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
     return Reader(file, *city, warnings, max_detail).read();
   } catch (const std::exception& problem) {
-    return error_at(where, "libcitygml cannot read it ({})", problem.what());
+    return error_at(where, "libcitygml cannot read it ({})", reason_of(problem));
   } catch (...) {  // Xerces throws what is no std::exception
     return error_at(where, "libcitygml cannot read it ({})", complaints->first());
   }

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/checked.h"
 #include "base/files.h"
 #include "base/json_guard.h"
+#include "base/memory_budget.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_json_sequence.h"
 #include "formats/city_models/city_lod.h"
@@ -131,6 +134,7 @@ class Reader {
     read_appearance();
     const Json& objects = member(json_, "CityObjects");
     if (!objects.is_object()) fail("there are no \"CityObjects\"");
+    charge_instances(objects);
     for (const auto& [name, object] : objects.items()) read_object(name, object);
     return city_.finish(objects.size());
   }
@@ -163,6 +167,37 @@ class Reader {
   void read_templates() {
     template_vertices_ =
         triples(member(member(json_, "geometry-templates"), "vertices-templates"), "a template's vertex");
+  }
+
+  /// Numbers in lists in lists: the corners of a geometry's boundaries.
+  static std::uint64_t corner_count(const Json& boundaries) {
+    if (!boundaries.is_array()) return 1;
+    std::uint64_t count = 0;
+    for (const Json& inner : boundaries) count += corner_count(inner);
+    return count;
+  }
+
+  /// A template of some bytes may be placed by any number of objects, and each gets triangles of its own.
+  void charge_instances(const Json& objects) const {
+    constexpr std::uint64_t bytes_per_corner =
+        2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 3 * sizeof(std::uint32_t);
+    std::map<const Json*, std::uint64_t> corners_of;
+    std::optional<std::uint64_t> corners = 0;
+    std::size_t instances = 0;
+    for (const auto& [name, object] : objects.items())
+      for (const Json& geometry : member(object, "geometry")) {
+        if (text(member(geometry, "type")) != "GeometryInstance") continue;
+        const Json& shape = template_of(geometry);
+        const auto [known, is_new] = corners_of.try_emplace(&shape, 0);
+        if (is_new) known->second = corner_count(member(shape, "boundaries"));
+        if (corners) corners = checked_sum({*corners, known->second});
+        ++instances;
+      }
+    const auto bytes = corners ? checked_product({*corners, bytes_per_corner}) : std::nullopt;
+    if (const Status status =
+            check_memory(bytes, fmt::format("placing {} templates {} times", corners_of.size(), instances));
+        !status)
+      fail("{}", status.errors().front().message);
   }
 
   static glm::vec3 colour(const Json& value, glm::vec3 otherwise) {

@@ -6,6 +6,7 @@
 #include <osmium/io/xml_input.hpp>
 #include <osmium/visitor.hpp>
 
+#include "base/exception_reason.h"
 #include "base/files.h"
 #include "formats/city_models/xml_guard.h"
 
@@ -135,7 +136,7 @@ Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warning
     if (osm.nodes.empty()) return error_at(where, "this OpenStreetMap file has no nodes");
     return osm;
   } catch (const std::exception& problem) {  // of the library: what the file holds is not OpenStreetMap's
-    return error_at(where, "this is no OpenStreetMap file that can be read: {}", problem.what());
+    return error_at(where, "this is no OpenStreetMap file that can be read: {}", reason_of(problem));
   }
 }
 

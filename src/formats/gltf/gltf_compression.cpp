@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/checked.h"
+#include "base/exception_reason.h"
 #include "formats/gltf/gltf_values.h"
 
 namespace parvis::scene {
@@ -77,6 +78,7 @@ Bytes unpacked_view(const GltfFile& file, const Json& packing, const std::vector
   if (count > max_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
     gltf_fail("buffer view {}: {} elements of {} bytes, mode \"{}\", filter \"{}\" are none of {}'s", view,
               count, stride, mode, filter, meshopt);
+  gltf_charge(checked_product({count, stride}), "buffer view {}, decompressed,", view);
   Bytes plain((count * stride + 3) / 4 * 4);
   const std::span<const std::uint8_t> packed =
       std::span(buffers[std::size_t(buffer)]).subspan(offset, length);
@@ -111,7 +113,7 @@ std::unique_ptr<draco::Mesh> decoded(std::span<const std::uint8_t> bytes, const 
               mesh.ok() ? "too many points" : mesh.status().error_msg_string());
   } catch (const std::exception& problem) {
     gltf_fail("mesh \"{}\": its compressed bytes ({}) are damaged: {}", mesh_name, draco_mesh,
-              problem.what());
+              reason_of(problem));
   }
 }
 
@@ -140,6 +142,8 @@ void put_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attribu
   if (components < 1 || components > 4)
     gltf_fail("{}: an attribute has {} components", draco_mesh, components);
   const float unit = attribute.normalized() ? 1.0f : unit_of(accessor);
+  gltf_charge(checked_product({2, components, mesh.num_points(), sizeof(float)}), "{}: an attribute",
+              draco_mesh);
   std::vector<float> values(components * mesh.num_points());
   for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
     float* value = values.data() + components * point.value();

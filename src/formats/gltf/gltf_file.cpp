@@ -325,13 +325,20 @@ void GltfFile::read_elements(int accessor, int components, const Store& store) c
   }
 }
 
+std::size_t GltfFile::element_count(int accessor) const {
+  return size_of(list("accessors")[std::size_t(accessor)], "count");
+}
+
 std::vector<float> GltfFile::floats(int accessor, int components) const {
+  gltf_charge(checked_product({element_count(accessor), std::uint64_t(components), sizeof(float)}),
+              "accessor {}", accessor);
   std::vector<float> values(access(accessor, components).count * std::size_t(components), 0.0f);
   read_elements(accessor, components, [&](std::size_t i, double value) { values[i] = float(value); });
   return values;
 }
 
 std::vector<std::uint32_t> GltfFile::integers(int accessor) const {
+  gltf_charge(checked_product({element_count(accessor), sizeof(std::uint32_t)}), "accessor {}", accessor);
   std::vector<std::uint32_t> values(access(accessor, 1).count, 0);
   read_elements(accessor, 1,
                 [&](std::size_t i, double value) { values[i] = value >= 0.0 ? std::uint32_t(value) : ~0u; });

@@ -32,6 +32,8 @@ class GltfFile {
   /// The index `name` of `object`, checked against the list it points into; -1 where it is absent.
   int index(const Json& object, const char* name, const char* list_name) const;
 
+  /// How many elements an accessor claims to have: no more than a claim.
+  std::size_t element_count(int accessor) const;
   /// An accessor's elements as floats, `components` each (normalised integers become 0..1 or -1..1).
   std::vector<float> floats(int accessor, int components) const;
   /// A scalar accessor's elements as unsigned integers.

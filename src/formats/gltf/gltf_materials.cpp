@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/image_io.h"
+#include "base/json_guard.h"
 #include "base/parallel.h"
 #include "formats/gltf/gltf_values.h"
 #include "scene/data/placeholder.h"
@@ -137,7 +138,7 @@ class MaterialReader {
     } catch (const GltfFile::GltfProblem& problem) {
       return error("{}", problem.message);
     } catch (const Json::exception& problem) {
-      return error("{}: {}", name, problem.what());
+      return error("{}: {}", name, json_reason(problem.what()));
     }
   }
 

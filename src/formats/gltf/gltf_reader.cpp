@@ -1,5 +1,8 @@
 #include "formats/gltf/gltf_reader.h"
 
+#include <map>
+
+#include "base/checked.h"
 #include "base/json_guard.h"
 #include "formats/gltf/gltf_animations.h"
 #include "formats/gltf/gltf_deformation.h"
@@ -44,6 +47,41 @@ void read_mesh(const GltfFile& file, const GltfNodes& nodes, int node, Model& mo
   }
 }
 
+/// Bytes that the vertices and indices of a mesh take in a model, by the counts that its accessors claim;
+/// none where that is beyond 64 bits.
+std::optional<std::uint64_t> bytes_of_mesh(const GltfFile& file, int mesh) {
+  constexpr std::uint64_t vertex_bytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2);
+  std::optional<std::uint64_t> sum = 0;
+  const Json& source = file.list("meshes")[std::size_t(mesh)];
+  for (const Json& primitive : source.value("primitives", Json::array())) {
+    const int positions = file.index(gltf_member(primitive, "attributes"), "POSITION", "accessors"),
+              indices = file.index(primitive, "indices", "accessors");
+    const std::uint64_t vertices = positions < 0 ? 0 : file.element_count(positions);
+    const auto of_vertices = checked_product({vertices, vertex_bytes}),
+               of_indices = checked_product({indices < 0 ? vertices : file.element_count(indices), 4});
+    if (!sum || !of_vertices || !of_indices) return std::nullopt;
+    sum = checked_sum({*sum, *of_vertices, *of_indices});
+  }
+  return sum;
+}
+
+/// Meshes are copied to each node that shows them: a file of some bytes may say so for any number of nodes.
+void charge_meshes(const GltfFile& file, const GltfNodes& nodes) {
+  std::map<int, std::optional<std::uint64_t>> known;
+  std::optional<std::uint64_t> sum = 0;
+  std::size_t shown = 0;
+  for (const int node : nodes.gltf_of) {
+    const int mesh =
+        node == no_index ? -1 : file.index(file.list("nodes")[std::size_t(node)], "mesh", "meshes");
+    if (mesh < 0) continue;
+    ++shown;
+    const auto [bytes, is_new] = known.try_emplace(mesh);
+    if (is_new) bytes->second = bytes_of_mesh(file, mesh);
+    if (sum) sum = bytes->second ? checked_sum({*sum, *bytes->second}) : std::nullopt;
+  }
+  gltf_charge(sum, "the geometry of {} nodes that show {} meshes", shown, known.size());
+}
+
 /// All nodes are there now, and with them all joints.
 void deform_to_rest(Model& model) {
   const std::vector<glm::mat4> model_from_node = rest_pose(model);
@@ -62,6 +100,7 @@ Model read_model(const GltfFile& file, Errors& warnings) {
   model.nodes.front().rotation = glm::angleAxis(glm::radians(90.0f), glm::vec3(1, 0, 0));
   read_materials(file, model, warnings);
   const GltfNodes nodes = read_nodes(file, model, warnings);
+  charge_meshes(file, nodes);
   for (std::size_t node = 1; node < model.nodes.size(); ++node) read_mesh(file, nodes, int(node), model);
   deform_to_rest(model);
   model.animations = read_animations(file, nodes);

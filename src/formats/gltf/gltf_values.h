@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "base/memory_budget.h"
 #include "formats/gltf/gltf_file.h"
 
 namespace parvis::scene {
@@ -11,6 +12,14 @@ namespace parvis::scene {
 template <class... Args>
 [[noreturn]] void gltf_fail(fmt::format_string<Args...> format, Args&&... args) {
   throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+/// To be called before `bytes` are allocated; none stands for more than 64 bits can say. Throws GltfProblem
+/// where the budget has not so much left; the message begins with what they are for.
+template <class... Args>
+void gltf_charge(std::optional<std::uint64_t> bytes, fmt::format_string<Args...> format, Args&&... args) {
+  if (const Status status = check_memory(bytes, fmt::format(format, std::forward<Args>(args)...)); !status)
+    throw GltfFile::GltfProblem{status.errors().front().message};
 }
 
 /// The number `name` of an object; `otherwise` where it is absent or no number.

@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 
+#include "base/exception_reason.h"
 #include "base/files.h"
 #include "base/image_io.h"
 #include "scene/data/placeholder.h"
@@ -207,7 +208,7 @@ Result<Model> read_with_assimp(const fs::path& file, formats::UpAxis up, Errors&
     if (model) return model;
     return Error{model.errors().front().message, where};
   } catch (const std::exception& problem) {
-    return error_at(where, "cannot be read as a model ({})", problem.what());
+    return error_at(where, "cannot be read as a model ({})", reason_of(problem));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/memory_budget.h"
 #include "base/sealed_file.h"
 #include "formats/readers/model_bytes.h"
 
@@ -30,6 +31,8 @@ void append_text(std::string& bytes, const std::string& text) {
 
 std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
 
+}  // namespace
+
 IsolationLimits limits_for(const fs::path& file) {
   IsolationLimits limits;
   std::error_code code;
@@ -40,7 +43,27 @@ IsolationLimits limits_for(const fs::path& file) {
   return limits;
 }
 
-}  // namespace
+std::string bytes_of_warnings(const Errors& warnings) {
+  std::string bytes;
+  append_value(bytes, std::uint64_t(warnings.size()));
+  for (const Error& warning : warnings) {
+    append_text(bytes, warning.message);
+    append_text(bytes, warning.where.file);
+    append_value(bytes, warning.where.line);
+    append_value(bytes, warning.where.column);
+  }
+  return bytes;
+}
+
+void take_warnings(Taker& taker, Errors& warnings) {
+  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
+    Error& warning = warnings.emplace_back();
+    warning.message = take_text(taker);
+    warning.where.file = take_text(taker);
+    warning.where.line = taker.take<int>();
+    warning.where.column = taker.take<int>();
+  }
+}
 
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output) {
   Taker taker(input);
@@ -53,14 +76,10 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   Errors warnings;
   const Result<scene::Model> model = read(file, reading, warnings);
   if (!model) return model.errors();
-  std::string front;
-  append_value(front, std::uint64_t(warnings.size()));
-  for (const Error& warning : warnings) {
-    append_text(front, warning.message);
-    append_text(front, warning.where.file);
-    append_value(front, warning.where.line);
-    append_value(front, warning.where.column);
-  }
+  const std::string front = bytes_of_warnings(warnings);
+  constexpr std::uint64_t copies = 2;  // in this process; the program makes two more
+  if (Status status = check_memory(copies * byte_count(*model), file.string() + ": its content"); !status)
+    return status;
   const std::string back = bytes_of(*model);
   const std::span<std::byte> bytes = output.allocate(front.size() + back.size());
   if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), back.size());
@@ -81,13 +100,9 @@ Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, cons
   if (!made) return made.errors();
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
   Taker taker(bytes);
-  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
-    Error& warning = warnings.emplace_back();
-    warning.message = take_text(taker);
-    warning.where.file = take_text(taker);
-    warning.where.line = taker.take<int>();
-    warning.where.column = taker.take<int>();
-  }
+  take_warnings(taker, warnings);
+  if (Status status = check_memory(taker.rest().size(), subject + ": its content"); !status)
+    return status.errors();
   return model_of(taker.rest(), subject);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/isolated_process.h"
+#include "base/sealed_file.h"
 #include "formats/readers/readers.h"
 
 namespace parvis::formats {
@@ -10,6 +11,14 @@ namespace parvis::formats {
 /// A reader as a plain function, which the child process shares with the program.
 using ReadFunction = Result<scene::Model>(const std::filesystem::path& file, const ModelReading& reading,
                                           Errors& warnings);
+
+/// What a child that reads `file` may use: files below its folder, and time by its size.
+IsolationLimits limits_for(const std::filesystem::path& file);
+
+/// Warnings as flat bytes: they stand before what a child returns.
+std::string bytes_of_warnings(const Errors& warnings);
+/// Adds the warnings at the front of what a child has returned to `warnings`.
+void take_warnings(Taker& taker, Errors& warnings);
 
 /// In the child: reads the file that `input` names and fills `output` with warnings and model.
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output);

@@ -35,6 +35,29 @@ class Putter {
   std::string& bytes_;
 };
 
+/// Counts the bytes of each field that it is given.
+class Counter {
+ public:
+  std::uint64_t bytes() const { return bytes_; }
+
+  template <class T>
+  void value(const T& value) {
+    bytes_ += sizeof value;
+  }
+  template <class T>
+  void array(const T& values) {
+    bytes_ += sizeof(std::uint64_t) + values.size() * sizeof values[0];
+  }
+  template <class T, class Each>
+  void list(const std::vector<T>& items, const Each& each) {
+    bytes_ += sizeof(std::uint64_t);
+    for (const T& item : items) each(item);
+  }
+
+ private:
+  std::uint64_t bytes_ = 0;
+};
+
 /// Fills each field that it is given, from bytes that may be anything.
 class Filler {
  public:
@@ -69,8 +92,8 @@ class Filler {
   Taker taker_;
 };
 
-// Each function below names the fields of one type once, for both directions: `io` is a Putter and the type
-// const, or a Filler.
+// Each function below names the fields of one type once, for both directions: `io` is a Putter or a Counter
+// and the type const, or a Filler.
 
 template <class Io, class T>
 void transfer_texture(Io& io, T& texture) {
@@ -230,8 +253,15 @@ bool is_right(const Model& model) {
 
 }  // namespace
 
+std::uint64_t byte_count(const Model& model) {
+  Counter counter;
+  transfer_model(counter, model);
+  return counter.bytes();
+}
+
 std::string bytes_of(const Model& model) {
   std::string bytes;
+  bytes.reserve(byte_count(model));
   Putter putter(bytes);
   transfer_model(putter, model);
   return bytes;

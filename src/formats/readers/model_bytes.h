@@ -9,6 +9,9 @@
 
 namespace parvis::formats {
 
+/// How many bytes `bytes_of` gives.
+std::uint64_t byte_count(const scene::Model& model);
+
 /// All of `model`; numbers as they lie in memory.
 std::string bytes_of(const scene::Model& model);
 

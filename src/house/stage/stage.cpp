@@ -1,5 +1,9 @@
 #include "house/stage/stage.h"
 
+#include <set>
+
+#include "base/checked.h"
+#include "base/memory_budget.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -36,12 +40,28 @@ Play make_play(const House& house, scene::Scene scene) {
   return make_play(house, std::move(scene), scene::LiveScene(house.get<scene::NodeRegistry>()));
 }
 
+namespace {
+
+/// Drawing and tracing take memory of their own for each triangle of a model: buffers, and a hierarchy.
+Status charge_triangles(const scene::Scene& scene, const std::filesystem::path& script) {
+  constexpr std::uint64_t bytes_per_triangle = 100;
+  std::set<const scene::Model*> models;
+  std::uint64_t triangles = 0;
+  for (const scene::Object& object : scene.objects)
+    if (models.insert(object.model.get()).second) triangles += object.model->triangle_count();
+  return check_memory(checked_product({triangles, bytes_per_triangle}),
+                      fmt::format("{}: showing {} triangles", script.string(), triangles));
+}
+
+}  // namespace
+
 Result<Play> open_play(const House& house, const std::filesystem::path& script,
                        std::span<const std::filesystem::path> data_folders) {
   Result<scene::LoadedScene> loaded =
       scene::load_scene(script, house.get<scene::NodeRegistry>(), data_folders);
   if (!loaded) return loaded.errors();
   reported(loaded->warnings);
+  if (Status status = charge_triangles(loaded->scene, script); !status) return status.errors();
   scene::LiveScene live(std::move(loaded->script));
   if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
   return make_play(house, std::move(loaded->scene), std::move(live));
