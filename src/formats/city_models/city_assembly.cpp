@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "formats/city_models/polygon_crossings.h"
 #include "formats/city_models/polygon_triangles.h"
 #include "formats/terrain/city_surfaces.h"
 #include "scene/data/placeholder.h"
@@ -103,6 +104,9 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   const std::string name = surface_name(surface.semantics, object.type, float(normal.z));
   const bool turns_over = is_ground(name) && normal.z < 0.0 && !surface.is_of_solid;
   if (turns_over) normal = -normal;
+  if (!can_be_triangulated(rings, normal))
+    return warn(fmt::format("a surface of {} crosses or covers itself more than {} times; it is left out",
+                            object.name, max_edge_crossings));
   ++polygon_count_, ++polygons_of_[name];
 
   std::vector<glm::dvec3> points;

@@ -2,6 +2,7 @@
 
 #include "formats/city_models/city_gml.h"
 #include "formats/city_models/city_json.h"
+#include "formats/city_models/osm_file_bytes.h"
 #include "formats/city_models/osm_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
@@ -23,10 +24,13 @@ Result<Model> read_map(const fs::path& file, const ModelReading& reading, Errors
   return read_osm(file, warnings, reading.ground);
 }
 
-/// On a ground, of which only the program knows the heights, the map is read here.
+/// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
 Result<Model> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
   static const formats::ReadModel alone = formats::isolated<read_map>();
-  return reading.ground ? read_map(file, reading, warnings) : alone(file, reading, warnings);
+  if (!reading.ground) return alone(file, reading, warnings);
+  const Result<OsmFile> osm = read_osm_file_isolated(file, warnings);
+  if (!osm) return osm.errors();
+  return model_of_osm(*osm, file, warnings, reading.ground);
 }
 
 }  // namespace

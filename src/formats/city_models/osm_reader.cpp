@@ -27,41 +27,46 @@ void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, Ci
 
 }  // namespace
 
-Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground) {
+Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
+                           const GroundOnMap& ground) {
   const FileLocation where{file.string(), 0, 0};
-  const Result<OsmFile> osm = read_osm_file(file, warnings);
-  if (!osm) return osm.errors();
-  const glm::dvec2 middle_deg = (osm->min_deg + osm->max_deg) / 2.0;
+  const glm::dvec2 middle_deg = (osm.min_deg + osm.max_deg) / 2.0;
   const Utm utm(middle_deg);
-  const glm::dvec2 size_m = utm(osm->max_deg) - utm(osm->min_deg);
+  const glm::dvec2 size_m = utm(osm.max_deg) - utm(osm.min_deg);
   if (!(glm::length(size_m) < largest_m))
     return error_at(where,
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
                     largest_m / 1000.0);
   const glm::dvec3 origin(glm::floor(utm(middle_deg)), 0.0);
   const auto on_map = [&](OsmId node) -> std::optional<glm::dvec2> {
-    const auto found = osm->nodes.find(node);
-    if (found == osm->nodes.end()) return std::nullopt;
+    const auto found = osm.nodes.find(node);
+    if (found == osm.nodes.end()) return std::nullopt;
     const glm::dvec2 place = utm(found->second);
     if (!(glm::distance(place, glm::dvec2(origin)) < largest_m)) return std::nullopt;
     return place;
   };
   CityAssembly city(file, origin, warnings);
-  const std::size_t buildings = add_osm_buildings(*osm, on_map, ground, city);
+  const std::size_t buildings = add_osm_buildings(osm, on_map, ground, city);
   const OsmPlaces place = on_map;
-  const OsmRelief relief(*osm, place);
-  std::vector<Road> roads = osm_roads(*osm, place, relief, ground, origin, file, city);
+  const OsmRelief relief(osm, place);
+  std::vector<Road> roads = osm_roads(osm, place, relief, ground, origin, file, city);
   if (!ground) {
-    add_ground(*osm, utm, origin, city);
-    add_osm_land(*osm, place, origin.z, city);
-    add_osm_crossings(*osm, place, roads, origin, city);
+    add_ground(osm, utm, origin, city);
+    add_osm_land(osm, place, origin.z, city);
+    add_osm_crossings(osm, place, roads, origin, city);
   }
-  add_osm_plants_and_barriers(*osm, place, ground, city);
-  add_osm_rails(*osm, place, relief, ground, city);
-  add_osm_bridges(*osm, relief, ground, half_carriageway_m, city);
+  add_osm_plants_and_barriers(osm, place, ground, city);
+  add_osm_rails(osm, place, relief, ground, city);
+  add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   Result<Model> model = city.finish(buildings);
   if (model) model->roads = std::move(roads);
   return model;
+}
+
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground) {
+  const Result<OsmFile> osm = read_osm_file(file, warnings);
+  if (!osm) return osm.errors();
+  return model_of_osm(*osm, file, warnings, ground);
 }
 
 }  // namespace parvis::scene

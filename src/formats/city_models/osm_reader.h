@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/result.h"
+#include "formats/city_models/osm_file.h"
 #include "formats/readers/ground_on_map.h"
 #include "scene/data/model.h"
 
@@ -14,5 +15,8 @@ namespace parvis::scene {
 /// is. All stands on the ground that is given, else on a level one at z = 0, which is added with what lies on
 /// it. What is incomplete is reported in `warnings` by its id, and the rest is read.
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {});
+/// The same from the content of `file`, which has been read.
+Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
+                           const GroundOnMap& ground = {});
 
 }  // namespace parvis::scene

@@ -1,0 +1,128 @@
+#include "formats/city_models/osm_file_bytes.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "base/memory_budget.h"
+#include "base/sealed_file.h"
+#include "formats/readers/isolated_reader.h"
+
+namespace parvis::scene {
+namespace {
+
+void append_text(std::string& bytes, const std::string& text) {
+  append_value(bytes, std::uint64_t(text.size()));
+  bytes += text;
+}
+
+std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
+
+void append_tags(std::string& bytes, const OsmTags& tags) {
+  append_value(bytes, std::uint64_t(tags.size()));
+  for (const auto& [key, value] : tags) append_text(bytes, key), append_text(bytes, value);
+}
+
+/// Calls `each` as often as the count at the front says, or until the bytes end.
+template <class Each>
+void take_each(Taker& taker, const Each& each) {
+  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) each();
+}
+
+OsmTags take_tags(Taker& taker) {
+  OsmTags tags;
+  take_each(taker, [&] {
+    std::string key = take_text(taker);
+    tags.insert_or_assign(std::move(key), take_text(taker));
+  });
+  return tags;
+}
+
+/// In the worker; the input is the file's path.
+Status read_in_worker(std::string_view input, IsolatedOutput& output) {
+  const std::filesystem::path file(input);
+  Errors warnings;
+  const Result<OsmFile> osm = read_osm_file(file, warnings);
+  if (!osm) return osm.errors();
+  std::string bytes = formats::bytes_of_warnings(warnings);
+  bytes += bytes_of(*osm);
+  const std::span<std::byte> to = output.allocate(bytes.size());
+  if (to.empty()) return error("{}: there is no memory for its {} bytes", file.string(), bytes.size());
+  std::memcpy(to.data(), bytes.data(), bytes.size());
+  return Done{};
+}
+
+}  // namespace
+
+std::string bytes_of(const OsmFile& osm) {
+  std::string bytes;
+  append_value(bytes, osm.min_deg), append_value(bytes, osm.max_deg);
+  append_value(bytes, std::uint64_t(osm.nodes.size()));
+  for (const auto& [id, place] : osm.nodes) append_value(bytes, id), append_value(bytes, place);
+  append_value(bytes, std::uint64_t(osm.tagged_nodes.size()));
+  for (const OsmNode& node : osm.tagged_nodes) append_value(bytes, node.id), append_tags(bytes, node.tags);
+  append_value(bytes, std::uint64_t(osm.ways.size()));
+  for (const OsmWay& way : osm.ways) {
+    append_value(bytes, way.id), append_tags(bytes, way.tags);
+    append_value(bytes, std::uint64_t(way.nodes.size()));
+    for (const OsmId node : way.nodes) append_value(bytes, node);
+  }
+  append_value(bytes, std::uint64_t(osm.relations.size()));
+  for (const OsmRelation& relation : osm.relations) {
+    append_value(bytes, relation.id), append_tags(bytes, relation.tags);
+    append_value(bytes, std::uint64_t(relation.members.size()));
+    for (const OsmRelation::Member& member : relation.members)
+      append_text(bytes, member.type), append_text(bytes, member.role), append_value(bytes, member.id);
+  }
+  return bytes;
+}
+
+Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject) {
+  if (Status status = check_memory(bytes.size(), subject + ": its elements"); !status) return status.errors();
+  Taker taker(bytes);
+  OsmFile osm;
+  bool is_finite = true;
+  const auto take_place = [&] {
+    const glm::dvec2 place = taker.take<glm::dvec2>();
+    is_finite = is_finite && std::isfinite(place.x) && std::isfinite(place.y);
+    return place;
+  };
+  osm.min_deg = take_place(), osm.max_deg = take_place();
+  take_each(taker, [&] {
+    const OsmId id = taker.take<OsmId>();
+    osm.nodes[id] = take_place();
+  });
+  take_each(taker, [&] {
+    OsmNode& node = osm.tagged_nodes.emplace_back();
+    node.id = taker.take<OsmId>(), node.tags = take_tags(taker);
+  });
+  take_each(taker, [&] {
+    OsmWay& way = osm.ways.emplace_back();
+    way.id = taker.take<OsmId>(), way.tags = take_tags(taker);
+    take_each(taker, [&] { way.nodes.push_back(taker.take<OsmId>()); });
+    osm.way_of[way.id] = osm.ways.size() - 1;
+  });
+  take_each(taker, [&] {
+    OsmRelation& relation = osm.relations.emplace_back();
+    relation.id = taker.take<OsmId>(), relation.tags = take_tags(taker);
+    take_each(taker, [&] {
+      OsmRelation::Member& member = relation.members.emplace_back();
+      member.type = take_text(taker), member.role = take_text(taker), member.id = taker.take<OsmId>();
+    });
+  });
+  if (!taker.is_at_end() || !is_finite)
+    return error("{}: its reader returned no whole map; the file is damaged or made to do harm", subject);
+  return osm;
+}
+
+Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, Errors& warnings) {
+  const std::string subject = file.string();
+  const Result<IsolatedBytes> made = run_isolated(read_in_worker, std::filesystem::absolute(file).string(),
+                                                  subject, formats::limits_for(file));
+  if (!made) return made.errors();
+  const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
+  Taker taker(bytes);
+  formats::take_warnings(taker, warnings);
+  return osm_file_of(taker.rest(), subject);
+}
+
+}  // namespace parvis::scene
