@@ -39,7 +39,7 @@ void check_path(const scene::Node& node, scene::SceneBuilder& builder) {
   }
   for (const scene::NodeAttribute& attribute : node.attributes)
     if (const auto* event = std::get_if<scene::Event>(&attribute.value);
-        event && std::stoul(event->source) > node.children.size())
+        event && std::strtod(event->source.c_str(), nullptr) > double(node.children.size()))
       builder.fail(error_at(attribute.where, "onPass: the path has no key {}; it has {}", event->source,
                             node.children.size()));
 }

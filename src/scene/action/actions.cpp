@@ -59,7 +59,7 @@ std::vector<Actions::Trigger> Actions::triggers(const Node& node, const std::str
     assert(message && "the checker lets only messages through that nodes take");
     const double mark = attribute.schema->source == scene::AttributeType::number ||
                                 attribute.schema->source == scene::AttributeType::integer
-                            ? std::stod(event.source)
+                            ? std::strtod(event.source.c_str(), nullptr)
                             : 0.0;
     all.push_back({event.source, mark, event.delay_s, {target, *std::move(message), attribute.where, 0}});
   }

@@ -70,9 +70,8 @@ glm::vec3 MeasuredPath::direction_at(float distance) const {
 Path MeasuredPath::part(float from, float to) const {
   assert(from < to);
   Path result{at(from)};
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (distances_[i] > from + same_point_m && distances_[i] < to - same_point_m)
-      result.push_back(points_[i]);
+  for (std::size_t i = segment_at(from); i < points_.size() && distances_[i] < to - same_point_m; ++i)
+    if (distances_[i] > from + same_point_m) result.push_back(points_[i]);
   result.push_back(at(to));
   return result;
 }

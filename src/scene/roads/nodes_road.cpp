@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/house.h"
+#include "base/memory_budget.h"
 #include "scene/data/model_parts.h"
 #include "scene/roads/paving.h"
 #include "scene/roads/road_builder.h"
@@ -145,10 +146,11 @@ void finish_roads(SceneBuilder& builder) {
   if (!graph) return builder.fail(graph.errors());
   builder.scene.roads = *std::move(graph);
   if (!builder.errors().empty()) return;
-  if (builder.scene.data<Paving>().is_laid)
-    pave(builder.scene);
-  else
-    lay_lanes(builder.scene);
+  if (!builder.scene.data<Paving>().is_laid) return lay_lanes(builder.scene);
+  const Status enough = check_memory(paving_bytes(builder.scene.roads),
+                                     fmt::format("paving {} lanes", builder.scene.roads.lanes.size()));
+  if (!enough) return builder.fail(enough.errors(), roads.empty() ? FileLocation{} : roads.front().where);
+  pave(builder.scene);
 }
 
 }  // namespace

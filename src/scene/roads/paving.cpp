@@ -5,6 +5,7 @@
 
 #include "formats/terrain/ground_heights.h"
 #include "scene/data/path.h"
+#include "scene/roads/opposite_lanes.h"
 #include "scene/roads/tiling_noise.h"
 
 namespace parvis::scene {
@@ -25,6 +26,7 @@ constexpr float dash_half_width_m = 0.06f, line_half_width_m = 0.2f;
 constexpr int picture_side = 512;
 constexpr float lies_m = 0.03f;    // off the ground, within which a lane lies on it
 constexpr float chord_m = 0.012f;  // of error, for which points of a ribbon are left out
+constexpr std::size_t max_straight_rows = 1000;
 constexpr float aisle_m_s = 25.0f / 3.6f, fast_m_s = 80.0f / 3.6f;
 
 /// Parts, and materials, of the model.
@@ -107,11 +109,12 @@ float error_m(const Row& row, const Row& before, const Row& after) {
   return largest;
 }
 
-/// Leaves out rows that lie on straight lines between others, greedily.
+/// Leaves out rows that lie on straight lines between others, greedily; time grows with the length of these
+/// lines, which end at `max_straight_rows`.
 std::vector<Row> without_needless_rows(const std::vector<Row>& rows) {
   std::vector<Row> kept{rows.front()};
   for (std::size_t last = 0, next = 2; last + 1 < rows.size(); ++next) {
-    bool is_straight = next < rows.size();
+    bool is_straight = next < rows.size() && next - last <= max_straight_rows;
     for (std::size_t i = last + 1; is_straight && i < next; ++i)
       is_straight = error_m(rows[i], rows[last], rows[next]) < chord_m;
     if (is_straight) continue;
@@ -196,25 +199,6 @@ void add_markings(Mesh& mesh, const Lane& lane, const Path& line, bool is_innerm
     add_ribbon(mesh, path.part(stop_m, path.length()), left_m + 0.15f, 0.5f * lane.width_m, ground, lift);
 }
 
-/// Whether another street lane runs the other way, one lane's width to the left of this one's middle.
-bool has_opposite(const RoadGraph& roads, const Lane& lane) {
-  const MeasuredPath path(lane.points);
-  const float middle_m = 0.5f * path.length();
-  const glm::vec3 way = path.direction_at(middle_m);
-  const glm::vec3 expected = path.at(middle_m) - right_of(way) * lane.width_m;
-  return std::ranges::any_of(roads.lanes, [&](const Lane& other) {
-    if (other.crossing >= 0 || &other == &lane) return false;
-    for (std::size_t i = 0; i + 1 < other.points.size(); ++i) {
-      const glm::vec2 a(other.points[i]), along = glm::vec2(other.points[i + 1]) - a;
-      const float share =
-          std::clamp(glm::dot(glm::vec2(expected) - a, along) / glm::dot(along, along), 0.0f, 1.0f);
-      const bool is_near = glm::distance(a + share * along, glm::vec2(expected)) < 0.3f * lane.width_m;
-      if (is_near && glm::dot(along, glm::vec2(way)) < 0.0f) return true;
-    }
-    return false;
-  });
-}
-
 /// Lanes that lie on the ground as they are stay as they are: their length is what traffic counts by.
 void lay(RoadGraph& roads, const GroundHeights& ground) {
   for (Lane& lane : roads.lanes) {
@@ -236,10 +220,22 @@ void lay_lanes(Scene& scene) {
   lay(scene.roads, GroundHeights(scene, reach_m));
 }
 
+std::uint64_t paving_bytes(const RoadGraph& roads) {
+  // Rows at every metre of three ribbons, of points at every metre across, as on ground that is nowhere even.
+  constexpr std::uint64_t bytes_per_point =
+      2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 6 * sizeof(std::uint32_t);
+  double points = 0.0;
+  for (const Lane& lane : roads.lanes)
+    points += 3.0 * double(MeasuredPath(lane.points).length() / step_m + 2.0f) *
+              double((lane.width_m + pavement_m) / step_m + 2.0f);
+  return std::uint64_t(points) * bytes_per_point;
+}
+
 void pave(Scene& scene) {
   if (scene.roads.empty()) return;
   const GroundHeights ground(scene, reach_m);
   lay(scene.roads, ground);
+  const OppositeLanes opposite(scene.roads);
   auto model = std::make_shared<Model>(empty_paving());
   for (const Lane& lane : scene.roads.lanes) {
     const Path line = laid(lane.points, ground);
@@ -254,7 +250,7 @@ void pave(Scene& scene) {
     }
     add(asphalt, 0.0f, asphalt_lift_m);
     if (is_street && lane.crossing < 0)
-      add_markings(model->parts[paint].mesh, lane, line, has_opposite(scene.roads, lane), ground);
+      add_markings(model->parts[paint].mesh, lane, line, opposite.has(lane), ground);
   }
   for (Lane& lane : scene.roads.lanes)
     for (glm::vec3& p : lane.points) p.z += asphalt_lift_m;

@@ -17,4 +17,7 @@ void lay_lanes(Scene& scene);
 /// `lay_lanes`, so traffic does the same with paving and without. A scene without roads stays as it is.
 void pave(Scene& scene);
 
+/// Bytes that the carriageways of these lanes take at most, to be asked before `pave`.
+std::uint64_t paving_bytes(const RoadGraph& roads);
+
 }  // namespace parvis::scene

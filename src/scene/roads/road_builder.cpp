@@ -71,16 +71,21 @@ float loop_length_m(const Arm& arm) {
   return radius + std::sqrt(4.0f * radius * radius - sum * sum);
 }
 
+/// The arms of each node.
+std::vector<std::vector<Arm*>> by_node(std::vector<Arm>& arms, const RoadNetwork& network) {
+  std::vector<std::vector<Arm*>> arms_of_node(std::size_t(network.node_count));
+  for (Arm& arm : arms) arms_of_node[std::size_t(arm.node)].push_back(&arm);
+  return arms_of_node;
+}
+
 void cut_back(std::vector<Arm>& arms, const RoadNetwork& network) {
-  for (Arm& arm : arms) {
-    bool is_alone = true;
-    for (const Arm& other : arms)
-      if (&other != &arm && other.node == arm.node) {
-        is_alone = false;
-        arm.cut_m = std::max(arm.cut_m, std::clamp(clear_m(arm, other), shortest_cut_m, longest_cut_m));
-      }
-    if (is_alone) arm.cut_m = loop_length_m(arm);
-  }
+  for (const std::vector<Arm*>& meeting : by_node(arms, network))
+    for (Arm* arm : meeting) {
+      for (const Arm* other : meeting)
+        if (other != arm)
+          arm->cut_m = std::max(arm->cut_m, std::clamp(clear_m(*arm, *other), shortest_cut_m, longest_cut_m));
+      if (meeting.size() == 1) arm->cut_m = loop_length_m(*arm);
+    }
   // Arms come in pairs, a street's start and its end: where they want more than there is, they share it.
   for (std::size_t i = 0; i < arms.size(); i += 2) {
     const float room_m = max_street_share * network.streets[i / 2].path.length();
@@ -189,8 +194,7 @@ void add_turns_between(RoadGraph& graph, const Arm& from, const Arm& to, int cro
 }
 
 /// Lanes that no rule has served yet (the middle lane before a T) turn into the nearest way out.
-void serve_forgotten_lanes(RoadGraph& graph, const Arm& from, std::span<const Arm* const> arms,
-                           int crossing) {
+void serve_forgotten_lanes(RoadGraph& graph, const Arm& from, std::span<Arm* const> arms, int crossing) {
   const Arm* best = nullptr;
   for (const Arm* to : arms)
     if (to != &from && !to->lanes_out.empty() &&
@@ -202,7 +206,7 @@ void serve_forgotten_lanes(RoadGraph& graph, const Arm& from, std::span<const Ar
       turn(graph, from.lanes_in[i], best->lanes_out[std::min(i, best->lanes_out.size() - 1)], crossing);
 }
 
-void add_crossing(RoadGraph& graph, std::span<const Arm* const> arms, int crossing) {
+void add_crossing(RoadGraph& graph, std::span<Arm* const> arms, int crossing) {
   for (const Arm* from : arms)
     for (const Arm* to : arms)
       if (from != to) add_turns_between(graph, *from, *to, crossing);
@@ -229,8 +233,7 @@ Result<RoadGraph> build_road_graph(std::span<const Road> roads) {
     add_street_lanes(graph, street, roads[street.road], arms[2 * i], arms[2 * i + 1]);
   }
 
-  std::vector<std::vector<const Arm*>> arms_of_node(std::size_t(network->node_count));
-  for (const Arm& arm : arms) arms_of_node[std::size_t(arm.node)].push_back(&arm);
+  const std::vector<std::vector<Arm*>> arms_of_node = by_node(arms, *network);
   for (std::size_t node = 0; node < arms_of_node.size(); ++node)
     add_crossing(graph, arms_of_node[node], int(node));
   return graph;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/bounds.h"
@@ -185,23 +186,36 @@ std::optional<Road> road_of(const SkeletonBranch& branch, const Skeleton& skelet
   return road.path.size() < 2 ? std::nullopt : std::optional(std::move(road));
 }
 
-/// How many of the road's two ends meet another road, or each other.
-int joined_ends(const Road& road, std::span<const Road> roads) {
-  const auto is_joined = [&](glm::vec3 end, glm::vec3 other_end) {
-    return end == other_end || std::ranges::any_of(roads, [&](const Road& other) {
-             return other.path != road.path && (other.path.front() == end || other.path.back() == end);
-           });
-  };
-  return int(is_joined(road.path.front(), road.path.back())) +
-         int(is_joined(road.path.back(), road.path.front()));
-}
+/// How many roads end at each place. Roads that meet end there to the last bit.
+class RoadEnds {
+ public:
+  explicit RoadEnds(std::span<const Road> roads) {
+    for (const Road& road : roads) {
+      ++count_[key(road.path.front())];
+      if (!is_ring(road)) ++count_[key(road.path.back())];
+    }
+  }
+
+  /// How many of the road's two ends meet another road, or each other.
+  int joined(const Road& road) const {
+    if (is_ring(road)) return 2;
+    return int(count_.at(key(road.path.front())) > 1) + int(count_.at(key(road.path.back())) > 1);
+  }
+
+ private:
+  static bool is_ring(const Road& road) { return road.path.front() == road.path.back(); }
+  static std::array<float, 3> key(glm::vec3 end) { return {end.x, end.y, end.z}; }
+
+  std::map<std::array<float, 3>, int> count_;
+};
 
 /// Without those whose ends are too narrow to turn a car in, as long as such ends come up.
 std::vector<Road> without_narrow_dead_ends(std::vector<Road> roads) {
-  const auto is_trap = [](const Road& road, std::span<const Road> all) {
-    return joined_ends(road, all) < 2 && 2.0f * half_width_m(road) < turning_circle_m;
+  const auto is_trap = [](const Road& road, const RoadEnds& ends) {
+    return ends.joined(road) < 2 && 2.0f * half_width_m(road) < turning_circle_m;
   };
-  while (std::erase_if(roads, [&, all = roads](const Road& road) { return is_trap(road, all); }) > 0)
+  while (std::erase_if(roads, [&, ends = RoadEnds(roads)](const Road& road) { return is_trap(road, ends); }) >
+         0)
     continue;
   return roads;
 }
@@ -234,8 +248,8 @@ std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons) {
   for (const SkeletonBranch& branch : skeleton.branches)
     if (std::optional<Road> road = road_of(branch, skeleton, ground)) roads.push_back(std::move(*road));
 
-  std::erase_if(roads, [all = roads](const Road& road) {
-    return joined_ends(road, all) < 2 && MeasuredPath(road.path).length() < shortest_end_m;
+  std::erase_if(roads, [ends = RoadEnds(roads)](const Road& road) {
+    return ends.joined(road) < 2 && MeasuredPath(road.path).length() < shortest_end_m;
   });
   std::vector<Road> kept = without_narrow_dead_ends(roads);
   if (kept.empty()) kept = std::move(roads);

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace parvis::scene {
 
@@ -13,7 +14,11 @@ namespace {
 constexpr float bridge_clearance_m = 3.0f;  // roads further apart than this in height pass over one another
 constexpr float shortest_street_m = 2.0f;   // what must remain between two crossings for both to stand
 constexpr int max_lanes_each_way = 8;
-constexpr float parallel_sine = 0.05f;  // 3 degrees
+constexpr std::size_t max_complaints = 20;  // about roads that lie along each other
+constexpr std::size_t max_arms = 64;        // of a crossing: lanes from each of them lead into each
+constexpr std::size_t max_streets = 200'000;
+constexpr double max_lanes_km = 20'000.0;  // of all lanes: a capital has a third of it
+constexpr float parallel_sine = 0.05f;     // 3 degrees
 
 /// A straight piece of a road.
 struct Segment {
@@ -43,8 +48,9 @@ struct Spots {
     parents.push_back(parents.size());
     return parents.size() - 1;
   }
-  std::size_t root(std::size_t i) const {
-    while (parents[i] != i) i = parents[i];
+  /// Halves the path on its way, so that long chains are walked once.
+  std::size_t root(std::size_t i) {
+    while (parents[i] != i) i = parents[i] = parents[parents[i]];
     return i;
   }
   void unite(std::size_t a, std::size_t b) {
@@ -127,12 +133,13 @@ class Meetings {
     std::vector<Segment> segments = segments_of(paths_);
     const auto west = [](const Segment& s) { return std::min(s.a.x, s.b.x); };
     std::ranges::stable_sort(segments, {}, west);
+    const float widest = widest_m();
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment& s = segments[i];
       for (std::size_t j = i + 1; j < segments.size(); ++j) {
         const Segment& t = segments[j];
         const float reach = snap_m(s, t);
-        if (west(t) > std::max(s.a.x, s.b.x) + widest_m()) break;
+        if (west(t) > std::max(s.a.x, s.b.x) + widest) break;
         if (std::min(s.a.y, s.b.y) - reach > std::max(t.a.y, t.b.y)) continue;
         if (std::min(t.a.y, t.b.y) - reach > std::max(s.a.y, s.b.y)) continue;
         look_at(s, t);
@@ -165,11 +172,9 @@ class Meetings {
 
   void complain(const Segment& s, const Segment& t) {
     const std::size_t later = std::max(s.road, t.road), earlier = std::min(s.road, t.road);
-    const bool is_known = std::ranges::any_of(known_, [&](auto& k) {
-      return k == std::pair{earlier, later};
-    });
-    if (is_known) return;
-    known_.emplace_back(earlier, later);
+    if (known_.size() >= max_complaints || !known_.emplace(earlier, later).second) return;
+    if (known_.size() == max_complaints)
+      return errors_.push_back(error_at(roads_[later].where, "more roads lie along others"));
     errors_.push_back(error_at(
         roads_[later].where, "{} lies along {}: give one of them another path, or remove it",
         name_of(roads_[later], later), earlier == later ? "itself" : name_of(roads_[earlier], earlier)));
@@ -212,7 +217,7 @@ class Meetings {
   std::span<const MeasuredPath> paths_;
   Spots result_;
   Errors errors_;
-  std::vector<std::pair<std::size_t, std::size_t>> known_;
+  std::set<std::pair<std::size_t, std::size_t>> known_;
 };
 
 /// Cuts one road at its spots (indices in order along it); what lies between two that are too close is
@@ -230,6 +235,29 @@ void cut_road(const MeasuredPath& path, std::span<const std::size_t> in_order, S
     else
       cuts.emplace_back(in_order[i], in_order[i + 1]);
   }
+}
+
+/// Refuses what no town has, and what would make more turns than there is memory for.
+Status check_size(const RoadNetwork& network, std::span<const Road> roads) {
+  if (network.streets.size() > max_streets)
+    return error_at(roads.front().where, "the roads cut each other into {} streets; expected {} at most",
+                    network.streets.size(), max_streets);
+  double lanes_km = 0.0;
+  for (const Street& street : network.streets)
+    lanes_km += 2e-3 * double(street.path.length()) * double(roads[street.road].lanes_each_way);
+  if (!(lanes_km <= max_lanes_km))
+    return error_at(roads.front().where, "the roads have {:.0f} km of lanes; expected {:.0f} km at most",
+                    lanes_km, max_lanes_km);
+  std::vector<std::size_t> arms(std::size_t(network.node_count), 0);
+  for (const Street& street : network.streets)
+    for (const int node : {street.start_node, street.end_node})
+      if (++arms[std::size_t(node)] > max_arms)
+        return error_at(
+            roads[street.road].where,
+            "{} meets so many others at one place that {} streets lead away from it, too many for "
+            "a crossing; leave some out",
+            name_of(roads[street.road], street.road), max_arms);
+  return Done{};
 }
 
 }  // namespace
@@ -273,6 +301,7 @@ Result<RoadNetwork> connect_roads(std::span<const Road> roads) {
                                start_node, end_node});
   }
   network.node_count = int(nodes.size());
+  if (Status status = check_size(network, roads); !status) return status.errors();
   return network;
 }
 

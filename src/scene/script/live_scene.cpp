@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/progress.h"
 #include "scene/script/spelling.h"
 
 namespace parvis::scene {
@@ -210,9 +211,13 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
   if (!errors.empty()) return errors;
   const std::string begins = first ? first->text("name") : "";
   if (first) set(*first, "chosen", false);
-  for (const Node* scenario : scenarios())
+  const std::vector<const Node*> all = scenarios();
+  Progress progress("trying scenarios", all.size());
+  for (const Node* scenario : all) {
     if (Status status = choose(scene, scenario->text("name")); !status)
       errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+    progress.advance();
+  }
   if (errors.empty()) return choose(scene, begins);
   return errors;
 }

@@ -49,7 +49,7 @@ class Checker {
   ScriptNames names_;
   std::map<std::string, FileLocation> unique_nodes_;
   std::vector<fs::path> open_files_;  ///< the chain of includes
-  std::size_t node_count_ = 0, include_count_ = 0;
+  std::size_t node_count_ = 0, include_count_ = 0, byte_count_ = 0;
   bool is_incomplete_ = false;  ///< a file could not be read: names may be missing
 };
 
@@ -60,6 +60,15 @@ std::vector<Node> Checker::file(const fs::path& script, const std::string& paren
   if (size > max_script_bytes) {
     fail(error_at(asked_at, "{}: the script is larger than {} MB; geometry belongs in model files",
                   script.string(), max_script_bytes >> 20));
+    return {};
+  }
+  if (byte_count_ > max_included_bytes) return is_incomplete_ = true, std::vector<Node>();  // reported before
+  byte_count_ += std::size_t(size);
+  if (byte_count_ > max_included_bytes) {
+    is_incomplete_ = true;
+    fail(error_at(asked_at,
+                  "{}: the scene with all that it includes is larger than {} MB; include files once",
+                  script.string(), max_included_bytes >> 20));
     return {};
   }
   const Result<std::string> text = read_file(script);

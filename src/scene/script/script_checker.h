@@ -16,6 +16,7 @@ namespace parvis::scene {
 inline constexpr std::size_t max_scene_nodes = 500'000;
 inline constexpr std::size_t max_included_files = 10'000;  ///< a file that is included twice counts twice
 inline constexpr std::size_t max_include_depth = 16;
+inline constexpr std::size_t max_included_bytes = 512u << 20;  ///< of all files, read as often as included
 
 /// The top-level nodes of `script`. Every error of every file is reported: syntax, unknown types and
 /// attributes, values, files that are missing or lie outside `roots`, repeated names, references to nothing,
