@@ -20,6 +20,10 @@ class Case:
     file_limit: int = 0  # bytes that a file may have, as on a full disk; 0: no limit
     check: typing.Callable = None  # check(folder, results) -> problem or ""
     needs_gl: bool = False
+    says: str = ""  # what one of the commands must say
+    faults: typing.Callable = None  # what PARVIS_FAULTS says while the first command runs (cmake/faults.cpp)
+    kill_after: typing.Callable = None  # seconds after which the first command gets a signal
+    kill_with: int = 0
 
 
 CAMERA = 'camera(name="eye", position="0 -9 2", target="0 0 1")\n'

@@ -1,0 +1,92 @@
+"""Small input that asks for much work or memory: bounded, with a message."""
+
+import json
+
+from .cities import templates
+from .case import CAMERA, Case, scene, write
+from .gltf import instances, meshopt, zeros
+from .pictures import png
+
+SMALL_BUDGET = "0.5"  # GB
+
+
+def checked(name, text, expects="either", says="", seconds=60, files=None, options=(), command="check"):
+    def build(folder):
+        for other, content in (files or {}).items():
+            write(folder, other, content() if callable(content) else content)
+        script = scene(folder, text() if callable(text) else text)
+        return [[command, script, *options, *(["-o", "out.glb"] if command == "export" else [])]]
+
+    return Case("growth", name, build, expects, seconds=seconds, says=says)
+
+
+def budget(name, file, content, expects="refused", extra=None, limit=SMALL_BUDGET, says="--max-memory"):
+    """What fits into the machine and not into the budget."""
+
+    def build(folder):
+        for other, other_content in (extra or {}).items():
+            write(folder, other, other_content() if callable(other_content) else other_content)
+        write(folder, file, content() if callable(content) else content)
+        script = scene(folder, f'model(file="{file}")\n' + CAMERA)
+        return [["export", script, "--max-memory", limit, "-o", "out.glb"]]
+
+    return Case("budget", name, build, expects, seconds=90, says=says)
+
+
+def road_surface(side_m):
+    square = [[0, 0, 0], [side_m, 0, 0], [side_m, side_m, 0], [0, side_m, 0]]
+    return json.dumps({"type": "CityJSON", "version": "1.1", "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]}, "vertices": square,
+                       "CityObjects": {"a": {"type": "Road", "geometry": [{"type": "MultiSurface", "lod": "2", "boundaries": [[[0, 1, 2, 3]]]}]}}})
+
+
+def crossing_roads(count, apart_m):
+    lines = []
+    for i in range(count):
+        at, end = i * apart_m, count * apart_m
+        lines += [f'road(path="{at} -50, {at} {end}")', f'road(path="-50 {at}, {end} {at}")']
+    return "\n".join(lines) + "\n" + CAMERA
+
+
+def scenarios(count, overrides):
+    text = "".join(f'group(name="g{i}") {{ }}\n' for i in range(overrides))
+    for s in range(count):
+        text += f'scenario(name="s{s}") {{\n' + "".join(f'  override(of="g{i}", position="{s} {i} 0")\n' for i in range(overrides)) + "}\n"
+    return text + CAMERA
+
+
+def large_picture():
+    """16384 x 16384 pixels of one bit, all there, in some kilobytes."""
+    side = 16384
+    return png(side, side, (b"\0" + b"\0" * (side // 8)) * side, kind=0, depth=1)
+
+
+OBJ = {"m.mtl": "newmtl m\nmap_Kd t.png\n"}
+TEXTURED = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
+
+
+def cases():
+    streets = 'model(name="q", file="m.json")\nstreets(of="q")\n' + CAMERA
+    for side in (100, 1000, 4000):
+        yield checked(f"roads out of a surface of {side} m", streets, files={"m.json": lambda s=side: road_surface(s)}, seconds=90)
+    for apart in (60, 5):
+        yield checked(f"200 x 200 roads that cross, {apart} m apart", lambda a=apart: crossing_roads(200, a), seconds=90)
+    for apart in (60, 5):
+        yield checked(f"150 x 150 paved streets, {apart} m apart", lambda a=apart: "paving()\n" + crossing_roads(150, a), seconds=120)
+    yield checked("a paved road of 200 km", 'paving()\nroad(path="0 0, 200000 0")\n' + CAMERA, "done", seconds=90)
+    yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
+    yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
+    yield checked("2,000 roads that meet", lambda: "".join(f'road(path="0 0, {900 - i} {i}")\n' for i in range(0, 900)) + CAMERA, "refused")
+    yield checked("5,000 scenarios of 20 overrides", lambda: scenarios(5000, 20), seconds=120)
+    yield checked("300 scenarios of 20 overrides", lambda: scenarios(300, 20), "done")
+    comment = {"c.xp": lambda: b"# " + b"x" * 5_000_000 + b"\n"}
+    yield checked("9,000 includes of a comment of 5 MB", lambda: 'include(file="c.xp")\n' * 9000, "refused", "larger than", files=comment)
+    yield checked("20 includes of a comment of 5 MB", lambda: 'include(file="c.xp")\n' * 20 + CAMERA, "done", files=comment)
+    for name, source in (("underflow", "1e-320"), ("overflow", "1e400"), ("long", "9" * 400)):
+        yield checked(f"an event at {name}", f'group(name="g") {{ }}\ntimer(period_s=2, onTime="{source}, g, hide, 0.5")\n' + CAMERA)
+    yield budget("accessors of zeros", "m.gltf", lambda: zeros(2_000_000))
+    yield budget("one mesh on 2,000 nodes", "m.glb", lambda: instances(2000, 20000))
+    yield budget("meshopt counts", "m.gltf", lambda: meshopt(count=2_500_000, byteStride=252))
+    yield budget("3,000 templates of 2,000 surfaces", "m.json", lambda: templates(3000))
+    yield budget("a true picture of 16384 x 16384 pixels", "m.obj", TEXTURED, "done", {**OBJ, "t.png": large_picture})
+    yield budget("a small picture", "m.obj", TEXTURED, "done", {**OBJ, "t.png": lambda: png(64, 64)}, says="")
+    yield budget("one mesh on 20 nodes", "m.glb", lambda: instances(20, 2000), "done", says="")
