@@ -1,6 +1,7 @@
 #include "formats/readers/bench/import_export_bench.h"
 
 #include "bench/benches.h"
+#include "formats/readers/bench/attack_bench.h"
 #include "formats/readers/bench/photo_bench.h"
 #include "formats/readers/bench/places_bench.h"
 #include "formats/readers/bench/reading_bench.h"
@@ -15,8 +16,8 @@ Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  for (const auto& measure :
-       {measure_readers, measure_places, measure_scenarios, measure_photographs, measure_safety})
+  for (const auto& measure : {measure_readers, measure_places, measure_scenarios, measure_photographs,
+                              measure_safety, measure_attacks})
     if (Status status = measure(setup, report); !status) return status.errors();
   return Done{};
 }

@@ -1,5 +1,6 @@
 #include "formats/readers/bench/safety_bench.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -41,10 +42,21 @@ Status measure_validator(const fs::path& folder, Report& report) {
   return Done{};
 }
 
-/// The fuzzer of src/ROOM/fuzz/READER.cpp below a build folder.
+/// The fuzzer of ROOM/fuzz/READER.cpp below a build folder, which repeats the folders of the sources.
 fs::path fuzzer(const fs::path& build, const fs::path& source) {
-  const std::string room = source.parent_path().parent_path().filename().string();
-  return build / "src" / room / fmt::format("{}_{}_fuzz", room, source.stem().string());
+  const fs::path room = source.parent_path().parent_path();
+  return build / room / fmt::format("{}_{}_fuzz", room.filename().string(), source.stem().string());
+}
+
+/// Every source src/ROOM/fuzz/READER.cpp and src/DISTRICT/ROOM/fuzz/READER.cpp.
+std::vector<fs::path> fuzzer_sources() {
+  std::vector<fs::path> sources;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator("src", code))
+    if (entry.path().extension() == ".cpp" && entry.path().parent_path().filename() == "fuzz")
+      sources.push_back(entry.path());
+  std::ranges::sort(sources);
+  return sources;
 }
 
 std::size_t file_count(const fs::path& folder) {
@@ -80,20 +92,15 @@ std::size_t findings_kept(const fs::path& program, const fs::path& source) {
 Status measure_fuzzers(const fs::path& folder, int seconds, Report& report) {
   std::size_t findings = 0;
   int fuzzed = 0, read = 0;
-  if (fs::is_directory("src"))
-    for (const fs::directory_entry& room : fs::directory_iterator("src")) {
-      if (!fs::is_directory(room.path() / "fuzz")) continue;
-      for (const fs::directory_entry& source : fs::directory_iterator(room.path() / "fuzz")) {
-        if (source.path().extension() != ".cpp") continue;
-        if (const fs::path program = fuzzer("build/fuzz", source.path()); fs::exists(program)) {
-          findings += findings_of_fuzzer(program, seconds, folder);
-          ++fuzzed;
-        } else if (const fs::path reader = fuzzer("build/release", source.path()); fs::exists(reader)) {
-          findings += findings_kept(reader, source.path());
-          ++read;
-        }
-      }
+  for (const fs::path& source : fuzzer_sources()) {
+    if (const fs::path program = fuzzer("build/fuzz", source); fs::exists(program)) {
+      findings += findings_of_fuzzer(program, seconds, folder);
+      ++fuzzed;
+    } else if (const fs::path reader = fuzzer("build/release", source); fs::exists(reader)) {
+      findings += findings_kept(reader, source);
+      ++read;
     }
+  }
   if (fuzzed + read == 0) {
     report.skip("fuzz_findings", "no fuzzer is built; script/fuzz builds them");
     return Done{};

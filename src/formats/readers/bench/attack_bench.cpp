@@ -1,0 +1,131 @@
+#include "formats/readers/bench/attack_bench.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/picture_codec.h"
+#include "base/test_data.h"
+#include "bench/scratch_folder.h"
+#include "formats/city_models/city_json.h"
+#include "formats/meshes/assimp_reader.h"
+
+namespace parvis::bench {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::array keys{"attack_cases", "attack_findings", "crashes",
+                          "escapes",      "raw_exceptions",  "silent_losses"};
+constexpr std::array survivals{std::pair{"kills", "kills_survived"},
+                               std::pair{"allocation_failures", "allocation_failures_survived"}};
+
+std::string text_of(const fs::path& file) {
+  const Result<std::string> text = read_file(file);
+  return text ? *text : "";
+}
+
+/// The command that a user of the project would give, on this very program.
+std::string attack(const std::string& arguments) {
+  std::error_code code;
+  return fmt::format("script/attack --parvis '{}' {}", fs::read_symlink("/proc/self/exe", code).string(),
+                     arguments);
+}
+
+Status measure_cases(const BenchSetup& setup, const fs::path& folder, Report& report) {
+  if (std::system(attack(fmt::format("--controls > '{}'", (folder / "controls").string())).c_str()) != 0)
+    return error("script/attack --controls: a control is not found, so its verdicts are worth nothing:\n{}",
+                 text_of(folder / "controls"));
+  const fs::path figures = folder / "figures.json", findings = folder / "findings";
+  const std::string extent = setup.is_quick ? "--seconds 50 " : "";
+  std::ignore = std::system(
+      attack(fmt::format("{}--json '{}' > '{}'", extent, figures.string(), findings.string())).c_str());
+  const Result<std::string> text = read_file(figures);
+  if (!text) return text.errors();
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object()) return error("{}: is no report of script/attack", figures.string());
+  for (const char* key : keys) report.add(key, json.value(key, -1.0));
+  for (const auto& [tried, survived] : survivals) {
+    report.add(survived, json.value(survived, -1.0));
+    report.note(fmt::format("{}: of {} that were tried", survived, json.value(tried, 0)));
+  }
+  report.note(
+      "script/attack finds each of its controls: stand-ins that crash, leak, show an exception or lose a "
+      "result, and Parvis with writes that are lost, files that are never removed, an allocation that "
+      "aborts");
+  if (json.value("attack_findings", 1) != 0) report.note(text_of(findings));
+  return Done{};
+}
+
+/// Milliseconds that reading a file in a child takes beyond reading it here.
+Median overhead_ms(const std::function<bool()>& isolated, const std::function<bool()>& here, int repeats,
+                   bool& is_read) {
+  std::vector<double> samples;
+  for (int i = 0; i < repeats; ++i) {
+    const double there_ms = milliseconds([&] { is_read = isolated() && is_read; });
+    samples.push_back(there_ms - milliseconds([&] { is_read = here() && is_read; }));
+  }
+  return median(samples);
+}
+
+Status measure_overhead(const BenchSetup& setup, const fs::path& folder, Report& report) {
+  const auto hague = shared_data("cities/DenHaag_01.city.json", fs::current_path()),
+             car = shared_data("cars/p406/p406.obj", fs::current_path());
+  if (!hague || !car) {
+    report.skip("isolated_reader_overhead_ms", "the shared data is absent");
+    return Done{};
+  }
+  const fs::path picture = folder / "picture.jpg";
+  Image8 image(4096, 2160, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = std::uint8_t(i * 2654435761u >> 24);
+  if (Status status = write_image(picture, image); !status) return status;
+  const formats::Readers& readers = setup.house.get<formats::Readers>();
+  Errors warnings;
+  const auto isolated = [&](const fs::path& file) {
+    return [&, file] { return readers.read(file, {}, warnings).ok(); };
+  };
+  const int repeats = setup.is_quick ? 5 : 21;
+  bool is_read = true;
+  const Median of_hague = overhead_ms(
+      isolated(*hague), [&] { return scene::read_city_model(*hague, warnings).ok(); }, repeats, is_read);
+  const Median of_car = overhead_ms(
+      isolated(*car), [&] { return scene::read_with_assimp(*car, formats::UpAxis::file, warnings).ok(); },
+      repeats, is_read);
+  const Median of_picture = overhead_ms(
+      [&] { return read_image8(picture).ok(); },
+      [&] {
+        const Result<std::string> bytes = read_file(picture);
+        return bytes && decode_image8({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()},
+                                      "picture.jpg")
+                            .ok();
+      },
+      repeats, is_read);
+  if (!is_read) return error("a file of the overhead of child processes cannot be read");
+  report.add("isolated_reader_overhead_ms", median({of_hague.value, of_car.value, of_picture.value}).value);
+  report.note(
+      fmt::format("isolated_reader_overhead_ms: the Hague {:.1f} ms, the p406 {:.1f} ms, a JPEG of 4096 x "
+                  "2160 pixels {:.1f} ms "
+                  "(medians of {} pairs; the one in the middle counts)",
+                  of_hague.value, of_car.value, of_picture.value, repeats));
+  return Done{};
+}
+
+}  // namespace
+
+Status measure_attacks(const BenchSetup& setup, Report& report) {
+  const ScratchFolder folder;
+  std::error_code code;
+  fs::create_directories(folder.path, code);
+  if (code) return error("{}: {}", folder.path.string(), code.message());
+  if (Status status = measure_overhead(setup, folder.path, report); !status) return status;
+  if (fs::exists("script/attack")) return measure_cases(setup, folder.path, report);
+  for (const char* key : keys) report.skip(key, "script/attack is not in this folder");
+  for (const auto& [tried, survived] : survivals)
+    report.skip(survived, "script/attack is not in this folder");
+  return Done{};
+}
+
+}  // namespace parvis::bench
