@@ -57,7 +57,7 @@ TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
   EXPECT_NE(maps->read(0), with_lamp);
 }
 
-TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
+TEST_F(MapRenewalTest, AWindowDrawsAMapPerFrameAfterAChangeAndNoneElse) {
   render::add_mirror(scene_, {3, 0, 0}, 0.5f);
   methods::settings(scene_).method = "multiple_environment_maps";
   methods::settings(scene_).resolution = face_resolution;
@@ -68,6 +68,7 @@ TEST_F(MapRenewalTest, AMethodDrawsAMapAFrameAfterAChangeAndNoneElse) {
       make_multiple_environment_maps(scene_, **renderer);
   ASSERT_TRUE(reflections);
   ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
+  (*reflections)->prefer_rate();
   const auto faces_per_frame = [&] {
     Camera camera;
     camera.world_from_camera = look_at({7, 3, 1}, {3, 0, 0});
@@ -129,6 +130,19 @@ TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
   for (std::size_t drawn = 3; drawn <= wanted; ++drawn) EXPECT_EQ(maps_after_next_frame(), drawn);
   EXPECT_EQ(maps_after_next_frame(), wanted);
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
+}
+
+TEST_F(MissingMapsTest, APictureShowsNoMapThatIsOutOfDate) {
+  maps_after_next_frame();
+  const Image8 dark = renderer_->read_picture(1.0f);
+  scene_.sun.irradiance = glm::vec3(8.0f);
+  maps_after_next_frame();
+  const Image8 sunny = renderer_->read_picture(1.0f);
+  maps_after_next_frame();
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, sunny.pixels) << "complete at once";
+  scene_.sun.irradiance = glm::vec3(0.0f);
+  maps_after_next_frame();
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, dark.pixels);
 }
 
 TEST_F(MissingMapsTest, DrawnMapsStandInForThoseThatAreMissing) {

@@ -53,6 +53,11 @@ void MapTable::add(std::size_t map) {
   --missing_count_;
 }
 
+void MapTable::forget() {
+  is_drawn_.assign(places_.size(), 0);
+  missing_count_ = places_.size();
+}
+
 /// The first drawn map of the cell's choice, else the drawn map that is nearest to the missing one.
 std::uint16_t MapTable::stand_in(std::size_t cell, std::uint16_t map) const {
   for (std::size_t k = 0; k < maps_per_cell; ++k)

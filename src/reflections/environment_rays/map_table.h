@@ -28,6 +28,8 @@ class MapTable {
   std::vector<std::size_t> missing_within(const Bounds& bounds) const;
   /// Notes that a map is drawn; `upload` shows it.
   void add(std::size_t map);
+  /// Notes that no map is drawn any more; until `upload` the texture shows them as they were.
+  void forget();
   void upload();
 
  private:

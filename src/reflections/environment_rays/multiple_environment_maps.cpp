@@ -120,6 +120,14 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
     details_[std::size_t(reflectors[i].object)] = Detail(wishes_[i].level);
 }
 
+/// A window renews its maps one per frame; a picture shows none that is out of date.
+void MultipleEnvironmentMaps::forget_surroundings() {
+  if (prefers_rate_)
+    renewal_.ask(maps_.places().size(), table_.drawn());
+  else
+    table_.forget();
+}
+
 /// The largest reflectors come first.
 void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer,
                                                 const std::vector<methods::VisibleReflector>& reflectors) {

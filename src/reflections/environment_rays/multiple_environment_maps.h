@@ -65,7 +65,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
-  void forget_surroundings() override { renewal_.ask(maps_.places().size(), table_.drawn()); }
+  void forget_surroundings() override;
   void find_missing_maps(const render::Renderer& renderer,
                          const std::vector<methods::VisibleReflector>& reflectors);
 

@@ -7,7 +7,6 @@
 #include "house/rooms.h"
 #include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
-#include "reflections/methods/settings.h"
 
 namespace parvis::bench {
 namespace {
@@ -42,10 +41,6 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
   play->advance(2.0);
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
   ASSERT_TRUE(stage) << to_string(stage.errors());
-  // Reference maps are re-rendered over many frames after a change, cube maps in each.
-  methods::Settings reflection = methods::settings((*stage)->scene());
-  reflection.method = "rerendered_cube_map";
-  ASSERT_TRUE((*stage)->set_reflection(reflection));
   const Result<Camera> camera = (*stage)->camera("street");
   ASSERT_TRUE(camera) << to_string(camera.errors());
   const auto picture_of = [&](const std::string& scenario) {
