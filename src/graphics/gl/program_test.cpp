@@ -39,7 +39,7 @@ TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
                                                {{"max_radiance", "1.0f 2.0f"}}, Dialect::desktop_450);
   ASSERT_FALSE(shader);
   const std::string message = to_string(shader.errors());
-  EXPECT_NE(message.find("graphics/render/surface_body.glsl:"), std::string::npos) << message;
+  EXPECT_NE(message.find("graphics/render/frame.glsl:"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // What is the same for all that one view draws: the uniform block, and in C++ the struct that renderer.cpp
 // fills.
+const float max_radiance = 30000.0f;  // targets hold half floats
+
 UNIFORM_BLOCK(Frame) {
   mat4 clip_from_world;
   vec4 viewer_position;

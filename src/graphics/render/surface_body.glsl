@@ -16,44 +16,7 @@
 #include "graphics/shading/surface.glsl"
 #include "graphics/shading/glass.glsl"
 #include "graphics/shading/lighting.glsl"
-
-const int base_layer = 0, coat_layer = 1;
-const float max_radiance = 30000.0f;  // the target holds half floats
-
-in vec3 position;
-in vec3 vertex_normal;
-in vec2 uv;
-#ifdef IS_LEAF
-in float leaf_sun;
-in vec4 leaf_sky_cell;
-#endif
-flat in int object_of_surface;
-#ifdef IS_MIRRORED
-in vec3 seen_from;             // origin of the mirrored ray
-const float seen_back = 0.1f;  // cosine: interpolated normals face away slightly before their triangles do
-#else
-#define seen_from viewer_position.xyz
-#endif
-#if defined(WRITES_SURFACE)
-void write_surface(Surface surface, vec3 to_viewer);
-#elif defined(WRITES_OBJECT)
-out uint object_and_one;
-#elif !defined(WRITES_DEPTH)
-out vec4 radiance;
-#endif
-#ifndef REFLECTION_OVERLAY
-#define REFLECTION_OVERLAY(radiance, roughness) radiance
-#define TRANSMISSION_OVERLAY(radiance) radiance
-#endif
-
-vec4 surface_sky_cell;
-uniform highp sampler2D traced_sun_texture;  // of the view's pixels: share of the sun, distance to the viewer
-
-#ifdef IS_MIRRORED
-bool is_mirrored_here();  // true if the reflector shows this point of the surface
-#endif
-void look_along(vec3 at, vec3 direction);
-vec3 reflected_radiance(float roughness, int layer);
+#include "graphics/render/surface_interface.glsl"
 
 // Viewing geometry of a surface point.
 struct SeenPoint {
@@ -68,13 +31,7 @@ struct SeenPoint {
 #define surface_mirrors 0.0f  // 1: uses the scene's reflection method on objects that take reflections
 #endif
 
-#ifdef IS_GLASS
-// Radiance through glass: the sky straight through it, unless an overlay refracts the ray.
-vec3 light_through(vec3 ahead) {
-  vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
-  return TRANSMISSION_OVERLAY(sky);
-}
-#endif
+#include "graphics/render/incident_light.glsl"
 
 SeenPoint seen_point() {
   SeenPoint seen;
@@ -111,52 +68,13 @@ float covered(float alpha) {
 #endif
 }
 
-SceneLight scene_light() {
-  SceneLight light;
-  light.to_sun = to_sun_at(position);
-  light.sun_irradiance = frame_sun_irradiance.rgb;
-  for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
-  light.haze_radiance = frame_haze.rgb;
-  light.haze_per_m = frame_to_sun.w;
-  return light;
-}
-
-// Of objects that receive no shadows, the complement of their number is given.
-int surface_object() { return object_of_surface < 0 ? ~object_of_surface : object_of_surface; }
-
-#ifndef WRITES_SURFACE
-// The sun as rays found it in the pixel or beside it, where they hit this surface; else as the maps have it.
-float traced_sun(float drawn, float distance_m) {
-  float share = drawn, nearest = 0.01f * distance_m;
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int taps = frame_shadow_extra.y > 0.5f ? 5 : 0;  // no branch: a loop without rounds is left out
-  for (int i = 0; i < taps; ++i) {
-    ivec2 beside = ivec2(int(i == 1) - int(i == 2), int(i == 3) - int(i == 4));
-    vec2 traced =
-        texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
-    float off = abs(traced.g - distance_m);
-    share = off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
-    nearest = min(off, nearest);
-  }
-  return share;
+#ifdef IS_GLASS
+// Radiance through glass: the sky straight through it, unless an overlay refracts the ray.
+vec3 light_through(vec3 ahead) {
+  vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
+  return TRANSMISSION_OVERLAY(sky);
 }
 #endif
-
-// Visibility of the sky, stored in `surface_sky_cell`, and of the sun, returned.
-float visible_light(SeenPoint seen) {
-#ifdef IS_LEAF
-  surface_sky_cell = leaf_sky_cell;
-  float drawn = leaf_sun;
-#else
-  surface_sky_cell = shaded_cell(sky_visibility_cell(position, seen.normal),
-                                 sky_share_beside_bodies(position, seen.normal, surface_object()));
-  float drawn = visible_sun(position, seen.normal);
-#endif
-#ifndef WRITES_SURFACE
-  drawn = traced_sun(drawn, seen.distance_m);
-#endif
-  return object_of_surface < 0 ? sun_cone(to_sun_at(position)) : drawn;
-}
 
 #ifndef WRITES_SURFACE  // a file that writes the surface has no reflected_radiance: references would not link
 // Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets

@@ -17,21 +17,7 @@
 layout(location = 0) out vec4 base_radiance;  // alpha 1: the pixel reflects
 layout(location = 1) out vec3 coat_radiance;
 
-uniform highp sampler2D ray_starts;  // xyz; w: roughness of the base
-uniform highp sampler2D
-    ray_directions;  // octahedral; z: roughness of the coat, w: the object's number plus 1
-uniform int reflecting_object;
-
-uniform highp sampler2D heights;
-uniform highp sampler2DArray map_colours;
-uniform highp sampler2DArray map_glosses;
-uniform highp sampler2DArray map_distances;
-uniform highp usampler2D map_choice;  // four maps per ground cell
-uniform highp sampler2D map_places;
-uniform vec4 height_grid;  // south-west corner, metres per cell, top level
-uniform vec2 height_cells;
-uniform vec3 choice_grid;  // south-west corner, metres per cell
-uniform vec2 layer_size;   // texels per side, and of its border
+#include "reflections/environment_rays/map_uniforms.glsl"
 
 const float reach_m = 1000.0f;
 const int max_cells_under = 8;  // maximum number of cells that a ray passes under a bridge or an arch
@@ -42,8 +28,7 @@ const int detail = DETAIL;  // MultipleEnvironmentMaps::Detail
 const int one_map = 1;
 const int all_detail = 2;
 const int max_maps = detail == all_detail ? 2 : 1;
-const float max_radiance = 30000.0f;  // the target holds half floats
-const float min_wide_lobe = 0.3f;     // roughness
+const float min_wide_lobe = 0.3f;  // roughness
 const float share_over_ground = 0.4f;
 const float min_weight = 0.05f;     // a second map with less is skipped
 const float shade_reach_m = 25.0f;  // ground up to this distance is shaded by dynamic objects
@@ -102,24 +87,43 @@ void look_into_nearest_map(vec3 at, vec3 direction) {
   reflected.weight[0] = 1.0f;
 }
 
-// Section 4.2: the hit on the height field, then on the surface that the best map has recorded.
-void trace(vec3 at, vec3 direction) {
+// Section 4.2: the hit on the height field, or in front of it on what only the maps have recorded; and the
+// two maps that show it best.
+HeightHit hit_of_ray(vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2]) {
   HeightfieldGrid grid =
       HeightfieldGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
-  BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
-  if (detail == all_detail) body = intersect_bodies(at, direction, reach_m);
-  vec4 places[2];
-  float weights[2];
-  HeightHit hit = walk_under(grid, at, direction, body.distance, places, weights);
+  HeightHit hit = walk_under(grid, at, direction, reach, places, weights);
   float before = detail == all_detail ? hit_before(at, direction, hit.distance, place_of(maps_around(at).x))
                                       : hit.distance;
   if (before < hit.distance) {
     hit = HeightHit(before, hit_side);
     choose_maps(at, direction, at + before * direction, places, weights);
   }
-  vec3 point = at + hit.distance * direction;
+  return hit;
+}
+
+// Section 4.3: the point is looked up in the maps that show it best, by their weights.
+void look_into_maps(vec3 point, vec4 places[2], float weights[2]) {
+  for (int k = 0; k < 2; ++k) {
+    reflected.from_map[k] = point - places[k].xyz;
+    reflected.map[k] = places[k].w;
+  }
+  float second = weights[1] / (weights[0] + weights[1]);
+  reflected.weight[1] = second < min_weight || detail != all_detail ? 0.0f : second;
+  reflected.weight[0] = 1.0f - reflected.weight[1];
+}
+
+// A dynamic object in front of all that the maps show, or the surface that the best map has recorded at the
+// hit.
+void trace_mirror_ray(vec3 at, vec3 direction) {
+  BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
+  if (detail == all_detail) body = intersect_bodies(at, direction, reach_m);
+  vec4 places[2];
+  float weights[2];
+  HeightHit hit = hit_of_ray(at, direction, body.distance, places, weights);
   reflected.is_body = hit.kind == hit_nothing && body.body >= 0;
   if (reflected.is_body) {
+    vec3 point = at + hit.distance * direction;
     reflected.body_radiance = radiance_of_body(body, point, direction, places[0].w);
     return;
   }
@@ -128,14 +132,8 @@ void trace(vec3 at, vec3 direction) {
   reflected.is_ground = hit.kind == hit_top;
   if (hit.kind == hit_side && detail == all_detail)
     reflected.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
-  point = at + reflected.distance * direction;
-  for (int k = 0; k < 2; ++k) {
-    reflected.from_map[k] = point - places[k].xyz;
-    reflected.map[k] = places[k].w;
-  }
-  float second = weights[1] / (weights[0] + weights[1]);
-  reflected.weight[1] = second < min_weight || detail != all_detail ? 0.0f : second;
-  reflected.weight[0] = 1.0f - reflected.weight[1];
+  vec3 point = at + reflected.distance * direction;
+  look_into_maps(point, places, weights);
   if (hit.kind == hit_top && hit.distance < shade_reach_m && detail == all_detail)
     reflected.shade = light_left_by_bodies(point);
 }
@@ -170,7 +168,7 @@ void look_along(vec3 at, vec3 direction) {
   if (detail < one_map) {
     look_into_nearest_map(at, direction);
   } else {
-    trace(at, direction);
+    trace_mirror_ray(at, direction);
   }
   reflected.across *= reflected.distance;
   reflected.narrow *= reflected.distance;

@@ -7,8 +7,8 @@
 // paper's direction. Along a thin rim the length is a narrow valley in which every step increases the error a
 // little: a step is accepted there, too, if the Newton step that remains, with the derivatives at the step's
 // start, is shorter than before (natural monotonicity test, Deuflhard 1974). Hidden vertices need no special
-// case: a vertex and its mirror image have the same tangential component. Required from the host, beside
-// surface_at:
+// case: a vertex and its mirror image have the same tangential component. Loops with at most one round stand
+// in place of branches (band_count in map_window.glsl says why). Required from the host, beside surface_at:
 //   MapWindow map_window()   the part of the sphere of directions in which the centre sees the reflector
 // Needs reflection_point.glsl and map_window.glsl.
 #include "reflections/reflection_search/surface_curvature.glsl"
@@ -39,14 +39,14 @@ struct PathState {
   TangentPlane plane;
   vec2 gradient;       // of the path's length
   vec3 plane_hessian;  // second derivatives of the length over a plane: uu, uv, vv
-  float lift;          // factor of the surface's curvature in the Hessian: the sum of both cosines
+  float cosine_sum;    // cos(O) + cos(V): factor of the surface's curvature in the Hessian
   float length_m;
   float error;
 };
 
-// Error of equation 1, from the sum of the two unit directions: its component in the tangent plane and its
-// height above it.
-GLSL_FUNCTION float leaning_error(vec2 in_plane, float height) {
+// Equation 1 of Estalella, (1 - B.N) / 2, from the sum of the two unit directions, which points along the
+// bisector B: its component in the tangent plane, and its height above the plane along the normal N.
+GLSL_FUNCTION float equation_1_error(vec2 in_plane, float height) {
   float across = dot(in_plane, in_plane), size = sqrt(across + height * height);
   if (size < 1e-6f) return 1.0f;
   return height > 0.0f ? 0.5f * across / (size * (size + height)) : 0.5f * (size - height) / size;
@@ -66,10 +66,10 @@ GLSL_FUNCTION PathState path_over(ReflectionTask task, TangentPlane plane) {
   path.plane_hessian = vec3(per_viewer_m * (1.0f - a.x * a.x) + per_vertex_m * (1.0f - b.x * b.x),
                             -per_viewer_m * a.x * a.y - per_vertex_m * b.x * b.y,
                             per_viewer_m * (1.0f - a.y * a.y) + per_vertex_m * (1.0f - b.y * b.y));
-  path.lift = viewer_height + vertex_height;
+  path.cosine_sum = viewer_height + vertex_height;
   path.length_m = viewer_m + vertex_m;
   path.error =
-      leaning_error(path.gradient, viewer_height + abs(vertex_height));  // hidden vertices: seen_vertex
+      equation_1_error(path.gradient, viewer_height + abs(vertex_height));  // hidden vertices: seen_vertex
   return path;
 }
 
@@ -82,7 +82,7 @@ GLSL_FUNCTION PathState path_at(ReflectionTask task, vec3 direction, vec3 u) {
 // Newton's step, to where the gradient vanishes. Over a convex reflector H is made positive definite: the
 // length has a minimum.
 GLSL_FUNCTION vec2 newton_step(PathState path, vec3 curvature, bool is_convex) {
-  vec3 h = path.plane_hessian + path.lift * curvature;
+  vec3 h = path.plane_hessian + path.cosine_sum * curvature;
   float middle = 0.5f * (h.x + h.z);
   float spread = sqrt(0.25f * (h.x - h.z) * (h.x - h.z) + h.y * h.y);  // eigenvalues: middle +- spread
   if (is_convex) {
@@ -100,7 +100,7 @@ GLSL_FUNCTION vec2 newton_step(PathState path, vec3 curvature, bool is_convex) {
 // Gradient descent, the paper's direction, by about the length of a Newton step.
 GLSL_FUNCTION vec2 gradient_step(PathState path, vec3 curvature) {
   return -path.gradient /
-         max(path.plane_hessian.x + path.plane_hessian.z + abs(path.lift) * length(curvature), 1e-12f);
+         max(path.plane_hessian.x + path.plane_hessian.z + abs(path.cosine_sum) * length(curvature), 1e-12f);
 }
 
 // Length of the Newton step for another gradient with the same second derivatives.
@@ -161,6 +161,9 @@ GLSL_FUNCTION SearchEnd end_of_search(ReflectionTask task, PathState path, vec2 
                    SearchStart(path.plane, curvature));
 }
 
+// Newton's steps from a starting point, until the error is small, too many steps have failed, or no step is
+// left. Each round: the step, its length within the trust region, the path at its end, the curvature updated
+// from both ends, and the decision whether the search moves there.
 GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, SearchBounds bounds) {
   PathState path = path_over(task, start.plane);
   vec3 curvature = start.curvature;

@@ -43,10 +43,10 @@ GLSL_FUNCTION float estimated_step(ReflectionTask task, SearchStart start, bool 
         per_vertex_m = inversesqrt(dot(to_vertex, to_vertex));
   vec3 sum = per_viewer_m * to_viewer + per_vertex_m * to_vertex;
   vec2 lean = in_tangent_plane(start.plane, sum);
-  float lift = dot(sum, start.plane.at.normal), plane_curvature = per_viewer_m + per_vertex_m;
+  float cosine_sum = dot(sum, start.plane.at.normal), plane_curvature = per_viewer_m + per_vertex_m;
   float below = min(per_vertex_m * dot(to_vertex, start.plane.at.normal), 0.0f),
-        height = lift - 2.0f * below;  // seen_vertex
-  vec3 h = vec3(plane_curvature, 0.0f, plane_curvature) + lift * start.curvature;
+        height = cosine_sum - 2.0f * below;  // seen_vertex
+  vec3 h = vec3(plane_curvature, 0.0f, plane_curvature) + cosine_sum * start.curvature;
   vec2 turned = vec2(lean.x * h.z - lean.y * h.y, lean.y * h.x - lean.x * h.y);
   float determinant = h.x * h.z - h.y * h.y;
   float squared_steps = dot(turned, turned) / max(determinant * determinant, 1e-20f);
@@ -59,8 +59,8 @@ GLSL_FUNCTION float estimated_step(ReflectionTask task, SearchStart start, bool 
 // not see the point.
 GLSL_FUNCTION bool has_minimum(ReflectionTask task, SearchStart start) {
   PathState path = path_over(task, start.plane);
-  vec3 h = path.plane_hessian + path.lift * start.curvature;
-  return path.lift <= 0.0f || (h.x > 0.0f && h.x * h.z > h.y * h.y);
+  vec3 h = path.plane_hessian + path.cosine_sum * start.curvature;
+  return path.cosine_sum <= 0.0f || (h.x > 0.0f && h.x * h.z > h.y * h.y);
 }
 
 // Concave surfaces and saddles may show a vertex several times. A layer holds for each vertex the point found
@@ -75,6 +75,7 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     return search_from(task, start_along(task, task.vertex - task.centre), bounds).found;
   }
 #endif
+  // The best of a few starting points, then of those beside it.
   float squared_steps[144];  // all_start_count; below 0 where there was a first turn
   int next = 0;
   float least = no_turn;
@@ -91,6 +92,8 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     next = squared_steps[i] < least ? i : next;
     least = min(squared_steps[i], least);
   }
+
+  // One search after another, each from the starting point of the shortest estimated step that is left.
   SearchEnd best;
   best.found.point.angle = 4.0f;
   bool is_done = false;
@@ -105,6 +108,8 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
                                              is_last ? newton_steps : max_failures, found_error, !is_last));
     is_done = is_found(end.found);
     if (is_done || end.found.point.angle < best.found.point.angle) best = end;
+
+    // The next starting point; after the first failure among all of them.
     float turn = squared_steps[next];
     int unknown = k == 0 && !is_done ? search_start_count : all_start_count;
     for (int i = unknown; i < all_start_count; ++i)

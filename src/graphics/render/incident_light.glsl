@@ -1,0 +1,47 @@
+// The light that meets a surface: sun and sky of the frame, and how much of both reaches the point.
+SceneLight scene_light() {
+  SceneLight light;
+  light.to_sun = to_sun_at(position);
+  light.sun_irradiance = frame_sun_irradiance.rgb;
+  for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
+  light.haze_radiance = frame_haze.rgb;
+  light.haze_per_m = frame_to_sun.w;
+  return light;
+}
+
+// Of objects that receive no shadows, the complement of their number is given.
+int surface_object() { return object_of_surface < 0 ? ~object_of_surface : object_of_surface; }
+
+#ifndef WRITES_SURFACE
+// The sun as rays found it in the pixel or beside it, where they hit this surface; else as the maps have it.
+float traced_sun(float drawn, float distance_m) {
+  float share = drawn, nearest = 0.01f * distance_m;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int taps = frame_shadow_extra.y > 0.5f ? 5 : 0;  // no branch: a loop without rounds is left out
+  for (int i = 0; i < taps; ++i) {
+    ivec2 beside = ivec2(int(i == 1) - int(i == 2), int(i == 3) - int(i == 4));
+    vec2 traced =
+        texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
+    float off = abs(traced.g - distance_m);
+    share = off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
+    nearest = min(off, nearest);
+  }
+  return share;
+}
+#endif
+
+// Visibility of the sky, stored in `surface_sky_cell`, and of the sun, returned.
+float visible_light(SeenPoint seen) {
+#ifdef IS_LEAF
+  surface_sky_cell = leaf_sky_cell;
+  float drawn = leaf_sun;
+#else
+  surface_sky_cell = shaded_cell(sky_visibility_cell(position, seen.normal),
+                                 sky_share_beside_bodies(position, seen.normal, surface_object()));
+  float drawn = visible_sun(position, seen.normal);
+#endif
+#ifndef WRITES_SURFACE
+  drawn = traced_sun(drawn, seen.distance_m);
+#endif
+  return object_of_surface < 0 ? sun_cone(to_sun_at(position)) : drawn;
+}

@@ -1,0 +1,38 @@
+// What the fragment shader of a surface reads and writes, and the functions that the rest of the shader
+// requires of the file that includes surface_body.glsl.
+const int base_layer = 0, coat_layer = 1;
+
+in vec3 position;
+in vec3 vertex_normal;
+in vec2 uv;
+#ifdef IS_LEAF
+in float leaf_sun;
+in vec4 leaf_sky_cell;
+#endif
+flat in int object_of_surface;
+#ifdef IS_MIRRORED
+in vec3 seen_from;             // origin of the mirrored ray
+const float seen_back = 0.1f;  // cosine: interpolated normals face away slightly before their triangles do
+#else
+#define seen_from viewer_position.xyz
+#endif
+#if defined(WRITES_SURFACE)
+void write_surface(Surface surface, vec3 to_viewer);
+#elif defined(WRITES_OBJECT)
+out uint object_and_one;
+#elif !defined(WRITES_DEPTH)
+out vec4 radiance;
+#endif
+#ifndef REFLECTION_OVERLAY
+#define REFLECTION_OVERLAY(radiance, roughness) radiance
+#define TRANSMISSION_OVERLAY(radiance) radiance
+#endif
+
+vec4 surface_sky_cell;
+uniform highp sampler2D traced_sun_texture;  // of the view's pixels: share of the sun, distance to the viewer
+
+#ifdef IS_MIRRORED
+bool is_mirrored_here();  // true if the reflector shows this point of the surface
+#endif
+void look_along(vec3 at, vec3 direction);             // prepares what the mirror ray hits
+vec3 reflected_radiance(float roughness, int layer);  // its radiance, prefiltered for the layer
