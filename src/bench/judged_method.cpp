@@ -25,9 +25,8 @@ Status keep_maps(const House& house, scene::Scene scene, const methods::Settings
       render::Renderer::create(scene, house.get<render::Drawables>());
   if (!renderer) return renderer.errors();
   const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
-  const Result<reference_maps::ReferenceMaps> maps =
-      reference_maps::bake_maps(scene, heights, **renderer, reference_maps::Keep::yes);
-  return maps ? Status(Done{}) : Status(maps.errors());
+  const Result<std::vector<glm::vec3>> places = reference_maps::keep_maps(scene, heights, **renderer);
+  return places ? Status(Done{}) : Status(places.errors());
 }
 
 Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,

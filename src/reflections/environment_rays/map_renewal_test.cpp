@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "graphics/gl/test_context.h"
 #include "graphics/render/test_room.h"
 #include "reflections/environment_rays/map_table.h"
@@ -145,18 +147,78 @@ TEST_F(MissingMapsTest, APictureShowsNoMapThatIsOutOfDate) {
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, dark.pixels);
 }
 
-TEST_F(MissingMapsTest, DrawnMapsStandInForThoseThatAreMissing) {
-  const std::vector<glm::vec3> three{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
-  shading::Heightfield heights(Bounds{glm::vec3(-8, -8, 0), glm::vec3(8, 8, 1)}, 1.0f, 64);
-  const std::vector<std::size_t> missing{0, 2};
-  MapTable table(MapChoice(three, HeightPyramid(heights)), three, missing);
+TEST_F(MissingMapsTest, PicturesAreTheSameWhereNotAllMapsAreHeld) {
+  const auto pictures_along_the_room = [&] {
+    std::vector<std::vector<std::uint8_t>> pictures;
+    for (const float x : {-25.0f, 0.0f, 25.0f, -25.0f}) {
+      scene_.objects.back().world_from_model[3].x = x;
+      maps_after_next_frame();
+      pictures.push_back(renderer_->read_picture(1.0f).pixels);
+    }
+    return pictures;
+  };
+  const auto whole = pictures_along_the_room();
+  const std::size_t all = maps_after_next_frame(), held = 8;
+  EXPECT_GT(all, held);
+  map_plan(scene_).memory_mb =
+      1e-6f * (float(held) + 0.5f) *
+      float(ReferenceMaps::bytes_per_map(ReferenceMaps::layer_side(face_resolution)));
+  reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
+  ASSERT_TRUE(renderer_->set_reflection(reflections_.get()));
+  EXPECT_EQ(pictures_along_the_room(), whole);
+  EXPECT_EQ(maps_after_next_frame(), held);
+}
+
+/// Three maps, of which each part of the ground has all; two layers.
+class MapTableTest : public gl::ContextTest {
+ protected:
+  MapTable table(std::size_t layers) {
+    shading::Heightfield heights(Bounds{glm::vec3(-8, -8, 0), glm::vec3(8, 8, 1)}, 1.0f, 64);
+    return {MapChoice(places, HeightPyramid(heights)), places, layers};
+  }
+  /// The layers that the south-western cell looks into.
+  static std::vector<std::uint16_t> first_cell(const MapTable& table) {
+    std::vector<std::uint16_t> layers(4);
+    glGetTextureSubImage(table.texture(), 0, 0, 0, 0, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8,
+                         layers.data());
+    return layers;
+  }
+  const Bounds all_{glm::vec3(-8), glm::vec3(8)};
+};
+
+TEST_F(MapTableTest, MapsThatAreHeldStandInForThoseThatAreNot) {
+  MapTable table = this->table(3);
+  EXPECT_EQ(table.look_within(all_).size(), 3u);
+  EXPECT_EQ(table.give_layer(1), 0u);
+  EXPECT_EQ(table.give_layer(1), 0u) << "it has one";
   EXPECT_FALSE(table.is_complete());
-  EXPECT_EQ(table.drawn(), std::vector<std::size_t>{1});
-  const Bounds all{glm::vec3(-8), glm::vec3(8)};
-  EXPECT_EQ(table.missing_within(all).size(), 2u);
-  table.add(0), table.add(0), table.add(2);
+  table.upload();
+  EXPECT_EQ(first_cell(table), std::vector<std::uint16_t>(4, 0));
+  EXPECT_EQ(table.look_within(all_).size(), 2u);
+  EXPECT_EQ(table.give_layer(0), 1u);
+  EXPECT_EQ(table.give_layer(2), 2u);
   EXPECT_TRUE(table.is_complete());
-  EXPECT_TRUE(table.missing_within(all).empty());
+  table.upload();
+  const std::vector<std::uint16_t> layers = first_cell(table);
+  EXPECT_EQ(std::set(layers.begin(), layers.end()).size(), 3u) << "each map has a layer of its own";
+  table.forget();
+  EXPECT_EQ(table.look_within(all_).size(), 3u);
+}
+
+TEST_F(MapTableTest, TheMapThatWasLookedIntoLeastRecentlyGivesUpItsLayer) {
+  MapTable table = this->table(2);
+  table.begin_frame();
+  EXPECT_EQ(table.give_layer(0), 0u);
+  EXPECT_EQ(table.give_layer(1), 1u);
+  EXPECT_EQ(table.give_layer(2), std::nullopt) << "this frame looks into both";
+  table.begin_frame();
+  EXPECT_EQ(table.look_within(all_), std::vector<std::size_t>{2}) << "which notes that 0 and 1 are in use";
+  EXPECT_EQ(table.give_layer(2), std::nullopt);
+  table.begin_frame();
+  EXPECT_EQ(table.give_layer(2), 0u);
+  EXPECT_EQ(table.look_within(all_), std::vector<std::size_t>{0});
+  table.upload();
+  for (const std::uint16_t layer : first_cell(table)) EXPECT_LT(layer, 2);
 }
 
 }  // namespace

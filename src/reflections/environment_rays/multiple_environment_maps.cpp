@@ -43,12 +43,25 @@ gl::Texture upload(const HeightPyramid& heights) {
   return texture;
 }
 
+/// Room for as many of the scene's maps as its memory and the driver hold.
+Result<ReferenceMaps> working_set(const scene::Scene& scene, std::vector<glm::vec3> places) {
+  const ReferenceMapPlan& plan = map_plan(scene);
+  const int side = ReferenceMaps::layer_side(map_resolution(scene));
+  const double fitting =
+      1e6 * double(plan.memory_mb) / double(ReferenceMaps::bytes_per_map(side, plan.is_compressed));
+  places.resize(std::min({places.size(), ReferenceMaps::max_count(), std::size_t(std::max(fitting, 1.0))}));
+  return ReferenceMaps::create(std::move(places), side, plan.is_compressed);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
                                                                                  render::Renderer& renderer) {
   const HeightPyramid heights(heights_of(scene));
-  BakedMaps baked = read_baked_maps(scene, heights);
+  MapCache baked(scene);
+  std::vector<glm::vec3> places = places_of(scene, heights, baked);
+  Result<ReferenceMaps> maps = working_set(scene, places);
+  if (!maps) return maps.errors();
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
   if (!renewal) return renewal.errors();
   Result<methods::MirrorPicture> picture = methods::MirrorPicture::create(renderer);
@@ -63,19 +76,20 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
     programs[detail] = *std::move(program);
   }
   return std::unique_ptr<MultipleEnvironmentMaps>(
-      new MultipleEnvironmentMaps(scene, heights, std::move(baked.maps), baked.missing, *std::move(renewal),
-                                  *std::move(picture), std::move(programs)));
+      new MultipleEnvironmentMaps(scene, heights, std::move(baked), std::move(places), *std::move(maps),
+                                  *std::move(renewal), *std::move(picture), std::move(programs)));
 }
 
 MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
-                                                 ReferenceMaps maps, std::span<const std::size_t> missing,
-                                                 MapRenewal renewal, methods::MirrorPicture picture,
-                                                 Programs programs)
+                                                 MapCache baked, std::vector<glm::vec3> places,
+                                                 ReferenceMaps maps, MapRenewal renewal,
+                                                 methods::MirrorPicture picture, Programs programs)
     : uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       details_(scene.objects.size(), all),
       budget_(double(methods::settings(scene).budget_ms)),
       picture_(std::move(picture)),
       programs_(std::move(programs)),
+      baked_(std::move(baked)),
       maps_(std::move(maps)),
       renewal_(std::move(renewal)),
       bodies_(scene),
@@ -83,9 +97,9 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
       cell_m_(heights.cell_m()),
       cells_(heights.cells()),
       top_level_(int(heights.levels().size()) - 1),
-      table_(MapChoice(maps_.places(), heights), maps_.places(), missing),
+      table_(MapChoice(places, heights), places, maps_.places().size()),
       heights_(upload(heights)) {
-  renewal_.ask(maps_.places().size(), {});  // what is baked is up to date
+  renewal_.ask(maps_.places().size(), {});  // nothing is drawn yet
 }
 
 MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
@@ -122,8 +136,9 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
 
 /// A window renews its maps one per frame; a picture shows none that is out of date.
 void MultipleEnvironmentMaps::forget_surroundings() {
+  baked_.reset();
   if (prefers_rate_)
-    renewal_.ask(maps_.places().size(), table_.drawn());
+    renewal_.ask(maps_.places().size(), table_.drawn_layers());
   else
     table_.forget();
 }
@@ -133,23 +148,32 @@ void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer
                                                 const std::vector<methods::VisibleReflector>& reflectors) {
   wanted_.clear();
   if (table_.is_complete()) return;
+  table_.begin_frame();
   for (const methods::VisibleReflector& reflector : reflectors)
     for (const std::size_t map :
-         table_.missing_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)]))
+         table_.look_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)]))
       if (std::ranges::find(wanted_, map) == wanted_.end()) wanted_.push_back(map);
 }
 
 bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Scene& scene) {
-  if (wanted_.empty()) return false;
-  const bool is_first = table_.drawn().empty();
-  if (prefers_rate_) wanted_.resize(1);
+  const bool is_first = table_.drawn_layers().empty();
+  std::size_t read = 0, drawn = 0;
   for (const std::size_t map : wanted_) {
-    renderer.begin_still_frame(scene, camera_at(maps_.places()[map]));
-    renewal_.renew(renderer, maps_, map);
-    table_.add(map);
+    const std::optional<std::size_t> layer = table_.give_layer(map);
+    if (!layer) break;  // the frame looks into more maps than are held: others stand in
+    maps_.move(*layer, table_.places()[map]);
+    if (baked_ && copy_baked(*baked_, map, table_.places(), maps_, *layer)) {
+      ++read;
+      continue;
+    }
+    renderer.begin_still_frame(scene, camera_at(table_.places()[map]));
+    renewal_.renew(renderer, maps_, *layer);
+    ++drawn;
+    if (prefers_rate_) break;
   }
-  table_.upload();
   wanted_.clear();
+  if (read + drawn == 0) return false;
+  table_.upload();
   return is_first || !prefers_rate_;
 }
 

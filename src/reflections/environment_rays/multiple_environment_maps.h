@@ -5,7 +5,7 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <optional>
 
 #include "graphics/render/quality_budget.h"
 #include "reflections/environment_rays/map_table.h"
@@ -13,13 +13,16 @@
 #include "reflections/methods/mirror_picture.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/reference_maps/height_pyramid.h"
+#include "reflections/reference_maps/map_cache.h"
 #include "reflections/reference_maps/map_renewal.h"
 
 namespace parvis::environment_rays {
 using namespace reference_maps;
 
-/// Creates the method for a scene. Reference maps that are not baked are drawn when a reflector first looks
-/// into them: for a picture or a film's frame all of them, one per frame of a window. Errors: a shader.
+/// Creates the method for a scene. A reference map is read, or drawn if it is not baked, when a reflector
+/// first looks into it: for a picture or a film's frame all of them, in a window at most one is drawn per
+/// frame. As many are held as ReferenceMaps::max_count allows. Errors: a shader; the driver has no memory for
+/// the maps.
 Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
@@ -39,8 +42,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   bool supply(render::Renderer& renderer, const scene::Scene& scene) override;
   void bind(const gl::Program& program, int object) override;
 
-  const ReferenceMaps& maps() const { return maps_; }               ///< as baked or re-rendered last
-  std::size_t drawn_maps() const { return table_.drawn().size(); }  ///< how many hold something
+  const ReferenceMaps& maps() const { return maps_; }  ///< those that are held, each as drawn last
+  std::size_t drawn_maps() const { return table_.drawn_layers().size(); }  ///< how many hold something
 
   /// Level of detail of one reflector; the numbers are those of multiple_environment_maps.frag.
   enum Detail : int {  // as multiple_environment_maps.frag has it
@@ -56,8 +59,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   /// A shader for each detail: software runs both sides of a branch.
   using Programs = std::array<gl::Program, detail_count>;
 
-  MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, ReferenceMaps maps,
-                          std::span<const std::size_t> missing, MapRenewal renewal,
+  MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, MapCache baked,
+                          std::vector<glm::vec3> places, ReferenceMaps maps, MapRenewal renewal,
                           methods::MirrorPicture picture, Programs programs);
   Detail best_detail_for(const methods::VisibleReflector& reflector) const;
   void choose_details(const render::Renderer& renderer,
@@ -77,6 +80,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   std::vector<GLuint> prepared_;  ///< programs of surfaces that have this frame's textures
   methods::MirrorPicture picture_;
   Programs programs_;
+  std::optional<MapCache> baked_;  ///< none: what is baked is out of date
   ReferenceMaps maps_;
   MapRenewal renewal_;
   MirroredBodies bodies_;
@@ -85,7 +89,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   glm::ivec2 cells_;
   int top_level_;
   MapTable table_;
-  std::vector<std::size_t> wanted_;  ///< maps that the last frame looked into and that are missing
+  std::vector<std::size_t> wanted_;  ///< maps that the last frame looked into and that have no layer
   bool prefers_rate_ = false;        ///< draws at most one missing map per frame
   gl::Texture heights_;
 };

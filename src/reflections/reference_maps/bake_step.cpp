@@ -9,7 +9,7 @@
 namespace parvis::reference_maps {
 namespace {
 
-constexpr double megabyte = 1e6;
+constexpr double megabyte = 1e-6;
 constexpr int plan_side_px = 1200;
 
 }  // namespace
@@ -19,20 +19,22 @@ Result<render::Baked> bake_and_plan(render::BakeInput& input) {
   const Result<render::Renderer*> renderer = input.renderer();
   if (!renderer) return renderer.errors();
   const HeightPyramid heights(heights_of(scene));
-  const Result<ReferenceMaps> maps = bake_maps(scene, heights, **renderer, Keep::yes);
-  if (!maps) return maps.errors();
+  const Result<std::vector<glm::vec3>> places = keep_maps(scene, heights, **renderer);
+  if (!places) return places.errors();
   if (!input.plan().empty()) {
-    const std::vector<glm::vec3> even = spread_over_roads(scene, heights, int(maps->places().size()));
+    const std::vector<glm::vec3> even = spread_over_roads(scene, heights, int(places->size()));
     if (Status status =
-            write_image(input.plan(), placement_plan(**renderer, scene, maps->places(), even, plan_side_px));
+            write_image(input.plan(), placement_plan(**renderer, scene, *places, even, plan_side_px));
         !status)
       return status.errors();
   }
+  const int side = ReferenceMaps::layer_side(map_resolution(scene));
+  const std::size_t bytes =
+      places->size() * ReferenceMaps::bytes_per_map(side, map_plan(scene).is_compressed);
   const std::filesystem::path folder = MapCache(scene).folder();
   return render::Baked{{folder},
                        fmt::format("{} reference maps of {} x {} texels, {:.1f} MB of graphics memory: {}",
-                                   maps->places().size(), maps->resolution(), maps->resolution(),
-                                   double(maps->bytes()) / megabyte, folder.string())};
+                                   places->size(), side, side, megabyte * double(bytes), folder.string())};
 }
 
 }  // namespace parvis::reference_maps

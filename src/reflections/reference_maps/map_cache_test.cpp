@@ -60,11 +60,17 @@ class MapCacheTest : public gl::ContextTest {
     methods::settings(scene_).resolution = 16;
   }
 
-  /// Every byte of the scene's maps.
-  std::vector<std::vector<std::uint8_t>> bake(Keep keep) {
+  /// Bakes the maps that are not kept yet; every byte of all.
+  std::vector<std::vector<std::uint8_t>> keep() {
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    EXPECT_TRUE(renderer && keep_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer));
+    return bake();
+  }
+  /// Every byte of the scene's maps, read or drawn.
+  std::vector<std::vector<std::uint8_t>> bake() {
     Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
     EXPECT_TRUE(renderer);
-    const Result<ReferenceMaps> maps = bake_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer, keep);
+    const Result<ReferenceMaps> maps = bake_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer);
     EXPECT_TRUE(maps) << (maps ? "" : to_string(maps.errors()));
     std::vector<std::vector<std::uint8_t>> all;
     for (std::size_t i = 0; i < maps->places().size(); ++i)
@@ -78,41 +84,43 @@ class MapCacheTest : public gl::ContextTest {
 };
 
 TEST_F(MapCacheTest, BakedMapsAreReadAndNotDrawn) {
-  const auto drawn = bake(Keep::yes);
+  const auto drawn = bake();
+  EXPECT_FALSE(fs::exists(map_file(0)));
+  EXPECT_EQ(keep(), drawn);
   ASSERT_TRUE(fs::exists(map_file(2)));
   EXPECT_FALSE(fs::exists(map_file(3)));
-  EXPECT_EQ(bake(Keep::no), drawn);
+  EXPECT_EQ(bake(), drawn);
 
   MapFile forged = *MapCache(scene_).read(1);  // to see that it is read
   forged.textures[0].assign(forged.textures[0].size(), 0);
   ASSERT_TRUE(MapCache(scene_).write(forged));
-  EXPECT_NE(bake(Keep::no), drawn);
+  EXPECT_NE(bake(), drawn);
 }
 
 TEST_F(MapCacheTest, InterruptedBakingGoesOnWithTheMapsThatAreMissing) {
-  const auto drawn = bake(Keep::yes);
+  const auto drawn = keep();
   fs::remove(map_file(0));
   fs::remove(map_file(2));
   const fs::file_time_type kept = fs::last_write_time(map_file(1));
-  EXPECT_EQ(bake(Keep::yes), drawn);
+  EXPECT_EQ(keep(), drawn);
   EXPECT_EQ(fs::last_write_time(map_file(1)), kept);
   EXPECT_TRUE(fs::exists(map_file(0)) && fs::exists(map_file(2)));
 }
 
 TEST_F(MapCacheTest, DamagedMapsAreDrawnAnewAndToldNeverShown) {
-  const auto drawn = bake(Keep::yes);
+  const auto drawn = keep();
   for (std::size_t number = 0; number < 3; ++number) {
     fs::resize_file(map_file(number), 100);
     testing::internal::CaptureStderr();
-    EXPECT_EQ(bake(Keep::no), drawn);
+    EXPECT_EQ(bake(), drawn);
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_NE(told.find("cut short or damaged; the map is drawn anew"), std::string::npos) << told;
-    EXPECT_EQ(bake(Keep::yes), drawn) << "and kept again";
+    EXPECT_EQ(keep(), drawn) << "and kept again";
   }
 }
 
 TEST_F(MapCacheTest, MapsOfAnotherSceneLightOrPlaceDoNotCount) {
-  bake(Keep::yes);
+  keep();
   const fs::path before = MapCache(scene_).folder();
   const auto is_other = [&](auto&& change) {
     const scene::Scene kept = scene_;
@@ -132,17 +140,17 @@ TEST_F(MapCacheTest, MapsOfAnotherSceneLightOrPlaceDoNotCount) {
 
   scene_.sky.intensity = 2.0f;
   testing::internal::CaptureStderr();
-  bake(Keep::no);
+  bake();
   EXPECT_NE(testing::internal::GetCapturedStderr().find("another state of the scene"), std::string::npos);
 }
 
 TEST_F(MapCacheTest, StatesThatAreNotAskedForAreForgottenAndOtherFilesStay) {
-  bake(Keep::yes);
+  keep();
   const MapCache old(scene_);
   ASSERT_TRUE(write_file(old.folder().parent_path() / "notes.txt", "mine"));
   fs::create_directories(old.folder().parent_path() / "mine");
   scene_.sky.intensity = 2.0f;
-  bake(Keep::yes);
+  keep();
   forget_other_states(scene_, {MapCache(scene_).folder()});
   EXPECT_FALSE(fs::exists(old.folder()));
   EXPECT_TRUE(fs::exists(MapCache(scene_).file(2)));
@@ -153,7 +161,7 @@ TEST_F(MapCacheTest, StatesThatAreNotAskedForAreForgottenAndOtherFilesStay) {
 TEST_F(MapCacheTest, ASceneMadeInMemoryKeepsNothing) {
   scene_.file.clear();
   EXPECT_TRUE(MapCache(scene_).folder().empty());
-  EXPECT_FALSE(bake(Keep::no).empty());
+  EXPECT_FALSE(bake().empty());
 }
 
 TEST_F(MapCacheTest, CompressedMapsShowNearlyTheSameInAQuarterOfTheMemory) {

@@ -7,7 +7,10 @@ namespace parvis::reference_maps {
 Result<MapRenewal> MapRenewal::create(int face_resolution) {
   Result<MapPainter> painter = MapPainter::create(face_resolution);
   if (!painter) return painter.errors();
-  return MapRenewal(*std::move(painter));
+  Result<ReferenceMaps> fresh =
+      ReferenceMaps::create({glm::vec3(0.0f)}, ReferenceMaps::layer_side(face_resolution));
+  if (!fresh) return fresh.errors();
+  return MapRenewal(*std::move(painter), *std::move(fresh));
 }
 
 void MapRenewal::ask(std::size_t map_count, std::span<const std::size_t> maps) {
@@ -28,10 +31,10 @@ std::optional<std::size_t> MapRenewal::renew_one(render::Renderer& renderer, Ref
 }
 
 void MapRenewal::renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map) {
-  ReferenceMaps fresh({maps.places()[map]}, maps.resolution());
-  painter_.paint(renderer, fresh, 0);
-  fresh.update_levels();
-  maps.copy(map, fresh, 0);
+  fresh_.move(0, maps.places()[map]);
+  painter_.paint(renderer, fresh_, 0);
+  fresh_.update_levels();
+  maps.copy(map, fresh_, 0);
   is_old_[map] = false;
 }
 

@@ -12,7 +12,7 @@ namespace parvis::reference_maps {
 
 class MapRenewal {
  public:
-  /// For maps as `bake_maps` makes them. Fails only if a shader does.
+  /// For maps as `bake_maps` makes them. Errors: a shader; the driver has no memory for a map.
   static Result<MapRenewal> create(int face_resolution);
 
   /// All of so many maps are out of date.
@@ -28,9 +28,11 @@ class MapRenewal {
   void renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map);
 
  private:
-  explicit MapRenewal(MapPainter painter) : painter_(std::move(painter)) {}
+  MapRenewal(MapPainter painter, ReferenceMaps fresh)
+      : painter_(std::move(painter)), fresh_(std::move(fresh)) {}
 
   MapPainter painter_;
+  ReferenceMaps fresh_;  ///< one map, from which the others are copied
   std::vector<bool> is_old_;
 };
 

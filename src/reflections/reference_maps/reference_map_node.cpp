@@ -10,7 +10,7 @@ namespace {
 
 using namespace scene::attribute;
 
-constexpr std::size_t max_places = 2000;
+constexpr std::size_t max_places = 20000;
 
 scene::NodeSchema reference_maps_schema() {
   return {
@@ -36,6 +36,13 @@ scene::NodeSchema reference_maps_schema() {
                .in("m")
                .between(0.05, 100)
                .by_default("1"),
+           number(
+               "memory",
+               "for the maps that multiple_environment_maps holds at once; of more maps those are held that "
+               "were looked into last")
+               .in("MB")
+               .between(1, 65536)
+               .by_default("1024"),
            flag("compressed", "colours take a quarter of the graphics memory, a little less true")
                .by_default("0")},
       .example = "referenceMaps(position=\"0 -20 1.2\", position=\"0 20 1.2\", compressed=yes)",
@@ -62,6 +69,7 @@ void build_reference_maps(const scene::Node& node, scene::SceneBuilder& builder)
   if (node.gives("maps")) plan.max_maps = int(node.integer("maps"));
   if (node.gives("resolution")) plan.resolution = int(node.integer("resolution"));
   plan.cell_m = float(node.number("cell"));
+  plan.memory_mb = float(node.number("memory"));
   plan.is_compressed = node.flag("compressed");
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/progress.h"
+#include "graphics/gl/context.h"
 #include "reflections/reference_maps/map_levels.h"
 #include "reflections/reference_maps/map_painter.h"
 
@@ -62,6 +63,15 @@ void write_level(const Layer& layer, int level, std::size_t map, const std::vect
                       bytes.data());
 }
 
+std::size_t colour_bytes_per_map(int resolution, bool is_compressed) {
+  std::size_t bytes = 0;
+  for (int level = 0; level < levels; ++level) {
+    const std::size_t side = std::size_t(std::max(resolution >> level, 1)), blocks = (side + 3) / 4;
+    bytes += is_compressed ? 16 * blocks * blocks : 4 * side * side;
+  }
+  return bytes;
+}
+
 }  // namespace
 
 glm::ivec2 ReferenceMaps::gloss_size() { return {int(gloss_tile_count * gloss_side), int(gloss_side)}; }
@@ -81,17 +91,47 @@ ReferenceMaps::ReferenceMaps(std::vector<glm::vec3> places, int resolution, bool
       distances_(layers_of(GL_R16F, 1, glm::ivec2(resolution), places_.size())),
       place_texture_(texture_of(places_)) {}
 
+std::size_t ReferenceMaps::bytes_per_map(int resolution, bool is_compressed) {
+  const glm::ivec2 gloss = gloss_size();
+  return colour_bytes_per_map(resolution, is_compressed) + 4 * std::size_t(gloss.x) * std::size_t(gloss.y) +
+         2 * std::size_t(resolution) * std::size_t(resolution);
+}
+
+std::size_t ReferenceMaps::max_count() {
+  GLint max_layers = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
+  return std::size_t(max_layers);
+}
+
+Result<ReferenceMaps> ReferenceMaps::create(std::vector<glm::vec3> places, int resolution,
+                                            bool is_compressed) {
+  const std::size_t count = places.size();
+  if (count > max_count())
+    return error(
+        "{} reference maps of {} x {} texels: this method holds at most {} at once; ask for fewer "
+        "(referenceMaps(maps=...)), or take multiple_environment_maps, which keeps those that are looked "
+        "into",
+        count, resolution, resolution, max_count());
+  gl::refused();  // what is left from before is not about these maps
+  ReferenceMaps maps(std::move(places), resolution, is_compressed);
+  if (const std::string why = gl::refused(); !why.empty())
+    return error("the graphics driver refuses {} reference maps of {} x {} texels, {:.0f} MB: {}", count,
+                 resolution, resolution, 1e-6 * double(maps.bytes()), why);
+  return maps;
+}
+
 Result<ReferenceMaps> ReferenceMaps::bake(render::Renderer& renderer, std::vector<glm::vec3> places,
                                           int face_resolution) {
   Result<MapPainter> painter = MapPainter::create(face_resolution);
   if (!painter) return painter.errors();
-  ReferenceMaps maps(std::move(places), layer_side(face_resolution));
-  Progress progress("reference maps", maps.places_.size());
-  for (std::size_t i = 0; i < maps.places_.size(); ++i) {
-    painter->paint(renderer, maps, i);
+  Result<ReferenceMaps> maps = create(std::move(places), layer_side(face_resolution));
+  if (!maps) return maps.errors();
+  Progress progress("reference maps", maps->places_.size());
+  for (std::size_t i = 0; i < maps->places_.size(); ++i) {
+    painter->paint(renderer, *maps, i);
     progress.advance();
   }
-  maps.update_levels();
+  maps->update_levels();
   return maps;
 }
 
@@ -112,6 +152,11 @@ bool ReferenceMaps::write(std::size_t map, const std::vector<std::vector<std::ui
   return true;
 }
 
+void ReferenceMaps::move(std::size_t map, glm::vec3 place) {
+  places_[map] = place;
+  glTextureSubImage2D(place_texture_.name(), 0, GLint(map), 0, 1, 1, GL_RGB, GL_FLOAT, &place.x);
+}
+
 void ReferenceMaps::copy(std::size_t map, const ReferenceMaps& from, std::size_t map_there) {
   const std::array<Layer, 3> here = layers_in(*this), there = layers_in(from);
   for (std::size_t i = 0; i < here.size(); ++i)
@@ -126,18 +171,11 @@ void ReferenceMaps::copy(std::size_t map, const ReferenceMaps& from, std::size_t
 }
 
 std::size_t ReferenceMaps::colour_bytes() const {
-  std::size_t bytes = 0;
-  for (int level = 0; level < levels; ++level) {
-    const std::size_t side = std::size_t(std::max(resolution_ >> level, 1)), blocks = (side + 3) / 4;
-    bytes += is_compressed_ ? 16 * blocks * blocks : 4 * side * side;
-  }
-  return bytes * places_.size();
+  return colour_bytes_per_map(resolution_, is_compressed_) * places_.size();
 }
 
 std::size_t ReferenceMaps::bytes() const {
-  const std::size_t gloss = 4 * std::size_t(gloss_size().x) * std::size_t(gloss_size().y);
-  const std::size_t distance = 2 * std::size_t(resolution_) * std::size_t(resolution_);
-  return colour_bytes() + (gloss + distance) * places_.size();
+  return bytes_per_map(resolution_, is_compressed_) * places_.size();
 }
 
 }  // namespace parvis::reference_maps

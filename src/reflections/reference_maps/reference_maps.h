@@ -20,11 +20,17 @@ class ReferenceMaps {
   /// faces of 128 take 30 MB, compressed 14.
   static int layer_side(int face_resolution);
 
+  /// Graphics memory of one map with layers of `resolution` texels a side, all in all.
+  static std::size_t bytes_per_map(int resolution, bool is_compressed = false);
+  /// How many maps one set holds: OpenGL's layers per texture.
+  static std::size_t max_count();
+
   /// Maps that hold nothing yet. Compressed colours (BPTC, a quarter of the memory) cannot be drawn into,
-  /// only copied from other maps.
-  ReferenceMaps(std::vector<glm::vec3> places, int resolution, bool is_compressed = false);
+  /// only copied from other maps. Errors: more than `max_count` maps; the driver has no memory for them.
+  static Result<ReferenceMaps> create(std::vector<glm::vec3> places, int resolution,
+                                      bool is_compressed = false);
   /// Draws the fixed scene from each place, as sharp as faces of `face_resolution`; takes some tenths of a
-  /// second a map, so it shows progress. Fails only if a shader does.
+  /// second a map, so it shows progress. Errors: those of `create`; a shader.
   static Result<ReferenceMaps> bake(render::Renderer& renderer, std::vector<glm::vec3> places,
                                     int face_resolution);
 
@@ -45,10 +51,14 @@ class ReferenceMaps {
   std::vector<std::vector<std::uint8_t>> read(std::size_t map) const;
   /// False, and nothing is changed, where these are not the bytes of such a map.
   bool write(std::size_t map, const std::vector<std::vector<std::uint8_t>>& textures);
+  /// Gives a layer to another place; it keeps showing the old one until it is drawn, written or copied into.
+  void move(std::size_t map, glm::vec3 place);
   /// Copies a map of the same resolution, with all its levels, and compresses it if these are compressed.
   void copy(std::size_t map, const ReferenceMaps& from, std::size_t map_there);
 
  private:
+  ReferenceMaps(std::vector<glm::vec3> places, int resolution, bool is_compressed);
+
   std::vector<glm::vec3> places_;
   int resolution_;
   bool is_compressed_;

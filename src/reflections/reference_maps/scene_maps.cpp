@@ -5,8 +5,6 @@
 
 #include "base/progress.h"
 #include "graphics/render/fixed_parts.h"
-#include "reflections/reference_maps/map_cache.h"
-#include "reflections/reference_maps/map_painter.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
 
@@ -34,12 +32,6 @@ void tell_if_coarse(glm::vec2 size_m, float cell_m, float wanted_m) {
              "ones, or ask for these: referenceMaps(cell={:.3g})\n",
              1e-3f * size_m.x, 1e-3f * size_m.y, wanted_m, megabytes(wanted_m), cell_m, megabytes(cell_m),
              cell_m);
-}
-
-ReferenceMaps compressed(const ReferenceMaps& maps) {
-  ReferenceMaps small(maps.places(), maps.resolution(), true);
-  for (std::size_t i = 0; i < maps.places().size(); ++i) small.copy(i, maps, i);
-  return small;
 }
 
 }  // namespace
@@ -87,42 +79,73 @@ std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid
   return places;
 }
 
-BakedMaps read_baked_maps(const scene::Scene& scene, const HeightPyramid& heights) {
-  const MapCache cache(scene);
-  std::optional<MapFile> kept = cache.read(0);
-  BakedMaps baked{ReferenceMaps(kept ? kept->places : map_places(scene, heights),
-                                ReferenceMaps::layer_side(map_resolution(scene)))};
-  ReferenceMaps& maps = baked.maps;
-  for (std::size_t i = 0; i < maps.places().size(); ++i) {
-    if (i > 0) kept = cache.read(i);
-    if (!kept || kept->places != maps.places() || !maps.write(i, kept->textures)) baked.missing.push_back(i);
-  }
-  maps.update_levels();
-  if (map_plan(scene).is_compressed) maps = compressed(maps);
-  return baked;
+std::vector<glm::vec3> places_of(const scene::Scene& scene, const HeightPyramid& heights,
+                                 const MapCache& cache) {
+  const std::optional<MapFile> first = cache.read(0);
+  return first ? first->places : map_places(scene, heights);
+}
+
+Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& renderer, MapPainter& painter,
+                                glm::vec3 place) {
+  Result<ReferenceMaps> drawn =
+      ReferenceMaps::create({place}, ReferenceMaps::layer_side(map_resolution(scene)));
+  if (!drawn) return drawn.errors();
+  renderer.begin_still_frame(scene, camera_at(place));
+  painter.paint(renderer, *drawn, 0);
+  drawn->update_levels();
+  return drawn;
+}
+
+bool copy_baked(const MapCache& cache, std::size_t number, std::span<const glm::vec3> places,
+                ReferenceMaps& maps, std::size_t layer) {
+  const std::optional<MapFile> file = cache.read(number);
+  if (!file || !std::ranges::equal(file->places, places)) return false;
+  Result<ReferenceMaps> read = ReferenceMaps::create({places[number]}, maps.resolution());
+  if (!read || !read->write(0, file->textures)) return false;
+  read->update_levels();
+  maps.copy(layer, *read, 0);
+  return true;
 }
 
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
-                                render::Renderer& renderer, Keep keep) {
+                                render::Renderer& renderer) {
   Result<MapPainter> painter = MapPainter::create(map_resolution(scene));
   if (!painter) return painter.errors();
   const MapCache cache(scene);
-  if (keep == Keep::no) cache.report_other_states();
-  auto [maps, missing] = read_baked_maps(scene, heights);
-  Progress progress("reference maps", missing.size());
-  for (const std::size_t i : missing) {
-    ReferenceMaps drawn({maps.places()[i]}, maps.resolution());
-    renderer.begin_still_frame(scene, camera_at(maps.places()[i]));
-    painter->paint(renderer, drawn, 0);
-    drawn.update_levels();
-    maps.copy(i, drawn, 0);
-    if (keep == Keep::yes) {
-      const MapFile file{0, maps.places(), std::uint32_t(i), std::uint32_t(maps.resolution()), drawn.read(0)};
+  cache.report_other_states();
+  Result<ReferenceMaps> maps =
+      ReferenceMaps::create(places_of(scene, heights, cache),
+                            ReferenceMaps::layer_side(map_resolution(scene)), map_plan(scene).is_compressed);
+  if (!maps) return maps.errors();
+  Progress progress("reference maps", maps->places().size());
+  for (std::size_t i = 0; i < maps->places().size(); ++i) {
+    if (!copy_baked(cache, i, maps->places(), *maps, i)) {
+      const Result<ReferenceMaps> drawn = drawn_map(scene, renderer, *painter, maps->places()[i]);
+      if (!drawn) return drawn.errors();
+      maps->copy(i, *drawn, 0);
+    }
+    progress.advance();
+  }
+  return maps;
+}
+
+Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const HeightPyramid& heights,
+                                         render::Renderer& renderer) {
+  Result<MapPainter> painter = MapPainter::create(map_resolution(scene));
+  if (!painter) return painter.errors();
+  const MapCache cache(scene);
+  std::vector<glm::vec3> places = places_of(scene, heights, cache);
+  Progress progress("reference maps", places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (const std::optional<MapFile> kept = cache.read(i); !kept || kept->places != places) {
+      const Result<ReferenceMaps> drawn = drawn_map(scene, renderer, *painter, places[i]);
+      if (!drawn) return drawn.errors();
+      const MapFile file{0, places, std::uint32_t(i), std::uint32_t(drawn->resolution()), drawn->read(0)};
       if (Status status = cache.write(file); !status) return status.errors();
     }
     progress.advance();
   }
-  return std::move(maps);
+  return places;
 }
 
 }  // namespace parvis::reference_maps

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "reflections/reference_maps/height_pyramid.h"
+#include "reflections/reference_maps/map_cache.h"
+#include "reflections/reference_maps/map_painter.h"
 #include "reflections/reference_maps/reference_maps.h"
 #include "reflections/reference_maps/settings.h"
 #include "scene/data/scene.h"
@@ -20,24 +22,31 @@ float fitting_cell_m(glm::vec2 size_m, float wanted_m);
 /// least.
 std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights);
 
-/// The scene's reference maps as far as they are baked.
-struct BakedMaps {
-  ReferenceMaps maps;
-  std::vector<std::size_t> missing = {};  ///< numbers of the maps that hold nothing yet
-};
-
-/// Reads what is baked; places without a baked map are computed. Unfit maps are reported on standard error.
-BakedMaps read_baked_maps(const scene::Scene& scene, const HeightPyramid& heights);
+/// The same as far as they are baked: their places are known without computing them.
+std::vector<glm::vec3> places_of(const scene::Scene& scene, const HeightPyramid& heights,
+                                 const MapCache& cache);
 
 /// A view from a reference map's place, about which shadows are to be sharp.
 Camera camera_at(glm::vec3 place);
 
-/// Maps that are drawn are kept beside the scene, too.
-enum class Keep : bool { no, yes };
+/// One map, as it is drawn now, with all its levels: in the light of a frame of its own, which it begins.
+/// Errors: the driver has no memory for it.
+Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& renderer, MapPainter& painter,
+                                glm::vec3 place);
 
-/// The scene's reference maps: those that are baked are read, the others drawn; begins a frame for the light.
-/// Unfit baked ones are reported on standard error. Fails if a shader does, or if a map cannot be kept.
+/// Copies a baked map into a layer of `maps`, which is at its place and of the scene's resolution. False: it
+/// is not baked, or unfit, which is reported on standard error.
+bool copy_baked(const MapCache& cache, std::size_t number, std::span<const glm::vec3> places,
+                ReferenceMaps& maps, std::size_t layer);
+
+/// All of the scene's reference maps: those that are baked are read, the others drawn. Unfit baked ones are
+/// reported on standard error. Errors: a shader; more maps than ReferenceMaps holds.
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
-                                render::Renderer& renderer, Keep keep = Keep::no);
+                                render::Renderer& renderer);
+
+/// Draws the scene's reference maps that are not baked and keeps each beside the scene; one is in memory at a
+/// time. Returns the places of all maps. Errors: a shader; a map cannot be kept.
+Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const HeightPyramid& heights,
+                                         render::Renderer& renderer);
 
 }  // namespace parvis::reference_maps

@@ -27,13 +27,14 @@ struct ReferenceMapPlan {
   std::vector<glm::vec3> places = {};  ///< in the world; empty: they place themselves
   int max_maps = 0, resolution = 0;    ///< 0: as the node `reflection` has them
   float cell_m = 1.0f;                 ///< of the heights that mirror rays are traced in
+  float memory_mb = 1024.0f;           ///< for the maps that are held at once
   bool is_compressed = false;
 
   /// Adds all of it.
   void hash(ContentHash& hash) const {
     hash.add(places);
     for (const int value : {max_maps, resolution, int(is_compressed)}) hash.add(value);
-    hash.add(cell_m);
+    for (const float value : {cell_m, memory_mb}) hash.add(value);
   }
 };
 
