@@ -122,6 +122,20 @@ Status check_current() {
   return Done{};
 }
 
+std::string refused() {
+  std::string complaints;
+  constexpr std::array<std::pair<GLenum, std::string_view>, 5> names{
+      {{GL_OUT_OF_MEMORY, "out of memory"},
+       {GL_INVALID_VALUE, "a size or number beyond its limits"},
+       {GL_INVALID_ENUM, "a format that it lacks"},
+       {GL_INVALID_OPERATION, "an operation that is not possible"},
+       {GL_INVALID_FRAMEBUFFER_OPERATION, "a framebuffer that is not complete"}}};
+  while (const GLenum flag = glGetError())
+    for (const auto& [name, text] : names)
+      if (flag == name) complaints += fmt::format("{}{}", complaints.empty() ? "" : "; ", text);
+  return complaints;
+}
+
 std::string driver_name() {
   return fmt::format("{}, {}", reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
                      reinterpret_cast<const char*>(glGetString(GL_VERSION)));

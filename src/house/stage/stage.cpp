@@ -4,6 +4,7 @@
 
 #include "base/checked.h"
 #include "base/memory_budget.h"
+#include "graphics/gl/context.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -88,6 +89,11 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
   Result<std::unique_ptr<methods::Reflections>> made =
       house().get<methods::Registry>().make(play_.scene, *renderer_);
   if (!made) return made.errors();
+  if (const std::string why = gl::refused(); !why.empty())
+    return error(
+        "the graphics driver refuses what the scene asks for: {}; smaller textures, fewer or smaller "
+        "reference maps (referenceMaps(memory=...)) and a smaller picture need less",
+        why);
   if (Status status = renderer_->set_reflection(made->get()); !status) return status;
   reflections_ = *std::move(made);
   return Done{};

@@ -161,6 +161,19 @@ std::shared_ptr<scene::Model> falling_board() {
   return model;
 }
 
+TEST_F(StageTest, WhatTheDriverRefusesIsAnError) {
+  const Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene::Scene()));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D));
+  glTextureStorage2D(texture.name(), 1, GL_RGBA8, 1 << 30, 1);
+  methods::Settings none;
+  none.method = "none";
+  const Status status = (*stage)->set_reflection(none);
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find("the graphics driver refuses"), std::string::npos);
+  EXPECT_TRUE((*stage)->set_reflection(none)) << "it is told once";
+}
+
 TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
   constexpr int width = 240, height = 160;
   scene::Scene place;
