@@ -33,6 +33,17 @@ add_library(parvis_osmium INTERFACE)
 target_link_libraries(parvis_osmium INTERFACE EXPAT::EXPAT ZLIB::ZLIB Threads::Threads)
 target_include_directories(parvis_osmium SYSTEM INTERFACE ${osmium_headers} ${protozero_headers})
 
+# IFC++ brings no configuration; its geometry, in headers, uses the CSG library carve.
+find_library(ifc_library IfcPlusPlus REQUIRED)
+find_library(carve_library carve REQUIRED)
+find_path(ifc_headers ifcpp/reader/ReaderSTEP.h REQUIRED)
+add_library(parvis_ifcplusplus INTERFACE)
+target_link_libraries(parvis_ifcplusplus INTERFACE ${ifc_library} ${carve_library})
+target_include_directories(parvis_ifcplusplus SYSTEM INTERFACE ${ifc_headers})
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(parvis_ifcplusplus INTERFACE -fdelayed-template-parsing)  # carve has a template that never compiles
+endif()
+
 # Debian's OpenImageIO names OpenCV's headers, which its own do not need and its package does not bring.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 target_link_libraries(OpenImageIO::OpenImageIO INTERFACE Imath::Imath)

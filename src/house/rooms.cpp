@@ -6,6 +6,7 @@
 #include "capture/trees/room.h"
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
+#include "formats/ifc/ifc_formats.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/readers/bench/import_export_bench.h"
 #include "formats/terrain/terrain_formats.h"
@@ -39,6 +40,7 @@ constexpr Furnish rooms[]{
     scene::furnish_script,
     scene::furnish_gltf,
     scene::furnish_city_models,
+    scene::furnish_ifc,
     scene::furnish_terrain,
     scene::furnish_meshes,
     dressing::furnish,  // before roads: see its docstring

@@ -1,0 +1,25 @@
+#include "formats/ifc/ifc_formats.h"
+
+#include "formats/ifc/ifc_reader.h"
+#include "formats/readers/content.h"
+#include "formats/readers/isolated_reader.h"
+
+namespace parvis::scene {
+namespace {
+
+Result<Model> read(const std::filesystem::path& file, const formats::ModelReading&, Errors& warnings) {
+  return read_ifc(file, warnings);
+}
+
+/// ISO 10303-21, the text form of STEP.
+bool looks_like_step(std::string_view front) {
+  return formats::without_blanks(front).starts_with("ISO-10303-21");
+}
+
+}  // namespace
+
+void furnish_ifc(House& house) {
+  house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step);
+}
+
+}  // namespace parvis::scene

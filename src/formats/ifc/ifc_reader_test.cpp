@@ -1,0 +1,153 @@
+#include "formats/ifc/ifc_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/test_folder.h"
+
+namespace parvis::scene {
+namespace {
+
+const std::filesystem::path pavilion_file = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/pavilion.ifc";
+
+class IfcTest : public testing::Test {
+ protected:
+  Model pavilion() { return read(pavilion_file); }
+  Model read(const std::filesystem::path& file) {
+    Result<Model> model = read_ifc(file, warnings_);
+    EXPECT_TRUE(model) << to_string(model.errors());
+    return model ? *std::move(model) : Model();
+  }
+  /// The pavilion with one text for another, as a file.
+  std::filesystem::path changed(const std::string& from, const std::string& to) {
+    std::string text = *read_file(pavilion_file);
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+    EXPECT_TRUE(write_file(folder_.path() / "changed.ifc", text));
+    return folder_.path() / "changed.ifc";
+  }
+  static const Part* part(const Model& model, const std::string& object) {
+    const auto found = std::ranges::find(model.parts, object, &Part::object);
+    return found == model.parts.end() ? nullptr : &*found;
+  }
+  static const Material& material(const Model& model, const Part& part) {
+    return model.materials[std::size_t(part.material)];
+  }
+
+  TestFolder folder_;
+  Errors warnings_;
+};
+
+/// Area of the triangles that face `normal`, square metres.
+float area_facing(const Mesh& mesh, glm::vec3 normal) {
+  float area = 0.0f;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const glm::vec3 a = mesh.positions[mesh.indices[i]];
+    const glm::vec3 sides =
+        glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+    if (glm::dot(glm::normalize(sides), normal) > 0.999f) area += 0.5f * glm::length(sides);
+  }
+  return area;
+}
+
+TEST_F(IfcTest, ABuildingIsReadInMetresWithStoreysAndNames) {
+  const Model model = pavilion();
+  EXPECT_TRUE(warnings_.empty()) << to_string(warnings_);
+  const Bounds all = bounds(model);
+  EXPECT_NEAR(all.size().x, 13.8f, 1e-3f);
+  EXPECT_NEAR(all.max.z, 3.68f, 1e-3f);
+  ASSERT_EQ(model.nodes.size(), 3u);
+  EXPECT_EQ(model.nodes[1].name, "Ground floor");
+  EXPECT_EQ(model.nodes[2].name, "Roof");
+  const Part* column = part(model, "IfcColumn Column \xc3\xb8 240");
+  ASSERT_TRUE(column) << "a letter beyond ASCII, without Revit's number";
+  EXPECT_EQ(model.nodes[std::size_t(column->node)].name, "Ground floor");
+  const Part* roof = part(model, "IfcSlab Roof:Zinc");
+  ASSERT_TRUE(roof);
+  EXPECT_EQ(model.nodes[std::size_t(roof->node)].name, "Roof");
+}
+
+TEST_F(IfcTest, OpeningsAreCutOutOfWalls) {
+  const Part* wall = nullptr;
+  const Model model = pavilion();
+  wall = part(model, "IfcWallStandardCase Wall:Render 300");
+  ASSERT_TRUE(wall);
+  const float front = 12.0f * 3.2f - 4.0f * 1.4f * 1.6f - 2.0f * 1.0f * 2.3f;
+  const float back = 12.0f * 3.2f - 4.0f * 1.4f * 1.6f;
+  float reveals = 0.0f;  // jambs have the depth of the wall
+  for (const glm::vec3 side : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0)})
+    reveals += area_facing(wall->mesh, side);
+  // Each wall has two large faces; the short walls close the gaps between the long ones.
+  const float south = area_facing(wall->mesh, {0, -1, 0});
+  const float jambs_of_short_walls = 2.0f * 1.6f * 0.3f, ends_of_short_walls = 2.0f * 3.2f * 0.3f;
+  EXPECT_NEAR(south, front + back + jambs_of_short_walls + ends_of_short_walls, 0.01f);
+  EXPECT_GT(reveals, 0.3f * (10.0f * 1.6f + 4.0f * 2.3f));
+}
+
+TEST_F(IfcTest, StylesGiveColoursAndGlass) {
+  const Model model = pavilion();
+  std::size_t panes = 0;
+  for (const Part& part : model.parts)
+    if (material(model, part).alpha_mode == Alpha::blend) {
+      ++panes;
+      EXPECT_EQ(part.object, "IfcWindow Casement:1400x1600");
+      EXPECT_NEAR(material(model, part).alpha, 0.35f, 1e-3f);
+      EXPECT_FALSE(part.casts_shadow);
+    }
+  EXPECT_EQ(panes, 1u);
+  const Part* wall = part(model, "IfcWallStandardCase Wall:Render 300");
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(material(model, *wall).base_colour.x, 0.75f, 0.02f) << "sRGB 0.88";
+}
+
+TEST_F(IfcTest, RoundColumnsAreSmoothAndSlabsFlat) {
+  const Model model = pavilion();
+  const Part* column = part(model, "IfcColumn Column \xc3\xb8 240");
+  const Part* roof = part(model, "IfcSlab Roof:Zinc");
+  ASSERT_TRUE(column && roof);
+  const auto worst_cosine = [](const Mesh& mesh) {
+    float worst = 1.0f;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const glm::vec3 a = mesh.positions[mesh.indices[i]];
+      const glm::vec3 flat = glm::normalize(
+          glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
+      for (int k = 0; k < 3; ++k)
+        worst = std::min(worst, glm::dot(flat, mesh.normals[mesh.indices[i + std::size_t(k)]]));
+    }
+    return worst;
+  };
+  EXPECT_LT(worst_cosine(column->mesh), 0.9999f);
+  EXPECT_GT(worst_cosine(column->mesh), 0.8f);
+  EXPECT_GT(worst_cosine(roof->mesh), 0.9999f);
+}
+
+TEST_F(IfcTest, AnOlderSchemaIsReadAndAnUnknownOneRefused) {
+  EXPECT_EQ(read(changed("'IFC4'", "'IFC2X3'")).nodes.size(), 3u);
+  const Result<Model> unknown = read_ifc(changed("'IFC4'", "'IFC4X3'"), warnings_);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(to_string(unknown.errors()).find("IFC4X3"), std::string::npos);
+}
+
+TEST_F(IfcTest, FilesWithoutBodiesAreErrors) {
+  const Result<Model> empty = read_ifc(changed("'Body'", "'Axis'"), warnings_);
+  ASSERT_FALSE(empty);
+  EXPECT_NE(to_string(empty.errors()).find("no object has a body"), std::string::npos);
+}
+
+TEST_F(IfcTest, AFarPlaceIsMovedToTheOrigin) {
+  const Model model = read(changed("(0.,0.,0.)", "(2600000000.,1200000000.,400000.)"));
+  EXPECT_GT(model.origin.x, 2.5e6);
+  EXPECT_LT(glm::length(bounds(model).centre()), 1000.0f);
+}
+
+TEST_F(IfcTest, WhatHasNoStyleLooksAsItsKindDoes) {
+  const Model model = read(changed("IFCSTYLEDITEM", "IFCTHATISNOT"));
+  const Part* wall = part(model, "IfcWallStandardCase Wall:Render 300");
+  ASSERT_TRUE(wall);
+  EXPECT_GT(material(model, *wall).base_colour.x, 0.7f);
+}
+
+}  // namespace
+}  // namespace parvis::scene

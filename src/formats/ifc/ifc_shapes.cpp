@@ -1,0 +1,231 @@
+#include "formats/ifc/ifc_shapes.h"
+
+#include <fmt/format.h>
+#include <ifcpp/IFC4/include/IfcAnnotation.h>
+#include <ifcpp/IFC4/include/IfcBuildingStorey.h>
+#include <ifcpp/IFC4/include/IfcFeatureElementSubtraction.h>
+#include <ifcpp/IFC4/include/IfcGrid.h>
+#include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcSpace.h>
+#include <ifcpp/IFC4/include/IfcVirtualElement.h>
+#include <ifcpp/geometry/Carve/GeometryConverter.h>
+#include <ifcpp/model/BuildingModel.h>
+#include <ifcpp/reader/ReaderSTEP.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <set>
+
+namespace parvis::scene {
+namespace {
+
+constexpr std::size_t max_warnings = 20;
+constexpr int max_storey_depth = 64;  // aggregates within aggregates: a file may have cycles
+
+/// IFC++ writes to the program's output, which belongs to the user.
+class SilentOutput {
+ public:
+  SilentOutput() : narrow_(std::cout.rdbuf(nullptr)), wide_(std::wcout.rdbuf(nullptr)) {}
+  ~SilentOutput() {
+    std::cout.rdbuf(narrow_), std::cout.clear();
+    std::wcout.rdbuf(wide_), std::wcout.clear();
+  }
+  SilentOutput(const SilentOutput&) = delete;
+  SilentOutput& operator=(const SilentOutput&) = delete;
+
+ private:
+  std::streambuf* narrow_;
+  std::wstreambuf* wide_;
+};
+
+std::string utf8(const std::wstring& text) {
+  std::string bytes;
+  for (const wchar_t letter : text) {
+    const std::uint32_t code = std::uint32_t(letter);
+    const auto tail = [&](int shift) { bytes += char(0x80 | ((code >> shift) & 0x3f)); };
+    if (code < 0x80) {
+      bytes += char(code);
+    } else if (code < 0x800) {
+      bytes += char(0xc0 | (code >> 6)), tail(0);
+    } else if (code < 0x10000) {
+      bytes += char(0xe0 | (code >> 12)), tail(6), tail(0);
+    } else {
+      bytes += char(0xf0 | ((code >> 18) & 7)), tail(12), tail(6), tail(0);
+    }
+  }
+  return bytes;
+}
+
+/// "Basic Wall:Exterior:184723" is the wall of that type that Revit numbered so: walls of a type go together.
+std::string without_number(std::string name) {
+  const std::size_t colon = name.find_last_of(':');
+  if (colon != std::string::npos && colon + 1 < name.size() &&
+      name.find_first_not_of("0123456789", colon + 1) == std::string::npos)
+    name.resize(colon);
+  return name;
+}
+
+std::string name_of(const IfcRoot& root) { return root.m_Name ? utf8(root.m_Name->m_value) : std::string(); }
+
+/// The storey that an object belongs to, by itself or as part of what does.
+std::string storey_of(std::shared_ptr<IfcObjectDefinition> object) {
+  for (int depth = 0; object && depth < max_storey_depth; ++depth) {
+    if (dynamic_cast<const IfcBuildingStorey*>(object.get())) return name_of(*object);
+    std::shared_ptr<IfcObjectDefinition> above;
+    if (const IfcElement* element = dynamic_cast<const IfcElement*>(object.get()))
+      for (const auto& contained : element->m_ContainedInStructure_inverse)
+        if (const auto relation = contained.lock(); relation && !above) above = relation->m_RelatingStructure;
+    for (const auto& part : object->m_Decomposes_inverse)
+      if (const auto relation = part.lock(); relation && !above) above = relation->m_RelatingObject;
+    object = above;
+  }
+  return {};
+}
+
+/// Objects that bound room or stand for others, but are not built.
+bool is_built(const IfcObjectDefinition& object) {
+  return !dynamic_cast<const IfcSpace*>(&object) && !dynamic_cast<const IfcAnnotation*>(&object) &&
+         !dynamic_cast<const IfcGrid*>(&object) && !dynamic_cast<const IfcVirtualElement*>(&object) &&
+         !dynamic_cast<const IfcFeatureElementSubtraction*>(&object);
+}
+
+/// Axes, boxes and foot prints are drawn on plans, not built.
+bool is_body(const RepresentationData& representation) {
+  static const std::set<std::wstring> others{L"Axis",      L"Box",        L"FootPrint",   L"Clearance",
+                                             L"Profile",   L"Annotation", L"Plan",        L"Lighting",
+                                             L"Reference", L"CoG",        L"SurveyPoints"};
+  return !others.contains(representation.m_representation_identifier);
+}
+
+std::optional<IfcLook> look_of(const std::vector<std::shared_ptr<AppearanceData>>& appearances) {
+  for (const auto& appearance : appearances) {
+    if (!appearance || appearance->m_apply_to_geometry_type == AppearanceData::GEOM_TYPE_CURVE ||
+        appearance->m_apply_to_geometry_type == AppearanceData::GEOM_TYPE_TEXT)
+      continue;
+    vec4& colour = appearance->m_color_diffuse;
+    const glm::vec3 rgb(glm::dvec3(colour.r(), colour.g(), colour.b()));
+    return IfcLook{glm::clamp(rgb, 0.0f, 1.0f),
+                   appearance->m_set_transparent ? float(appearance->m_transparency) : 1.0f};
+  }
+  return std::nullopt;
+}
+
+/// The triangles of one body, which is triangulated; those that are not finite are dropped.
+void add_triangles(const carve::mesh::MeshSet<3>& body, carve::math::Matrix world_from_body,
+                   std::vector<glm::dvec3>& corners) {
+  for (const auto* mesh : body.meshes)
+    for (const auto* face : mesh->faces) {
+      if (face->nEdges() != 3) continue;
+      std::array<glm::dvec3, 3> points;
+      const auto* edge = face->edge;
+      for (glm::dvec3& point : points) {
+        const carve::geom::vector<3> at = world_from_body * edge->vert->v;
+        point = {at.x, at.y, at.z};
+        edge = edge->next;
+      }
+      const glm::dvec3 area = glm::cross(points[1] - points[0], points[2] - points[0]);
+      if (!std::isfinite(glm::dot(area, area)) || glm::dot(area, area) <= 0.0) continue;
+      corners.insert(corners.end(), points.begin(), points.end());
+    }
+}
+
+/// Collects what a file complains about, up to a number of lines.
+class Complaints {
+ public:
+  Complaints(std::string file, Errors& warnings) : file_(std::move(file)), warnings_(warnings) {}
+  ~Complaints() {
+    if (count_ > max_warnings)
+      warnings_.push_back({fmt::format("{} more such warnings", count_ - max_warnings), {file_, 0, 0}});
+  }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  void add(const std::string& message) {
+    if (++count_ <= max_warnings) warnings_.push_back({message, {file_, 0, 0}});
+  }
+
+ private:
+  std::string file_;
+  Errors& warnings_;
+  std::size_t count_ = 0;
+};
+
+void add_bodies(IfcShape shape, std::vector<std::shared_ptr<carve::mesh::MeshSet<3>>>& bodies, bool is_closed,
+                const carve::math::Matrix& world_from_body, std::vector<IfcShape>& shapes) {
+  shape.is_closed = is_closed;
+  for (auto& body : bodies) {
+    CSG_Adapter::retriangulateMeshSet(body);
+    if (body) add_triangles(*body, world_from_body, shape.corners);
+  }
+  if (!shape.corners.empty()) shapes.push_back(std::move(shape));
+}
+
+void add_product(ProductShapeData& product, const std::shared_ptr<IfcObjectDefinition>& object,
+                 std::vector<IfcShape>& shapes) {
+  const carve::math::Matrix world_from_product = product.getTransform();
+  IfcShape shape{.storey = storey_of(object),
+                 .kind = object->className(),
+                 .name = without_number(name_of(*object)),
+                 .look = {},
+                 .is_closed = false,
+                 .corners = {}};
+  for (const auto& representation : product.m_vec_representations) {
+    if (!representation || !is_body(*representation)) continue;
+    for (const auto& item : representation->m_vec_item_data) {
+      shape.look = look_of(item->m_vec_item_appearances);
+      if (!shape.look) shape.look = look_of(representation->m_vec_representation_appearances);
+      if (!shape.look) shape.look = look_of(product.getAppearances());
+      add_bodies(shape, item->m_meshsets, true, world_from_product, shapes);
+      add_bodies(shape, item->m_meshsets_open, false, world_from_product, shapes);
+    }
+  }
+}
+
+/// IFC++ reads any schema as if it were one that it knows.
+Status check_schema(const std::string& text, const std::string& name) {
+  const std::size_t schema = text.find("FILE_SCHEMA"), end = text.find(';', schema);
+  const std::string named =
+      schema == std::string::npos ? "" : text.substr(schema, std::min(end - schema, std::size_t(200)));
+  for (const char* known : {"'IFC2X3", "'IFC4'", "'IFC4_ADD", "'IFC2X2"})
+    if (named.find(known) != std::string::npos) return Done{};
+  return Error{
+      fmt::format("the schema is {}; Parvis reads IFC2X3 and IFC4: export the building as one of them",
+                  named.empty() ? "not named" : named),
+      {name, 0, 0}};
+}
+
+}  // namespace
+
+Result<std::vector<IfcShape>> ifc_shapes(std::string text, const std::string& name, Errors& warnings) {
+  if (Status status = check_schema(text, name); !status) return status.errors();
+  const SilentOutput silent;
+  Complaints complaints(name, warnings);
+  std::vector<IfcShape> shapes;
+  try {
+    auto building = std::make_shared<BuildingModel>();
+    GeometryConverter converter(building);
+    converter.setMessageCallBack(
+        &complaints, [](void* list, std::shared_ptr<StatusCallback::Message> message) {
+          if (!message || message->m_message_type != StatusCallback::MESSAGE_TYPE_ERROR) return;
+          const std::string where =
+              message->m_entity ? fmt::format("#{}: ", message->m_entity->m_entity_id) : std::string();
+          static_cast<Complaints*>(list)->add(where + utf8(message->m_message_text));
+        });
+    ReaderSTEP().loadModelFromString(text, building);
+    converter.convertGeometry();
+    for (const auto& [id, product] : converter.getShapeInputData()) {
+      const std::shared_ptr<IfcObjectDefinition> object =
+          product ? product->m_ifc_object_definition.lock() : nullptr;
+      if (object && is_built(*object)) add_product(*product, object, shapes);
+    }
+  } catch (const std::exception& failure) {
+    return Error{fmt::format("IFC++ cannot read it: {}", failure.what()), {name, 0, 0}};
+  } catch (const carve::exception& failure) {
+    return Error{fmt::format("IFC++ cannot build it: {}", failure.str()), {name, 0, 0}};
+  }
+  return shapes;
+}
+
+}  // namespace parvis::scene

@@ -1,0 +1,35 @@
+// The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in
+// ifc_shapes.cpp.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace parvis::scene {
+
+/// How a body looks, by a surface style of the file.
+struct IfcLook {
+  glm::vec3 colour{0.8f};  ///< sRGB, 0..1
+  float alpha = 1.0f;      ///< 1: opaque
+};
+
+/// Triangles of one object.
+struct IfcShape {
+  std::string storey;               ///< name of the storey; empty: in none
+  std::string kind;                 ///< entity, "IfcWindow"
+  std::string name;                 ///< of the object, without the number that modelling programs add
+  std::optional<IfcLook> look;      ///< none: the file has no style for it
+  bool is_closed = false;           ///< a solid, whose back is never seen
+  std::vector<glm::dvec3> corners;  ///< metres in the file's world; three a triangle, counter-clockwise
+};
+
+/// The bodies of `text`, a whole file in the text form of STEP; `name` stands in errors and warnings. Every
+/// triangle is finite. Spaces, openings and grids are left out. Errors: a schema that is neither IFC 2x3 nor
+/// IFC 4; text that IFC++ cannot read.
+Result<std::vector<IfcShape>> ifc_shapes(std::string text, const std::string& name, Errors& warnings);
+
+}  // namespace parvis::scene
