@@ -27,20 +27,23 @@ add_library(parvis_test_options INTERFACE)
 target_compile_options(parvis_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # A fuzzer for each file fuzz/NAME.cpp of the room, ROOM_NAME_fuzz; script/fuzz runs them. In other builds the same
-# program only reads the inputs once found, fuzz/found/NAME-*, as a test.
+# program only reads its seeds, fuzz/corpus/NAME/*, and the inputs once found, fuzz/found/NAME-*, as a test.
 function(parvis_fuzzers room)  # further arguments: libraries
   file(GLOB fuzzers CONFIGURE_DEPENDS fuzz/*.cpp)
   foreach(source ${fuzzers})
     get_filename_component(reader ${source} NAME_WE)
     set(program ${room}_${reader}_fuzz)
+    file(GLOB inputs CONFIGURE_DEPENDS fuzz/corpus/${reader}/* fuzz/found/${reader}-*)
+    if(NOT PARVIS_FUZZ AND NOT inputs)
+      continue()
+    endif()
     add_executable(${program} ${source})
     target_link_libraries(${program} PRIVATE parvis_${room} ${ARGN})
     if(PARVIS_FUZZ)
       target_link_options(${program} PRIVATE -fsanitize=fuzzer)
     else()
       target_sources(${program} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/read_found_inputs.cpp)
-      file(GLOB found CONFIGURE_DEPENDS fuzz/found/${reader}-*)
-      add_test(NAME ${program} COMMAND ${program} ${found})
+      add_test(NAME ${program} COMMAND ${program} ${inputs})
     endif()
   endforeach()
 endfunction()
