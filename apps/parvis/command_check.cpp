@@ -35,16 +35,14 @@ Status check(Arguments& arguments) {
   }
   if (arguments.scene.empty()) return error("name a scene, or ask for --reference or --schema");
   if (Status status = describe_bare_file(arguments.scene, arguments.data); !status) return status.errors();
-  Result<scene::LoadedScene> loaded = scene::load_scene(arguments.scene, registry, arguments.data);
-  if (!loaded) return loaded.errors();
-  for (const Error& warning : loaded->warnings) fmt::print("warning: {}\n", to_string(warning));
-  scene::Scene& scene = loaded->scene;
-  scene::LiveScene live(std::move(loaded->script));
-  if (Status status = live.prepare_scenarios(scene); !status) return status;
+  // As every command opens it, so that all warn of the same.
+  const Result<house::Play> play = house::open_play(house::all_rooms(), arguments.scene, arguments.data);
+  if (!play) return play.errors();
+  const scene::Scene& scene = play->scene;
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
              scene.roads.lanes.size(), scene.data<traffic::TrafficDemand>().vehicles, scene.cameras.size());
-  print_states(live);
+  print_states(play->live());
   return Done{};
 }
 

@@ -5,6 +5,7 @@
 #include "base/checked.h"
 #include "base/memory_budget.h"
 #include "graphics/gl/context.h"
+#include "house/stage/place_check.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -63,6 +64,7 @@ Result<Play> open_play(const House& house, const std::filesystem::path& script,
   if (!loaded) return loaded.errors();
   reported(loaded->warnings);
   if (Status status = charge_triangles(loaded->scene, script); !status) return status.errors();
+  reported(check_place(loaded->scene));
   scene::LiveScene live(std::move(loaded->script));
   if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
   return make_play(house, std::move(loaded->scene), std::move(live));

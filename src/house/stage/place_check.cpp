@@ -1,0 +1,88 @@
+#include "house/stage/place_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "graphics/render/fixed_parts.h"
+
+namespace parvis::house {
+namespace {
+
+constexpr int min_backs = 4;         // of six directions: a camera under a bridge or in an arcade sees fewer
+constexpr float max_wall_m = 60.0f;  // half of the largest hall
+
+/// The nearest face in one of six directions.
+struct Hit {
+  float distance_m = max_wall_m;
+  int object = -1;
+  bool is_back = false;
+};
+using Hits = std::array<Hit, 6>;  // +x, -x, +y, -y, +z, -z
+
+/// Where a line through `eye` along an axis meets a triangle, if it does, signed; and the side that it meets.
+void meet(std::array<glm::vec3, 3> corners, glm::vec3 eye, int axis, int object, Hits& hits) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  for (glm::vec3& corner : corners) corner -= eye;
+  const auto cross = [&](const glm::vec3& a, const glm::vec3& b) { return a[u] * b[v] - a[v] * b[u]; };
+  const float a = cross(corners[1], corners[2]), b = cross(corners[2], corners[0]),
+              c = cross(corners[0], corners[1]);
+  if (!((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))) return;
+  const float sum = a + b + c;  // its sign: whether the triangle faces along the axis
+  if (sum == 0.0f) return;
+  const float along = (a * corners[0][axis] + b * corners[1][axis] + c * corners[2][axis]) / sum;
+  Hit& hit = hits[std::size_t(2 * axis + (along < 0.0f ? 1 : 0))];
+  if (std::abs(along) >= hit.distance_m) return;
+  hit = {std::abs(along), object, (sum > 0.0f) == (along > 0.0f)};
+}
+
+/// True if a line through `eye` along the axis passes the box.
+bool passes(const Bounds& box, glm::vec3 eye, int axis) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return box.min[u] <= eye[u] && eye[u] <= box.max[u] && box.min[v] <= eye[v] && eye[v] <= box.max[v] &&
+         box.min[axis] - max_wall_m <= eye[axis] && eye[axis] <= box.max[axis] + max_wall_m;
+}
+
+Hits look_around(const std::vector<std::pair<render::FixedPart, Bounds>>& parts, glm::vec3 eye) {
+  Hits hits;
+  for (const auto& [part, box] : parts) {
+    std::array<bool, 3> is_passed{};
+    for (int axis = 0; axis < 3; ++axis) is_passed[std::size_t(axis)] = passes(box, eye, axis);
+    if (!is_passed[0] && !is_passed[1] && !is_passed[2]) continue;
+    const std::vector<std::uint32_t>& indices = part.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      std::array<glm::vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = glm::vec3(part.world_from_mesh * glm::vec4(part.mesh.positions[indices[i + k]], 1.0f));
+      for (int axis = 0; axis < 3; ++axis)
+        if (is_passed[std::size_t(axis)]) meet(corners, eye, axis, part.object, hits);
+    }
+  }
+  return hits;
+}
+
+}  // namespace
+
+Errors check_place(const scene::Scene& scene) {
+  Errors warnings;
+  if (scene.cameras.empty()) return warnings;
+  std::vector<std::pair<render::FixedPart, Bounds>> parts;
+  render::for_each_fixed_object_part(scene, [&](const render::FixedPart& part) {
+    if (part.is_visible) parts.emplace_back(part, transformed(part.world_from_mesh, part.mesh.bounds()));
+  });
+  for (const scene::NamedCamera& camera : scene.cameras) {
+    if (!camera.follows.empty()) continue;
+    const Hits hits = look_around(parts, camera.camera.position_in_world());
+    const auto is_back = [](const Hit& hit) { return hit.object >= 0 && hit.is_back; };
+    if (std::ranges::count_if(hits, is_back) < min_backs) continue;
+    const Hit& nearest = *std::ranges::min_element(hits, {}, &Hit::distance_m);
+    warnings.push_back(
+        {fmt::format("camera \"{}\" stands inside \"{}\": it sees the backs of its faces; move it out, or "
+                     "show both sides of the object's material",
+                     camera.name, scene.objects[std::size_t(nearest.object)].name),
+         {}});
+  }
+  return warnings;
+}
+
+}  // namespace parvis::house

@@ -1,0 +1,48 @@
+#include "house/stage/place_check.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/data/test_scene.h"
+
+namespace parvis::house {
+namespace {
+
+scene::Scene house_with_camera(glm::vec3 eye) {
+  scene::Scene place;
+  scene::add(place, scene::model_of(scene::ground(100), scene::matt(glm::vec3(0.3f))));
+  const int house =
+      scene::add(place, scene::model_of(scene::box({0, 0, 0}, {10, 8, 9}), scene::matt(glm::vec3(0.5f))));
+  place.objects[std::size_t(house)].name = "town hall";
+  scene::NamedCamera camera;
+  camera.name = "eye";
+  camera.camera.world_from_camera = look_at(eye, eye + glm::vec3(0, 1, 0));
+  place.cameras.push_back(camera);
+  return place;
+}
+
+TEST(PlaceCheck, ACameraInAHouseIsNamedWithTheHouse) {
+  const Errors warnings = check_place(house_with_camera({5, 4, 1.7f}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(to_string(warnings).find("camera \"eye\" stands inside \"town hall\""), std::string::npos)
+      << to_string(warnings);
+}
+
+TEST(PlaceCheck, ACameraInTheStreetOrOnARoofIsRight) {
+  for (const glm::vec3 eye : {glm::vec3(5, -4, 1.7f), glm::vec3(5, 4, 10.7f), glm::vec3(-0.2f, 4, 1.7f)})
+    EXPECT_TRUE(check_place(house_with_camera(eye)).empty());
+}
+
+TEST(PlaceCheck, ACameraThatFollowsIsLeftOut) {
+  scene::Scene place = house_with_camera({5, 4, 1.7f});
+  place.cameras.front().follows = "tram";
+  EXPECT_TRUE(check_place(place).empty());
+}
+
+TEST(PlaceCheck, WhatIsHiddenIsNotThere) {
+  scene::Scene place = house_with_camera({5, 4, 1.7f});
+  place.objects.back().is_visible = false;
+  EXPECT_TRUE(check_place(place).empty());
+}
+
+}  // namespace
+}  // namespace parvis::house
