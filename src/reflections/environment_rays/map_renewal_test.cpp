@@ -100,10 +100,11 @@ class MissingMapsTest : public gl::ContextTest {
     reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
     EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
   }
-  /// Draws a frame; how many maps are drawn then.
+  /// Draws a frame with the mirror in its middle; how many maps are drawn then.
   std::size_t maps_after_next_frame() {
+    const float x = scene_.objects.back().world_from_model[3].x;
     Camera camera;
-    camera.world_from_camera = look_at({24, 3, 1}, {27, 0, 0});
+    camera.world_from_camera = look_at({x - 3, 3, 1}, {x, 0, 0});
     EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera, 64, 48}));
     return dynamic_cast<const MultipleEnvironmentMaps&>(*reflections_).drawn_maps();
   }
