@@ -19,6 +19,7 @@ Material changed(Material material, const MaterialChange& change, const std::str
   if (change.colour) {
     material.base_colour = *change.colour;
     material.base_colour_texture = no_index;
+    if (material.alpha_mode == Alpha::cutout) material.alpha_mode = Alpha::opaque;  // the picture's holes
   }
   if (change.roughness || change.metallic) material.surface_texture = no_index;
   override_with(material.roughness, change.roughness);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 
@@ -108,6 +110,20 @@ TEST(MaterialChange, AMaskedColourIsPaintedTexelByTexel) {
   }
   EXPECT_EQ(model.textures[0].image.at(1, 0)[1], 255);  // objects that were not meant keep their picture
   EXPECT_FLOAT_EQ(area_of(model, "changed"), 1.0f);
+}
+
+TEST(MaterialChange, APaneThatThePictureCutsOutBecomesGlass) {
+  Model model = palette_model();
+  model.materials[0].alpha_mode = Alpha::cutout;
+  for (const int x : {0, 1}) model.textures[0].image.at(x, 0)[3] = 0;  // red and green are windows
+  const MaterialPreset& glass = *std::ranges::find(material_presets(), "glass", &MaterialPreset::name);
+  EXPECT_EQ(change(model, {mask("colour #FF0000 0.05")}, glass.change), 2u);
+  const Material& pane = model.materials[std::size_t(model.parts[0].material)];
+  EXPECT_EQ(pane.alpha_mode, Alpha::opaque);
+  const Image8& picture = model.textures[std::size_t(pane.base_colour_texture)].image;
+  EXPECT_EQ(picture.at(0, 0)[3], 255);
+  EXPECT_EQ(picture.at(1, 0)[3], 0) << "the other window stays open";
+  EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].alpha_mode, Alpha::cutout);
 }
 
 TEST(MaterialChange, WithoutAPictureTheMaterialsColourCounts) {

@@ -131,8 +131,9 @@ Image8 painted(const Image8& picture, std::span<const MaterialMask> masks, glm::
       const glm::vec3 old = texel(picture, x, y);
       const bool is_taken = std::any_of(masks.begin(), masks.end(),
                                         [&](const MaterialMask& mask) { return holds_at(mask, uv, old); });
-      for (int channel = 0; is_taken && channel < 3; ++channel)
-        result.at(x, y)[channel] = std::uint8_t(srgb[channel]);
+      if (!is_taken) continue;
+      for (int channel = 0; channel < 3; ++channel) result.at(x, y)[channel] = std::uint8_t(srgb[channel]);
+      if (result.channels == 4) result.at(x, y)[3] = 255;
     }
   return result;
 }

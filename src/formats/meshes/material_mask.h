@@ -34,7 +34,8 @@ Result<MaterialMask> parse_mask(std::string_view text, const FileLocation& where
 /// The triangle's centroid lies in the mask: in texture space, and by the colour that its material has there.
 bool lies_in(const MaterialMask& mask, const Model& model, const Part& part, std::size_t triangle);
 
-/// A copy of `picture` (sRGB) in which the texels that lie in one of `masks` have the linear colour `colour`.
+/// A copy of `picture` (sRGB) in which the texels that lie in one of `masks` have the linear colour `colour`
+/// and are opaque.
 Image8 painted(const Image8& picture, std::span<const MaterialMask> masks, glm::vec3 colour);
 
 }  // namespace parvis::scene
