@@ -73,13 +73,12 @@ Errors check_place(const scene::Scene& scene) {
   for (const scene::NamedCamera& camera : scene.cameras) {
     if (!camera.follows.empty()) continue;
     const Hits hits = look_around(parts, camera.camera.position_in_world());
-    const auto is_back = [](const Hit& hit) { return hit.object >= 0 && hit.is_back; };
-    if (std::ranges::count_if(hits, is_back) < min_backs) continue;
-    const Hit& nearest = *std::ranges::min_element(hits, {}, &Hit::distance_m);
+    if (std::ranges::count_if(hits, &Hit::is_back) < min_backs) continue;
+    const Hit& wall = *std::ranges::find_if(hits, &Hit::is_back);
     warnings.push_back(
         {fmt::format("camera \"{}\" stands inside \"{}\": it sees the backs of its faces; move it out, or "
                      "show both sides of the object's material",
-                     camera.name, scene.objects[std::size_t(nearest.object)].name),
+                     camera.name, scene.objects[std::size_t(wall.object)].name),
          {}});
   }
   return warnings;
