@@ -20,7 +20,7 @@ import unittest
 import zlib
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "sun", "facade", "tree", "bench"]
+SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "sun", "facade", "tree", "car", "bench"]
 SIZE = ["--size", "64x48"]
 
 

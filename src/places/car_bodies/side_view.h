@@ -1,0 +1,40 @@
+// A car body as seen from its side: a raster of how far out its skin lies.
+#pragma once
+
+#include <vector>
+
+#include "base/bounds.h"
+#include "scene/data/model.h"
+
+namespace parvis::car_bodies {
+
+/// Cells of 2 cm; columns along x, rows upward. Both sides of the body lie on one another.
+class SideView {
+ public:
+  static constexpr float cell_m = 0.02f;
+  static constexpr float nothing = -1.0f;
+
+  /// `model` in metres, x along the car, z up.
+  explicit SideView(const scene::Model& model);
+
+  const Bounds& bounds() const { return bounds_; }  ///< of the model at rest
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  /// Distance of the outermost surface from the middle plane, metres; `nothing` where there is none.
+  float depth(int column, int row) const { return depths_[std::size_t(row * columns_ + column)]; }
+  /// Position of a column's middle.
+  float x(int column) const { return bounds_.min.x + (float(column) + 0.5f) * cell_m; }
+  /// Height of a row's lower edge.
+  float z(int row) const { return bounds_.min.z + float(row) * cell_m; }
+  /// The row at a share of the height of the body.
+  int row_at(float share) const { return std::min(int(share * float(rows_)), rows_ - 1); }
+
+ private:
+  void add(const glm::vec3 (&corners)[3]);
+
+  Bounds bounds_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> depths_;
+};
+
+}  // namespace parvis::car_bodies
