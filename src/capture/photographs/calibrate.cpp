@@ -9,6 +9,7 @@
 #include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "capture/photographs/alignment.h"
 #include "capture/photographs/camera_files.h"
@@ -16,12 +17,17 @@
 #include "capture/photographs/neighbours.h"
 #include "capture/photographs/picture.h"
 #include "capture/photographs/picture_header.h"
+#include "capture/photographs/picture_pairs.h"
 #include "capture/photographs/program.h"
 #include "capture/photographs/set_file.h"
 
 namespace parvis::photographs {
 namespace {
 namespace fs = std::filesystem;
+
+constexpr int max_side_px = 1600;  ///< of the pictures that features are found in; finer ones are halved
+constexpr std::size_t min_matches = 20;     ///< of a pair; COLMAP needs 15 that agree by one geometry
+constexpr const char* max_trials = "3000";  ///< to find a pair's geometry: enough where a third is right
 
 /// The pictures that a job works on.
 struct Pictures {
@@ -66,6 +72,7 @@ struct WorkFolder {
   fs::path root;
   fs::path database() const { return root / "database.db"; }
   fs::path list() const { return root / "pictures.txt"; }
+  fs::path matches() const { return root / "matches.txt"; }
   fs::path inputs() const { return root / "inputs.txt"; }
   fs::path sparse() const { return root / "sparse"; }
   fs::path finished() const { return root / "sparse_finished.txt"; }
@@ -78,8 +85,8 @@ Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFo
   std::error_code code;
   fs::create_directories(work.root, code);
   if (code) return error("{}: cannot be made ({})", work.root.string(), code.message());
-  const std::string inputs = fmt::format("{} {} {}\n{}\n{}", job.lens, job.one_lens_for_all, job.max_features,
-                                         job.cameras.string(), pictures.hash);
+  const std::string inputs = fmt::format("{} {} {} {}\n{}\n{}", job.lens, job.one_lens_for_all,
+                                         job.max_features, max_side_px, job.cameras.string(), pictures.hash);
   const Result<std::string> before = read_file(work.inputs());
   if (before && *before == inputs) return Done{};
   for (const fs::path& old : {work.database(), work.sparse(), work.finished(), work.given()})
@@ -109,16 +116,52 @@ Status find_features(const CalibrationJob& job, const Pictures& pictures, const 
       {"colmap", "feature_extractor", "--database_path", work.database(), "--image_path", job.pictures,
        "--image_list_path", work.list(), "--ImageReader.camera_model", job.lens,
        "--ImageReader.single_camera", one_lens ? "1" : "0", "--SiftExtraction.use_gpu", "0",
-       "--SiftExtraction.max_num_features", std::to_string(job.max_features)},
+       "--SiftExtraction.max_image_size", std::to_string(max_side_px), "--SiftExtraction.max_num_features",
+       std::to_string(job.max_features)},
       work.log("features"));
 }
 
+/// What two pictures have in common, as COLMAP imports it.
+std::string match_list(const PictureFeatures& a, const PictureFeatures& b) {
+  const std::vector<FeatureMatch> matches = matching_features(a, b);
+  if (matches.size() < min_matches) return "";
+  std::string text = fmt::format("{} {}\n", a.name, b.name);
+  for (const auto& [of_a, of_b] : matches) text += fmt::format("{} {}\n", of_a, of_b);
+  return text + "\n";
+}
+
+/// Compares the pairs that are worth it, here: COLMAP's comparison without a GPU is many times slower.
+Result<std::size_t> write_matches(const WorkFolder& work) {
+  const std::vector<PictureFeatures> features = picture_features(work.database());
+  const std::vector<PicturePair> pairs = promising_pairs(features);
+  std::vector<std::string> lists(pairs.size());
+  Progress progress("comparing pairs of photographs", pairs.size());
+  parallel_for(pairs.size(), [&](std::size_t i) {
+    lists[i] = match_list(features[pairs[i].first], features[pairs[i].second]);
+    progress.advance();
+  });
+  std::string text;
+  for (const std::string& list : lists) text += list;
+  if (Status status = write_file(work.matches(), text); !status) return status.errors();
+  return std::size_t(std::ranges::count_if(lists, [](const std::string& list) { return !list.empty(); }));
+}
+
 Status match(const Pictures& pictures, const WorkFolder& work) {
-  const std::size_t pairs = pictures.names.size() * (pictures.names.size() - 1) / 2;
-  return run_stage(
-      "comparing pairs of photographs", pairs, [&] { return colmap_progress(work.database()).pairs; },
-      {"colmap", "exhaustive_matcher", "--database_path", work.database(), "--SiftMatching.use_gpu", "0"},
-      work.log("matches"));
+  const auto compared = [&] { return colmap_progress(work.database()).pairs; };
+  const std::vector<std::string> common{
+      "--database_path", work.database(), "--SiftMatching.use_gpu", "0", "--SiftMatching.max_num_trials",
+      max_trials};
+  std::vector<std::string> arguments{"colmap", "exhaustive_matcher"};
+  std::size_t count = pictures.names.size() * (pictures.names.size() - 1) / 2;
+  // COLMAP's lists of pairs cannot hold names with spaces.
+  if (std::ranges::none_of(pictures.names, [](const std::string& n) { return n.find(' ') != n.npos; })) {
+    const Result<std::size_t> written = write_matches(work);
+    if (!written) return written.errors();
+    count = *written;
+    arguments = {"colmap", "matches_importer", "--match_list_path", work.matches(), "--match_type", "raw"};
+  }
+  arguments.insert(arguments.end(), common.begin(), common.end());
+  return run_stage("finding the geometry of pairs", count, compared, arguments, work.log("matches"));
 }
 
 std::size_t count_of(const std::string& text, const std::string& part) {

@@ -3,10 +3,14 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <span>
 
 namespace parvis::photographs {
 namespace {
@@ -36,6 +40,38 @@ std::size_t count(const std::filesystem::path& database, const char* text) {
   return result;
 }
 
+/// A column's bytes, which live until the next row.
+std::span<const std::uint8_t> bytes_of(sqlite3_stmt* row, int column) {
+  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, column));
+  return {bytes, bytes ? std::size_t(sqlite3_column_bytes(row, column)) : 0};
+}
+
+/// The sizes of keypoints: x, y, then size and angle, or an affine shape a11 a12 a21 a22.
+std::vector<float> sizes_of_keypoints(std::span<const std::uint8_t> bytes, std::size_t columns) {
+  std::vector<float> sizes;
+  if (columns != 4 && columns != 6) return sizes;
+  for (std::size_t at = 0; at + columns * sizeof(float) <= bytes.size(); at += columns * sizeof(float)) {
+    float k[6] = {};
+    std::memcpy(k, bytes.data() + at, columns * sizeof(float));
+    sizes.push_back(columns == 4 ? k[2] : 0.5f * (std::hypot(k[2], k[4]) + std::hypot(k[3], k[5])));
+  }
+  return sizes;
+}
+
+/// Adds features, the largest first; none where the two lists differ in length.
+void add_features(const std::vector<float>& sizes, std::span<const std::uint8_t> descriptors,
+                  PictureFeatures& to) {
+  if (descriptors.size() != sizes.size() * descriptor_bytes) return;
+  to.numbers.resize(sizes.size());
+  std::iota(to.numbers.begin(), to.numbers.end(), 0u);
+  std::ranges::stable_sort(to.numbers, std::greater{}, [&](std::uint32_t i) { return sizes[i]; });
+  to.descriptors.reserve(descriptors.size());
+  for (const std::uint32_t number : to.numbers) {
+    const auto one = descriptors.subspan(number * descriptor_bytes, descriptor_bytes);
+    to.descriptors.insert(to.descriptors.end(), one.begin(), one.end());
+  }
+}
+
 }  // namespace
 
 ColmapProgress colmap_progress(const std::filesystem::path& database) {
@@ -43,6 +79,22 @@ ColmapProgress colmap_progress(const std::filesystem::path& database) {
   if (!std::filesystem::exists(database, ignored)) return {};
   return {count(database, "SELECT COUNT(*) FROM descriptors"),
           count(database, "SELECT COUNT(*) FROM two_view_geometries")};
+}
+
+std::vector<PictureFeatures> picture_features(const std::filesystem::path& database) {
+  std::vector<PictureFeatures> pictures;
+  query(database,
+        "SELECT images.name, keypoints.cols, keypoints.data, descriptors.data FROM images "
+        "LEFT JOIN keypoints ON keypoints.image_id = images.image_id "
+        "LEFT JOIN descriptors ON descriptors.image_id = images.image_id ORDER BY images.image_id",
+        [&](sqlite3_stmt* row) {
+          const auto* name = sqlite3_column_text(row, 0);
+          if (!name) return;
+          pictures.push_back({reinterpret_cast<const char*>(name), {}, {}});
+          const std::size_t columns = std::size_t(std::max(sqlite3_column_int(row, 1), 0));
+          add_features(sizes_of_keypoints(bytes_of(row, 2), columns), bytes_of(row, 3), pictures.back());
+        });
+  return pictures;
 }
 
 std::map<std::string, int> best_agreement(const std::filesystem::path& database) {

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
+
+#include "capture/photographs/picture_pairs.h"
 
 namespace parvis::photographs {
 
@@ -14,6 +17,10 @@ struct ColmapProgress {
 };
 /// Reads the counts; while COLMAP writes, too.
 ColmapProgress colmap_progress(const std::filesystem::path& database);
+
+/// The features of each picture, in the order of COLMAP's numbers; pictures whose features are not found yet,
+/// or whose entries are damaged, have none.
+std::vector<PictureFeatures> picture_features(const std::filesystem::path& database);
 
 /// For each picture the most features that agree, by one geometry, with another picture; 0 where it agrees
 /// with none.

@@ -18,12 +18,23 @@ constexpr int cannot_start = 127;
 constexpr std::size_t shown_bytes = 600;
 
 /// In the child: only calls that are safe after a fork in a program with threads.
-[[noreturn]] void become(char* const* arguments, const char* log) {
+[[noreturn]] void become(char* const* arguments, char* const* environment, const char* log) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);
-  execvp(arguments[0], arguments);
+  execvpe(arguments[0], arguments, environment);
   _exit(cannot_start);
+}
+
+/// Ours, with threads that sleep while they wait: those that spin take the time of the others wherever
+/// something else runs, too.
+std::vector<char*> environment_of_child() {
+  static char passive[] = "OMP_WAIT_POLICY=passive";
+  std::vector<char*> variables;
+  for (char** one = environ; *one; ++one) variables.push_back(*one);
+  variables.push_back(passive);  // the last: one that is set already counts
+  variables.push_back(nullptr);
+  return variables;
 }
 
 std::string end_of(const std::filesystem::path& log) {
@@ -40,10 +51,11 @@ Status run_program(const std::vector<std::string>& arguments, const std::filesys
   std::vector<char*> pointers;
   for (std::string& argument : copies) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
+  const std::vector<char*> environment = environment_of_child();
   const std::string log_name = log.string();
   const pid_t child = fork();
   if (child < 0) return error("{}: no process can be started", arguments[0]);
-  if (child == 0) become(pointers.data(), log_name.c_str());
+  if (child == 0) become(pointers.data(), environment.data(), log_name.c_str());
   int state = 0;
   while (waitpid(child, &state, WNOHANG) == 0) {
     poll();
