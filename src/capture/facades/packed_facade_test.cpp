@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/random.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/measure_place.h"
 #include "capture/facades/rephotography.h"
@@ -14,42 +13,6 @@
 
 namespace parvis::facades {
 namespace {
-
-double rms(const BlockTexels& a, const BlockTexels& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(double(a[i]) - double(b[i]), 2);
-  return std::sqrt(sum / double(a.size()));
-}
-
-TEST(Bc7Blocks, OneColourAndALineOfColoursAreKept) {
-  for (const int grey : {0, 1, 77, 128, 254, 255}) {
-    BlockTexels texels;
-    for (std::size_t i = 0; i < 16; ++i)
-      texels[4 * i] = texels[4 * i + 1] = texels[4 * i + 2] = std::uint8_t(grey), texels[4 * i + 3] = 255;
-    EXPECT_LE(rms(texels_of(bc7_block(texels)), texels), 0.51) << grey;
-  }
-  BlockTexels line;
-  for (std::size_t i = 0; i < 16; ++i)
-    line[4 * i] = std::uint8_t(15 * i), line[4 * i + 1] = std::uint8_t(240 - 15 * i), line[4 * i + 2] = 90,
-             line[4 * i + 3] = std::uint8_t(10 + 15 * i);
-  EXPECT_LT(rms(texels_of(bc7_block(line)), line), 2.5);
-}
-
-TEST(Bc7Blocks, NoiseIsKeptAsFarAsALineGoes) {
-  Random random(7);
-  BlockTexels noise;
-  for (std::uint8_t& value : noise) value = std::uint8_t(255.0f * random.uniform());
-  const double error = rms(texels_of(bc7_block(noise)), noise);
-  EXPECT_LT(error, 75.0);
-  EXPECT_GT(error, 20.0) << "16 colours of noise do not lie on a line";
-}
-
-TEST(Bc7Blocks, OtherModesAreTransparent) {
-  EXPECT_EQ(texels_of(Bc7Block{}), BlockTexels{});
-  Bc7Block mode_0{};
-  mode_0.fill(0xff);
-  EXPECT_EQ(texels_of(mode_0), BlockTexels{});
-}
 
 struct Packed {
   Photos input;
@@ -76,8 +39,7 @@ TEST(PackedFacade, AnOwnViewpointIsPlainlyThePhotograph) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Image8 photograph = *read_image8(packed.input.photos[i].file);
     const Rephotography judged = rephotography(packed.picture(packed.place.views[i]), photograph);
-    // A block holds colours on one line; the pattern's red and green change in different directions.
-    EXPECT_GT(judged.psnr_db, 39.0) << i;
+    EXPECT_GT(judged.psnr_db, 43.0) << i << ": blocks at outlines hold one line of colours, with alpha";
     EXPECT_EQ(judged.covered_percent, 100.0);
   }
   // The control: another photograph's picture is not this one.
@@ -115,7 +77,7 @@ TEST(MeasurePlace, EveryFigureIsThere) {
   }
   EXPECT_EQ(figures->filled_percent, 100.0);
   EXPECT_GT(figures->from_photographs_percent, 90.0);
-  EXPECT_GT(figures->own_viewpoint_psnr_db, 39.0);
+  EXPECT_GT(figures->own_viewpoint_psnr_db, 43.0);
   EXPECT_EQ(figures->psd_roundtrip_differing_px, 0u);
   EXPECT_FALSE(measured_place(input.photos, street(), {"nobody.png"}));
 }
