@@ -14,7 +14,7 @@ namespace parvis::photographs {
 namespace {
 
 constexpr std::size_t compared_first = 300;  ///< features of each picture that decide about a pair
-constexpr std::size_t min_agreeing = 12;     ///< of these: fewer agree by chance
+constexpr std::size_t min_agreeing = 12;     ///< of these: fewer agree for no reason
 constexpr std::size_t kept_partners = 6;     ///< of each picture, whatever agrees
 // Angles between descriptors, radians.
 constexpr double max_angle = 0.7, max_angle_ratio = 0.8;
