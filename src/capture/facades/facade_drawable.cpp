@@ -1,7 +1,9 @@
 #include "capture/facades/facade_drawable.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 
 #include "capture/facades/facade_textures.h"
 #include "capture/facades/placed_facade.h"
@@ -45,6 +47,7 @@ Bounds solid_bounds(const PackedFacade& facade) {
 /// What facades made of one packed file share.
 struct LoadedFacade {
   FacadeTextures textures;
+  ViewChooser chooser;
   std::vector<SurfaceRange> ranges;
   Bounds bounds, solid_bounds;  ///< of all, and without the backdrop
   bool has_holes = false;
@@ -56,6 +59,20 @@ struct ShownFacade {
   float radiance_of_exposed = 1.0f;
   bool is_visible = true;
 };
+
+/// The photographs chosen for an eye, in the frame of the facade that is shown.
+struct ChosenForEye {
+  const LoadedFacade* loaded = nullptr;
+  glm::vec3 eye{0.0f};
+  ChosenLists lists;
+};
+
+/// Radians per pixel in the middle of a view.
+float pixel_angle_of(const View& view) {
+  const glm::mat4& clip = view.clip_from_world;
+  const float scale = glm::length(glm::vec3(clip[0][1], clip[1][1], clip[2][1]));
+  return 2.0f / std::max(scale * float(view.height), 1e-6f);
+}
 
 /// A run of triangles of a facade.
 struct DrawnRange {
@@ -87,6 +104,7 @@ class FacadeDrawable final : public render::Drawable {
     if (!load(scene)) return;
     const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
     change_ = {};
+    chosen_.resize(facades.size());
     shown_.resize(facades.size()), bounds_.resize(facades.size()), is_newcomer_.assign(facades.size(), 0);
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
@@ -112,6 +130,7 @@ class FacadeDrawable final : public render::Drawable {
       if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}) ||
           !culling.may_see(bounds_[i]))
         continue;
+      choose(i, view);
       for (const SurfaceRange& range : shown_[i].loaded->ranges) {
         const Bounds bounds = transformed(shown_[i].world_from_facade, range.bounds);
         if (range.is_backdrop && view.kind == ViewKind::shadow) continue;
@@ -135,7 +154,8 @@ class FacadeDrawable final : public render::Drawable {
       if (facade.loaded->has_holes != (pass == Pass::cutout)) continue;
       if (!program) program = (pass == Pass::cutout ? cutout_ : solid_).use(view);
       if (!program) return;
-      if (bound != range.facade) bind(*program, facade, first_thing_ + int(range.facade));
+      if (bound != range.facade)
+        bind(*program, facade, chosen_for(range.facade, view)->lists, first_thing_ + int(range.facade));
       bound = range.facade;
       facade.loaded->textures.draw(range.first, range.count);
     }
@@ -157,17 +177,38 @@ class FacadeDrawable final : public render::Drawable {
       }
       Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade);
       if (!textures) return textures.errors();
+      chosen_.clear();  // a new one may lie where one that is gone was chosen for
       kept.emplace(placed.facade,
-                   std::make_unique<LoadedFacade>(
-                       LoadedFacade{*std::move(textures), ranges_of(*placed.facade), placed.facade->bounds(),
-                                    solid_bounds(*placed.facade), has_holes(*placed.facade)}));
+                   std::make_unique<LoadedFacade>(LoadedFacade{
+                       *std::move(textures), ViewChooser(*placed.facade), ranges_of(*placed.facade),
+                       placed.facade->bounds(), solid_bounds(*placed.facade), has_holes(*placed.facade)}));
     }
     loaded_ = std::move(kept);
     return Done{};
   }
 
-  static void bind(const gl::Program& program, const ShownFacade& facade, int thing) {
-    facade.loaded->textures.bind(program);
+  std::optional<ChosenForEye>& chosen_for(std::size_t facade, const View& view) {
+    return chosen_[facade][view.kind == ViewKind::main ? 0 : 1];
+  }
+
+  /// Chooses the photographs for a view's eye, unless the eye has hardly moved. Shadows have no colour.
+  void choose(std::size_t facade, const View& view) {
+    const ShownFacade& shown = shown_[facade];
+    std::optional<ChosenForEye>& chosen = chosen_for(facade, view);
+    const glm::mat4 facade_from_world = glm::inverse(shown.world_from_facade);
+    const glm::vec3 eye(facade_from_world * glm::vec4(view.position_in_world, 1.0f));
+    if (chosen && chosen->loaded == shown.loaded &&
+        (view.kind == ViewKind::shadow || glm::distance(eye, chosen->eye) <= shown.loaded->chooser.step()))
+      return;
+    if (!chosen || chosen->loaded != shown.loaded)
+      chosen = ChosenForEye{shown.loaded, eye, shown.loaded->textures.chosen_lists()};
+    chosen->eye = eye;
+    chosen->lists.set(shown.loaded->chooser.choice(eye, pixel_angle_of(view)));
+  }
+
+  static void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,
+                   int thing) {
+    facade.loaded->textures.bind(program, lists);
     program.set("world_from_facade", facade.world_from_facade);
     program.set("facade_from_world", glm::inverse(facade.world_from_facade));
     program.set("facade_thing", thing);
@@ -185,6 +226,7 @@ class FacadeDrawable final : public render::Drawable {
   render::ViewPrograms solid_, cutout_;
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
+  std::vector<std::array<std::optional<ChosenForEye>, 2>> chosen_;  ///< per facade: main view, others
   Bounds fixed_;
   std::vector<Bounds> bounds_;
   std::vector<std::uint8_t> is_newcomer_;

@@ -64,7 +64,7 @@ glm::uvec4 FacadeLookup::facade_tile(int tile) const {
   return {entry & 3u, entry >> 2, 0u, 0u};
 }
 glm::vec4 FacadeLookup::facade_texel(int slot, glm::vec2 at, float level) const {
-  return texels_.at(slot, at, level);
+  return texels_ ? texels_->at(slot, at, level) : glm::vec4(1.0f);
 }
 
 float FacadeLookup::facade_depth(int index) const {
@@ -100,7 +100,7 @@ ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, co
   const ItemBuffer seen = item_buffer(model_of(facade), view);
   ImageF picture(view.width, view.height, 4);
   parallel_for(std::size_t(view.height), [&](std::size_t row) {
-    FacadeLookup lookup(facade, texels);
+    FacadeLookup lookup(facade, &texels);
     const int y = int(row);
     for (int x = 0; x < view.width; ++x) {
       const std::uint32_t triangle = seen.triangles[seen.index(x, y)];

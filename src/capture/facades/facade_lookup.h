@@ -25,13 +25,19 @@ class FacadeTexels {
 /// The shader's own function over a packed facade. Both must outlive it.
 class FacadeLookup {
  public:
-  /// `texels` are those of `facade`.
-  FacadeLookup(const PackedFacade& facade, const FacadeTexels& texels)
+  static constexpr float no_opinion = 1e9f;  ///< key of a layer that says nothing about a point
+
+  /// `texels` are those of `facade`. Null: what is stored counts as seen, and only keys can be asked for.
+  FacadeLookup(const PackedFacade& facade, const FacadeTexels* texels)
       : facade_(facade), texels_(texels), first_depths_(first_depths(facade)) {}
 
   /// Balanced sRGB and alpha of a point of a triangle; see `facade_colour`.
   glm::vec4 colour(std::uint32_t triangle, glm::vec3 position, glm::vec3 to_eye, float pixel_m,
                    glm::vec2 barycentric);
+  /// How a layer stands among others at a point: the least is the best; see `facade_opinion`.
+  float key(std::uint32_t layer, glm::vec3 position, glm::vec3 to_eye, float pixel_m) {
+    return facade_opinion(int(layer), position, to_eye, pixel_m).key;
+  }
 
  private:
   // What the text below asks for and makes, and its functions. NOLINTBEGIN
@@ -50,7 +56,7 @@ class FacadeLookup {
   // NOLINTEND
 
   const PackedFacade& facade_;
-  const FacadeTexels& texels_;
+  const FacadeTexels* texels_;
   std::vector<std::size_t> first_depths_;
 };
 

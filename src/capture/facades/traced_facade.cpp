@@ -40,7 +40,7 @@ class FacadeSurface final : public scene::TracedSurface {
 
  private:
   glm::vec4 colour(const scene::TracedHit& hit) const {
-    FacadeLookup lookup(*facade_, texels_);
+    FacadeLookup lookup(*facade_, &texels_);
     const glm::vec3 position(facade_from_world_ * glm::vec4(hit.position, 1.0f));
     const glm::vec3 to_eye = glm::normalize(glm::mat3(facade_from_world_) * hit.to_viewer);
     return lookup.colour(std::uint32_t(first_triangle_) + hit.triangle, position, to_eye,

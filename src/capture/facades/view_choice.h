@@ -1,0 +1,40 @@
+// Which photographs the triangles of a facade are looked up in from one viewpoint: chosen once for both eyes
+// and for as long as the viewpoint hardly moves, so that a pixel compares two or three photographs instead of
+// all (thesis 3.6.2: the closest views are chosen on the CPU).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "capture/facades/packed_facade.h"
+
+namespace parvis::facades {
+
+inline constexpr std::size_t max_chosen = 8;  ///< per triangle; where more are needed it keeps its whole list
+
+/// Shorter lists of candidates.
+struct ViewChoice {
+  std::vector<glm::uvec2> lists;  ///< per triangle: first and number, counted over the facade's candidates
+                                  ///< and, after them, these:
+  std::vector<std::uint32_t> candidates;  ///< layers
+};
+
+/// Chooses for one facade, which must outlive it.
+class ViewChooser {
+ public:
+  explicit ViewChooser(const PackedFacade& facade);
+
+  /// For an eye in the facade's frame that sees `pixel_angle` radians per pixel. The best three photographs
+  /// at a triangle's centre; of a large triangle, at points all over it; all where fewer than two show it, or
+  /// where it fills much of the view.
+  ViewChoice choice(glm::vec3 eye, float pixel_angle) const;
+  /// How far the eye may move until the choice has to be made again.
+  float step() const { return step_; }
+
+ private:
+  const PackedFacade& facade_;
+  float step_ = 0.0f;
+};
+
+}  // namespace parvis::facades
