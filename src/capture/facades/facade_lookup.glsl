@@ -24,7 +24,11 @@
 #define DEPTH_CELL 4.0f  // pixels
 // A point this much farther than its photograph sees is hidden by its own object, log2 (1.5 %).
 #define HIDDEN_LOG2 0.0215f
+// What was filled lies behind what its photograph sees; this much farther only the backdrop does, of which no
+// hidden part is kept, log2 (2.3 times).
+#define FILLED_LOG2 1.2f
 #define BORDER_FEATHER 0.05f    // of the picture's width
+#define FADING_CONFIDENCE 0.4f  // below it, of what is seen, a point takes on its neighbourhood's colour
 #define RESOLUTION_WEIGHT 0.1f  // see view_penalty
 
 // What one photograph says about a point.
@@ -50,6 +54,7 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   if (depth <= 0.0f) return none;
   vec2 pixel = vec2(dot(photo.row_x, p), dot(photo.row_y, p)) / depth;
   vec2 size = vec2(photo.size.x, photo.size.y);
+  if (min(pixel.x, pixel.y) < 0.0f || pixel.x > size.x || pixel.y > size.y) return none;
   vec2 in_box = pixel - vec2(float(layer.x & 65535u), float(layer.x >> 16u));
   vec2 tiles = vec2(float(layer.y & 65535u), float(layer.y >> 16u));
   if (min(in_box.x, in_box.y) < -1.0f || in_box.x > TILE_INNER * tiles.x || in_box.y > TILE_INNER * tiles.y)
@@ -75,12 +80,14 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
     if (known < 0.4f) return none;  // a hidden part of the backdrop
     seen = smoothstep(0.75f, 1.0f, known);
   }
-  // What the layer shows there is what hides the point: another part of the same object.
+  // What the layer shows there is what hides the point: another part of the same object. From its own
+  // viewpoint nothing is hidden.
   vec2 cells = ceil(size / DEPTH_CELL),
        place = clamp(floor(pixel / DEPTH_CELL), vec2(0.0f), cells - vec2(1.0f));
   int first_depth = int(photo.size.z) * 4096 + int(photo.size.w);
   float seen_depth = facade_depth(first_depth + int(place.y * cells.x + place.x));
-  if (seen > 0.5f && log2(depth) > seen_depth + HIDDEN_LOG2) return none;
+  float farther = log2(depth) - seen_depth;
+  if (found.own < 0.5f && farther > (seen > 0.5f ? HIDDEN_LOG2 : FILLED_LOG2)) return none;
   found.confidence =
       max(border_feather(pixel, size, BORDER_FEATHER * size.x), 1e-4f) * mix(FILLED_CONFIDENCE, 1.0f, seen);
   found.confidence = mix(found.confidence, 1.0f, found.own);
@@ -120,7 +127,10 @@ GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int 
   }
   if (best.key >= 1e9f) return vec4(fallback, 1.0f);
   vec4 colour = facade_colour_of(best);
-  if (second.key >= 1e9f) return colour;
+  // Where even the best are about to end nothing takes over but the fallback.
+  float known = max(best.confidence, second.confidence);
+  known = clamp(known / (best.key >= 100.0f ? FILLED_CONFIDENCE : 1.0f) / FADING_CONFIDENCE, 0.0f, 1.0f);
+  if (second.key >= 1e9f) return vec4(mix(fallback, vec3(colour), known), colour.w);
   // Of the next photograph, which takes over when the choice changes; what is filled takes over from nothing
   // seen.
   bool has_third = third_key < 1e9f && (third_key < 100.0f || best.key >= 100.0f);
@@ -128,8 +138,10 @@ GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int 
   float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);
   float of_second = second.confidence * max(blend_weight(second.penalty, max_penalty), 1e-6f);
   float share = of_second / (of_best + of_second);
-  if (share < 0.004f) return colour;
-  vec4 other = facade_colour_of(second);
-  vec3 difference = abs(vec3(other) - vec3(colour));
-  return mix(colour, other, decided_share(share, max(difference.x, max(difference.y, difference.z))));
+  if (share >= 0.004f) {
+    vec4 other = facade_colour_of(second);
+    vec3 difference = abs(vec3(other) - vec3(colour));
+    colour = mix(colour, other, decided_share(share, max(difference.x, max(difference.y, difference.z))));
+  }
+  return vec4(mix(fallback, vec3(colour), known), colour.w);
 }

@@ -13,6 +13,7 @@
 namespace parvis::facades {
 namespace {
 
+constexpr double outline_margin = 0.01;  ///< of the picture's width: how exact outlines before a backdrop are
 constexpr int dilation_rings = 6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
 /// Of pixels that were filled, in mixed tiles: colours share a block's line with alpha, so that a larger step
 /// would cost them most of their precision.
@@ -335,10 +336,12 @@ void add_colours(const PlaceLayers& place, std::size_t photo, const ItemBuffer& 
 /// Mean of the nearest known colours, weighted by distance.
 class NearestColours {
  public:
-  NearestColours(const LayerModel& model, const TriangleColours& colours) {
+  /// Of those triangles that `counts` holds for.
+  template <class Counts>
+  NearestColours(const LayerModel& model, const TriangleColours& colours, Counts&& counts) {
     std::vector<std::size_t> known;
     for (std::size_t t = 0; t < colours.counts.size(); ++t)
-      if (colours.counts[t] > 0.0) known.push_back(t);
+      if (colours.counts[t] > 0.0 && counts(model.triangles[t])) known.push_back(t);
     const std::size_t stride = known.size() / max_known_colours + 1;
     for (std::size_t i = 0; i < known.size(); i += stride) {
       const auto& c = model.triangles[known[i]].corners;
@@ -346,6 +349,7 @@ class NearestColours {
       colours_.push_back(colours.sums[known[i]] / colours.counts[known[i]]);
     }
   }
+  bool empty() const { return points_.empty(); }
   glm::u8vec3 at(glm::dvec3 point) const {
     glm::dvec3 sum(0.0);
     double weights = 0.0;
@@ -372,7 +376,13 @@ std::vector<std::uint32_t> by_surface(const LayerModel& model) {
 
 void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, PackedFacade& facade) {
   for (const LayerObject& object : place.model.objects) facade.surfaces.push_back(object.name);
-  const NearestColours nearest(place.model, colours);
+  // A surface goes on as it is elsewhere: the lawn green, the sky bright; one that is nowhere seen as the
+  // place.
+  const NearestColours of_place(place.model, colours, [](const LayerTriangle&) { return true; });
+  std::vector<NearestColours> of_surface;
+  for (std::uint32_t object = 0; object < place.model.objects.size(); ++object)
+    of_surface.emplace_back(place.model, colours,
+                            [&](const LayerTriangle& triangle) { return triangle.object == object; });
   const std::vector<std::uint32_t> order = by_surface(place.model);
   facade.corners.resize(3 * order.size()), facade.fallback.resize(3 * order.size());
   facade.surface_of_triangle.resize(order.size());
@@ -381,6 +391,8 @@ void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, Pack
       [&](std::size_t i) {
         const LayerTriangle& triangle = place.model.triangles[order[i]];
         facade.surface_of_triangle[i] = triangle.object;
+        const NearestColours& own = of_surface[triangle.object];
+        const NearestColours& nearest = own.empty() ? of_place : own;
         for (std::size_t k = 0; k < 3; ++k) {
           facade.corners[3 * i + k] = glm::vec3(triangle.corners[k]);
           facade.fallback[3 * i + k] = nearest.at(triangle.corners[k]);
@@ -389,9 +401,43 @@ void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, Pack
       64);
 }
 
+/// Per pixel: shows the backdrop, more than `margin` pixels away from what lies before it, by chessboard
+/// steps in two passes (Rosenfeld and Pfaltz 1966).
+std::vector<char> open_backdrop(const LayerModel& model, const ItemBuffer& seen, int margin) {
+  const PixelBox box{0, 0, seen.width, seen.height};
+  std::vector<int> distance(seen.triangles.size(), 0);
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (const std::uint32_t t = seen.triangles[i]; t != no_triangle_seen)
+      distance[i] = model.objects[model.triangles[t].object].is_backdrop ? margin + 1 : 0;
+  const auto relax = [&](int x, int y, int u, int v) {
+    if (u < 0 || v < 0 || u >= box.width || v >= box.height) return;
+    int& here = distance[at(box, x, y)];
+    here = std::min(here, distance[at(box, u, v)] + 1);
+  };
+  for (int y = 0; y < box.height; ++y)
+    for (int x = 0; x < box.width; ++x)
+      relax(x, y, x - 1, y), relax(x, y, x - 1, y - 1), relax(x, y, x, y - 1), relax(x, y, x + 1, y - 1);
+  for (int y = box.height - 1; y >= 0; --y)
+    for (int x = box.width - 1; x >= 0; --x)
+      relax(x, y, x + 1, y), relax(x, y, x + 1, y + 1), relax(x, y, x, y + 1), relax(x, y, x - 1, y + 1);
+  std::vector<char> is_open(distance.size());
+  for (std::size_t i = 0; i < distance.size(); ++i) is_open[i] = distance[i] > margin;
+  return is_open;
+}
+
 /// The farthest that each cell sees, and a pixel around it: what is a little farther than all of these is
-/// hidden.
-void add_depths(const ItemBuffer& seen, const View& view, PackedFacade& facade) {
+/// hidden. The backdrop counts only well away from outlines: the model's are not exact, and through its
+/// cracks a photograph shows the surface itself.
+void add_depths(const LayerModel& model, const ItemBuffer& seen, const View& view, PackedFacade& facade) {
+  const std::vector<char> is_open = open_backdrop(model, seen, int(std::lround(outline_margin * view.width)));
+  const auto is_backdrop = [&](std::size_t i) {
+    const std::uint32_t t = seen.triangles[i];
+    return t != no_triangle_seen && model.objects[model.triangles[t].object].is_backdrop;
+  };
+  double farthest_surface = 0.0;
+  for (std::size_t i = 0; i < seen.depths.size(); ++i)
+    if (std::isfinite(seen.depths[i]) && !is_backdrop(i))
+      farthest_surface = std::max(farthest_surface, double(seen.depths[i]));
   const glm::ivec2 cells = depth_cells(view);
   for (int row = 0; row < cells.y; ++row)
     for (int column = 0; column < cells.x; ++column) {
@@ -399,9 +445,11 @@ void add_depths(const ItemBuffer& seen, const View& view, PackedFacade& facade) 
       for (int y = std::max(row * depth_cell - 1, 0); y <= std::min((row + 1) * depth_cell, view.height - 1);
            ++y)
         for (int x = std::max(column * depth_cell - 1, 0);
-             x <= std::min((column + 1) * depth_cell, view.width - 1); ++x)
-          farthest = std::max(farthest, double(seen.depths[seen.index(x, y)]));
-      facade.depths.push_back(encoded_depth(farthest));
+             x <= std::min((column + 1) * depth_cell, view.width - 1); ++x) {
+          const std::size_t i = seen.index(x, y);
+          if (is_open[i] || !is_backdrop(i)) farthest = std::max(farthest, double(seen.depths[i]));
+        }
+      facade.depths.push_back(encoded_depth(farthest > 0.0 ? farthest : farthest_surface));
     }
 }
 
@@ -454,7 +502,7 @@ PackedFacade packed_facade(const PlaceLayers& place) {
     const ItemBuffer seen = item_buffer(place.model, place.views[i]);
     const std::vector<std::uint32_t> layers = layers_of_pixels(place, i, seen);
     add_layers(place, items, i, layers, facade);
-    add_depths(seen, place.views[i], facade);
+    add_depths(place.model, seen, place.views[i], facade);
     add_colours(place, i, seen, layers, colours);
     progress.advance();
   }

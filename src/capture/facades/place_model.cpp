@@ -1,5 +1,6 @@
 #include "capture/facades/place_model.h"
 
+#include <array>
 #include <cmath>
 
 #include "base/bounds.h"
@@ -12,6 +13,9 @@
 
 namespace parvis::facades {
 namespace {
+
+constexpr float ground_growth = 2.0f;  ///< of its proposed polygon: the place seldom ends where points do
+constexpr double ground_edge = 0.15;   ///< longest of the ground's triangles, of the median viewing distance
 
 void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
 
@@ -43,6 +47,40 @@ NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::Phot
       if (row + 1 < up) dome.mesh.indices.insert(dome.mesh.indices.end(), {a, d, c});
     }
   return dome;
+}
+
+/// A level mesh, larger about its middle.
+void grow(Mesh& mesh, float factor) {
+  const Bounds bounds = mesh.bounds();
+  const glm::vec3 centre = 0.5f * (bounds.min + bounds.max);
+  for (glm::vec3& p : mesh.positions) p = centre + factor * (p - centre);
+}
+
+/// Each triangle divided into four until its edges are short: a colour where no photograph says anything
+/// belongs to a corner.
+void divide_triangles(Mesh& mesh, double longest_edge) {
+  constexpr std::size_t max_divided = 4096;
+  while (mesh.triangle_count() < max_divided) {
+    Mesh fine;
+    bool is_fine = true;
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+      const std::array<std::uint32_t, 3> c{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
+      const auto first = std::uint32_t(fine.positions.size());
+      const auto add_point = [&](std::uint32_t a, std::uint32_t b) {
+        fine.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
+        fine.normals.push_back(mesh.normals[a]), fine.uvs.push_back(0.5f * (mesh.uvs[a] + mesh.uvs[b]));
+      };
+      for (std::size_t k = 0; k < 3; ++k) add_point(c[k], c[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        add_point(c[k], c[(k + 1) % 3]);
+        is_fine &= glm::distance(mesh.positions[c[k]], mesh.positions[c[(k + 1) % 3]]) <= longest_edge;
+      }
+      for (const std::uint32_t k : {0u, 3u, 5u, 3u, 1u, 4u, 5u, 4u, 2u, 3u, 4u, 5u})
+        fine.indices.push_back(first + k);
+    }
+    if (is_fine) return;
+    mesh = std::move(fine);
+  }
 }
 
 /// Luminance of the folder's photographs, freed from distortion. One that cannot be read is in the notes.
@@ -84,6 +122,11 @@ Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, cons
   if (!source) return source.errors();
   ReliefModel reliefs = with_reliefs(model.planes, loaded->set, grey_photos(*source, model.notes));
   model.meshes = std::move(reliefs.meshes);
+  for (NamedMesh& named : model.meshes)
+    if (named.name == "ground") {
+      grow(named.mesh, ground_growth);
+      divide_triangles(named.mesh, ground_edge * photographs::viewing_distance(loaded->set));
+    }
   model.meshes.push_back(backdrop(model.meshes, loaded->set));
   add(model.notes, reliefs.notes);
   return model;
