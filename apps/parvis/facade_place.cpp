@@ -1,5 +1,6 @@
 #include "facade_place.h"
 
+#include "capture/facades/place_recipe.h"
 #include "formats/readers/readers.h"
 #include "house/rooms.h"
 
@@ -36,19 +37,24 @@ Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,
 Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
   const Result<facades::PlaceSource> source = open_place(arguments);
   if (!source) return source.errors();
+  const std::string look = fmt::format("look: parvis view {}\n", (arguments.folder / "place.xp").string());
+  if (writes_pictures && facades::is_packed(*source)) {
+    fmt::print("{} is packed as it is\n{}", arguments.folder.string(), look);
+    return Done{};
+  }
   const Result<facades::PlaceLayers> place = open_layers(*source);
   if (!place) return place.errors();
   if (writes_pictures)
     if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
   const Result<facades::PackedFacade> packed = facades::pack_place(*source, *place);
   if (!packed) return packed.errors();
+  if (Status status = facades::remember_packed(*source); !status) return status;
   fmt::print(
       "{} photographs, {} layers, {} surfaces; {:.1f} MB of textures, {:.1f} % of the photographs' RGBA\n",
       packed->photos.size(), packed->layers.size(), packed->surfaces.size(),
       1e-6 * double(packed->texture_bytes()),
       100.0 * double(packed->texture_bytes()) / double(packed->photograph_bytes()));
-  fmt::print("written to {}\nlook: parvis view {}\n", (arguments.folder / "place.facade").string(),
-             (arguments.folder / "place.xp").string());
+  fmt::print("written to {}\n{}", (arguments.folder / "place.facade").string(), look);
   return Done{};
 }
 

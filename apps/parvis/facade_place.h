@@ -19,6 +19,10 @@ struct PlaceArguments {
     stage.add_option("folder", folder, "Folder of calibrated photographs")
         ->required()
         ->check(CLI::ExistingDirectory);
+    add_choices(stage);
+  }
+  /// --model and --leave-out: for a stage that knows the folder.
+  void add_choices(CLI::App& stage) {
     stage
         .add_option(
             "--model", model,

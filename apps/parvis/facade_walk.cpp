@@ -35,8 +35,7 @@ Status walk(Arguments& arguments) {
 void add_facade_walk(CLI::App& stage, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->calibration.add(stage);
-  stage.add_option("--model", arguments->place.model, "A model of the place, in place of a proposed one")
-      ->check(CLI::ExistingFile);
+  arguments->place.add_choices(stage);
   stage.footer("Example: parvis facade walk photographs/ -o courtyard && parvis view courtyard/place.xp");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return walk(*arguments); }; });
 }

@@ -28,8 +28,4 @@ Status write_meshes(const std::filesystem::path& file, const std::vector<NamedMe
   return scene::write_gltf(file, out);
 }
 
-Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model) {
-  return write_meshes(file, meshes_of(model));
-}
-
 }  // namespace parvis::facades

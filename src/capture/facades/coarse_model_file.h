@@ -1,4 +1,5 @@
-// A coarse model as glTF with named objects, which any modelling program opens and the house reads back.
+// The model of a place as glTF with named objects, which any modelling program opens and the house reads
+// back.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +8,7 @@
 
 namespace parvis::facades {
 
-/// Writes `file` (.glb): a node and a mesh per surface, named after it, grey, seen from both sides.
-Status write_coarse_model(const std::filesystem::path& file, const CoarseModel& model);
-
-/// The same of any named meshes.
+/// Writes `file` (.glb): a node and a mesh per named mesh, grey, seen from both sides.
 Status write_meshes(const std::filesystem::path& file, const std::vector<NamedMesh>& meshes);
 
 }  // namespace parvis::facades

@@ -7,6 +7,7 @@
 //   layers/edits/       what an artist painted, apart from the layers
 //   filling.txt         proposals that were accepted or refused
 //   place.facade        packed layers; place.xp: a scene that shows them
+//   packed.txt          what they were packed from, so that it is not done twice
 #pragma once
 
 #include <filesystem>

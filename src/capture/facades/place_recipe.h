@@ -1,0 +1,15 @@
+// Whether a packed place is still what its sources make: so that a walk that is asked for twice is made once.
+#pragma once
+
+#include "capture/facades/place_folder.h"
+
+namespace parvis::facades {
+
+/// Whether place.facade and place.xp are there, made of this source as it is now: model, cameras,
+/// photographs, masks, decisions about proposals, and layered pictures (an artist's edits).
+bool is_packed(const PlaceSource& source);
+
+/// Keeps what the packed place was made of in the folder's packed.txt.
+Status remember_packed(const PlaceSource& source);
+
+}  // namespace parvis::facades
