@@ -171,7 +171,7 @@ TEST_F(StageTest, WhatTheDriverRefusesIsAnError) {
   const Status status = (*stage)->set_reflection(none);
   ASSERT_FALSE(status);
   EXPECT_NE(to_string(status.errors()).find("the graphics driver refuses"), std::string::npos);
-  EXPECT_TRUE((*stage)->set_reflection(none)) << "it is told once";
+  EXPECT_TRUE((*stage)->set_reflection(none)) << "it is reported once";
 }
 
 TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {

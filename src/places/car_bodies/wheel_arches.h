@@ -13,7 +13,7 @@ struct WheelFit {
   float axle_z = 0.0f, track = 0.0f, radius = 0.0f, width = 0.0f;
 };
 
-/// Wheels for the two arches of a body: openings or hollows in the lower half of its side, each with a round
+/// Wheels for the two arches of a body: openings or insets in the lower half of its side, each with a round
 /// upper edge, to which a circle is fitted (Kasa 1976). Nothing where there are not two.
 std::optional<WheelFit> fit_wheels(const SideView& side);
 
