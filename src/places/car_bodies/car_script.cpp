@@ -58,16 +58,13 @@ std::string material_lines(const PictureMasks& masks) {
   return text;
 }
 
-std::string wheel_lines(const std::optional<WheelFit>& fit, bool is_turned) {
-  if (!fit)
-    return "  // No two arches were found: wheels(front_axle_x=..., rear_axle_x=..., axle_z=..., "
-           "track=...).\n";
+std::string wheel_lines(const WheelFit& fit, bool is_turned) {
   return fmt::format(
       "  // In the middle of the arches.\n"
       "  wheels(front_axle_x={:.2f}, rear_axle_x={:.2f}, axle_z={:.2f}, track={:.2f}, radius={:.2f}, "
       "width={:.2f},\n      rim_radius={:.2f})\n",
-      is_turned ? fit->left_x : fit->right_x, is_turned ? fit->right_x : fit->left_x, fit->axle_z, fit->track,
-      fit->radius, fit->width, 0.68f * fit->radius);
+      is_turned ? fit.left_x : fit.right_x, is_turned ? fit.right_x : fit.left_x, fit.axle_z, fit.track,
+      fit.radius, fit.width, 0.68f * fit.radius);
 }
 
 }  // namespace
@@ -76,15 +73,24 @@ Result<std::string> car_script(const scene::Model& model, const std::string& fil
   const Bounds bounds = scene::bounds(model);
   if (Status status = check_size(bounds, file); !status) return status.errors();
   const SideView side(model);
-  const bool is_turned = faces_back(side), comes_with_wheels = has_wheels(model);
-  const std::optional<WheelFit> fit = comes_with_wheels ? std::nullopt : fit_wheels(side);
-  const float raised_m = fit ? fit->radius - fit->axle_z : -bounds.min.z;
+  const bool is_turned = faces_back(side);
+  float raised_m = -bounds.min.z;
+  std::string wheels;
+  if (!has_wheels(model)) {
+    if (const std::optional<WheelFit> fit = fit_wheels(side)) {
+      raised_m = fit->radius - fit->axle_z;
+      wheels = wheel_lines(*fit, is_turned);
+    } else {
+      wheels =
+          "  // No two arches were found: wheels(front_axle_x=..., rear_axle_x=..., axle_z=..., "
+          "track=...).\n";
+    }
+  }
   std::string text = fmt::format(
       "// Proposed by parvis car from the body's shape and picture; change it as you like. Include it in "
       "traffic.\nmodel(file=\"{}\", position=\"0 0 {:.2f}\"{}, dynamic=1, reflective=1) {{\n",
       file, raised_m, is_turned ? ", heading_deg=180" : "");
-  text += material_lines(find_masks(model, bounds, is_turned));
-  if (!comes_with_wheels) text += wheel_lines(fit, is_turned);
+  text += material_lines(find_masks(model, bounds, is_turned)) + wheels;
   return text + "}\n";
 }
 
