@@ -7,8 +7,8 @@
 #include "base/progress.h"
 #include "capture/facades/coarse_model_file.h"
 #include "capture/facades/place_folder.h"
+#include "capture/photographs/colmap_set.h"
 #include "capture/photographs/picture.h"
-#include "capture/photographs/set_file.h"
 #include "formats/gltf/gltf_reader.h"
 
 namespace parvis::facades {
@@ -27,15 +27,22 @@ bool are_equal(const fs::path& a, const fs::path& b) {
   return in_a && in_b && *in_a == *in_b;
 }
 
+/// The photographs that the pictures were written of: their cameras alone, wherever their files are now.
+Result<photographs::PhotographSet> written_cameras(const fs::path& written) {
+  const Result<photographs::ColmapModel> model = photographs::read_colmap_model(written);
+  if (!model) return model.errors();
+  return photographs::photograph_set_of(*model, written).set;
+}
+
 /// Pictures that somebody saved after they were written.
 std::vector<std::string> edited_photographs(const fs::path& folder) {
   std::vector<std::string> names;
   const fs::path written = folder / "layers" / "written";
   std::error_code code;
-  if (!fs::exists(written / "photographs.json", code)) return names;
-  const Result<photographs::LoadedSet> set = photographs::read_photograph_set(written);
+  if (!fs::exists(written / "cameras.bin", code)) return names;
+  const Result<photographs::PhotographSet> set = written_cameras(written);
   if (!set) return names;
-  for (const photographs::Photograph& photo : set->set.photographs) {
+  for (const photographs::Photograph& photo : set->photographs) {
     const fs::path now = psd_file(folder / "layers", photo.name), then = psd_file(written, photo.name);
     if (fs::exists(now, code) && fs::exists(then, code) && !are_equal(now, then)) names.push_back(photo.name);
   }
@@ -52,7 +59,7 @@ struct WrittenLayers {
 
 Result<WrittenLayers> written_layers(const fs::path& folder) {
   const fs::path written = folder / "layers" / "written";
-  const Result<photographs::LoadedSet> set = photographs::read_photograph_set(written);
+  const Result<photographs::PhotographSet> set = written_cameras(written);
   if (!set) return set.errors();
   Errors warnings;
   const Result<scene::Model> model = scene::read_gltf(written / "model.glb", warnings);
@@ -60,7 +67,7 @@ Result<WrittenLayers> written_layers(const fs::path& folder) {
   Result<LayerModelResult> layers = layer_model(named_meshes(*model));
   if (!layers) return layers.errors();
   WrittenLayers result{{}, {}, std::move(layers->model), {}};
-  for (const photographs::Photograph& photo : set->set.photographs) {
+  for (const photographs::Photograph& photo : set->photographs) {
     const Result<View> view = view_of(photo);
     if (!view) return view.errors();
     result.names.push_back(photo.name), result.views.push_back(*view);
@@ -181,7 +188,8 @@ Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& plac
   for (const photographs::Photograph& photo : source.photographs)
     if (std::ranges::count(place.names, photo.name) > 0) set.photographs.push_back(photo);
   if (Status status = write_meshes(written / "model.glb", source.meshes); !status) return status;
-  return photographs::write_photograph_set(written, set, source.folder);
+  return photographs::write_colmap_model(written, photographs::colmap_model_of(set),
+                                         photographs::ColmapFormat::binary);
 }
 
 }  // namespace parvis::facades
