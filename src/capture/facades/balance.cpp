@@ -39,6 +39,7 @@ Sightings sightings(std::span<const PreparedPhoto> photos, std::span<const Image
     if (pixel.x < 1.0 || pixel.y < 1.0 || pixel.x > view.width - 1.0 || pixel.y > view.height - 1.0) continue;
     const std::size_t index = std::size_t(pixel.y) * std::size_t(view.width) + std::size_t(pixel.x);
     if (not_hidden(float(p.z), photos[i].depths[index], depth_tolerance) < 0.5f) continue;
+    if (!photos[i].trust.empty() && photos[i].trust.pixels[index] < 0.5f) continue;  // masked
     found.push_back({i, sampled_rgb(srgb[i], pixel)});
   }
   return found;
@@ -187,9 +188,10 @@ void apply(const Balance& balance, PreparedPhoto& photo) {
 
 void find_occluders(std::span<PreparedPhoto> photos) {
   const std::vector<ImageF> srgb = blurred_srgb(photos);
+  std::vector<ImageF> found_trust;  // apart, so that every photograph is judged by masks alone
   for (std::size_t i = 0; i < photos.size(); ++i) {
-    PreparedPhoto& photo = photos[i];
-    photo.trust = ImageF(photo.view.width, photo.view.height, 1, 1.0f);
+    const PreparedPhoto& photo = photos[i];
+    ImageF trust(photo.view.width, photo.view.height, 1, 1.0f);
     parallel_for(std::size_t(photo.view.height), [&](std::size_t row) {
       const int y = int(row);
       for (int x = 0; x < photo.view.width; ++x) {
@@ -197,11 +199,15 @@ void find_occluders(std::span<PreparedPhoto> photos) {
         if (!std::isfinite(depth)) continue;
         const Sightings found = sightings(photos, srgb, photo.view.to_world({x + 0.5, y + 0.5}, depth));
         const float* own = srgb[i].at(x, y);
-        *photo.trust.at(x, y) = trust_in(glm::vec3(own[0], own[1], own[2]), found, std::uint32_t(i));
+        *trust.at(x, y) = trust_in(glm::vec3(own[0], own[1], own[2]), found, std::uint32_t(i));
       }
     });
-    photo.trust = spread_out(photo.trust);
+    trust = spread_out(trust);
+    for (std::size_t p = 0; p < photo.trust.pixels.size(); ++p)
+      trust.pixels[p] = std::min(trust.pixels[p], photo.trust.pixels[p]);
+    found_trust.push_back(std::move(trust));
   }
+  for (std::size_t i = 0; i < photos.size(); ++i) photos[i].trust = std::move(found_trust[i]);
 }
 
 }  // namespace parvis::facades

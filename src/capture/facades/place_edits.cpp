@@ -175,7 +175,9 @@ Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& plac
   Progress progress("writing layered pictures", place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
     const auto photo = std::ranges::find(source.photographs, place.names[i], &photographs::Photograph::name);
-    const Result<Image8> picture = photographs::read_picture(*photo);
+    photographs::Photograph unmasked = *photo;
+    unmasked.mask.clear();
+    const Result<Image8> picture = photographs::read_picture(unmasked);
     if (!picture) return picture.errors();
     const PsdPicture psd =
         layered_picture(*picture, place.layered[i], chosen_pixels(place.filled[i], place.originals[i]),

@@ -63,8 +63,23 @@ std::string recipe_of(const Photograph& photograph) {
   std::error_code code;
   std::string text = fmt::format("{} {} x {}, {} bytes\n", int(photograph.lens.model), photograph.lens.width,
                                  photograph.lens.height, fs::file_size(photograph.file, code));
+  if (!photograph.mask.empty())
+    text += fmt::format("mask of {} bytes\n", fs::file_size(photograph.mask, code));
   for (const double parameter : photograph.lens.parameters) text += fmt::format("{:.17g}\n", parameter);
   return text;
+}
+
+/// The mask of a photograph freed from distortion, as a file beside it; cropped by the same margins.
+Result<fs::path> straight_mask(const fs::path& picture, const Photograph& photograph, glm::ivec2 margin) {
+  const Result<Image8> masked = photographs::read_picture(photograph);
+  if (!masked) return masked.errors();
+  const Image8 straight = photographs::undistorted(photograph, *masked).image;
+  Image8 mask(straight.width - 2 * margin.x, straight.height - 2 * margin.y, 1);
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x) *mask.at(x, y) = straight.at(x + margin.x, y + margin.y)[3];
+  const fs::path file = fs::path(picture).replace_extension(".mask.png");
+  if (Status status = write_image(file, mask); !status) return status.errors();
+  return file;
 }
 
 /// `straight` with the lens of its picture of width x height pixels, cropped by the same margins on opposite
@@ -91,14 +106,23 @@ Result<Photograph> without_distortion(const fs::path& folder, const Photograph& 
         Photograph straight = photograph;
         straight.lens = photographs::undistorted(photograph.lens);
         straight.file = file;
+        if (!photograph.mask.empty()) straight.mask = fs::path(file).replace_extension(".mask.png");
         return with_cropped_lens(straight, header->width, header->height);
       }
-  const Result<Image8> pixels = photographs::read_picture(photograph);
+  Photograph unmasked = photograph;
+  unmasked.mask.clear();
+  const Result<Image8> pixels = photographs::read_picture(unmasked);
   if (!pixels) return pixels.errors();
-  photographs::Picture straight = photographs::undistorted(photograph, *pixels);
-  const Image8 part = cropped(straight.image, empty_margins(straight.image));
+  photographs::Picture straight = photographs::undistorted(unmasked, *pixels);
+  const glm::ivec2 margin = empty_margins(straight.image);
+  const Image8 part = cropped(straight.image, margin);
   straight.photograph.file = file;
   if (Status status = write_image(file, part); !status) return status.errors();
+  if (!photograph.mask.empty()) {
+    const Result<fs::path> mask = straight_mask(file, photograph, margin);
+    if (!mask) return mask.errors();
+    straight.photograph.mask = *mask;
+  }
   if (Status status = write_file(recipe_file, recipe); !status) return status.errors();
   return with_cropped_lens(straight.photograph, part.width, part.height);
 }

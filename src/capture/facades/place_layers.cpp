@@ -49,10 +49,9 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
 
   place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
   for (std::size_t i = 0; i < prepared.size(); ++i) apply(place.balances[i], prepared[i]);
-  if (settings.finds_occluders) {
-    find_occluders(prepared);
-    for (std::size_t i = 0; i < prepared.size(); ++i) distrust(prepared[i].trust, place.layered[i]);
-  }
+  if (settings.finds_occluders) find_occluders(prepared);
+  for (std::size_t i = 0; i < prepared.size(); ++i)
+    if (!prepared[i].trust.empty()) distrust(prepared[i].trust, place.layered[i]);
   for (std::size_t i = 0; i < prepared.size(); ++i) {
     const FillSettings fill{settings.fills, settings.fills, 1};
     place.filled.push_back(filled_layers(place.layers(i), prepared, i, place.originals[i], fill));

@@ -21,6 +21,20 @@ Footprint footprint(int width, int height, glm::dvec2 pixel) {
   return {x0, y0, std::min(x0 + 1, width - 1), std::min(y0 + 1, height - 1), float(x - x0), float(y - y0)};
 }
 
+/// 1 where the photograph may be used, 0 elsewhere.
+Result<ImageF> mask_of(const photographs::Photograph& photograph) {
+  const Result<Image8> mask = read_image8(photograph.mask);
+  if (!mask) return mask.errors();
+  if (mask->width != photograph.lens.width || mask->height != photograph.lens.height)
+    return error("photograph {}: its mask {} is {} x {}, the picture {} x {}; they must be the same",
+                 photograph.name, photograph.mask.string(), mask->width, mask->height, photograph.lens.width,
+                 photograph.lens.height);
+  ImageF trust(mask->width, mask->height, 1);
+  for (std::size_t i = 0; i < trust.pixels.size(); ++i)
+    trust.pixels[i] = mask->pixels[i * std::size_t(mask->channels)] >= 128 ? 1.0f : 0.0f;
+  return trust;
+}
+
 }  // namespace
 
 Result<View> view_of(const photographs::Photograph& photograph) {
@@ -48,7 +62,14 @@ Result<PreparedPhoto> prepared_photo(const photographs::Photograph& photograph, 
                  photograph.name, colours->width, colours->height, view->width, view->height);
   for (std::size_t i = 0; i < colours->pixels.size(); ++i)
     colours->pixels[i] *= float(photograph.gain[int(i % 3)]);
-  return PreparedPhoto{photograph.name, *view, *std::move(colours), item_buffer(model, *view).depths, {}};
+  ImageF trust;
+  if (!photograph.mask.empty()) {
+    Result<ImageF> mask = mask_of(photograph);
+    if (!mask) return mask.errors();
+    trust = *std::move(mask);
+  }
+  return PreparedPhoto{photograph.name, *view, *std::move(colours), item_buffer(model, *view).depths,
+                       std::move(trust)};
 }
 
 glm::vec4 depths_around(const PreparedPhoto& photo, glm::dvec2 pixel) {

@@ -21,8 +21,8 @@ struct PreparedPhoto {
   View view;
   ImageF colours;             ///< linear Rec. 709 times the photograph's gain, 3 channels
   std::vector<float> depths;  ///< of the model behind every pixel centre; infinite: nothing
-  ImageF trust;  ///< 1 channel, 0..1: how certainly the pixel shows the model and nothing before it; empty:
-                 ///< everywhere 1
+  ImageF trust;  ///< 1 channel, 0..1: how certainly the pixel shows the model and nothing before it, 0 where
+                 ///< the photograph's mask leaves it out; empty: everywhere 1
 };
 
 /// Reads the picture and rasterises the model. Errors name the photograph: no pixels, another size than its
