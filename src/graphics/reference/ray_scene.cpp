@@ -37,6 +37,16 @@ RTCRay embree_ray(const Ray& ray) {
           0};
 }
 
+/// Instance of the joined triangles; that of place i is i + 1.
+constexpr unsigned joined_instance = 0;
+
+unsigned instance_of(std::size_t place) { return unsigned(place + 1); }
+
+/// Which place a hit belongs to.
+std::size_t place_of(unsigned instance, unsigned geometry) {
+  return instance == joined_instance ? geometry : instance - 1;
+}
+
 /// Front and back are decided in the mesh's frame, where a mirroring transform does not exchange them.
 bool meets_back(const RTCFilterFunctionNArguments* arguments) {
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
@@ -48,12 +58,12 @@ bool meets_back(const RTCFilterFunctionNArguments* arguments) {
   return glm::dot(ng, direction) > 0.0f;
 }
 
-/// The ray is in the mesh's frame.
+/// The ray is in the frame of the triangles.
 glm::vec3 direction_in_world(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
   const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_y(arguments->ray, arguments->N, 0),
                             RTCRayN_dir_z(arguments->ray, arguments->N, 0));
-  return glm::mat3(place.world_from_mesh) * direction;
+  return place.is_joined ? direction : glm::mat3(place.world_from_mesh) * direction;
 }
 
 float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
@@ -92,7 +102,8 @@ bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* 
 template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
   const QueryContext& context = *reinterpret_cast<const QueryContext*>(arguments->context);
-  const PlacedPart& place = *context.places[RTCHitN_instID(arguments->hit, arguments->N, 0, 0)];
+  const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, arguments->N, 0, 0),
+                                                     RTCHitN_geomID(arguments->hit, arguments->N, 0))];
   const bool stops = context.passage ? stops_light(place, *context.passage, arguments, is_shadow)
                                      : stops_as_drawn(place, arguments, is_shadow);
   if (!stops) arguments->valid[0] = 0;
@@ -137,7 +148,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       const scene::Part& part = model->parts[p];
       rays_.place(*model, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
-                  first_thing_ + placing.thing, false, true);
+                  first_thing_ + placing.thing, false, true, false);
     }
     rays_.kept_.push_back(std::move(model));
   }
@@ -148,10 +159,29 @@ class RayScene::TracedThings final : public scene::TracedScene {
 };
 
 RayScene::RayScene(const scene::Scene& scene)
-    : shadows_(scene.data<scene::SunShadows>()), device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
+    : shadows_(scene.data<scene::SunShadows>()),
+      device_(rtcNewDevice(nullptr)),
+      top_(rtcNewScene(device_)),
+      joined_(rtcNewScene(device_)) {
+  rtcSetSceneFlags(joined_, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, joined_);
+  rtcAttachGeometryByID(top_, instance, joined_instance);
+  rtcReleaseGeometry(instance);
+  for (const scene::Object& object : scene.objects)
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) ++placed_[&object.mesh(p)];
   for (std::size_t o = 0; o < scene.objects.size(); ++o) add_object(scene.objects[o], int(o));
   object_places_ = places_.size();
   trace_things(scene);
+  commit();
+}
+
+void RayScene::commit() {
+  if (has_other_joined_) {
+    rtcCommitScene(joined_);
+    rtcCommitGeometry(rtcGetGeometry(top_, joined_instance));
+    has_other_joined_ = false;
+  }
   rtcCommitScene(top_);
 }
 
@@ -166,7 +196,7 @@ void RayScene::trace_things(const scene::Scene& scene) {
 void RayScene::forget_things() {
   for (std::size_t i = object_places_; i < places_.size(); ++i) {
     triangle_count_ -= places_[i]->mesh->triangle_count();
-    rtcDetachGeometry(top_, unsigned(i));
+    rtcDetachGeometry(top_, instance_of(i));
   }
   places_.resize(object_places_);
 }
@@ -194,7 +224,7 @@ bool RayScene::update(const scene::Scene& scene) {
     forget_meshes_but_those_placed();
     has_changed |= places_.size() > object_places_;  // they may have moved
   }
-  if (has_changed) rtcCommitScene(top_);
+  if (has_changed) commit();
   return has_changed;
 }
 
@@ -211,6 +241,7 @@ void RayScene::forget_meshes_but_those_placed() {
 
 RayScene::~RayScene() {
   rtcReleaseScene(top_);
+  rtcReleaseScene(joined_);
   for (const auto& [mesh, scene] : mesh_scenes_) rtcReleaseScene(scene);
   rtcReleaseDevice(device_);
 }
@@ -227,14 +258,16 @@ const std::vector<MipTexture>& RayScene::textures_of(const scene::Model& model) 
 
 void RayScene::add_object(const scene::Object& object, int number) {
   const scene::Model& model = *object.model;
+  const bool is_still = !object.is_dynamic && object.deformed_meshes.empty();
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     place(model, p, object.mesh(p), object.world_from_model * pose[std::size_t(model.parts[p].node)], number,
-          object.takes_reflection, object.is_visible);
+          object.takes_reflection, object.is_visible, is_still && placed_[&object.mesh(p)] == 1);
 }
 
 void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
-                     const glm::mat4& world_from_mesh, int number, bool takes_reflection, bool is_visible) {
+                     const glm::mat4& world_from_mesh, int number, bool takes_reflection, bool is_visible,
+                     bool may_join) {
   const scene::Part& source = model.parts[p];
   PlacedPart part{};
   part.mesh = &mesh;
@@ -245,17 +278,39 @@ void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
   part.casts_shadow = source.casts_shadow && shadows_.casts(std::size_t(number));
   part.receives_shadow = shadows_.receives(std::size_t(number));
   part.is_mirror = takes_reflection && part.material->is_mirror_like;
-  place(part, is_visible);
+  place(part, is_visible, may_join);
 }
 
-void RayScene::place(const PlacedPart& part, bool is_visible) {
+void RayScene::place(const PlacedPart& part, bool is_visible, bool may_join) {
   places_.push_back(std::make_unique<PlacedPart>(part));
   triangle_count_ += part.mesh->triangle_count();
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcAttachGeometryByID(top_, instance, unsigned(places_.size() - 1));
+  rtcAttachGeometryByID(top_, instance, instance_of(places_.size() - 1));
   rtcDisableGeometry(instance);
   rtcReleaseGeometry(instance);
+  const float volume = glm::determinant(glm::mat3(part.world_from_mesh));
+  if (may_join && is_visible && !part.mesh->indices.empty() && volume > 0.0f && std::isfinite(volume))
+    return join(places_.size() - 1);
   move(places_.size() - 1, *part.mesh, part.world_from_mesh, is_visible);
+}
+
+/// Adds the triangles of a part to those in the world. Mirroring transforms have no business there: they
+/// exchange front and back.
+void RayScene::join(std::size_t place) {
+  PlacedPart& part = *places_[place];
+  const RTCGeometry geometry = triangles(*part.mesh, part.world_from_mesh);
+  rtcAttachGeometryByID(joined_, geometry, unsigned(place));
+  rtcReleaseGeometry(geometry);
+  part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
+  part.is_joined = part.is_traced = true, part.is_mirrored = false;
+  has_other_joined_ = true;
+}
+
+/// What is hidden or moves after all is an instance of its own from then on.
+void RayScene::leave_joined(std::size_t place) {
+  rtcDetachGeometry(joined_, unsigned(place));
+  places_[place]->is_joined = places_[place]->is_traced = false;
+  has_other_joined_ = true;
 }
 
 /// An instance stays, disabled, where nothing of it can be seen. Its mesh gets a hierarchy when it is first
@@ -266,7 +321,8 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   const bool is_seen = is_visible && !mesh.indices.empty() && volume != 0.0f && std::isfinite(volume);
   const bool is_same = part.world_from_mesh == world_from_mesh && part.mesh == &mesh;
   if (is_seen == part.is_traced && (is_same || !is_seen)) return false;
-  const RTCGeometry instance = rtcGetGeometry(top_, unsigned(number));
+  if (part.is_joined) leave_joined(number);
+  const RTCGeometry instance = rtcGetGeometry(top_, instance_of(number));
   part.is_traced = is_seen;
   if (!is_seen) {
     rtcDisableGeometry(instance);
@@ -286,22 +342,29 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
 RTCScene RayScene::mesh_scene(const Mesh& mesh) {
   const auto [entry, is_new] = mesh_scenes_.try_emplace(&mesh, nullptr);
   if (!is_new) return entry->second;
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(glm::vec3), mesh.positions.size());
-  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(std::uint32_t), mesh.triangle_count());
-  std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
-  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
-  rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
-  rtcCommitGeometry(geometry);
+  const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f));
   entry->second = rtcNewScene(device_);
   rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
   rtcAttachGeometry(entry->second, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(entry->second);
   return entry->second;
+}
+
+RTCGeometry RayScene::triangles(const Mesh& mesh, const glm::mat4& transform) const {
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  glm::vec3* const vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
+  const bool is_moved = transform != glm::mat4(1.0f);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    vertices[i] = is_moved ? glm::vec3(transform * glm::vec4(mesh.positions[i], 1.0f)) : mesh.positions[i];
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(std::uint32_t), mesh.triangle_count());
+  std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
+  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
+  rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
+  rtcCommitGeometry(geometry);
+  return geometry;
 }
 
 /// The hierarchy keeps its tree and fits it to the corners as they are deformed now.
@@ -315,7 +378,7 @@ void RayScene::deform(std::size_t place) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   rtcCommitScene(scene);
-  rtcCommitGeometry(rtcGetGeometry(top_, unsigned(place)));
+  rtcCommitGeometry(rtcGetGeometry(top_, instance_of(place)));
 }
 
 /// Embree asserts that rays are finite. One that is not hits nothing: a surface so degenerate that it has no
@@ -336,7 +399,8 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(top_, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{places_[query.hit.instID[0]].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+  const std::size_t place = place_of(query.hit.instID[0], query.hit.geomID);
+  return Hit{places_[place].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
 }
 
 bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {

@@ -1,5 +1,7 @@
-// The scene for ray queries: one Embree hierarchy per mesh, instanced per object. Rays pass through the holes
-// of cutout parts and the backs of single-sided ones, as the renderer draws them.
+// The scene for ray queries. Static meshes that are placed once are one Embree hierarchy of triangles in the
+// world: of hundreds of parts whose boxes overlap a ray would have to enter each. Other meshes have a
+// hierarchy each, instanced per object. Rays pass through the holes of cutout parts and the backs of
+// single-sided ones, as the renderer draws them.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -34,9 +36,10 @@ struct PlacedPart {
   int object;  ///< index in the scene; beyond them, of what rooms draw by themselves: for_each_traced_kind
   bool casts_shadow;
   bool receives_shadow = true;
-  bool is_mirror;    ///< takes reflections
-  bool is_mirrored;  ///< the transform turns right into left, and with it the winding of triangles
-  bool is_traced;    ///< else rays pass it: it is hidden, empty, or flattened by its transform
+  bool is_mirror;          ///< takes reflections
+  bool is_mirrored;        ///< the transform turns right into left, and with it the winding of triangles
+  bool is_traced;          ///< else rays pass it: it is hidden, empty, or flattened by its transform
+  bool is_joined = false;  ///< its triangles are in the hierarchy of static meshes, in the world
 };
 
 /// Nearest intersection of a ray. `place` belongs to the RayScene.
@@ -86,12 +89,16 @@ class RayScene {
   bool is_blocked(const Ray& ray, Passage* passage) const;
   void add_object(const scene::Object& object, int number);
   void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
-             int number, bool takes_reflection, bool is_visible);
-  void place(const PlacedPart& part, bool is_visible);
+             int number, bool takes_reflection, bool is_visible, bool may_join);
+  void place(const PlacedPart& part, bool is_visible, bool may_join = false);
+  void commit();
   bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
   void trace_things(const scene::Scene& scene);
   void forget_things();
   void forget_meshes_but_those_placed();
+  void join(std::size_t place);
+  void leave_joined(std::size_t place);
+  RTCGeometry triangles(const Mesh& mesh, const glm::mat4& transform) const;
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
   RTCScene mesh_scene(const Mesh& mesh);
   void deform(std::size_t place);
@@ -99,6 +106,9 @@ class RayScene {
   scene::SunShadows shadows_;
   RTCDevice device_;
   RTCScene top_;
+  RTCScene joined_;  ///< triangles in the world, by place: the first instance of `top_`; places follow it
+  bool has_other_joined_ = true;                     ///< since it was committed
+  std::unordered_map<const Mesh*, int> placed_;      ///< how many parts of objects have the mesh
   std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things
   std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
   std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
