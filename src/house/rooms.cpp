@@ -10,6 +10,8 @@
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/readers/bench/import_export_bench.h"
 #include "formats/terrain/terrain_formats.h"
+#include "graphics/bounced_light/room.h"
+#include "graphics/lamps/room.h"
 #include "graphics/light/bench/light_bench.h"
 #include "graphics/light/light_nodes.h"
 #include "graphics/render/bench/frame_bench.h"
@@ -58,6 +60,8 @@ constexpr Furnish rooms[]{
     virtual_objects::furnish,
     refraction::furnish,
     shadows::furnish,
+    lamps::furnish,  // after shadows: its light is laid over that one
+    bounced_light::furnish,
     facades::furnish,
     trees::furnish,
     bench::furnish_frame,

@@ -12,12 +12,19 @@
 #include "graphics/light/atmosphere.h"
 #include "graphics/light/cloud_cover.h"
 #include "graphics/light/shadow_settings.h"
+#include "scene/data/lamp.h"
 
 namespace parvis::light {
 namespace {
 
 /// A clear sky is smooth; clouds keep the resolution of their photograph, within limits.
 int picture_width_px(const DayLight& day) { return day.dome ? std::clamp(day.dome->width, 512, 2048) : 512; }
+
+/// Photocells of street lamps switch at some 60 lux.
+constexpr float lamps_on = float(60.0 / lumens_per_watt);
+/// Eyes in a lit street adapt to its lamps: EN 13201 has 7.5 lux on average for streets of houses,
+/// 10 to 20 for those of shops.
+constexpr float lit_street = float(7.5 / lumens_per_watt);
 
 glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
@@ -65,6 +72,14 @@ ImageF sky_picture(const SkyModel& sky, const DayLight& day, int width_px) {
   return picture;
 }
 
+void adapt(scene::Scene& scene) {
+  DayLight& day = scene.data<DayLight>();
+  if (!day.is_given) return;
+  const bool has_lamps = scene.data<scene::Darkness>().is_dark && !scene.items<scene::Lamp>().empty();
+  day.adaptation = exposure_for(day.illuminance + (has_lamps ? lit_street : 0.0f));
+  scene.exposure = day.chosen_exposure * day.adaptation;
+}
+
 Status light_scene(scene::Scene& scene) {
   DayLight& day = scene.data<DayLight>();
   if (!day.is_given) return Done{};
@@ -79,8 +94,9 @@ Status light_scene(scene::Scene& scene) {
   ContentHash content;
   day.hash(content);
   scene.sky.file = fmt::format("dayLight {:016x}", content.value());
-  day.adaptation = exposure_for(sky.irradiance_xyz({0, 0, 1}).y);
-  scene.exposure = day.chosen_exposure * day.adaptation;
+  day.illuminance = sky.irradiance_xyz({0, 0, 1}).y;
+  scene.data<scene::Darkness>().is_dark = day.illuminance < lamps_on;
+  adapt(scene);
   return Done{};
 }
 

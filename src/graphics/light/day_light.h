@@ -29,6 +29,7 @@ struct DayLight {
   float dome_heading = 0.0f;     ///< radians, turns it clockwise from above
   float chosen_exposure = 1.0f;  ///< by the node exposure: multiplies what the light asks for
   float adaptation = 1.0f;       ///< exposure that the light asks for, as `light_scene` found it
+  float illuminance = 0.0f;      ///< of level ground by sky and sun, Y
 
   void hash(ContentHash& hash) const;
 };
@@ -37,6 +38,9 @@ struct DayLight {
 /// without the sun's disc, as Sky expects. Errors say which
 /// value is out of range.
 Status light_scene(scene::Scene& scene);
+
+/// Exposes a scene with daylight for what lights it: sky and sun, and at dusk its lamps, if it has any.
+void adapt(scene::Scene& scene);
 
 /// The whole sky as Sky::picture wants it, `width_px` by half as many: linear Rec. 709, W/m2/sr weighted by
 /// the eye, what is outside of that gamut clamped to zero. Below the horizon the ground of the model, or that

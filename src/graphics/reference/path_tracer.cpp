@@ -45,6 +45,7 @@ PathTracer::PathTracer(const RayScene& rays, const scene::Scene& scene, const sh
       sky_(sky),
       sun_(scene.sun),
       sky_sampler_(sky),
+      lamps_(shading::make_lamp_table(lit_lamps(scene))),
       haze_per_m_(scene.haze_per_m),
       options_(options) {}
 
@@ -96,6 +97,29 @@ vec3 PathTracer::light_at(const ShadingPoint& point, const Scatter& scatter, Pat
     light += light_from(chosen.direction, shading::sky_picture_at(sky_, chosen.uv), chosen.density, point,
                         scatter, path);
   }
+  return light;
+}
+
+/// Every lamp that reaches a surface, by one ray each; and the glass of those that it belongs to, where the
+/// path could not have found that light at the surface before.
+vec3 PathTracer::lamps_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const {
+  vec3 light(0.0f);
+  const glm::uvec4 cell = lamps_.cell(point.position);
+  for (int i = 0; i < 4; ++i)
+    for (std::uint32_t word = cell[i]; word != 0; word >>= 16) {
+      const shading::Lamp& lamp = lamps_.lamps[(word & 65535u) - 1];
+      const vec3 away = vec3(lamp.place) - point.position;
+      const float distance_m = std::max(glm::length(away), 1e-3f);
+      const vec3 to_lamp = away / distance_m;
+      if (path.density == 0.0f) light += shading::lamp_glow(lamp, distance_m);
+      const float side = glm::dot(point.geometric_normal, to_lamp);
+      if (side * glm::dot(point.surface.normal, to_lamp) <= 0.0f) continue;
+      const vec3 brought = scatter.share(to_lamp) * shading::lamp_irradiance(lamp, to_lamp, distance_m);
+      if (!(brought.x + brought.y + brought.z > 0.0f)) continue;
+      ++path.ray_count;
+      const Ray ray = ray_to_lamp(lamp, point.position, std::copysign(1.0f, side) * point.geometric_normal);
+      if (!rays_.is_blocked(ray, path.passage)) light += brought;
+    }
   return light;
 }
 
@@ -171,6 +195,7 @@ PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequen
       continue;
     }
     const Scatter scatter(point.surface, -path.ray.direction);
+    if (!lamps_.empty()) light += path.throughput * lamps_at(point, scatter, path);
     if (scatter.spreads()) light += path.throughput * light_at(point, scatter, path);
     if (!goes_on(point, scatter, width_m, path)) break;
   }

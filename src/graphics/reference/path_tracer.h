@@ -10,6 +10,7 @@
 #include "graphics/reference/ray_scene.h"
 #include "graphics/reference/sample_sequence.h"
 #include "graphics/reference/scatter.h"
+#include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/shading_point.h"
 #include "graphics/reference/sky_sampler.h"
 #include "graphics/reference/sun_disc.h"
@@ -54,6 +55,7 @@ class PathTracer {
   glm::vec3 light_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const;
   glm::vec3 light_from(glm::vec3 direction, glm::vec3 radiance, float density, const ShadingPoint& point,
                        const Scatter& scatter, Path& path) const;
+  glm::vec3 lamps_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const;
   bool goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const;
   bool passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const;
   float weight(float density, float other_density, bool is_chosen_light) const;
@@ -62,6 +64,7 @@ class PathTracer {
   const shading::SkyLight& sky_;
   SunDisc sun_;
   SkySampler sky_sampler_;
+  shading::LampTable lamps_;
   float haze_per_m_;
   PathOptions options_;
 };

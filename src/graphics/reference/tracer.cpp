@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/glass_walk.h"
+#include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/shading_point.h"
 #include "graphics/reference/sun_disc.h"
 #include "graphics/shading/lighting.h"
@@ -73,8 +74,11 @@ class Tracer {
     light_.sun_irradiance = scene.sun.irradiance;
     spot_ = scene.data<scene::SunShadows>().spot;
     for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
+    light_.bounced = light_.bounced_behind = vec3(0.0f);
     light_.haze_radiance = sky.haze_radiance;
     light_.haze_per_m = scene.haze_per_m;
+    if (!drawn_light_) own_lamps_ = shading::make_lamp_table(lit_lamps(scene));
+    lamps_ = drawn_light_ ? drawn_light_->lamps : &own_lamps_;
   }
 
   /// Light that comes along a cone; `hidden_object` (or -1) is passed through.
@@ -183,9 +187,30 @@ class Tracer {
     }
     shading::SceneLight light = light_;
     if (spot_) light.to_sun = glm::normalize(spot_->position - point.position);
+    if (drawn_light_ && drawn_light_->bounced) {
+      const shading::BouncedLight& bounced = *drawn_light_->bounced;
+      light.bounced = bounced.irradiance(point.position, point.geometric_normal, s.normal);
+      light.bounced_behind = bounced.irradiance(point.position, point.geometric_normal, -s.normal);
+    }
     const float sun = sun_visible(point, light.to_sun, hit.place->receives_shadow, ray_count);
     return lit_radiance(s, light, to_viewer, sun, shading::sky_share_of_normal(sky_cell, s.normal),
-                        mirrored.base, mirrored.coat);
+                        mirrored.base, mirrored.coat) +
+           lamp_radiance_at(point, s, to_viewer, ray_count);
+  }
+
+  /// What lamps do: by their depth maps, or by exact rays where those replace maps.
+  vec3 lamp_radiance_at(const ShadingPoint& point, const Surface& s, vec3 to_viewer,
+                        std::uint64_t& ray_count) const {
+    if (!lamps_ || lamps_->empty()) return vec3(0.0f);
+    const bool reads_maps = drawn_light_ && !drawn_light_->has_exact_shadows;
+    const auto visible = [&](const shading::Lamp& lamp, vec3 position, vec3 normal) {
+      if (reads_maps) return lamps_->visible(lamp, position, normal);
+      ++ray_count;
+      return rays_.is_blocked(ray_to_lamp(lamp, position, normal)) ? 0.0f : 1.0f;
+    };
+    shading::LampLookup lookup{*lamps_, visible};
+    return shading::lamp_radiance(s, to_viewer,
+                                  lookup.lamp_light(s, point.position, point.geometric_normal, to_viewer));
   }
 
   /// What a surface mirrors that no ray is traced for: the share of the sky that it sees.
@@ -238,6 +263,8 @@ class Tracer {
   const RayScene& rays_;
   const shading::SkyLight& sky_;
   const shading::DrawnLight* drawn_light_;
+  shading::LampTable own_lamps_;  ///< where nothing was drawn
+  const shading::LampTable* lamps_ = nullptr;
   SunDisc sun_disc_;
   int mirror_bounces_;
   bool mirrors_see_themselves_;

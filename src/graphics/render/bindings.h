@@ -17,6 +17,9 @@ enum TextureUnit : GLuint {
   shadow_unit,
   sky_visibility_unit,
   traced_sun_unit,
+  lamp_table_unit,
+  lamp_maps_unit,
+  bounced_light_unit,
   first_unit_above,
   first_drawable_unit = 24
 };
@@ -27,9 +30,10 @@ enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_bl
 /// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
 /// sky_lookup.glsl or sun_lookup.glsl.
 inline void assign_bindings(const gl::Program& program) {
-  constexpr const char* samplers[]{"base_colour_texture",    "normal_texture",    "surface_texture",
-                                   "emission_texture",       "sky_texture",       "shadow_maps",
-                                   "sky_visibility_texture", "traced_sun_texture"};
+  constexpr const char* samplers[]{
+      "base_colour_texture", "normal_texture", "surface_texture",        "emission_texture",
+      "sky_texture",         "shadow_maps",    "sky_visibility_texture", "traced_sun_texture",
+      "lamp_table",          "lamp_maps",      "bounced_light_texture"};
   for (GLuint unit = 0; unit < first_unit_above; ++unit) program.set(samplers[unit], int(unit));
   constexpr const char* blocks[]{"Frame", "Material", "Bodies"};
   for (GLuint binding = 0; binding < first_block_above; ++binding)

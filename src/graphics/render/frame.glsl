@@ -19,4 +19,8 @@ UNIFORM_BLOCK(Frame) {
   vec4 frame_size;          // pixels; z: levels of the sky
   vec4 frame_visibility_origin;  // of the sky visibility grid; w: lift
   vec4 frame_visibility_size;
+  vec4 frame_lamps;           // xy: corner of the grid of lamps; z: metres per cell
+  vec4 frame_lamp_cells;      // xy: cells of the grid; z: texel at which lamps begin
+  vec4 frame_bounced_origin;  // of the grid of bounced light; w: lift
+  vec4 frame_bounced_size;    // w: layers; 0: there is none
 };

@@ -1,9 +1,13 @@
-// The light that meets a surface: sun and sky of the frame, and how much of both reaches the point.
-SceneLight scene_light() {
+// The light that meets a surface: sun, sky and bounced light of the frame, and how much of sun and sky reaches
+// the point.
+SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
   SceneLight light;
   light.to_sun = to_sun_at(position);
   light.sun_irradiance = frame_sun_irradiance.rgb;
   for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
+  BouncedSides bounced = bounced_light_at(position, geometric_normal, normal);
+  light.bounced = bounced.front;
+  light.bounced_behind = bounced.behind;
   light.haze_radiance = frame_haze.rgb;
   light.haze_per_m = frame_to_sun.w;
   return light;

@@ -86,11 +86,15 @@ class Renderer {
   /// The same light without shadow maps, for exact shadow rays: no readback, so frames may use it. Good until
   /// the next frame begins.
   shading::DrawnLight drawn_light_without_shadows() const {
-    return {{}, &light_->sky_visibility(), &body_shade_, true};
+    return {{}, &light_->sky_visibility(), &body_shade_, true, light_->lamps(), light_->bounced()};
   }
   /// A readback: for pictures that are traced. Points to the renderer's own: good until the next frame
   /// begins.
-  shading::DrawnLight drawn_light() const { return light_->drawn_light(body_shade_); }
+  shading::DrawnLight drawn_light() const {
+    shading::DrawnLight drawn = light_->drawn_light(body_shade_);
+    drawn.lamps = light_->lamps(), drawn.bounced = light_->bounced();
+    return drawn;
+  }
 
  private:
   Renderer(const scene::Scene& scene, SceneDrawable drawable,

@@ -26,6 +26,8 @@ GLSL_FUNCTION vec3 checked_shading(float x, float y) {
   light.to_sun = case_direction(x, y, 13.0f);
   light.sun_irradiance = vec3(3.0f, 2.75f, 2.35f);
   for (int i = 0; i < 9; ++i) light.sky_sh[i] = vec3(case_number(x, y, 16.0f + float(i)));
+  light.bounced = vec3(0.3f * case_number(x, y, 40.0f), 0.1f, 0.2f);
+  light.bounced_behind = vec3(0.1f, 0.2f, 0.3f * case_number(x, y, 41.0f));
   light.haze_radiance = vec3(0.5f, 0.6f, 0.7f);
   light.haze_per_m = 0.002f;
 

@@ -3,9 +3,14 @@
 #include "graphics/render/bindings.h"
 #include "graphics/render/fixed_parts.h"
 #include "graphics/render/regions.h"
+#include "scene/data/bounced_settings.h"
 
 namespace parvis::render {
 namespace {
+
+shading::WallLight wall_light(const scene::Scene& scene) {
+  return scene.data<scene::BouncedSettings>().is_on ? shading::WallLight::none : shading::WallLight::constant;
+}
 
 /// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
 shading::Heightfield heights_of(const scene::Scene& scene) {
@@ -73,7 +78,7 @@ SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
     : source_(source_of(scene.sky)),
       light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
       heights_(heights_of(scene)),
-      visibility_(shading::make_sky_visibility(heights_)),
+      visibility_(shading::make_sky_visibility(heights_, wall_light(scene))),
       program_(std::move(program)),
       picture_(upload(light_)),
       cells_(upload(visibility_)),
@@ -98,7 +103,7 @@ void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gp
   std::vector<Bounds> changed = change.gone;
   changed.insert(changed.end(), change.come.begin(), change.come.end());
   for (const Bounds& region : united(std::move(changed), shading::sky_visibility_reach_m))
-    shading::renew_sky_visibility(visibility_, heights_, region);
+    shading::renew_sky_visibility(visibility_, heights_, region, wall_light(scene));
   cells_ = upload(visibility_);
 }
 

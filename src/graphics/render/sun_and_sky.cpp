@@ -47,6 +47,7 @@ void SunAndSky::fill(Frame& frame) const {
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   frame.frame_visibility_origin = glm::vec4(grid.origin, grid.lift_m);
   frame.frame_visibility_size = glm::vec4(grid.size_m, 0.0f);
+  frame.frame_lamps = glm::vec4(0.0f, 0.0f, 1.0f, 0.0f);  // none: sources above fill these
 }
 
 }  // namespace parvis::render

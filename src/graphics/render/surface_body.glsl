@@ -11,6 +11,8 @@
 //   WRITES_DEPTH    depth alone
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
+#include "graphics/render/bounced_lookup.glsl"
+#include "graphics/render/lamp_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/shading/surface.glsl"
@@ -80,7 +82,7 @@ vec3 light_through(vec3 ahead) {
 // Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets
 // in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
-  SceneLight light = scene_light();
+  SceneLight light = scene_light(seen.normal, s.normal);
   sun *= visible_light(seen);
   look_along(position, reflect(-seen.to_viewer, s.normal));
   vec3 base_reflection = REFLECTION_OVERLAY(reflected_radiance(s.roughness, base_layer), s.roughness);
@@ -97,6 +99,7 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   vec3 light_out =
       lit_radiance(s, light, seen.to_viewer, sun, sky_share_of_normal(surface_sky_cell, s.normal),
                    base_reflection, coat_reflection);
+  light_out += lamp_radiance(s, seen.to_viewer, lamp_light(s, position, seen.normal, seen.to_viewer));
   return through_haze(light_out, seen.distance_m, light.haze_per_m, light.haze_radiance);
 }
 #endif

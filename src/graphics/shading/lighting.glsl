@@ -5,6 +5,8 @@ struct SceneLight {
   vec3 to_sun;          // unit
   vec3 sun_irradiance;  // on a plane that faces the sun
   vec3 sky_sh[9];       // irradiance of the sky, shading/sky.glsl
+  vec3 bounced;         // irradiance by other surfaces, shading/bounced_light.glsl
+  vec3 bounced_behind;  // the same on the other side
   vec3 haze_radiance;
   float haze_per_m;
 };
@@ -15,8 +17,8 @@ struct SceneLight {
 GLSL_FUNCTION vec3 lit_radiance(Surface s, SceneLight light, vec3 to_viewer, float sun_visible,
                                 float sky_visible, vec3 base_reflection, vec3 coat_reflection) {
   vec3 sun = direct_radiance(s, to_viewer, light.to_sun, sun_visible * light.sun_irradiance);
-  vec3 irradiance = sky_visible * sky_irradiance(light.sky_sh, s.normal);
-  vec3 irradiance_behind = sky_visible * sky_irradiance(light.sky_sh, -s.normal);
+  vec3 irradiance = sky_visible * sky_irradiance(light.sky_sh, s.normal) + light.bounced;
+  vec3 irradiance_behind = sky_visible * sky_irradiance(light.sky_sh, -s.normal) + light.bounced_behind;
   return sun +
          ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
 }

@@ -36,7 +36,9 @@ struct OpenSky {
 
   /// The stored cell: hidden directions show walls and those below the horizon show ground, both lit by the
   /// same sky.
-  vec4 cell() const {
+  vec4 cell(WallLight walls) const {
+    if (walls == WallLight::none)
+      return vec4(direction / (2.0f * pi_f) + vec3(0.5f), solid_angle / (4.0f * pi_f));
     const float open = solid_angle / (2.0f * pi_f);
     const float wall = wall_albedo * open;
     const vec3 up(0.0f, 0.0f, pi_f);
@@ -72,7 +74,7 @@ Grid layout(const Bounds& bounds) {
   return grid;
 }
 
-void fill_column(Grid& grid, const Heightfield& heights, int x, int y) {
+void fill_column(Grid& grid, const Heightfield& heights, WallLight walls, int x, int y) {
   const glm::vec2 centre =
       glm::vec2(grid.origin) + (glm::vec2(grid.first + glm::ivec2(x, y)) + 0.5f) * glm::vec2(grid.cell_m);
   std::array<glm::vec2, directions> azimuths;
@@ -94,7 +96,7 @@ void fill_column(Grid& grid, const Heightfield& heights, int x, int y) {
       sky.add_sector(azimuths[d], horizon);
     }
     const std::size_t cell = grid.index(x, y, z);
-    grid.values[cell] = sky.cell();
+    grid.values[cell] = sky.cell(walls);
     grid.is_air[cell] = eye_m > floor_m;
   }
 }
@@ -121,12 +123,12 @@ void fill_solid_cells(Grid& grid) {
   });
 }
 
-void fill(Grid& grid, const Heightfield& heights) {
+void fill(Grid& grid, const Heightfield& heights, WallLight walls) {
   const std::size_t count = grid.index(0, 0, grid.cells.z);
   grid.values.assign(count, vec4(0.0f));
   grid.is_air.assign(count, 0);
   parallel_for(std::size_t(grid.cells.y), [&](std::size_t y) {
-    for (int x = 0; x < grid.cells.x; ++x) fill_column(grid, heights, x, int(y));
+    for (int x = 0; x < grid.cells.x; ++x) fill_column(grid, heights, walls, x, int(y));
   });
   fill_solid_cells(grid);
 }
@@ -138,10 +140,10 @@ void store(const vec4& value, std::uint8_t* four_bytes) {
 
 }  // namespace
 
-SkyVisibility make_sky_visibility(const Heightfield& heights) {
+SkyVisibility make_sky_visibility(const Heightfield& heights, WallLight walls) {
   if (heights.bounds().empty()) return {};
   Grid grid = layout(heights.bounds());
-  fill(grid, heights);
+  fill(grid, heights, walls);
 
   SkyVisibility result;
   result.grid = {grid.origin, grid.cell_m * vec3(grid.cells), 0.5f * grid.cell_m.x};
@@ -151,11 +153,12 @@ SkyVisibility make_sky_visibility(const Heightfield& heights) {
   return result;
 }
 
-void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed) {
+void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed,
+                          WallLight walls) {
   if (heights.bounds().empty()) return;
   const Grid whole = layout(heights.bounds());
   if (whole.cells != visibility.cells || whole.origin != visibility.grid.origin) {
-    visibility = make_sky_visibility(heights);
+    visibility = make_sky_visibility(heights, walls);
     return;
   }
   // A change is seen from as far as horizons are looked for; a margin of one cell feeds the solid ones.
@@ -171,7 +174,7 @@ void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights,
   Grid part = whole;
   part.cells = glm::ivec3(end - first, whole.cells.z);
   part.first = first;
-  fill(part, heights);
+  fill(part, heights, walls);
   for (int z = 0; z < whole.cells.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)

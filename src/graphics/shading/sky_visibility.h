@@ -22,14 +22,21 @@ struct SkyVisibility {
   glm::vec4 at(glm::vec3 coordinates) const;
 };
 
+/// What stands for light that surfaces throw at each other.
+enum class WallLight : std::uint8_t {
+  constant,  ///< walls and ground give back a share of the sky that they see
+  none       ///< it is added elsewhere: shading/bounced_light.h
+};
+
 /// Cells of about 4 x 4 x 3 m. An empty place is open.
-SkyVisibility make_sky_visibility(const Heightfield& heights);
+SkyVisibility make_sky_visibility(const Heightfield& heights, WallLight walls = WallLight::constant);
 
 /// As far as heights are looked at from a cell.
 inline constexpr float sky_visibility_reach_m = 75.0f;
 
 /// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless
 /// the place's bounds are others now.
-void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed);
+void renew_sky_visibility(SkyVisibility& visibility, const Heightfield& heights, const Bounds& changed,
+                          WallLight walls = WallLight::constant);
 
 }  // namespace parvis::shading

@@ -69,7 +69,11 @@ class Stage {
   gl::PassTimes& pass_times() { return pass_times_; }
 
   /// Activates another scenario (empty: the base scene) from the next frame on; loads nothing.
-  Status choose_scenario(const std::string& name) { return play_.live().choose(play_.scene, name); }
+  Status choose_scenario(const std::string& name) {
+    Status status = play_.live().choose(play_.scene, name);
+    play_.clock.follow(play_.scene);
+    return status;
+  }
   /// Replaces the reflection method. Fails if its shaders or its data cannot be prepared.
   Status set_reflection(const methods::Settings& reflection);
 

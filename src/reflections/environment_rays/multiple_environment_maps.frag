@@ -7,6 +7,8 @@
 // light on the ground.
 #include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
+#include "graphics/render/bounced_lookup.glsl"
+#include "graphics/render/lamp_lookup.glsl"
 #include "graphics/render/sky_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/shading/octahedral.glsl"

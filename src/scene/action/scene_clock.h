@@ -22,6 +22,8 @@ class SceneClock {
 
   /// Lets `seconds` >= 0 pass: as many steps as have come due, then the moment after the last.
   void advance(scene::Scene& scene, double seconds, const Observer& observer = {});
+  /// Shows the present moment once more, after another scenario has been chosen, say.
+  void follow(scene::Scene& scene) { present(scene, due_s_); }
 
   /// A message from outside of the scene (a panel, the command line), delivered in the next step.
   Status send(const std::string& target, const std::string& message);

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "graphics/bounced_light/bounced_over.h"
+#include "graphics/bounced_light/transfer.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/reference/photograph.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/renderer.h"
+#include "scene/data/test_scene.h"
+
+namespace parvis::bounced_light {
+namespace {
+
+using glm::vec3;
+
+Bounds bounds_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects) bounds.add(scene::bounds(*object.model));
+  return bounds;
+}
+
+/// A narrow street whose eastern wall is in the sun, the western one, red, in its own shadow.
+scene::Scene street() {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(40), scene::matt(vec3(0.4f))));
+  add(scene, scene::model_of(scene::box({-14, -30, 0}, {-6, 30, 12}), scene::matt(vec3(0.7f, 0.3f, 0.2f))));
+  add(scene, scene::model_of(scene::box({6, -30, 0}, {14, 30, 12}), scene::matt(vec3(0.7f))));
+  scene.sun.direction_to_sun = glm::normalize(vec3(-0.5f, 0.1f, 0.9f));
+  scene.sun.irradiance = vec3(9.0f, 8.5f, 7.5f);
+  scene.data<scene::BouncedSettings>() = {true, 3.0f, 128};
+  return scene;
+}
+
+shading::SkyLight sky_of(const scene::Scene& scene) {
+  return shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
+}
+
+TEST(Transfer, GroundGivesBackItsAlbedoOfTheLight) {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f, 0.4f, 0.3f))));
+  scene.sun.direction_to_sun = glm::normalize(vec3(0.3f, 0.2f, 0.8f));
+  scene.sky.intensity = 0.0f;
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, bounds_of(scene), {true, 4.0f, 256});
+  const shading::BouncedLight light = transfer.light(scene.sun, sky_of(scene));
+  const vec3 expected = vec3(0.5f, 0.4f, 0.3f) * scene.sun.irradiance * scene.sun.direction_to_sun.z;
+  const vec3 down = light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {0, 0, -1});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(down[c], expected[c], 0.05f * expected[c]);
+  const vec3 wall = light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {1, 0, 0});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(wall[c], 0.5f * expected[c], 0.06f * expected[c]);
+  EXPECT_LT(light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {0, 0, 1}).x, 0.02f * expected.x);
+}
+
+TEST(Transfer, IsLinearInSunAndSky) {
+  scene::Scene scene = street();
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, bounds_of(scene), {true, 6.0f, 64});
+  const auto at = [&](float sun, float sky) {
+    scene::Scene other = scene;
+    other.sun.irradiance *= sun, other.sky.intensity *= sky;
+    return transfer.light(other.sun, sky_of(other)).irradiance({-5.9f, 0, 2}, {1, 0, 0}, {1, 0, 0}).x;
+  };
+  EXPECT_GT(at(1, 1), 0.1f);
+  EXPECT_NEAR(at(3, 3), 3 * at(1, 1), 1e-4f * at(3, 3));
+  // Cells have one colour each, so that mixing between cells of several colours is not quite linear.
+  EXPECT_NEAR(at(1, 0) + at(0, 1), at(1, 1), 0.015f * at(1, 1));
+  EXPECT_NEAR(at(3, 2), 3 * at(1, 0) + 2 * at(0, 1), 0.015f * at(3, 2));
+}
+
+TEST(Transfer, PlacesInsideOfThingsAreNone) {
+  const scene::Scene scene = street();
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, bounds_of(scene), {true, 3.0f, 64});
+  const shading::BouncedLight light = transfer.light(scene.sun, sky_of(scene));
+  EXPECT_LT(transfer.place_count(), light.lobes.size());
+  for (const glm::vec4 lobe : light.lobes) ASSERT_TRUE(std::isfinite(lobe.x + lobe.y + lobe.z + lobe.w));
+  const Transfer nothing(scene, rays, Bounds(), {true, 3.0f, 64});
+  EXPECT_TRUE(nothing.light(scene.sun, sky_of(scene)).empty());
+}
+
+class BouncedPicture : public gl::ContextTest {};
+
+/// What path-traced photographs of the shaded wall show that sun and sky alone do not.
+TEST_F(BouncedPicture, IsNearerToThePhotographThanTheConstant) {
+  constexpr int size = 64;
+  scene::Scene scene = street();
+  Camera camera;
+  camera.world_from_camera = look_at({2, -12, 2.5f}, {-5, 4, 3});
+  camera.vertical_fov = 0.9f;
+  const reference::RayScene rays(scene);
+  reference::PhotographOptions options;
+  options.samples_per_pixel = 256;
+  const auto truth = reference::take_photograph(rays, scene, sky_of(scene), camera, size, size, options);
+  ASSERT_TRUE(truth) << to_string(truth.errors());
+  const auto error = [&](bool is_bounced) {
+    scene.data<scene::BouncedSettings>().is_on = is_bounced;
+    auto renderer = render::Renderer::create(scene, {}, with_bounced_light(render::sun_and_sky));
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    (*renderer)->begin_frame(scene, camera);
+    (*renderer)->prepare_main_view(camera, size, size);
+    (*renderer)->draw_main_view();
+    const ImageF picture = (*renderer)->read_radiance();
+    double off = 0.0, sum = 0.0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        for (int c = 0; c < 3; ++c) {
+          const double expected = double(truth->radiance.at(x, y)[c]);
+          off += std::abs(double(picture.at(x, y)[c]) - expected), sum += expected;
+        }
+    // The ray tracer reads the same light.
+    const shading::DrawnLight light = (*renderer)->drawn_light();
+    EXPECT_EQ(light.bounced != nullptr, is_bounced);
+    reference::TraceOptions tracing;
+    tracing.drawn_light = &light, tracing.samples_per_pixel = 4;
+    const ImageF traced =
+        reference::trace_picture(rays, scene, (*renderer)->sky(), camera, size, size, tracing).radiance;
+    double apart = 0.0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) apart += double(std::abs(picture.at(x, y)[0] - traced.at(x, y)[0]));
+    EXPECT_LT(apart / (sum / 3.0), 0.03);
+    return off / sum;
+  };
+  const double with = error(true), without = error(false);
+  std::printf("mean difference to the photograph: %.1f %% with, %.1f %% without bounced light\n", 100 * with,
+              100 * without);
+  EXPECT_LT(with, 0.6 * without);
+}
+
+}  // namespace
+}  // namespace parvis::bounced_light

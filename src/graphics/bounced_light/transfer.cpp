@@ -1,0 +1,327 @@
+#include "graphics/bounced_light/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "base/colour.h"
+#include "base/parallel.h"
+#include "graphics/reference/shading_point.h"
+
+namespace parvis::bounced_light {
+namespace {
+
+using glm::ivec3, glm::vec3, glm::vec4;
+
+constexpr float pi_f = 3.14159265f;
+constexpr float max_cells = 150'000.0f;
+constexpr float cell_height_share = 0.75f;  // of the spacing from side to side: light changes most upward
+constexpr float patch_share = 0.75f;        // of the spacing: side of a patch
+constexpr float inside_share = 0.25f;       // of rays that meet backs: the place is inside of something
+constexpr std::size_t places_at_once = 4096;
+constexpr std::size_t points_per_patch = 16;  // where rays to the sky begin
+constexpr int ray_sets = 8;                   // neighbouring places look in other directions
+constexpr float golden_turn = 2.39996323f;
+
+/// Evenly over the sphere, turned about the zenith.
+vec3 ray_direction(int ray, int rays, int set) {
+  const float z = 1.0f - 2.0f * (float(ray) + (float(set) + 0.5f) / float(ray_sets)) / float(rays);
+  const float across = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  const float turn = golden_turn * float(ray) + 0.7853982f * float(set);
+  return {across * std::cos(turn), across * std::sin(turn), z};
+}
+
+int ray_set(std::uint32_t cell) { return int((cell * 2654435761u) >> 29); }
+
+struct Seen {
+  vec3 position, normal, albedo;
+  bool is_back = false;
+};
+
+/// Where a ray goes on behind a hit.
+float past(float distance_m) { return distance_m * (1.0f + 1e-5f) + 1e-4f; }
+
+bool is_dynamic(const scene::Scene& scene, int object) {
+  return object < int(scene.objects.size()) && scene.objects[std::size_t(object)].is_dynamic;
+}
+
+bool is_single_sided(const reference::PlacedPart& part) {
+  return part.surface ? !part.surface->is_double_sided() : !part.material->is_double_sided;
+}
+
+/// The nearest static surface, its back, too; `width_m` of it is seen at once.
+std::optional<Seen> seen_along(const scene::Scene& scene, const reference::RayScene& rays, reference::Ray ray,
+                               float width_m, std::uint64_t chance) {
+  reference::Passage passage{Random(chance)};
+  while (const std::optional<reference::Hit> hit = rays.nearest_hit(ray, passage)) {
+    if (!is_dynamic(scene, hit->place->object)) {
+      const reference::ShadingPoint point = reference::shading_point(*hit, ray.direction, width_m);
+      return Seen{ray.origin + hit->distance_m * ray.direction, point.geometric_normal,
+                  (1.0f - point.surface.metallic) * point.surface.base_colour,
+                  point.is_back && is_single_sided(*hit->place)};
+    }
+    ray.min_m = past(hit->distance_m);
+  }
+  return std::nullopt;
+}
+
+bool sees_sky(const scene::Scene& scene, const reference::RayScene& rays, reference::Ray ray,
+              std::uint64_t chance) {
+  reference::Passage passage{Random(chance)};
+  if (!rays.is_blocked(ray, passage)) return true;
+  while (const std::optional<reference::Hit> hit = rays.nearest_hit(ray, passage)) {
+    if (!is_dynamic(scene, hit->place->object)) return false;
+    ray.min_m = past(hit->distance_m);
+  }
+  return true;
+}
+
+/// Of which patch a point is: its cell, and the axis that its normal is nearest to.
+std::uint64_t patch_key(vec3 position, vec3 normal, vec3 origin, float side_m) {
+  const ivec3 cell(glm::floor((position + 0.1f * normal - origin) / side_m));
+  const vec3 size = glm::abs(normal);
+  const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  const std::uint64_t facing = std::uint64_t(2 * axis + (normal[axis] > 0.0f ? 1 : 0));
+  const auto part = [](int value) { return std::uint64_t(std::uint32_t(value + (1 << 19)) & 0xfffffu); };
+  return (part(cell.x) << 43) | (part(cell.y) << 23) | (part(cell.z) << 3) | facing;
+}
+
+/// Patches while what is seen of them is added up.
+struct PatchSums {
+  std::unordered_map<std::uint64_t, std::int32_t> numbers;
+  std::vector<Patch> patches;
+  std::vector<float> counts;
+  std::vector<std::vector<vec3>> points;  ///< of each patch, where rays to the sky begin
+
+  /// The number of the patch that was seen.
+  std::int32_t add(const Seen& seen, vec3 origin, float side_m) {
+    const std::uint64_t key = patch_key(seen.position, seen.normal, origin, side_m);
+    const auto [entry, is_new] = numbers.try_emplace(key, std::int32_t(patches.size()));
+    if (is_new) {
+      patches.push_back({.normal = vec3(0.0f)});
+      counts.push_back(0.0f), points.emplace_back();
+    }
+    const auto i = std::size_t(entry->second);
+    patches[i].position += seen.position, patches[i].normal += seen.normal;
+    patches[i].albedo += seen.albedo, counts[i] += 1.0f;
+    if (points[i].size() < points_per_patch) points[i].push_back(seen.position + 0.01f * seen.normal);
+    return entry->second;
+  }
+
+  std::vector<Patch> means() const {
+    std::vector<Patch> result = patches;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i].position /= counts[i], result[i].albedo /= counts[i];
+      const float length = glm::length(result[i].normal);
+      result[i].normal = length > 1e-6f ? result[i].normal / length : vec3(0.0f, 0.0f, 1.0f);
+    }
+    return result;
+  }
+};
+
+}  // namespace
+
+const std::array<vec3, sky_directions>& directions_of_sky() {
+  static const std::array<vec3, sky_directions> even = [] {
+    std::array<vec3, sky_directions> result;
+    for (int i = 0; i < sky_directions; ++i) {
+      const float z = (float(i) + 0.5f) / float(sky_directions), across = std::sqrt(1.0f - z * z),
+                  turn = golden_turn * float(i);
+      result[std::size_t(i)] = {across * std::cos(turn), across * std::sin(turn), z};
+    }
+    return result;
+  }();
+  return even;
+}
+
+void Transfer::lay_out(const Bounds& fixed, float spacing_m) {
+  vec3 cell_m(spacing_m, spacing_m, cell_height_share * spacing_m);
+  const vec3 size = fixed.size() + vec3(2.0f, 2.0f, 1.0f) * cell_m;
+  const float wanted = (size.x / cell_m.x) * (size.y / cell_m.y) * (size.z / cell_m.z);
+  if (wanted > max_cells) cell_m *= std::cbrt(wanted / max_cells);
+  cells_ = glm::max(ivec3(glm::ceil(size / cell_m)), ivec3(1));
+  const vec3 origin = fixed.min - vec3(cell_m.x, cell_m.y, 0.25f * cell_m.z);
+  grid_ = {origin, cell_m * vec3(cells_), 0.4f * cell_m.x, float(cells_.z)};
+}
+
+std::size_t Transfer::index(ivec3 cell) const {
+  return (std::size_t(cell.z) * std::size_t(cells_.y) + std::size_t(cell.y)) * std::size_t(cells_.x) +
+         std::size_t(cell.x);
+}
+
+vec3 Transfer::middle(std::size_t cell) const {
+  const int x = int(cell) % cells_.x, y = int(cell) / cells_.x % cells_.y,
+            z = int(cell) / cells_.x / cells_.y;
+  return grid_.origin + (vec3(x, y, z) + 0.5f) * grid_.size_m / vec3(cells_);
+}
+
+Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays, const Bounds& fixed,
+                   const scene::BouncedSettings& settings)
+    : rays_(settings.rays) {
+  if (fixed.empty()) return;
+  lay_out(fixed, settings.spacing_m);
+  const std::size_t count = std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z);
+  const float side_m = patch_share * grid_.size_m.x / float(cells_.x);
+  is_air_.assign(count, 0);
+
+  // What each place sees, some places at a time: lists of all hits would take hundreds of megabytes.
+  PatchSums sums;
+  std::vector<std::vector<std::optional<Seen>>> seen(places_at_once);
+  for (std::size_t first = 0; first < count; first += places_at_once) {
+    const std::size_t size = std::min(places_at_once, count - first);
+    parallel_for(
+        size,
+        [&](std::size_t i) {
+          const std::size_t cell = first + i;
+          int backs = 0;
+          seen[i].clear();
+          for (int r = 0; r < rays_; ++r) {
+            const vec3 direction = ray_direction(r, rays_, ray_set(std::uint32_t(cell)));
+            seen[i].push_back(seen_along(scene, rays, {middle(cell), direction}, side_m,
+                                         cell * std::size_t(rays_) + std::size_t(r)));
+            backs += seen[i].back() && seen[i].back()->is_back;
+          }
+          is_air_[cell] = float(backs) <= inside_share * float(rays_);
+        },
+        64);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!is_air_[first + i]) continue;
+      air_.push_back(std::uint32_t(first + i));
+      for (const std::optional<Seen>& hit : seen[i])
+        seen_.push_back(hit && !hit->is_back ? sums.add(*hit, grid_.origin, side_m) : -1);
+    }
+  }
+  patches_ = sums.means();
+  see_sky(scene, rays, sums.points);
+}
+
+/// Each direction from another point of the patch, so that a patch half in shadow sees half of the sun.
+void Transfer::see_sky(const scene::Scene& scene, const reference::RayScene& rays,
+                       const std::vector<std::vector<vec3>>& points) {
+  parallel_for(
+      patches_.size(),
+      [&](std::size_t i) {
+        for (std::size_t d = 0; d < std::size_t(sky_directions); ++d) {
+          const vec3 direction = directions_of_sky()[d];
+          if (glm::dot(direction, patches_[i].normal) <= 0.0f) continue;
+          const vec3 from = points[i][(7 * d + i) % points[i].size()];
+          if (sees_sky(scene, rays, {from, direction}, std::uint64_t(sky_directions) * i + d))
+            patches_[i].sees_sky[d / 64] |= std::uint64_t(1) << (d % 64);
+        }
+      },
+      64);
+}
+
+/// Of each patch by sun and sky.
+std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const {
+  const auto& directions = directions_of_sky();
+  constexpr float solid_angle = 2.0f * pi_f / float(sky_directions);
+  const float level = shading::sky_level(0.35f, float(sky.levels.size()));  // as wide as a direction
+  std::array<vec3, sky_directions> sky_light;
+  for (std::size_t d = 0; d < directions.size(); ++d)
+    sky_light[d] = solid_angle * shading::sky_radiance(sky, directions[d], level);
+  // The sun between the directions nearest to it.
+  const vec3 to_sun = glm::normalize(sun.direction_to_sun);
+  std::array<float, sky_directions> sun_share{};
+  float sum = 0.0f;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    const float near = glm::dot(directions[d], to_sun);
+    constexpr float edge = 0.965f;  // 15 degrees
+    sun_share[d] = std::max(near - edge, 0.0f) * std::max(near - edge, 0.0f), sum += sun_share[d];
+  }
+  for (float& share : sun_share) share = sum > 0.0f ? share / sum : 0.0f;
+
+  std::vector<vec3> irradiance(patches_.size());
+  parallel_for(
+      patches_.size(),
+      [&](std::size_t i) {
+        const Patch& patch = patches_[i];
+        vec3 from_sky(0.0f);
+        float sees_sun = 0.0f;
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+          const float open = float(patch.sees_sky[d / 64] >> (d % 64) & 1);
+          from_sky += open * std::max(glm::dot(directions[d], patch.normal), 0.0f) * sky_light[d];
+          sees_sun += open * sun_share[d];
+        }
+        irradiance[i] = from_sky + sees_sun * std::max(glm::dot(to_sun, patch.normal), 0.0f) * sun.irradiance;
+      },
+      256);
+  return irradiance;
+}
+
+/// Sums of what places see, as two bands of spherical harmonics of irradiance.
+void Transfer::gather(const std::vector<vec3>& radiance, shading::BouncedLight& light) const {
+  std::vector<vec3> directions(std::size_t(ray_sets * rays_));
+  for (int set = 0; set < ray_sets; ++set)
+    for (int r = 0; r < rays_; ++r) directions[std::size_t(set * rays_ + r)] = ray_direction(r, rays_, set);
+  parallel_for(
+      air_.size(),
+      [&](std::size_t i) {
+        const std::int32_t* seen = seen_.data() + i * std::size_t(rays_);
+        const vec3* ways = directions.data() + ray_set(air_[i]) * rays_;
+        vec3 sum(0.0f), along(0.0f);
+        for (int r = 0; r < rays_; ++r) {
+          if (seen[r] < 0) continue;
+          const vec3 from = radiance[std::size_t(seen[r])];
+          sum += from, along += luminance(from) * ways[r];
+        }
+        const float brightness = luminance(sum);
+        light.lobes[air_[i]] = vec4(2.0f * pi_f / float(rays_) * along, pi_f / float(rays_) * brightness);
+        light.colours[air_[i]] = brightness > 0.0f ? sum / brightness : vec3(1.0f);
+      },
+      256);
+  fill_walls(light);
+}
+
+/// Cells inside of things take the mean of the air beside them: what is mixed between cells is then not
+/// darkened at walls.
+void Transfer::fill_walls(shading::BouncedLight& light) const {
+  parallel_for(std::size_t(cells_.z), [&](std::size_t layer) {
+    const int z = int(layer);
+    for (int y = 0; y < cells_.y; ++y)
+      for (int x = 0; x < cells_.x; ++x) {
+        const std::size_t cell = index({x, y, z});
+        if (is_air_[cell]) continue;
+        vec4 lobe(0.0f);
+        vec3 colour(0.0f);
+        float count = 0.0f;
+        for (int dz = -1; dz <= 1; ++dz)
+          for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+              const std::size_t beside =
+                  index(glm::clamp(ivec3(x + dx, y + dy, z + dz), ivec3(0), cells_ - 1));
+              if (is_air_[beside])
+                lobe += light.lobes[beside], colour += light.colours[beside], count += 1.0f;
+            }
+        light.lobes[cell] = count > 0.0f ? lobe / count : vec4(0.0f);
+        light.colours[cell] = count > 0.0f ? colour / count : vec3(1.0f);
+      }
+  });
+}
+
+shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyLight& sky,
+                                      int bounces) const {
+  shading::BouncedLight light;
+  if (patches_.empty()) return light;
+  light.grid = grid_, light.cells = cells_;
+  light.lobes.assign(is_air_.size(), vec4(0.0f));
+  light.colours.assign(is_air_.size(), vec3(1.0f));
+  const std::vector<vec3> direct = direct_irradiance(sun, sky);
+  std::vector<vec3> radiance(patches_.size());
+  for (int bounce = 0; bounce < bounces; ++bounce) {
+    parallel_for(
+        patches_.size(),
+        [&](std::size_t i) {
+          const Patch& patch = patches_[i];
+          const vec3 again =
+              bounce == 0 ? vec3(0.0f) : light.irradiance(patch.position, patch.normal, patch.normal);
+          radiance[i] = patch.albedo / pi_f * (direct[i] + again);
+        },
+        256);
+    gather(radiance, light);
+  }
+  return light;
+}
+
+}  // namespace parvis::bounced_light

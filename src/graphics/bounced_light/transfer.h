@@ -1,0 +1,66 @@
+// Precomputed transfer of light from sun and sky by way of surfaces to a grid of places: rays are traced
+// once; then another sun or sky costs two products of sparse matrices with vectors. After Sloan, Kautz and
+// Snyder 2002 (precomputed radiance transfer), with patches of surface between light and places as in
+// Silvennoinen and Timonen 2015 (multi-scale global illumination in Quantum Break).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "graphics/reference/ray_scene.h"
+#include "graphics/shading/bounced_light.h"
+#include "graphics/shading/sky.h"
+#include "scene/data/bounced_settings.h"
+#include "scene/data/scene.h"
+
+namespace parvis::bounced_light {
+
+/// Directions over the upper hemisphere in which patches see the sky.
+inline constexpr int sky_directions = 128;
+/// Evenly spread; each stands for 2 pi / sky_directions steradians.
+const std::array<glm::vec3, sky_directions>& directions_of_sky();
+
+/// Some square metres of surface that face one way.
+struct Patch {
+  glm::vec3 position{0.0f}, normal{0.0f, 0.0f, 1.0f};  ///< means over the patch; unit normal
+  glm::vec3 albedo{0.0f};
+  std::array<std::uint64_t, sky_directions / 64> sees_sky{};  ///< a bit for each direction
+};
+
+/// The transfer of a scene's static geometry.
+class Transfer {
+ public:
+  /// Empty: no light arrives.
+  Transfer() = default;
+  /// Traces `settings.rays` rays from every place within `fixed`, and those from the patches to the sky.
+  Transfer(const scene::Scene& scene, const reference::RayScene& rays, const Bounds& fixed,
+           const scene::BouncedSettings& settings);
+
+  /// The light that arrives at every place after `bounces` surfaces or fewer.
+  shading::BouncedLight light(const scene::Sun& sun, const shading::SkyLight& sky, int bounces = 3) const;
+
+  /// How many places have light.
+  std::size_t place_count() const { return air_.size(); }
+  const std::vector<Patch>& patches() const { return patches_; }  ///< all surfaces that places see
+
+ private:
+  void lay_out(const Bounds& fixed, float spacing_m);
+  glm::vec3 middle(std::size_t cell) const;
+  std::size_t index(glm::ivec3 cell) const;
+  void see_sky(const scene::Scene& scene, const reference::RayScene& rays,
+               const std::vector<std::vector<glm::vec3>>& points);
+  std::vector<glm::vec3> direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const;
+  void gather(const std::vector<glm::vec3>& radiance, shading::BouncedLight& light) const;
+  void fill_walls(shading::BouncedLight& light) const;
+
+  shading::BouncedGrid grid_{glm::vec3(0.0f), glm::vec3(1.0f), 0.0f, 0.0f};
+  glm::ivec3 cells_{0};
+  int rays_ = 0;
+  std::vector<std::uint32_t> air_;    ///< cells that are not inside of things, ascending
+  std::vector<std::int32_t> seen_;    ///< `rays_` for each of them: a patch, or -1: the sky
+  std::vector<std::uint8_t> is_air_;  ///< by cell
+  std::vector<Patch> patches_;
+};
+
+}  // namespace parvis::bounced_light

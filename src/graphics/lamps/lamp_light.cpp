@@ -1,0 +1,149 @@
+#include "graphics/lamps/lamp_light.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/parallel.h"
+#include "graphics/lamps/lamp_maps.h"
+#include "graphics/reference/scene_lamps.h"
+#include "graphics/render/bindings.h"
+
+namespace parvis::lamps {
+namespace {
+
+constexpr int table_px = 256;  // texels in a row, as lamp_lookup.glsl has it
+constexpr int texels_per_lamp = 4;
+
+bool is_same(const shading::Lamp& a, const shading::Lamp& b) {
+  return a.place == b.place && glm::vec3(a.power) == glm::vec3(b.power) && a.axis == b.axis &&
+         a.body == b.body;
+}
+
+/// From where nothing but the place and the reach counts.
+bool has_same_map(const shading::Lamp& a, const shading::Lamp& b) {
+  return a.place == b.place && a.body.w == b.body.w;
+}
+
+int max_layers() {
+  GLint layers = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  return layers;
+}
+
+bool reaches(const shading::Lamp& lamp, const Bounds& region) {
+  const glm::vec3 middle(lamp.place);
+  return glm::distance(glm::clamp(middle, region.min, region.max), middle) < lamp.place.w;
+}
+
+}  // namespace
+
+LampLight::LampLight(std::unique_ptr<render::LightSource> below) : LightOver(std::move(below)) {}
+
+/// Makes the maps that are missing; true where there were any.
+bool LampLight::trace_maps(const scene::Scene& scene) {
+  if (std::ranges::all_of(is_mapped_, [](bool is_mapped) { return is_mapped; })) return false;
+  const reference::RayScene rays(scene);
+  parallel_for(still_.size(), [&](std::size_t i) {
+    if (!is_mapped_[i])
+      trace_map(scene, rays, still_[i], std::span(depths_).subspan(i * map_texels, map_texels));
+  });
+  is_mapped_.assign(still_.size(), true);
+  const int side = shading::lamp_map_px;
+  if (layers_ != int(still_.size())) {
+    layers_ = int(still_.size());
+    maps_ = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
+    glTextureStorage3D(maps_.name(), 1, GL_DEPTH_COMPONENT16, side, side, layers_);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTextureParameteri(maps_.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  }
+  glTextureSubImage3D(maps_.name(), 0, 0, 0, 0, side, side, layers_, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT,
+                      depths_.data());
+  return true;
+}
+
+bool LampLight::update(const scene::Scene& scene) {
+  const bool has_changed_below = LightOver::update(scene);
+  std::vector<shading::Lamp> still = reference::lit_lamps(scene, reference::LampKind::still);
+  moving_ = reference::lit_lamps(scene, reference::LampKind::moving);
+
+  const std::size_t layers = std::min(still.size(), std::size_t(max_layers()));
+  for (std::size_t i = 0; i < layers; ++i) still[i].power.w = float(i + 1);
+  const bool has_same_places = std::ranges::equal(still, still_, has_same_map);
+  const bool is_changed = !std::ranges::equal(still, still_, is_same);
+  still_ = std::move(still);
+  if (!has_same_places) {
+    is_mapped_.assign(layers, false);
+    depths_.assign(layers * map_texels, 65535);
+  }
+  return trace_maps(scene) || is_changed || has_changed_below;
+}
+
+void LampLight::renew(const scene::Scene& scene, const render::GpuScene& gpu,
+                      const render::FixedChange& change, const Bounds& fixed) {
+  LightOver::renew(scene, gpu, change, fixed);
+  for (std::size_t i = 0; i < is_mapped_.size(); ++i) {
+    const auto touches = [&](const Bounds& region) { return reaches(still_[i], region); };
+    if (std::ranges::any_of(change.gone, touches) || std::ranges::any_of(change.come, touches))
+      is_mapped_[i] = false;
+  }
+}
+
+/// Pictures of the static scene alone show no lamps of moving things, either.
+void LampLight::draw_shadows(const Camera& camera, std::span<const Bounds> moving,
+                             const render::DrawView& draw) {
+  std::vector<shading::Lamp> lamps = still_;
+  if (!moving.empty()) lamps.insert(lamps.end(), moving_.begin(), moving_.end());
+  show(std::move(lamps));
+  LightOver::draw_shadows(camera, moving, draw);
+}
+
+void LampLight::show(std::vector<shading::Lamp> lamps) {
+  if (lamps.empty() && table_.empty()) return;
+  table_ = shading::make_lamp_table(std::move(lamps));
+  table_.depths = depths_;
+  const std::size_t used = table_.near.size() + texels_per_lamp * table_.lamps.size();
+  const int rows = std::max(1, int((used + table_px - 1) / table_px));
+  texels_.assign(std::size_t(rows) * table_px, glm::uvec4(0u));
+  std::copy(table_.near.begin(), table_.near.end(), texels_.begin());
+  static_assert(sizeof(shading::Lamp) == texels_per_lamp * sizeof(glm::uvec4));
+  if (!table_.lamps.empty())
+    std::memcpy(texels_.data() + table_.near.size(), table_.lamps.data(),
+                table_.lamps.size() * sizeof(shading::Lamp));
+  if (rows > table_rows_) {
+    table_rows_ = rows;
+    table_texture_ = gl::Texture::create(GLenum(GL_TEXTURE_2D));
+    glTextureStorage2D(table_texture_.name(), 1, GL_RGBA32UI, table_px, rows);
+    glTextureParameteri(table_texture_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(table_texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  }
+  glTextureSubImage2D(table_texture_.name(), 0, 0, 0, table_px, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                      texels_.data());
+}
+
+void LampLight::bind() const {
+  LightOver::bind();
+  if (table_texture_) glBindTextureUnit(render::lamp_table_unit, table_texture_.name());
+  if (maps_) glBindTextureUnit(render::lamp_maps_unit, maps_.name());
+}
+
+void LampLight::fill(render::Frame& frame) const {
+  LightOver::fill(frame);
+  if (table_.empty()) return;
+  frame.frame_lamps = glm::vec4(table_.corner, table_.cell_m, 0.0f);
+  frame.frame_lamp_cells = glm::vec4(table_.cells, float(table_.near.size()), 0.0f);
+}
+
+render::MakeLight with_lamps(render::MakeLight below) {
+  return [below = std::move(below)](const scene::Scene& scene,
+                                    const Bounds& fixed) -> Result<std::unique_ptr<render::LightSource>> {
+    Result<std::unique_ptr<render::LightSource>> light = below(scene, fixed);
+    if (!light) return light.errors();
+    return std::unique_ptr<render::LightSource>(std::make_unique<LampLight>(*std::move(light)));
+  };
+}
+
+}  // namespace parvis::lamps

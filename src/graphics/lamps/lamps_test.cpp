@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "base/random.h"
+#include "base/test_folder.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/lamps/lamp_light.h"
+#include "graphics/lamps/lamp_process.h"
+#include "graphics/lamps/nodes_lamp.h"
+#include "graphics/light/light_nodes.h"
+#include "graphics/reference/photograph.h"
+#include "graphics/reference/scene_lamps.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/renderer.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/scene_builder.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::lamps {
+namespace {
+
+using glm::vec3;
+
+scene::Lamp lamp_at(vec3 position, float watts_per_sr = 20.0f, float reach_m = 30.0f) {
+  scene::Lamp lamp;
+  lamp.position = position, lamp.intensity = vec3(1.0f, 0.8f, 0.5f) * watts_per_sr, lamp.reach_m = reach_m;
+  lamp.radius_m = 0.2f, lamp.burns = scene::LampSwitch::always;
+  return lamp;
+}
+
+void add_lamp(scene::Scene& scene, const scene::Lamp& lamp) {
+  scene.data<scene::ItemsOf<scene::Lamp>>().add(lamp, 0);
+}
+
+/// A street by night: ground, two walls, a box that casts shadows, three lamps.
+scene::Scene night_street() {
+  scene::Scene scene;
+  const scene::Material grey = scene::matt(vec3(0.5f));
+  add(scene, scene::model_of(scene::ground(60), grey));
+  add(scene, scene::model_of(scene::box({-12, -10, 0}, {-9, 50, 9}), grey));
+  add(scene, scene::model_of(scene::box({9, 5, 0}, {12, 30, 7}), grey));
+  add(scene, scene::model_of(scene::box({-5, 8, 0}, {4, 12, 3}), grey));
+  scene.sun.irradiance = vec3(0.0f);
+  scene.sky.intensity = 0.02f;
+  add_lamp(scene, lamp_at({-5, 14, 4.5f}));
+  add_lamp(scene, lamp_at({-1, 16, 2.5f}, 60.0f, 50.0f));
+  scene::Lamp spot = lamp_at({0, 26, 6}, 40.0f);
+  spot.axis = glm::normalize(vec3(0, -1, -0.7f)), spot.half_angle = 0.6f;
+  add_lamp(scene, spot);
+  return scene;
+}
+
+Camera street_camera() {
+  Camera camera;
+  camera.world_from_camera = look_at({0.3f, -12, 1.7f}, {0, 20, 1.0f});
+  camera.vertical_fov = 0.9f;
+  return camera;
+}
+
+TEST(LampTable, FindsTheLampsThatReachAPoint) {
+  scene::Scene scene;
+  Random random(3);
+  for (int i = 0; i < 200; ++i)
+    add_lamp(scene, lamp_at({random.uniform(-200, 200), random.uniform(-200, 200), random.uniform(2, 6)},
+                            random.uniform(1, 9), random.uniform(4, 16)));
+  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene);
+  ASSERT_EQ(lamps.size(), 200u);
+  const shading::LampTable table = shading::make_lamp_table(lamps);
+  const auto all_visible = [](const shading::Lamp&, vec3, vec3) { return 1.0f; };
+  shading::LampLookup lookup{table, all_visible};
+  double found = 0.0, expected = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const vec3 at(random.uniform(-220, 220), random.uniform(-220, 220), 0.0f), up(0, 0, 1);
+    vec3 sum(0.0f);
+    for (const shading::Lamp& lamp : lamps) {
+      const vec3 away = vec3(lamp.place) - at;
+      sum += std::max(glm::normalize(away).z, 0.0f) *
+             shading::lamp_irradiance(lamp, glm::normalize(away), glm::length(away));
+    }
+    const vec3 looked_up = lookup.irradiance_of_lamps(at, up);
+    EXPECT_NEAR(looked_up.x, sum.x, 1e-5f + 1e-4f * sum.x);
+    found += double(looked_up.x), expected += double(sum.x);
+  }
+  EXPECT_GT(expected, 1.0);
+}
+
+TEST(LampTable, EightStrongestOfMoreShineInACell) {
+  std::vector<shading::Lamp> lamps;
+  scene::Scene scene;
+  for (int i = 0; i < 20; ++i) add_lamp(scene, lamp_at({0, 0, 4}, float(i + 1)));
+  const shading::LampTable table = shading::make_lamp_table(reference::lit_lamps(scene));
+  const glm::uvec4 cell = table.cell({0, 0, 0});
+  EXPECT_EQ(cell.x & 65535u, 20u);
+  EXPECT_EQ(cell.w >> 16, 13u);
+  EXPECT_EQ(table.cell({1000, 0, 0}), glm::uvec4(0u));
+}
+
+TEST(SceneLamps, StandOnObjectsAndOnBothOfAPairOfParts) {
+  scene::Scene scene;
+  auto car = std::make_shared<scene::Model>();
+  car->materials.push_back(scene::matt(vec3(0.5f)));
+  for (const float y : {-0.7f, 0.7f}) {
+    Mesh glass = scene::box({2.0f, y - 0.1f, 0.6f}, {2.1f, y + 0.1f, 0.8f});
+    if (car->parts.empty())
+      car->parts.push_back({"lamp", std::move(glass), 0, 0, true});
+    else
+      append(car->parts[0].mesh, glass, glm::mat4(1.0f));
+  }
+  const int object =
+      add(scene, car, true,
+          glm::rotate(glm::translate(glm::mat4(1.0f), vec3(10, 0, 0)), 1.5707963f, vec3(0, 0, 1)));
+  scene.objects[std::size_t(object)].name = "vehicle 1";
+  scene::Lamp lamp = lamp_at({0, 0, 0});
+  lamp.of = "vehicle *", lamp.part = "lamp", lamp.axis = {1, 0, 0}, lamp.half_angle = 0.5f;
+  add_lamp(scene, lamp);
+  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene, reference::LampKind::moving);
+  ASSERT_EQ(lamps.size(), 2u);
+  EXPECT_TRUE(reference::lit_lamps(scene, reference::LampKind::still).empty());
+  EXPECT_NEAR(lamps[0].place.x, 9.3f, 1e-4f) << "the left one";
+  EXPECT_NEAR(lamps[0].place.y, 2.05f, 1e-4f);
+  EXPECT_NEAR(lamps[1].place.x, 10.7f, 1e-4f);
+  EXPECT_NEAR(lamps[0].axis.y, 1.0f, 1e-5f) << "turned with the car";
+}
+
+TEST(SceneLamps, BurnAtDuskAndShowWhatIsSeenByTheirLight) {
+  scene::Scene scene;
+  const int windows = add(scene, scene::model_of(scene::ground(1), scene::matt(vec3(0.5f))));
+  scene.objects[std::size_t(windows)].name = "lit windows";
+  scene::Lamp lamp = lamp_at({0, 0, 4});
+  lamp.burns = scene::LampSwitch::dusk, lamp.shows = "lit *";
+  add_lamp(scene, lamp);
+  LampProcess process;
+  for (const bool is_dark : {false, true}) {
+    scene.data<scene::Darkness>().is_dark = is_dark;
+    process.present(scene, 0.0);
+    EXPECT_EQ(scene.objects[std::size_t(windows)].is_visible, is_dark);
+    EXPECT_EQ(reference::lit_lamps(scene).size(), is_dark ? 1u : 0u);
+  }
+}
+
+TEST(PathTracer, SeesTheGroundUnderALampAsBrightAsTheLawSays) {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f))));
+  scene.sun.irradiance = vec3(0.0f);
+  scene.sky.intensity = 0.0f;
+  add_lamp(scene, lamp_at({0, 0, 5}, 20.0f, 50.0f));
+  Camera camera;
+  camera.world_from_camera = look_at({4, 0, 3}, {0, 0, 0});
+  camera.vertical_fov = 0.01f;
+  const reference::RayScene rays(scene);
+  const shading::SkyLight sky = shading::make_sky_light(scene.sky.picture, scene.sky.intensity, 0.0f);
+  const auto photograph = reference::take_photograph(rays, scene, sky, camera, 4, 4, {});
+  ASSERT_TRUE(photograph) << to_string(photograph.errors());
+  // Nearly Lambert's: a rough surface keeps a few percent for its highlight.
+  const float window = float(std::pow(1.0 - std::pow(5.0 / 50.0, 4.0), 2.0));
+  const float expected = 0.5f / 3.1415927f * 20.0f / 25.0f * window;
+  EXPECT_NEAR(photograph->radiance.at(2, 2)[0], expected, 0.08f * expected);
+}
+
+class LampPicture : public gl::ContextTest {
+ protected:
+  static std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
+    auto renderer = render::Renderer::create(scene, {}, with_lamps(render::sun_and_sky));
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    return *std::move(renderer);
+  }
+  static constexpr int size = 160;
+  static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene) {
+    renderer.begin_frame(scene, street_camera());
+    renderer.prepare_main_view(street_camera(), size, size);
+    renderer.draw_main_view();
+    return renderer.read_radiance();
+  }
+  /// Percent of the pixels that are off by more than a tenth.
+  static double wrong_percent(const ImageF& picture, const scene::Scene& scene,
+                              const shading::DrawnLight& light, const shading::SkyLight& sky) {
+    const reference::RayScene rays(scene);
+    reference::TraceOptions options;
+    options.samples_per_pixel = 16;
+    options.drawn_light = &light;
+    const ImageF truth =
+        reference::trace_picture(rays, scene, sky, street_camera(), size, size, options).radiance;
+    int wrong = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const float expected = truth.at(x, y)[0];
+        wrong += std::abs(picture.at(x, y)[0] - expected) > 0.1f * expected + 0.0003f;
+      }
+    return 100.0 * wrong / (size * size);
+  }
+};
+
+TEST_F(LampPicture, AgreesWithTheRayTracerThatReadsItsMapsAndWithExactRays) {
+  const scene::Scene scene = night_street();
+  const auto renderer = renderer_of(scene);
+  const ImageF picture = drawn(*renderer, scene);
+  shading::DrawnLight light = renderer->drawn_light();
+  ASSERT_NE(light.lamps, nullptr);
+  ASSERT_EQ(light.lamps->lamps.size(), 3u);
+  EXPECT_LT(wrong_percent(picture, scene, light, renderer->sky()), 1.0) << "the same light, the same maps";
+  light.has_exact_shadows = true;
+  const double off = wrong_percent(picture, scene, light, renderer->sky());
+  std::printf("%.2f %% of the pixels are off from exact rays\n", off);
+  EXPECT_LT(off, 6.0) << "edges of shadows are as coarse as a texel of the lamps' maps";
+  for (auto depth = light.lamps->depths.begin(); depth != light.lamps->depths.end(); ++depth)
+    const_cast<std::uint16_t&>(*depth) = 65535;
+  light.has_exact_shadows = false;
+  EXPECT_GT(wrong_percent(picture, scene, light, renderer->sky()), 10.0)
+      << "the comparison sees lamps that shine through walls";
+}
+
+TEST_F(LampPicture, LampsOfMovingObjectsFollowThemAndArePartOfNoStillPicture) {
+  scene::Scene scene = night_street();
+  scene.data<scene::ItemsOf<scene::Lamp>>() = {};
+  const int cart =
+      add(scene, scene::model_of(scene::box({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 0.4f}), scene::matt(vec3(0.2f))),
+          true);
+  scene.objects[std::size_t(cart)].name = "cart";
+  scene::Lamp lamp = lamp_at({0, 0, 1.5f});
+  lamp.of = "cart";
+  add_lamp(scene, lamp);
+  const auto renderer = renderer_of(scene);
+  const auto brightness = [&] {
+    double sum = 0.0;
+    for (const float value : drawn(*renderer, scene).pixels) sum += double(std::min(value, 10.0f));
+    return sum;
+  };
+  const double here = brightness();
+  scene.objects[std::size_t(cart)].world_from_model = glm::translate(glm::mat4(1.0f), vec3(0, -58, 0));
+  const double behind = brightness();
+  EXPECT_GT(here, 1.05 * behind);
+  scene.objects[std::size_t(cart)].world_from_model = glm::mat4(1.0f);
+  EXPECT_NEAR(brightness(), here, 1e-3 * here);
+  renderer->begin_still_frame(scene, street_camera());
+  EXPECT_EQ(renderer->drawn_light().lamps, nullptr);
+}
+
+class LampNode : public testing::Test {
+ protected:
+  LampNode() {
+    scene::furnish_script(house_);
+    scene::furnish_light(house_);
+    add_lamp_node(house_.get<scene::NodeRegistry>());
+  }
+  Result<scene::LoadedScene> load(const std::string& script) {
+    folder_.write("scene.xp", script);
+    return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+  }
+  std::string message(const std::string& script) {
+    const auto loaded = load(script);
+    return loaded ? std::string() : to_string(loaded.errors());
+  }
+  TestFolder folder_;
+  House house_;
+};
+
+TEST_F(LampNode, HasTheFluxThatItIsGiven) {
+  const auto loaded = load("lamp(flux_lm=683, colour=\"1 0.5 0.25\", burns=always)\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const vec3 intensity = loaded->scene.items<scene::Lamp>().front().intensity;
+  const float watts = 4.0f * 3.1415927f * glm::dot(intensity, vec3(0.2126f, 0.7152f, 0.0722f));
+  EXPECT_NEAR(watts, 1.0f, 1e-3f);
+  EXPECT_NEAR(intensity.y / intensity.x, 0.5f, 1e-5f);
+}
+
+TEST_F(LampNode, StandsInTheFrameOfItsGroup) {
+  const auto loaded = load("group(position=\"10 0 0\", heading_deg=90) { lamp(position=\"0 5 3\") }\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const vec3 place = loaded->scene.items<scene::Lamp>().front().position;
+  EXPECT_NEAR(place.x, 15.0f, 1e-4f);
+  EXPECT_NEAR(place.y, 0.0f, 1e-4f);
+  EXPECT_TRUE(load("group(visible=0) { lamp() }\n")->scene.items<scene::Lamp>().empty());
+}
+
+TEST_F(LampNode, IsLitAtDuskAndTheEyeAdaptsToIt) {
+  const auto lit = [&](const char* hour, const char* lamps) {
+    auto loaded = load(std::string("dayLight(standardMeridian=2, timeOfDay=") + hour + ")\n" + lamps);
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    return std::pair{reference::lit_lamps(loaded->scene).size(), loaded->scene.exposure};
+  };
+  EXPECT_EQ(lit("13", "lamp()\n").first, 0u);
+  EXPECT_EQ(lit("21.9", "lamp()\n").first, 1u);
+  EXPECT_EQ(lit("21.9", "lamp(burns=never)\n").first, 0u);
+  EXPECT_LT(lit("23.5", "lamp()\n").second, 0.2f * lit("23.5", "").second);
+  EXPECT_EQ(lit("13", "lamp()\n").second, lit("13", "").second);
+}
+
+TEST_F(LampNode, SaysWhatIsWrong) {
+  EXPECT_NE(message("lamp(part=\"lamp\")").find("give of="), std::string::npos);
+  EXPECT_NE(message("lamp(direction=\"0 0 0\")").find("no length"), std::string::npos);
+  EXPECT_NE(message("lamp(colour=\"0 0 0\")").find("black"), std::string::npos);
+  EXPECT_NE(message("lamp(flux_lm=-1)").find("flux_lm"), std::string::npos);
+  EXPECT_NE(message("lamp(burns=noon)").find("burns"), std::string::npos);
+  EXPECT_NE(message("lamp(angle_deg=400)").find("angle_deg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace parvis::lamps
