@@ -12,13 +12,11 @@ namespace {
 
 constexpr float corner_knee_inset_m = 1.1f;  // of a corner house's mansard, behind its walls
 
-int whole(float length_m, float module_m) { return std::max(1, int(std::lround(length_m / module_m))); }
-
 std::vector<Face> street_faces(const Plot& plot) {
   const auto face = [&](glm::vec3 start, glm::vec3 end) {
     const float width = glm::length(end - start);
     const glm::vec3 along = (end - start) / width;
-    return Face{{start, along, {-along.y, along.x, 0.0f}}, width, whole(width, facade_bay_m)};
+    return Face{{start, along, {-along.y, along.x, 0.0f}}, width, modules_along(width, facade_bay_m)};
   };
   const Frame& f = plot.frame;
   const float w = plot.width_m, cut = corner_cut_m;
@@ -39,7 +37,7 @@ void add_facade(CityMesh& mesh, const Building& b, int face_index) {
   const int shops = (b.shop_strip + face_index) % shop_strips;  // no two sides of a corner are alike
   const glm::vec2 strip = ground_floor_strip(b.has_shops ? shops : house_strip);
   const float first = float(b.module_offset + 2 * face_index) / float(shop_modules);
-  const float modules = float(whole(face.width_m, shop_module_m)) / float(shop_modules);
+  const float modules = float(modules_along(face.width_m, shop_module_m)) / float(shop_modules);
   wall_quad(mesh, CityMaterial::ground_floor, face.frame, 0, face.width_m, 0, b.ground_m, {first, strip.x},
             {first + modules, strip.y});
   const float left = float(b.bay_offset) / float(facade_bays);
@@ -53,7 +51,7 @@ void add_back_wall(CityMesh& mesh, const Building& b, glm::vec3 start, glm::vec3
   const float width = glm::length(end - start);
   const glm::vec3 up(0, 0, high);
   mesh.quad(b.wall(), start, end, end + up, start + up, {0.0f, 1.0f},
-            {float(whole(width, facade_bay_m)) / float(facade_bays),
+            {float(modules_along(width, facade_bay_m)) / float(facade_bays),
              1.0f - float(b.upper_floors + 1) / float(facade_floors)});
 }
 
@@ -210,6 +208,10 @@ Roof choose_roof(Random& random) {
 }
 
 }  // namespace
+
+int modules_along(float length_m, float module_m) {
+  return std::max(1, int(std::lround(length_m / module_m)));
+}
 
 std::vector<glm::vec2> roof_profile(const Building& b) {
   const float eaves = b.eaves_m(), edge = eaves + b.cornice_m, depth = b.plot.depth_m, rise = b.roof_rise_m;

@@ -41,6 +41,9 @@ struct Building {
   CityMaterial wall() const { return wall_material(style, tint); }
 };
 
+/// How many modules of a length fit a wall best; at least one.
+int modules_along(float length_m, float module_m);
+
 /// Designs a house for a plot. `neighbour` (may be null) is the house on its left: adjacent houses differ.
 Building plan_building(const Plot& plot, const Building* neighbour, float distance_to_centre_m,
                        Random& random);

@@ -15,7 +15,7 @@ float distance_to_centre(const Plot& plot) {
   return glm::length(glm::vec2(plot.frame.point(0.5f * plot.width_m, 0, 0)) - main_crossing());
 }
 
-std::vector<Building> plan_buildings(const StreetPlan& plan, Random& random) {
+std::vector<Building> planned_buildings(const StreetPlan& plan, Random& random) {
   std::vector<Building> buildings;
   buildings.reserve(plan.plots.size());
   for (const Plot& plot : plan.plots) {
@@ -48,10 +48,15 @@ std::vector<Ornament> chosen_ornaments(std::vector<Ornament> possible, std::size
 
 }  // namespace
 
+std::vector<Building> plan_buildings(const StreetPlan& plan, std::uint64_t seed) {
+  Random random(seed, 2);
+  return planned_buildings(plan, random);
+}
+
 void add_buildings(CityMesh& mesh, const StreetPlan& plan, std::uint64_t seed) {
   Random random(seed, 2);
   const std::size_t before = mesh.triangle_count();
-  const std::vector<Building> buildings = plan_buildings(plan, random);
+  const std::vector<Building> buildings = planned_buildings(plan, random);
   std::vector<Ornament> possible;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     const Building& b = buildings[i];

@@ -105,6 +105,13 @@ std::vector<scene::Material> all_materials(const std::vector<Sheet>& sheets) {
 
 CityMaterial wall_material(int style, int tint) { return CityMaterial(style * wall_tints + tint); }
 
+std::vector<std::uint32_t> wall_sheet_seeds(std::uint64_t seed) {
+  Random random(seed, 11);
+  std::vector<std::uint32_t> seeds(facade_style_count + 1);
+  for (std::uint32_t& sheet_seed : seeds) sheet_seed = random.next();
+  return seeds;
+}
+
 void add_city_materials(scene::Model& model, std::uint64_t seed) {
   const std::vector<Sheet> sheets = all_sheets();
   Random random(seed, 11);

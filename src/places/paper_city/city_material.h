@@ -37,6 +37,9 @@ enum class CityMaterial : std::uint8_t {
 /// The wall material of a facade style (below facade_style_count) in one of its paints (below wall_tints).
 CityMaterial wall_material(int style, int tint);
 
+/// The seeds with which the sheets of facade styles and, last, that of ground floors are painted.
+std::vector<std::uint32_t> wall_sheet_seeds(std::uint64_t seed);
+
 /// Paints all textures in parallel and fills `model`'s tables: material i is CityMaterial(i).
 void add_city_materials(scene::Model& model, std::uint64_t seed);
 

@@ -91,7 +91,7 @@ const std::array<FacadeStyle, facade_style_count>& facade_styles() {
   return styles;
 }
 
-SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed) {
+SurfaceCanvas facade_canvas(const FacadeStyle& style, std::uint32_t seed) {
   Random random(seed);
   SurfaceCanvas canvas(sheet_px, sheet_px, facade_bay_m * float(facade_bays),
                        facade_floor_m * float(facade_floors));
@@ -105,7 +105,11 @@ SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed) {
     for (int bay = 0; bay < facade_bays; ++bay)
       paint_window(canvas, style.window, facade_bay_m * (float(bay) + 0.5f), facade_floor_m * float(floor),
                    random);
-  return canvas.pictures(2, 2);
+  return canvas;
+}
+
+SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed) {
+  return facade_canvas(style, seed).pictures(2, 2);
 }
 
 }  // namespace parvis::city

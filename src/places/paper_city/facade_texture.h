@@ -29,7 +29,9 @@ inline constexpr float facade_bay_m = 3.2f,
 /// The styles, in the palette of a southern city.
 const std::array<FacadeStyle, facade_style_count>& facade_styles();
 
-/// Paints the sheet of a style.
+/// The painted sheet of a style.
+SurfaceCanvas facade_canvas(const FacadeStyle& style, std::uint32_t seed);
+/// Its textures.
 SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed);
 
 }  // namespace parvis::city

@@ -165,10 +165,8 @@ void add_crossing(CityMesh& mesh, const Road& north_road, const Road& east_road)
   add_flat(mesh, CityMaterial::asphalt, outline, 0.0f, asphalt_sheet_m);
 }
 
-}  // namespace
-
-void add_ground(CityMesh& mesh, const StreetPlan& plan) {
-  const std::size_t before = mesh.triangle_count();
+/// All but the furniture.
+void add_ways(CityMesh& mesh, const StreetPlan& plan) {
   for (const Block& block : plan.blocks) {
     mesh.begin_group("block " + std::to_string(block.column) + std::to_string(block.row));
     add_block(mesh, block);
@@ -181,6 +179,19 @@ void add_ground(CityMesh& mesh, const StreetPlan& plan) {
   for (const Road& a : plan.roads)
     for (const Road& b : plan.roads)
       if (a.runs_north && !b.runs_north) add_crossing(mesh, a, b);
+}
+
+}  // namespace
+
+std::size_t furniture_triangles(const StreetPlan& plan) {
+  CityMesh mesh;
+  add_ways(mesh, plan);
+  return ground_triangles - mesh.triangle_count();
+}
+
+void add_ground(CityMesh& mesh, const StreetPlan& plan) {
+  const std::size_t before = mesh.triangle_count();
+  add_ways(mesh, plan);
   mesh.begin_group("furniture");
   add_street_furniture(mesh, ground_triangles - (mesh.triangle_count() - before));
   assert(mesh.triangle_count() - before == ground_triangles);

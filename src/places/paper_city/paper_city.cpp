@@ -12,6 +12,7 @@
 #include "places/paper_city/figure_script.h"
 #include "places/paper_city/ground.h"
 #include "places/paper_city/mirror_bodies.h"
+#include "places/paper_city/night_lights.h"
 #include "places/paper_city/paper_script.h"
 #include "places/paper_city/sky_picture.h"
 #include "places/paper_city/street_furniture.h"
@@ -60,6 +61,11 @@ std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
     });
   jobs.push_back(
       [=](const fs::path& folder) { return write_file(folder / "people.xp", people_script(walker_files)); });
+  jobs.push_back(
+      [=](const fs::path& folder) { return write_gltf(folder / "lit_windows.glb", make_lit_windows(seed)); });
+  jobs.push_back(
+      [](const fs::path& folder) { return write_gltf(folder / "street_lamp.glb", make_street_lamp()); });
+  jobs.push_back([=](const fs::path& folder) { return write_file(folder / "night.xp", night_script(seed)); });
   jobs.push_back([](const fs::path& folder) { return write_file(folder / "figures.xp", figure_script()); });
   jobs.push_back(
       [=](const fs::path& folder) { return write_file(folder / "paper_day.xp", day_script(parking_files)); });

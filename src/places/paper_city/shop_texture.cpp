@@ -193,7 +193,7 @@ glm::vec2 ground_floor_strip(int strip) {
   return {foot - half_pixel, foot - height + half_pixel};
 }
 
-SurfacePictures ground_floor_pictures(std::uint32_t seed) {
+SurfaceCanvas ground_floor_canvas(std::uint32_t seed) {
   Random random(seed);
   SurfaceCanvas canvas(sheet_px, sheet_px, shop_module_m * float(shop_modules),
                        ground_floor_m * float(ground_floor_strips));
@@ -212,7 +212,9 @@ SurfacePictures ground_floor_pictures(std::uint32_t seed) {
     paint_ledge(canvas, foot + ground_floor_m, stone);
     paint_damp_foot(canvas, foot);
   }
-  return canvas.pictures(4, 4);
+  return canvas;
 }
+
+SurfacePictures ground_floor_pictures(std::uint32_t seed) { return ground_floor_canvas(seed).pictures(4, 4); }
 
 }  // namespace parvis::city

@@ -16,7 +16,9 @@ inline constexpr int shop_strips = 3, house_strip = shop_strips, ground_floor_st
 /// Texture coordinates v of a strip: (bottom, top).
 glm::vec2 ground_floor_strip(int strip);
 
-/// Paints the sheet of all strips.
+/// The painted sheet of all strips.
+SurfaceCanvas ground_floor_canvas(std::uint32_t seed);
+/// Its textures.
 SurfacePictures ground_floor_pictures(std::uint32_t seed);
 
 }  // namespace parvis::city

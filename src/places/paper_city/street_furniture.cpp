@@ -1,5 +1,6 @@
 #include "places/paper_city/street_furniture.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -86,12 +87,35 @@ std::vector<TreePlace> tree_places() {
   return places;
 }
 
-void add_street_furniture(CityMesh& mesh, std::size_t triangles) {
-  for (const TreePlace& tree : tree_places()) add_pit(mesh, tree.foot), triangles -= 2;
-  assert(triangles % 2 == 0);
+std::vector<glm::vec3> street_lamp_places() {
+  constexpr std::size_t most = 112;             // a reach of 342 m
+  constexpr float clear_m = 1.5f;               // of the carriageways that cross
+  const StreetPlan plan = make_street_plan(1);  // roads lie the same for all seeds
+  std::vector<glm::vec3> places;
+  for (std::size_t i = 0; i < most; ++i) {
+    const glm::vec3 place = lamp_place(i);
+    const auto stands_on = [&](const Road& road) {
+      const float across = road.runs_north ? place.x : place.y;
+      const bool crosses = road.profile.carriageway_m < wide_road.carriageway_m;
+      return crosses && std::abs(across - road.offset_m) < 0.5f * road.profile.carriageway_m + clear_m;
+    };
+    if (std::ranges::none_of(plan.roads, stands_on)) places.push_back(place);
+  }
+  return places;
+}
+
+std::size_t furnished_lamps(std::size_t triangles) {
+  triangles -= 2 * tree_places().size();
   // As many lamps as leave a number that bollards can fill.
   std::size_t lamps = triangles / lamp_triangles;
   while (lamps > 0 && (lamps > 12 || (triangles - lamps * lamp_triangles) % bollard_triangles != 0)) --lamps;
+  return lamps;
+}
+
+void add_street_furniture(CityMesh& mesh, std::size_t triangles) {
+  const std::size_t lamps = furnished_lamps(triangles);
+  for (const TreePlace& tree : tree_places()) add_pit(mesh, tree.foot), triangles -= 2;
+  assert(triangles % 2 == 0);
   const std::size_t bollards = (triangles - lamps * lamp_triangles) / bollard_triangles;
   for (std::size_t i = 0; i < lamps; ++i) add_lamp(mesh, lamp_place(i));
   for (std::size_t i = 0; i < bollards; ++i) add_bollard(mesh, bollard_place(i));

@@ -116,6 +116,23 @@ ImageF SurfaceCanvas::relief() const {
   return relief;
 }
 
+Image8 SurfaceCanvas::lit_glass(int shrink) const {
+  constexpr float max_glass_roughness = 0.08f;  // nothing else on a sheet is so smooth
+  constexpr float room = 0.35f, cloth = 2.2f;   // of a lit wall behind, and how much light things let through
+  ImageF lit(width_px_, height_px_, 4);
+  for (int y = 0; y < height_px_; ++y)
+    for (int x = 0; x < width_px_; ++x) {
+      const Texel& t = texel(x, y);
+      float* out = lit.at(x, height_px_ - 1 - y);
+      const bool is_glass = t.roughness < max_glass_roughness;
+      for (int c = 0; c < 3; ++c)
+        out[c] =
+            srgb_from_linear(is_glass ? std::min((room + cloth * t.colour[c]) * t.openness, 1.0f) : 0.0f);
+      out[3] = is_glass ? 1.0f : 0.0f;
+    }
+  return shrunk(lit, shrink);
+}
+
 SurfacePictures SurfaceCanvas::pictures(int normal_shrink, int surface_shrink) const {
   SurfacePictures result;
   result.colour = Image8(width_px_, height_px_, 4);

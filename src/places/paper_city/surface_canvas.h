@@ -68,6 +68,10 @@ class SurfaceCanvas {
   /// two.
   SurfacePictures pictures(int normal_shrink, int surface_shrink) const;
 
+  /// The glass alone, lit from inside: what is seen in it, brighter than by day, with an alpha of 1. Its
+  /// resolution is divided by `shrink`.
+  Image8 lit_glass(int shrink) const;
+
  private:
   Texel& texel(int x, int y);
   const Texel& texel(int x, int y) const;
