@@ -48,6 +48,13 @@ void Report::add(const std::string& key, double value) {
   tell(fmt::format("{:<40} {:>14.4f}", key, value));
 }
 
+void Report::add(const std::string& key, double value, const Target& target) {
+  add(key, value);
+  const bool is_met = target.is_floor ? value >= target.limit : value <= target.limit;  // NaN meets none
+  note(fmt::format("{}: {} {} {}", key, is_met ? "meets" : "MISSES",
+                   target.is_floor ? ">=" : "<=", target.limit));
+}
+
 void Report::add(const std::string& key, const Median& median) {
   add(key, median.value);
   note(fmt::format("{}: median {:.2f}, 95 % interval {:.2f} to {:.2f}", key, median.value, median.low,

@@ -24,6 +24,14 @@ Median median(std::vector<double> samples);
 /// The value below which a share of all lie; 0 of none.
 double percentile(std::vector<double> values, double share);
 
+/// What an issue asks of a figure.
+struct Target {
+  double limit = 0.0;
+  bool is_floor = false;  ///< the figure is to be at least so much, else at most
+};
+/// At most so much.
+inline Target up_to(double limit) { return {limit, false}; }
+
 /// Prints each figure and row as it is added: a bench that is stopped has printed what it knew.
 class Report {
  public:
@@ -32,6 +40,8 @@ class Report {
 
   /// Adds a figure under the key of the issue that asks for it.
   void add(const std::string& key, double value);
+  /// The same, with a row that says whether it meets its target.
+  void add(const std::string& key, double value, const Target& target);
   /// The median counts; its interval stands in a row.
   void add(const std::string& key, const Median& median);
   /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
