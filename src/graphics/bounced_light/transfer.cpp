@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "base/colour.h"
 #include "base/parallel.h"
@@ -230,7 +231,9 @@ std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shadi
     constexpr float edge = 0.965f;  // 15 degrees
     sun_share[d] = std::max(near - edge, 0.0f) * std::max(near - edge, 0.0f), sum += sun_share[d];
   }
-  for (float& share : sun_share) share = sum > 0.0f ? share / sum : 0.0f;
+  std::vector<std::pair<std::size_t, float>> suns;
+  for (std::size_t d = 0; d < directions.size(); ++d)
+    if (sun_share[d] > 0.0f) suns.emplace_back(d, sun_share[d] / sum);
 
   std::vector<vec3> irradiance(patches_.size());
   parallel_for(
@@ -242,8 +245,8 @@ std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shadi
         for (std::size_t d = 0; d < directions.size(); ++d) {
           const float open = float(patch.sees_sky[d / 64] >> (d % 64) & 1);
           from_sky += open * std::max(glm::dot(directions[d], patch.normal), 0.0f) * sky_light[d];
-          sees_sun += open * sun_share[d];
         }
+        for (const auto& [d, share] : suns) sees_sun += share * float(patch.sees_sky[d / 64] >> (d % 64) & 1);
         irradiance[i] = from_sky + sees_sun * std::max(glm::dot(to_sun, patch.normal), 0.0f) * sun.irradiance;
       },
       256);
