@@ -3,7 +3,7 @@
 import json
 import struct
 
-from .case import model_case
+from .case import CAMERA, Case, model_case, scene, write
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>'
 
@@ -69,6 +69,19 @@ def grid(width, height, rows=None, strip=8):
                  (278, 4, 1, rows or height), (279, 4, 1, strip), (339, 3, 1, 3)])
 
 
+def on_ground(name, file, content, expects="either"):
+    """A map that stands on a terrain: the program asks for heights while a child reads the map."""
+    ground = city(CityObjects={"t": {"type": "TINRelief", "geometry": [{"type": "CompositeSurface", "lod": "1", "boundaries": [[[0, 1, 3]], [[1, 2, 3]]]}]}},
+                  vertices=[[500000, 5700000, 3], [800000, 5700000, 3], [800000, 5900000, 4], [500000, 5900000, 4]])
+
+    def build(folder):
+        write(folder, "t.json", ground)
+        write(folder, file, content)
+        return [["export", scene(folder, f'model(name="t", file="t.json")\nmodel(file="{file}", ground="t")\n' + CAMERA), "-o", "out.glb"]]
+
+    return Case("map", f"on a ground: {name}", build, expects)
+
+
 def cases():
     for place in ("vertices", "CityObjects", "appearance", "transform", "metadata", "geometry-templates", "extensions"):
         for opening, closing in (("[", "]"), ('{"a":', "}")):
@@ -117,6 +130,14 @@ def cases():
     yield model_case("map", "relations in a circle", "m.osm", osm('<node id="1" lat="52" lon="4"/>' + relation))
     for bounds in ('<bounds minlat="nan" minlon="4" maxlat="52" maxlon="4"/>', '<bounds minlat="-90" minlon="-180" maxlat="90" maxlon="180"/>', ""):
         yield model_case("map", f"bounds {bounds[:30]}", "m.osm", osm('<node id="1" lat="52" lon="4"/>', bounds))
+    right = building(square)
+    yield on_ground("a right one", "m.osm", right, "done")
+    for size in range(0, len(right), 60):
+        yield on_ground(f"cut at {size}", "m.osm", right[:size], "refused")
+    for entity in ('<!DOCTYPE a [<!ENTITY e SYSTEM "file:///etc/passwd">]>', "<a>" * 50000):
+        yield on_ground(entity[:30], "m.osm", HEAD + entity + right[len(HEAD):], "refused")
+    for content in (b"", b"\0\0\0\x0d\n\x09OSMHeader" + b"\xff" * 40, b"\0\0\0\x0d\n\x09OSMHeader\x18\x7f" + b"\0" * 200, b"\xff" * 60):
+        yield on_ground(f"PBF {content[:12]}", "m.pbf", content, "refused")
     for width, height in ((2**31, 2**31), (2**32 - 1, 2**32 - 1), (0, 0), (1, 1), (2**31 - 1, 2), (60000, 60000), (4, 4)):
         yield model_case("terrain", f"{width} x {height}", "m.tif", grid(width, height), "refused", attributes=", cell=1")
         yield model_case("terrain", f"{width} x {height} in strips of all", "m.tif", grid(width, height, 2**32 - 1, 2**31), "refused", attributes=", cell=1")

@@ -171,6 +171,14 @@ TEST(ImageIo, EveryFormatThatIsWrittenIsRead) {
   }
 }
 
+TEST(ImageIo, NoFileTellsWhenItWasWritten) {
+  const Result<std::string> bytes = encode_image(ImageF(2, 2, 3, 1.0f), "a.exr");
+  ASSERT_TRUE(bytes);
+  const std::size_t date = bytes->find("capDate");
+  ASSERT_NE(date, std::string::npos);
+  EXPECT_NE(bytes->find("2003:01:01 00:00:00", date), std::string::npos) << "the library's clock";
+}
+
 TEST(ImageIo, AHeaderThatClaimsMoreThanItsFileHoldsIsRefused) {
   const TestFolder folder;
   std::vector<char> header(54);

@@ -37,10 +37,11 @@ TEST(OppositeLanes, TheGridFindsWhatALookAtAllLanesFinds) {
   for (int i = 0; i < 30; ++i) {
     Road& road = roads.emplace_back();
     const glm::vec3 from(random.uniform(-400.0f, 400.0f), random.uniform(-400.0f, 400.0f), 0.0f);
+    const float angle = 0.1f * float(i);  // so that no two of them lie along each other
     road.path = {from,
-                 from + glm::vec3(random.uniform(20.0f, 500.0f), random.uniform(-300.0f, 300.0f), 0.0f)};
+                 from + random.uniform(20.0f, 500.0f) * glm::vec3(std::cos(angle), std::sin(angle), 0.0f)};
     road.lanes_each_way = 1 + i % 3, road.is_one_way = i % 4 == 0;
-    road.lane_width_m = random.uniform(2.0f, 20.0f);
+    road.lane_width_m = random.uniform(2.0f, 6.0f);
   }
   const Result<RoadGraph> graph = build_road_graph(roads);
   ASSERT_TRUE(graph) << to_string(graph.errors());
