@@ -29,7 +29,7 @@ class ViewChooser {
   /// at a triangle's centre; of a large triangle, at points all over it; all where fewer than two show it, or
   /// where it fills much of the view.
   ViewChoice choice(glm::vec3 eye, float pixel_angle) const;
-  /// How far the eye may move until the choice has to be rebuilt.
+  /// How far the eye may move until photographs have to be chosen anew.
   float step() const { return step_; }
 
  private:

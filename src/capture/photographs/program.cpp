@@ -30,8 +30,9 @@ constexpr std::size_t shown_bytes = 600;
 /// something else runs, too.
 std::vector<char*> environment_of_child() {
   static char passive[] = "OMP_WAIT_POLICY=passive";
-  std::vector<char*> variables;
-  for (char** one = environ; *one; ++one) variables.push_back(*one);
+  std::size_t count = 0;
+  while (environ[count]) ++count;
+  std::vector<char*> variables(environ, environ + count);
   variables.push_back(passive);  // the last: one that is set already counts
   variables.push_back(nullptr);
   return variables;
