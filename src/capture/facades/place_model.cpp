@@ -14,8 +14,7 @@
 namespace parvis::facades {
 namespace {
 
-constexpr float ground_growth = 2.0f;  ///< of its proposed polygon: the place seldom ends where points do
-constexpr double ground_edge = 0.15;   ///< longest of the ground's triangles, of the median viewing distance
+constexpr double ground_edge = 0.15;  ///< longest of the ground's triangles, of the median viewing distance
 
 void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
 
@@ -47,13 +46,6 @@ NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::Phot
       if (row + 1 < up) dome.mesh.indices.insert(dome.mesh.indices.end(), {a, d, c});
     }
   return dome;
-}
-
-/// A level mesh, larger about its middle.
-void grow(Mesh& mesh, float factor) {
-  const Bounds bounds = mesh.bounds();
-  const glm::vec3 centre = 0.5f * (bounds.min + bounds.max);
-  for (glm::vec3& p : mesh.positions) p = centre + factor * (p - centre);
 }
 
 /// Each triangle divided into four until its edges are short: a colour where no photograph says anything
@@ -123,10 +115,8 @@ Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, cons
   ReliefModel reliefs = with_reliefs(model.planes, loaded->set, grey_photos(*source, model.notes));
   model.meshes = std::move(reliefs.meshes);
   for (NamedMesh& named : model.meshes)
-    if (named.name == "ground") {
-      grow(named.mesh, ground_growth);
+    if (named.name == "ground")
       divide_triangles(named.mesh, ground_edge * photographs::viewing_distance(loaded->set));
-    }
   model.meshes.push_back(backdrop(model.meshes, loaded->set));
   add(model.notes, reliefs.notes);
   return model;
