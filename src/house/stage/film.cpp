@@ -99,10 +99,11 @@ Status Film::add(const Image8& frame) {
 
 Status Film::finish() {
   const int status = pclose(std::exchange(pipe_, nullptr));
+  PartialFile partial = std::move(partial_);  // removed at the end, unless it is kept
   if (frames_ == 0) return error("{}: a film of no frames; give it more --seconds", file_.string());
-  if (status != 0 || !has_end(partial_.path()))
+  if (status != 0 || !has_end(partial.path()))
     return error("{}: the film cannot be written whole; is the disk full?", file_.string());
-  return partial_.keep();
+  return partial.keep();
 }
 
 }  // namespace parvis::house
