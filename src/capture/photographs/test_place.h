@@ -19,9 +19,10 @@ inline glm::vec3 test_paint(glm::dvec2 at, int seed) {
   float weight = 0.5f;
   for (const double size_m : {1.3, 0.5, 0.21, 0.09}) {
     const auto hashed = [&](double x, double y, int channel) {
-      std::uint64_t h = std::uint64_t(std::int64_t(x) * 73856093) ^
-                        std::uint64_t(std::int64_t(y) * 19349663) ^
-                        std::uint64_t(seed * 83492791 + channel * 2654435 + int(size_m * 1000) * 97);
+      std::uint64_t h =
+          std::uint64_t(std::int64_t(x) * 73856093) ^ std::uint64_t(std::int64_t(y) * 19349663) ^
+          std::uint64_t(std::int32_t(std::uint32_t(seed) * 83492791u + std::uint32_t(channel) * 2654435u +
+                                     std::uint32_t(size_m * 1000) * 97u));
       h ^= h >> 33, h *= 0xff51afd7ed558ccdull, h ^= h >> 33, h *= 0xc4ceb9fe1a85ec53ull, h ^= h >> 33;
       return float(h & 0xffff) / 65535.0f;
     };
