@@ -1,7 +1,9 @@
 #include "graphics/lamps/lamp_light.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "base/parallel.h"
 #include "graphics/lamps/lamp_maps.h"
@@ -43,14 +45,16 @@ LampLight::LampLight(std::unique_ptr<render::LightSource> below) : LightOver(std
 bool LampLight::trace_maps(const scene::Scene& scene) {
   if (std::ranges::all_of(is_mapped_, [](bool is_mapped) { return is_mapped; })) return false;
   const reference::RayScene rays(scene);
-  parallel_for(still_.size(), [&](std::size_t i) {
+  const std::size_t mapped = is_mapped_.size();  // fewer than `still_` where the driver has fewer layers
+  parallel_for(mapped, [&](std::size_t i) {
     if (!is_mapped_[i])
       trace_map(scene, rays, still_[i], std::span(depths_).subspan(i * map_texels, map_texels));
   });
-  is_mapped_.assign(still_.size(), true);
+  is_mapped_.assign(mapped, true);
+  has_new_maps_ = true;
   const int side = shading::lamp_map_px;
-  if (layers_ != int(still_.size())) {
-    layers_ = int(still_.size());
+  if (layers_ != int(mapped)) {
+    layers_ = int(mapped);
     maps_ = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
     glTextureStorage3D(maps_.name(), 1, GL_DEPTH_COMPONENT16, side, side, layers_);
     glTextureParameteri(maps_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -76,6 +80,11 @@ bool LampLight::update(const scene::Scene& scene) {
   const bool is_changed = !std::ranges::equal(still, still_, is_same);
   still_ = std::move(still);
   if (!has_same_places) {
+    if (layers < still_.size())
+      fmt::print(
+          stderr,
+          "warning: {} lamps burn; the graphics driver holds depth maps of {}, the others cast no shadows\n",
+          still_.size(), layers);
     is_mapped_.assign(layers, false);
     depths_.assign(layers * map_texels, 65535);
   }
@@ -103,6 +112,7 @@ void LampLight::draw_shadows(const Camera& camera, std::span<const Bounds> movin
 
 void LampLight::show(std::vector<shading::Lamp> lamps) {
   if (lamps.empty() && table_.empty()) return;
+  if (!std::exchange(has_new_maps_, false) && std::ranges::equal(lamps, table_.lamps, is_same)) return;
   table_ = shading::make_lamp_table(std::move(lamps));
   table_.depths = depths_;
   const std::size_t used = table_.near.size() + texels_per_lamp * table_.lamps.size();

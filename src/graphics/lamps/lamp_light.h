@@ -32,6 +32,7 @@ class LampLight final : public render::LightOver {
   std::vector<shading::Lamp> still_, moving_;  ///< that burn; still ones know their layers
   std::vector<std::uint16_t> depths_;          ///< of `still_`
   std::vector<bool> is_mapped_;                ///< by still lamp: its map is up to date
+  bool has_new_maps_ = false;                  ///< since the table was made
   shading::LampTable table_;                   ///< what is on the GPU
   std::vector<glm::uvec4> texels_;
   gl::Texture table_texture_, maps_;
