@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "base/test_folder.h"
 #include "graphics/bounced_light/bounced_over.h"
-#include "graphics/bounced_light/transfer.h"
+#include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/tracer.h"
@@ -14,12 +16,6 @@ namespace parvis::bounced_light {
 namespace {
 
 using glm::vec3;
-
-Bounds bounds_of(const scene::Scene& scene) {
-  Bounds bounds;
-  for (const scene::Object& object : scene.objects) bounds.add(scene::bounds(*object.model));
-  return bounds;
-}
 
 /// A narrow street whose eastern wall is in the sun, the western one, red, in its own shadow.
 scene::Scene street() {
@@ -43,7 +39,7 @@ TEST(Transfer, GroundGivesBackItsAlbedoOfTheLight) {
   scene.sun.direction_to_sun = glm::normalize(vec3(0.3f, 0.2f, 0.8f));
   scene.sky.intensity = 0.0f;
   const reference::RayScene rays(scene);
-  const Transfer transfer(scene, rays, bounds_of(scene), {true, 4.0f, 256});
+  const Transfer transfer(scene, rays, {true, 4.0f, 256});
   const shading::BouncedLight light = transfer.light(scene.sun, sky_of(scene));
   const vec3 expected = vec3(0.5f, 0.4f, 0.3f) * scene.sun.irradiance * scene.sun.direction_to_sun.z;
   const vec3 down = light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {0, 0, -1});
@@ -56,7 +52,7 @@ TEST(Transfer, GroundGivesBackItsAlbedoOfTheLight) {
 TEST(Transfer, IsLinearInSunAndSky) {
   scene::Scene scene = street();
   const reference::RayScene rays(scene);
-  const Transfer transfer(scene, rays, bounds_of(scene), {true, 6.0f, 64});
+  const Transfer transfer(scene, rays, {true, 6.0f, 64});
   const auto at = [&](float sun, float sky) {
     scene::Scene other = scene;
     other.sun.irradiance *= sun, other.sky.intensity *= sky;
@@ -72,12 +68,68 @@ TEST(Transfer, IsLinearInSunAndSky) {
 TEST(Transfer, PlacesInsideOfThingsAreNone) {
   const scene::Scene scene = street();
   const reference::RayScene rays(scene);
-  const Transfer transfer(scene, rays, bounds_of(scene), {true, 3.0f, 64});
+  const Transfer transfer(scene, rays, {true, 3.0f, 64});
   const shading::BouncedLight light = transfer.light(scene.sun, sky_of(scene));
   EXPECT_LT(transfer.place_count(), light.lobes.size());
   for (const glm::vec4 lobe : light.lobes) ASSERT_TRUE(std::isfinite(lobe.x + lobe.y + lobe.z + lobe.w));
-  const Transfer nothing(scene, rays, Bounds(), {true, 3.0f, 64});
+  const scene::Scene empty;
+  const Transfer nothing(empty, reference::RayScene(empty), {true, 3.0f, 64});
   EXPECT_TRUE(nothing.light(scene.sun, sky_of(scene)).empty());
+}
+
+/// A street whose script lies in a folder.
+class KeptTransfer : public testing::Test {
+ protected:
+  KeptTransfer() : scene_(street()) {
+    scene_.file = folder_.path() / "street.xp";
+    scene_.data<scene::BouncedSettings>() = {true, 6.0f, 32};
+  }
+  std::vector<glm::vec4> lobes(const Transfer& transfer) const {
+    return transfer.light(scene_.sun, sky_of(scene_)).lobes;
+  }
+
+  TestFolder folder_;
+  scene::Scene scene_;
+};
+
+TEST_F(KeptTransfer, IsReadAsItWasTracedAtEveryHour) {
+  EXPECT_FALSE(TransferCache(scene_).read());
+  const Transfer traced = trace_transfer(scene_);
+  ASSERT_TRUE(TransferCache(scene_).keep(traced));
+  scene_.sun.irradiance *= 0.5f, scene_.sky.intensity *= 3.0f;
+  const std::optional<Transfer> kept = TransferCache(scene_).read();
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(lobes(*kept), lobes(traced));
+  EXPECT_EQ(kept->to_bytes(), traced.to_bytes());
+}
+
+TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
+  ASSERT_TRUE(TransferCache(scene_).keep(trace_transfer(scene_)));
+  const std::filesystem::path file = TransferCache(scene_).file();
+  scene_.objects[1].world_from_model[3].x += 1.0f;
+  EXPECT_FALSE(TransferCache(scene_).read());
+  std::filesystem::copy(file, TransferCache(scene_).file());
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(TransferCache(scene_).read());
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("is of another scene"), std::string::npos);
+  std::filesystem::resize_file(TransferCache(scene_).file(), 100);
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(TransferCache(scene_).read());
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("traced anew"), std::string::npos);
+}
+
+TEST_F(KeptTransfer, BytesWhoseIndicesLieAreNone) {
+  const std::string right = trace_transfer(scene_).to_bytes();
+  ASSERT_TRUE(Transfer::from_bytes(right));
+  constexpr std::size_t lists = sizeof(shading::BouncedGrid) + sizeof(glm::ivec3) + sizeof(int);
+  for (const std::size_t at : {sizeof(shading::BouncedGrid), lists - sizeof(int), lists + 4}) {
+    std::string wrong = right;
+    wrong[at + 2] = '\x7f';  // 8 million cells along, rays, or the number of a place
+    EXPECT_FALSE(Transfer::from_bytes(wrong)) << at;
+  }
+  EXPECT_FALSE(Transfer::from_bytes(right.substr(0, right.size() - 1)));
+  EXPECT_FALSE(Transfer::from_bytes(right + "x"));
+  EXPECT_FALSE(Transfer::from_bytes(""));
 }
 
 class BouncedPicture : public gl::ContextTest {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/render/bindings.h"
 #include "scene/data/sun_shadows.h"
 
@@ -26,8 +27,8 @@ bool BouncedOver::update(const scene::Scene& scene) {
   std::vector<Standing> standing = standing_in(scene);
   const bool is_other = !is_traced_ || standing != standing_;
   if (is_other) {
-    const reference::RayScene rays(scene);
-    transfer_ = Transfer(scene, rays, fixed_, scene.data<scene::BouncedSettings>());
+    std::optional<Transfer> kept = TransferCache(scene).read();
+    transfer_ = kept ? *std::move(kept) : trace_transfer(scene);
     standing_ = std::move(standing), is_traced_ = true;
   }
   if (!is_other && !has_new_light && sun_ == scene.sun) return false;
@@ -71,7 +72,7 @@ render::MakeLight with_bounced_light(render::MakeLight below) {
                                     const Bounds& fixed) -> Result<std::unique_ptr<render::LightSource>> {
     Result<std::unique_ptr<render::LightSource>> light = below(scene, fixed);
     if (!light || !scene.data<scene::BouncedSettings>().is_on) return light;
-    return std::unique_ptr<render::LightSource>(std::make_unique<BouncedOver>(*std::move(light), fixed));
+    return std::unique_ptr<render::LightSource>(std::make_unique<BouncedOver>(*std::move(light)));
   };
 }
 

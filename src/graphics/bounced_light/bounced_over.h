@@ -1,4 +1,5 @@
-// Bounced light over another light: follows sun and sky, and is traced again where static things change.
+// Bounced light over another light: follows sun and sky; read from beside the scene, or traced, when static
+// things change.
 #pragma once
 
 #include <memory>
@@ -14,15 +15,9 @@ namespace parvis::bounced_light {
 class BouncedOver final : public render::LightOver {
  public:
   /// Nothing is traced before the first frame.
-  BouncedOver(std::unique_ptr<render::LightSource> below, const Bounds& fixed)
-      : LightOver(std::move(below)), fixed_(fixed) {}
+  explicit BouncedOver(std::unique_ptr<render::LightSource> below) : LightOver(std::move(below)) {}
 
   bool update(const scene::Scene& scene) override;
-  void renew(const scene::Scene& scene, const render::GpuScene& gpu, const render::FixedChange& change,
-             const Bounds& fixed) override {
-    LightOver::renew(scene, gpu, change, fixed);
-    fixed_.add(fixed);
-  }
   void bind() const override;
   void fill(render::Frame& frame) const override;
   const shading::BouncedLight* bounced() const override { return light_.empty() ? nullptr : &light_; }
@@ -37,7 +32,6 @@ class BouncedOver final : public render::LightOver {
   static std::vector<Standing> standing_in(const scene::Scene& scene);
   void upload();
 
-  Bounds fixed_;
   std::vector<Standing> standing_;  ///< of which `transfer_` is made
   bool is_traced_ = false;
   Transfer transfer_;

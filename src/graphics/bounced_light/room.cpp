@@ -1,7 +1,11 @@
 #include "graphics/bounced_light/room.h"
 
+#include "base/progress.h"
 #include "graphics/bounced_light/bounced_over.h"
+#include "graphics/bounced_light/transfer_cache.h"
+#include "graphics/render/bake_steps.h"
 #include "graphics/render/light_source.h"
+#include "scene/data/baked_folder.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
@@ -24,7 +28,7 @@ scene::NodeSchema bounced_light_schema() {
                          .in("m")
                          .between(0.5, 50)
                          .by_default("8"),
-                     integer("rays", "from each place, once, when the scene is loaded")
+                     integer("rays", "from each place, once: when the scene is baked, else when it is loaded")
                          .between(16, 1024)
                          .by_default("64")},
       .example = "dayLight(timeOfDay=13)\nbouncedLight(spacing=6)",
@@ -37,12 +41,32 @@ void build(const scene::Node& node, scene::SceneBuilder& builder) {
                                                   int(node.integer("rays"))};
 }
 
+/// Keeps the transfer of a state that has none yet.
+Result<render::Baked> bake(render::BakeInput& input) {
+  const scene::Scene& scene = input.scene();
+  if (!scene.data<scene::BouncedSettings>().is_on) return render::Baked();
+  if (TransferCache::folder_of(scene).empty()) return scene::no_baked_folder(scene);
+  const TransferCache cache(scene);
+  if (!cache.read()) {
+    Progress progress("tracing bounced light", 1);
+    if (Status status = cache.keep(trace_transfer(scene)); !status) return status.errors();
+    progress.advance();
+  }
+  return render::Baked{{cache.file()}, fmt::format("bounced light: {}", cache.file().string())};
+}
+
+void forget_others(const scene::Scene& scene, const std::set<std::filesystem::path>& kept) {
+  scene::remove_other_files(TransferCache::folder_of(scene), TransferCache::extension, kept);
+}
+
 }  // namespace
 
 void furnish(House& house) {
   house.get<scene::NodeRegistry>().add(bounced_light_schema(), build);
   render::MakeLight& make = house.get<render::Lights>().make;
   make = with_bounced_light(std::move(make));
+  house.get<render::BakeSteps>().add(
+      {.name = "what bounced light meets", .run = bake, .forget_others = forget_others});
 }
 
 }  // namespace parvis::bounced_light

@@ -157,9 +157,10 @@ vec3 Transfer::middle(std::size_t cell) const {
   return grid_.origin + (vec3(x, y, z) + 0.5f) * grid_.size_m / vec3(cells_);
 }
 
-Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays, const Bounds& fixed,
+Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays,
                    const scene::BouncedSettings& settings)
     : rays_(settings.rays) {
+  const Bounds fixed = rays.fixed_bounds(scene);
   if (fixed.empty()) return;
   lay_out(fixed, settings.spacing_m);
   const std::size_t count = std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z);

@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "graphics/reference/ray_scene.h"
@@ -33,9 +36,15 @@ class Transfer {
  public:
   /// Empty: no light arrives.
   Transfer() = default;
-  /// Traces `settings.rays` rays from every place within `fixed`, and those from the patches to the sky.
-  Transfer(const scene::Scene& scene, const reference::RayScene& rays, const Bounds& fixed,
+  /// Traces `settings.rays` rays from every place between the scene's static things, and those from the
+  /// patches to the sky.
+  Transfer(const scene::Scene& scene, const reference::RayScene& rays,
            const scene::BouncedSettings& settings);
+
+  /// All of it, for a file.
+  std::string to_bytes() const;
+  /// What `to_bytes` wrote; nothing where bytes are missing, or counts and indices do not fit each other.
+  static std::optional<Transfer> from_bytes(std::string_view bytes);
 
   /// The light that arrives at every place after `bounces` surfaces or fewer.
   shading::BouncedLight light(const scene::Sun& sun, const shading::SkyLight& sky, int bounces = 3) const;
@@ -46,6 +55,7 @@ class Transfer {
 
  private:
   void lay_out(const Bounds& fixed, float spacing_m);
+  bool is_consistent() const;
   glm::vec3 middle(std::size_t cell) const;
   std::size_t index(glm::ivec3 cell) const;
   void see_sky(const scene::Scene& scene, const reference::RayScene& rays,

@@ -228,6 +228,17 @@ bool RayScene::update(const scene::Scene& scene) {
   return has_changed;
 }
 
+Bounds RayScene::fixed_bounds(const scene::Scene& scene) const {
+  Bounds bounds;
+  for (const std::unique_ptr<PlacedPart>& place : places_) {
+    const auto object = std::size_t(place->object);
+    const bool is_dynamic = object < scene.objects.size() && scene.objects[object].is_dynamic;
+    if (place->is_traced && !is_dynamic)
+      bounds.add(transformed(place->world_from_mesh, place->mesh->bounds()));
+  }
+  return bounds;
+}
+
 /// Embree's hierarchies of meshes that no place shows any more.
 void RayScene::forget_meshes_but_those_placed() {
   std::unordered_set<const Mesh*> placed;

@@ -40,8 +40,7 @@ std::uint64_t model_key(const scene::Model& model) {
 
 /// `counts`: the objects, `counts_data`: the roles of rooms' data, on which the key depends.
 template <class Counts, class CountsData>
-std::uint64_t key_of(const scene::Scene& scene, Counts&& counts, CountsData&& counts_data) {
-  ContentHash hash;
+void add_things(ContentHash& hash, const scene::Scene& scene, Counts&& counts, CountsData&& counts_data) {
   std::unordered_map<const scene::Model*, std::uint64_t> models;
   for (const scene::Object& object : scene.objects) {
     if (!counts(object)) continue;
@@ -56,26 +55,44 @@ std::uint64_t key_of(const scene::Scene& scene, Counts&& counts, CountsData&& co
     }
     for (const bool choice : {object.is_visible, object.takes_reflection}) hash.add(choice);
   }
+  scene.room_data.hash(hash, counts_data);
+}
+
+void add_light(ContentHash& hash, const scene::Scene& scene) {
   for (const glm::vec3 v : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(v);
   hash.add(scene.sky.picture.width);
   hash.add(scene.sky.picture.pixels);
   for (const float value : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m}) hash.add(value);
-  scene.room_data.hash(hash, counts_data);
-  return hash.value();
+}
+
+void add_fixed_things(ContentHash& hash, const scene::Scene& scene) {
+  add_things(
+      hash, scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; },
+      [](scene::DataRole role) { return role == scene::DataRole::static_content; });
 }
 
 }  // namespace
 
 std::uint64_t scene_key(const scene::Scene& scene) {
-  return key_of(
-      scene, [](const scene::Object&) { return true; },
+  ContentHash hash;
+  add_things(
+      hash, scene, [](const scene::Object&) { return true; },
       [](scene::DataRole role) { return role != scene::DataRole::settings; });
+  add_light(hash, scene);
+  return hash.value();
 }
 
 std::uint64_t fixed_scene_key(const scene::Scene& scene) {
-  return key_of(
-      scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; },
-      [](scene::DataRole role) { return role == scene::DataRole::static_content; });
+  ContentHash hash;
+  add_fixed_things(hash, scene);
+  add_light(hash, scene);
+  return hash.value();
+}
+
+std::uint64_t fixed_shape_key(const scene::Scene& scene) {
+  ContentHash hash;
+  add_fixed_things(hash, scene);
+  return hash.value();
 }
 
 }  // namespace parvis::reference

@@ -41,5 +41,16 @@ TEST(SceneKey, DependsOnWhatRoomsLetBeSeen) {
   EXPECT_FALSE(setting.key || setting.static_key);
 }
 
+TEST(SceneKey, OfShapesDoesNotKnowTheLight) {
+  scene::Scene noon;
+  scene::add(noon, scene::model_of(scene::ground(5.0f), scene::matt(glm::vec3(0.5f))));
+  scene::Scene evening = noon;
+  evening.sun.irradiance *= 0.1f, evening.sky.intensity *= 0.2f;
+  EXPECT_EQ(fixed_shape_key(evening), fixed_shape_key(noon));
+  EXPECT_NE(fixed_scene_key(evening), fixed_scene_key(noon));
+  evening.objects.front().world_from_model[3].x = 1.0f;
+  EXPECT_NE(fixed_shape_key(evening), fixed_shape_key(noon));
+}
+
 }  // namespace
 }  // namespace parvis::reference

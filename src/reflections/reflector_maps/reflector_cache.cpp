@@ -106,12 +106,7 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {
 }
 
 void forget_other_reflectors(const BakedReflectors& kept) {
-  std::error_code code;
-  std::vector<fs::path> others;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kept.folder, code))
-    if (entry.path().extension() == extension && !kept.files.contains(entry.path()))
-      others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove(other, code);
+  scene::remove_other_files(kept.folder, extension, kept.files);
 }
 
 }  // namespace parvis::reflector_maps

@@ -37,19 +37,11 @@ Image8 drawn(render::Renderer& renderer, const scene::Scene& scene, const Camera
   return renderer.read_picture(scene.exposure);
 }
 
-Bounds bounds_of(const scene::Scene& scene) {
-  Bounds bounds;
-  for (const scene::Object& object : scene.objects)
-    bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
-  return bounds;
-}
-
 void measure_update(const scene::Scene& city, Report& report) {
   const reference::RayScene rays(city);
   bounced_light::Transfer transfer;
-  const double traced_ms = milliseconds([&] {
-    transfer = bounced_light::Transfer(city, rays, bounds_of(city), city.data<scene::BouncedSettings>());
-  });
+  const double traced_ms = milliseconds(
+      [&] { transfer = bounced_light::Transfer(city, rays, city.data<scene::BouncedSettings>()); });
   const shading::SkyLight sky =
       shading::make_sky_light(city.sky.picture, city.sky.intensity, city.sky.heading);
   std::vector<double> samples;

@@ -1,0 +1,38 @@
+// Transfers beside their scene: folder NAME.baked/bounced_light, in it a file for each state, named by what
+// it depends on. Sun and sky are not among that: one file serves every hour.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "graphics/bounced_light/transfer.h"
+
+namespace parvis::bounced_light {
+
+/// What is kept of one state of a scene.
+class TransferCache {
+ public:
+  /// Nothing is kept of a scene that was made in memory.
+  explicit TransferCache(const scene::Scene& scene);
+
+  /// As it was kept. Reports on standard error what cannot be used of what was kept.
+  std::optional<Transfer> read() const;
+  /// Keeps it; `file` is not empty. Errors: it cannot be written.
+  Status keep(const Transfer& transfer) const;
+
+  /// Where this state's is kept; empty: nowhere.
+  const std::filesystem::path& file() const { return file_; }
+
+  static constexpr std::string_view extension = ".transfer";  ///< of all files
+  /// Of all states; empty for a scene that was made in memory, or whose folder is a link.
+  static std::filesystem::path folder_of(const scene::Scene& scene);
+
+ private:
+  std::filesystem::path file_;
+  std::uint64_t key_ = 0;
+};
+
+/// Traces what light of any hour meets in the scene as it stands.
+Transfer trace_transfer(const scene::Scene& scene);
+
+}  // namespace parvis::bounced_light
