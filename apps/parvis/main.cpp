@@ -1,6 +1,7 @@
 // The command: a table of subcommands, each of which reads its arguments and calls a room.
 // Exit status: 0 done, 1 failed, 2 bad usage.
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -22,6 +23,20 @@ int failed(const char* message) {
   return 1;
 }
 int failed(const std::string& message) { return failed(message.c_str()); }
+
+constexpr const char* no_memory =
+    "parvis: there is not enough memory for this; use a smaller scene or --size\n";
+
+/// Memory may end where no exception can pass: destructors of the JSON library and of others allocate.
+void end_without_memory() {
+  try {
+    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+  } catch (const std::bad_alloc&) {
+    parvis::remove_partial_files_and_end(no_memory);
+  } catch (...) {  // a fault of the program: it ends as one
+  }
+  std::abort();
+}
 
 /// Reads the command line and does what it says. Throws what no room can answer for.
 int run(int count, char** arguments) {
@@ -57,10 +72,11 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  std::set_terminate(end_without_memory);
   try {
     return run(count, arguments);
   } catch (const std::bad_alloc&) {
-    return failed("parvis: there is not enough memory for this; use a smaller scene or --size\n");
+    return failed(no_memory);
   } catch (const std::length_error&) {
     return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
   } catch (const std::system_error& problem) {  // threads, files

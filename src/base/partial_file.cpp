@@ -77,12 +77,7 @@ void remove_folder_in_signal(const char* path) {
 }
 
 void on_signal(int) {
-  for (const Slot& slot : slots)
-    if (slot.is_listed && unlink(slot.path.data()) != 0) remove_folder_in_signal(slot.path.data());
-  constexpr std::string_view message = "parvis: interrupted; what was being written is removed\n";
-  const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
-  static_cast<void>(ignored);
-  _exit(1);
+  remove_partial_files_and_end("parvis: interrupted; what was being written is removed\n");
 }
 
 /// Whether nobody works on the file or folder any more: who does holds a lock on it.
@@ -234,6 +229,14 @@ PartialFolder::~PartialFolder() {
   if (!folder_.empty()) fs::remove_all(folder_, code);
   unlist(slot_);
   if (lock_ >= 0) close(lock_);
+}
+
+void remove_partial_files_and_end(std::string_view message) {
+  for (const Slot& slot : slots)
+    if (slot.is_listed && unlink(slot.path.data()) != 0) remove_folder_in_signal(slot.path.data());
+  const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  static_cast<void>(ignored);
+  _exit(1);
 }
 
 void remove_partial_files_on_signals() {

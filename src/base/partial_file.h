@@ -67,4 +67,8 @@ class PartialFolder {
 /// themselves.
 void remove_partial_files_on_signals();
 
+/// Removes all partial files and folders, says `message` on the standard error and ends the program with
+/// status 1 at once: for signals, and where memory ends in code that may not throw. Allocates nothing.
+[[noreturn]] void remove_partial_files_and_end(std::string_view message);
+
 }  // namespace parvis
