@@ -2,8 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "base/result.h"
@@ -24,8 +26,8 @@ inline Status parse_size(const std::string& text, int& width, int& height) {
 }
 
 /// Adds to each numeric option of `app` and of its subcommands what no range can refuse: "nan", which is
-/// neither below nor above a limit, numbers beyond those of floats, nothing at all, and the sign of an
-/// unsigned number, which would wrap.
+/// neither below nor above a limit, numbers beyond those of floats or of 64 bits, nothing at all, and the
+/// sign of an unsigned number, which would wrap.
 inline void be_strict_about_numbers(CLI::App& app) {
   constexpr double max_float = 3.4e38;
   for (CLI::Option* option : app.get_options()) {
@@ -35,7 +37,14 @@ inline void be_strict_about_numbers(CLI::App& app) {
     option->check([is_float, is_unsigned](const std::string& text) -> std::string {
       if (text.empty()) return "expected a number";
       if (is_unsigned && text.starts_with('-')) return text + ": expected a number that is not negative";
-      if (!is_float) return "";
+      if (!is_float) {  // the library's conversion ends at the largest number without a word
+        errno = 0;
+        if (is_unsigned)
+          std::strtoull(text.c_str(), nullptr, 0);
+        else
+          std::strtoll(text.c_str(), nullptr, 0);
+        return errno == ERANGE ? text + ": expected a number of at most 64 bits" : "";
+      }
       const double value = std::strtod(text.c_str(), nullptr);
       return std::abs(value) <= max_float ? "" : text + ": expected a finite number";
     });
