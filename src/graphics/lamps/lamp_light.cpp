@@ -74,6 +74,10 @@ bool LampLight::update(const scene::Scene& scene) {
   std::vector<shading::Lamp> still = reference::lit_lamps(scene, reference::LampKind::still);
   moving_ = reference::lit_lamps(scene, reference::LampKind::moving);
 
+  const std::size_t burning = still.size() + moving_.size();
+  if (burning > shading::max_lamps && !std::exchange(has_warned_of_count_, true))
+    fmt::print(stderr, "warning: {} lamps burn; {} shine, those of vehicles last\n", burning,
+               shading::max_lamps);
   const std::size_t layers = std::min(still.size(), std::size_t(max_layers()));
   for (std::size_t i = 0; i < layers; ++i) still[i].power.w = float(i + 1);
   const bool has_same_places = std::ranges::equal(still, still_, has_same_map);

@@ -33,7 +33,8 @@ class LampLight final : public render::LightOver {
   std::vector<std::uint16_t> depths_;          ///< of `still_`
   std::vector<bool> is_mapped_;                ///< by still lamp: its map is up to date
   bool has_new_maps_ = false;                  ///< since the table was made
-  shading::LampTable table_;                   ///< what is on the GPU
+  bool has_warned_of_count_ = false;
+  shading::LampTable table_;  ///< what is on the GPU
   std::vector<glm::uvec4> texels_;
   gl::Texture table_texture_, maps_;
   int table_rows_ = 0, layers_ = 0;

@@ -22,7 +22,7 @@ scene::NodeSchema lamp_schema() {
       .type = "lamp",
       .help =
           "A street lamp, a shop window, a headlight: by itself, or one on every object of some name, with "
-          "which it goes.",
+          "which it goes. Where more than eight lamps reach the same 6 m, the eight brightest shine.",
       .attributes =
           {text("name", "by which other nodes refer to it"),
            text("of",

@@ -8,7 +8,6 @@ namespace {
 
 constexpr float wanted_cell_m = 6.0f;
 constexpr float max_cells_per_side = 256.0f;
-constexpr std::size_t max_lamps = 65534;
 
 float brightness(const Lamp& lamp) { return lamp.power.x + lamp.power.y + lamp.power.z; }
 

@@ -33,7 +33,10 @@ struct LampTable {
 /// Most lamps that one cell has; of more, the strongest shine.
 inline constexpr int max_lamps_per_cell = 8;
 
-/// Of at most 65,534 lamps; more are left out.
+/// Most lamps of a table: the grid has 16 bits for a number plus 1.
+inline constexpr std::size_t max_lamps = 65534;
+
+/// Of the first `max_lamps`.
 LampTable make_lamp_table(std::vector<Lamp> lamps);
 
 /// lamps_lookup.glsl over a table; `visible(lamp, position, geometric_normal)` says which share of a lamp a
