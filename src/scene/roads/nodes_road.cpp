@@ -115,8 +115,16 @@ void build_streets(const Node& node, SceneBuilder& builder) {
     if (attribute.schema->name == "target")
       add_road_polygons(*object, std::get<std::string>(attribute.value), polygons);
   const std::vector<Road> roads = roads_from_polygons(polygons);
-  if (roads.empty())
-    builder.warn(error_at(node.where_of("of"), "streets: \"{}\" has no road surfaces that match", name));
+  if (polygons.empty())
+    builder.warn(error_at(node.where_of("of"), "streets: no part of \"{}\" matches target; it has {}", name,
+                          part_names(*object->model)));
+  else if (roads.empty())
+    builder.warn(
+        error_at(node.where_of("of"),
+                 "streets: of the {} triangles of \"{}\" that match target none make a street: they are "
+                 "footpaths, cycle paths, parking or rails by name, too narrow, or as wide as long; "
+                 "give the streets by road()",
+                 polygons.size(), name));
   for (Road road : roads) {
     road.speed_limit = float(node.number("speed_km_h")) * m_s_per_km_h;
     road.where = node.where_of("of");
