@@ -18,6 +18,7 @@
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
 #include "places/dressing/room.h"
+#include "places/kerbside/room.h"
 #include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/bench/multiple_environment_maps_bench.h"
 #include "reflections/environment_rays/room.h"
@@ -50,6 +51,7 @@ constexpr Furnish rooms[]{
     traffic::furnish,
     scene::furnish_light,
     city::furnish,
+    kerbside::furnish,  // after roads
     action::furnish,
     probes::furnish,
     environment_rays::furnish,

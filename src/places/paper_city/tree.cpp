@@ -29,6 +29,15 @@ Species species_of(int index) {
            {6, 0.2f, 0.5f, 48.0f, -0.03f, 0.2f, 3, 3}}};
 }
 
+/// The slender one with half of its branches.
+Species medium_species(float height_m) {
+  return {height_m,
+          0.017f * height_m,
+          {{0, 0.0f, 1.0f, 0.0f, 0.02f, 0.045f, 9, 8},
+           {15, 0.34f, 0.42f, 56.0f, 0.09f, 0.10f, 5, 5},
+           {7, 0.25f, 0.5f, 50.0f, 0.03f, 0.16f, 3, 3}}};
+}
+
 /// A few limbs whose branches carry sprays, for places with hundreds of trees.
 Species small_species(float height_m) {
   return {height_m,
@@ -90,6 +99,24 @@ scene::Model make_tree(int species_index, std::uint64_t seed) {
       random);
   add_part(model, "wood", std::move(wood), bark);
   add_part(model, "foliage", std::move(green), leaves);
+  return model;
+}
+
+scene::Model make_medium_tree(float height_m, std::uint64_t seed) {
+  constexpr std::size_t sprays = 3600;
+  constexpr int green_of[][3] = {{0x7C, 0x9A, 0x48}, {0x70, 0x92, 0x44}, {0x86, 0xA0, 0x4A}};
+  Random random(seed, 150);
+  const Species species = medium_species(height_m * random.uniform(0.9f, 1.1f));
+  const std::vector<Branch> tree = grow_tree(species, random);
+  Mesh wood;
+  for (const Branch& branch : tree) add_tube(wood, branch, species.orders[std::size_t(branch.order)].sides);
+  const int* green = green_of[random.index(3)];
+  scene::Model model;
+  model.name = "medium_tree";
+  add_materials(model, linear_from_srgb8(green[0], green[1], green[2]), random);
+  add_part(model, "wood", std::move(wood), bark);
+  add_part(model, "foliage",
+           foliage(tree, {sprays, 0.042f * height_m}, {0.0f, 0.0f, 0.55f * height_m}, random), leaves);
   return model;
 }
 

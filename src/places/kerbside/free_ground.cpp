@@ -1,0 +1,119 @@
+#include "places/kerbside/free_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/bounds.h"
+#include "scene/data/model_parts.h"
+
+namespace parvis::kerbside {
+namespace {
+
+using glm::vec2, glm::vec3;
+
+constexpr unsigned char lane_bit = 1, thing_bit = 2;
+constexpr float reach_m = 12.0f;     // beside a lane, of what is looked at
+constexpr float fine_cell_m = 0.4f;  // where the place is small enough for `max_cells`
+constexpr float max_cells = 64e6f;   // a byte each
+constexpr float step_m = 0.35f;      // between points of walls
+constexpr float low_m = 0.35f, high_m = 3.5f;
+constexpr float steep = 0.8f;  // z of unit normals below which a triangle is a side of something
+
+scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
+  Bounds bounds;
+  for (const scene::Lane& lane : roads.lanes)
+    for (const vec3& point : lane.points) bounds.add(point);
+  if (bounds.empty()) return {};
+  const vec2 origin = vec2(bounds.min) - reach_m, size = vec2(bounds.size()) + 2.0f * reach_m;
+  const float cell_m = std::max(fine_cell_m, std::sqrt(size.x * size.y / max_cells));
+  const glm::ivec2 cells(glm::ceil(size / cell_m));
+  return {cells.x, cells.y, cell_m, origin};
+}
+
+}  // namespace
+
+FreeGround::FreeGround(const scene::Scene& scene)
+    : heights_(scene, reach_m), taken_(grid_of(scene.roads), 0) {
+  take_lanes(scene.roads);
+  take_things(scene);
+}
+
+void FreeGround::mark(vec2 point, float radius_m, unsigned char with) {
+  const glm::ivec2 first = taken_.cell_at(point - radius_m), last = taken_.cell_at(point + radius_m);
+  for (int y = std::max(first.y, 0); y <= std::min(last.y, taken_.height - 1); ++y)
+    for (int x = std::max(first.x, 0); x <= std::min(last.x, taken_.width - 1); ++x)
+      if (glm::ivec2(x, y) == taken_.cell_at(point) ||
+          glm::distance(taken_.centre_of({x, y}), point) < radius_m)
+        taken_.at(x, y) |= with;
+}
+
+void FreeGround::take(vec2 point, float radius_m) { mark(point, radius_m, thing_bit); }
+
+bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m) const {
+  const float reach = std::max(radius_m, from_lanes_m);
+  const glm::ivec2 first = taken_.cell_at(point - reach), last = taken_.cell_at(point + reach);
+  if (!taken_.contains(first.x, first.y) || !taken_.contains(last.x, last.y)) return false;
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) {
+      const unsigned char taken = taken_.at(x, y);
+      if (taken == 0) continue;
+      // A carriageway is known to half a cell, by the middles of cells; a thing is anywhere in its cell.
+      const vec2 middle = taken_.centre_of({x, y}), half(0.5f * taken_.cell_m);
+      const bool is_own = glm::all(glm::lessThanEqual(glm::abs(middle - point), half));
+      if ((taken & lane_bit) != 0 && from_lanes_m > 0.0f &&
+          (is_own || glm::distance(middle, point) < from_lanes_m))
+        return false;
+      if ((taken & thing_bit) != 0 &&
+          glm::distance(glm::clamp(point, middle - half, middle + half), point) < radius_m)
+        return false;
+    }
+  return true;
+}
+
+void FreeGround::take_lanes(const scene::RoadGraph& roads) {
+  for (const scene::Lane& lane : roads.lanes)
+    for (std::size_t i = 0; i + 1 < lane.points.size(); ++i) {
+      const vec2 from(lane.points[i]), to(lane.points[i + 1]);
+      const int steps = std::max(1, int(std::ceil(glm::distance(from, to) / taken_.cell_m)));
+      for (int s = 0; s <= steps; ++s)
+        mark(glm::mix(from, to, float(s) / float(steps)), 0.5f * lane.width_m, lane_bit);
+    }
+}
+
+void FreeGround::take_things(const scene::Scene& scene) {
+  for (const scene::Object& object : scene.objects) {
+    if (!object.is_visible) continue;
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    for (const scene::Part& part : object.model->parts) {
+      const glm::mat4 world = object.world_from_model * pose[std::size_t(part.node)];
+      const auto corner = [&](std::size_t i) {
+        return vec3(world * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
+      };
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
+        take_triangle(corner(i), corner(i + 1), corner(i + 2));
+    }
+  }
+}
+
+/// What lies level is ground, or a roof above what stands.
+void FreeGround::take_triangle(vec3 a, vec3 b, vec3 c) {
+  const vec2 low = glm::min(vec2(a), glm::min(vec2(b), vec2(c))),
+             high = glm::max(vec2(a), glm::max(vec2(b), vec2(c)));
+  const vec2 end = taken_.origin + taken_.cell_m * vec2(taken_.width, taken_.height);
+  if (glm::any(glm::lessThan(high, taken_.origin)) || glm::any(glm::greaterThan(low, end))) return;
+  const vec3 across = glm::cross(b - a, c - a);
+  const float area = glm::length(across);
+  if (!(area > 0.0f) || std::abs(across.z) > steep * area) return;
+  const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  const int steps = std::clamp(int(std::ceil(longest / step_m)), 1, 2000);
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; i + j <= steps; ++j) {
+      const vec3 p = a + (float(i) * (b - a) + float(j) * (c - a)) / float(steps);
+      const glm::ivec2 cell = taken_.cell_at(vec2(p));
+      if (!taken_.contains(cell.x, cell.y)) continue;
+      const float above = p.z - heights_.at(vec2(p), p.z);
+      if (above > low_m && above < high_m) taken_.at(cell.x, cell.y) |= thing_bit;
+    }
+}
+
+}  // namespace parvis::kerbside

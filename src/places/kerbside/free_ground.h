@@ -1,0 +1,35 @@
+// Where beside the lanes of a scene there is room for one more thing.
+#pragma once
+
+#include "formats/terrain/ground_heights.h"
+#include "formats/terrain/ground_raster.h"
+#include "scene/data/scene.h"
+
+namespace parvis::kerbside {
+
+/// A plan of what is taken: carriageways, walls, and whatever else stands on the ground.
+class FreeGround {
+ public:
+  /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
+  /// what hangs higher does not.
+  explicit FreeGround(const scene::Scene& scene);
+
+  /// No thing is within `radius_m` of a point in plan, and no carriageway within `from_lanes_m`; 0: that does
+  /// not count.
+  bool is_free(glm::vec2 point, float radius_m, float from_lanes_m) const;
+  /// Takes the place within `radius_m` of a point.
+  void take(glm::vec2 point, float radius_m);
+  /// Height of the ground; `fallback` where none is known.
+  float height(glm::vec2 point, float fallback) const { return heights_.at(point, fallback); }
+
+ private:
+  void take_lanes(const scene::RoadGraph& roads);
+  void take_things(const scene::Scene& scene);
+  void take_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void mark(glm::vec2 point, float radius_m, unsigned char with);
+
+  scene::GroundHeights heights_;
+  scene::Mask taken_;  ///< of each cell: bit 0, a carriageway; bit 1, a thing
+};
+
+}  // namespace parvis::kerbside

@@ -1,0 +1,35 @@
+// Places at equal distances along the kerbs of a scene's streets.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "places/kerbside/free_ground.h"
+
+namespace parvis::kerbside {
+
+/// What stands in a series, and how near to what. Metres.
+struct KerbSeries {
+  float spacing_m = 9.0f;
+  float beside_m = 0.9f;              ///< from the edge of the lane outward; below 0: on the lane
+  float half_length_m = 0.0f;         ///< along the kerb
+  float radius_m = 0.5f;              ///< about the line along that length nothing else may stand
+  float from_lanes_m = 0.2f;          ///< about that line there is no carriageway
+  float share = 1.0f;                 ///< of the places: the others stay free
+  std::uint64_t seed = 1;             ///< of the chance by which they do
+  bool stands_on_wide_lanes = false;  ///< on lanes of 4.8 m and more, beside the kerb, as parked cars do
+};
+
+/// One of them.
+struct KerbPlace {
+  glm::vec3 foot{0.0f};
+  glm::vec2 along{1.0f, 0.0f};  ///< the direction of the lane, unit length
+  bool is_left = false;         ///< of the lane
+};
+
+/// The places of a series that are free, each of which is taken at once. Ends of lanes, where drivers look
+/// into crossings, stay free.
+std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const KerbSeries& series,
+                                        FreeGround& ground);
+
+}  // namespace parvis::kerbside

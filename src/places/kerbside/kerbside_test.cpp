@@ -1,0 +1,175 @@
+// Trees, cars and furniture along the streets of scripts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/test_folder.h"
+#include "house/rooms.h"
+#include "scene/script/scene_loader.h"
+
+namespace parvis::kerbside {
+namespace {
+
+/// A ground, and two streets that cross on it.
+constexpr const char* streets =
+    "terrain_plane()\n"
+    "road(path=\"-100 0, 0 0, 100 0\")\n"
+    "road(path=\"0 -100, 0 0, 0 100\")\n"
+    "paving()\n"
+    "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n";
+
+class Kerbside : public testing::Test {
+ protected:
+  scene::Scene load(const std::string& text) {
+    folder_.write("scene.xp", streets + text);
+    Result<scene::LoadedScene> loaded =
+        scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    return loaded ? std::move(loaded->scene) : scene::Scene();
+  }
+  std::string errors_of(const std::string& text) {
+    folder_.write("scene.xp", streets + text);
+    const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+    return loaded ? "" : to_string(loaded.errors());
+  }
+  static std::vector<scene::Object> called(const scene::Scene& scene, const std::string& name) {
+    std::vector<scene::Object> found;
+    for (const scene::Object& object : scene.objects)
+      if (object.name.starts_with(name)) found.push_back(object);
+    return found;
+  }
+
+  TestFolder folder_;
+};
+
+glm::vec2 place_of(const scene::Object& object) { return glm::vec2(object.world_from_model[3]); }
+
+float distance_to_lanes(const scene::Scene& scene, glm::vec2 p) {
+  float nearest = 1e9f;
+  for (const scene::Lane& lane : scene.roads.lanes)
+    for (std::size_t i = 0; i + 1 < lane.points.size(); ++i) {
+      const glm::vec2 a(lane.points[i]), b(lane.points[i + 1]);
+      const float t = glm::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
+      nearest = std::min(nearest, glm::distance(p, glm::mix(a, b, t)) - 0.5f * lane.width_m);
+    }
+  return nearest;
+}
+
+TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
+  const scene::Scene scene = load("streetTrees(spacing=10)\n");
+  const std::vector<scene::Object> trees = called(scene, "street tree");
+  EXPECT_GT(trees.size(), 50u);  // four arms of some 80 m, two kerbs
+  EXPECT_LT(trees.size(), 80u);
+  for (const scene::Object& tree : trees) {
+    EXPECT_GT(distance_to_lanes(scene, place_of(tree)), 0.5f) << tree.name;
+    EXPECT_NEAR(tree.world_from_model[3].z, 0.03f, 0.01f) << tree.name;  // on the slabs
+    for (const scene::Object& other : trees) {
+      const float apart = glm::distance(place_of(tree), place_of(other));
+      EXPECT_TRUE(tree.name == other.name || apart > 5.0f) << tree.name << ", " << other.name;
+    }
+  }
+  const auto is_north = [](const scene::Object& tree) {
+    return std::abs(place_of(tree).x) > 10 && place_of(tree).y > 0;
+  };
+  const auto is_south = [](const scene::Object& tree) {
+    return std::abs(place_of(tree).x) > 10 && place_of(tree).y < 0;
+  };
+  EXPECT_EQ(std::ranges::count_if(trees, is_north), std::ranges::count_if(trees, is_south));
+}
+
+TEST_F(Kerbside, NothingStandsOnCarriagewaysWhereverTheyLie) {
+  for (const char* road : {"-80 -60.13, 90 51.7", "-80 -60.31, -20 -61.2, 90 -20", "-33.3 -90, -30.1 90"}) {
+    folder_.write("oblique.xp", std::string("terrain_plane()\nroad(path=\"") + road +
+                                    "\")\npaving()\nstreetFurniture(kind=\"bollards\")\n");
+    const auto loaded = scene::load_scene(folder_.path() / "oblique.xp", house::node_registry());
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    const std::vector<scene::Object> bollards = called(loaded->scene, "bollard");
+    EXPECT_GT(bollards.size(), 100u) << road;
+    for (const scene::Object& bollard : bollards)
+      EXPECT_GT(distance_to_lanes(loaded->scene, place_of(bollard)), 0.2f) << road;
+  }
+}
+
+TEST_F(Kerbside, NothingStandsInWalls) {
+  folder_.write("house.obj", "v 20 0 -5\nv 60 0 -5\nv 60 9 -5\nv 20 9 -5\nf 1 2 3\nf 1 3 4\n");  // y is up
+  const auto in_wall = [](const scene::Object& tree) {
+    return place_of(tree).x > 20 && place_of(tree).x < 60 && place_of(tree).y > 0 && place_of(tree).y < 8;
+  };
+  EXPECT_GT(std::ranges::count_if(called(load("streetTrees()\n"), "street tree"), in_wall), 2);
+  const scene::Scene walled = load("model(file=\"house.obj\")\nstreetTrees()\n");
+  EXPECT_EQ(std::ranges::count_if(called(walled, "street tree"), in_wall), 0);
+}
+
+TEST_F(Kerbside, CarsLookAlongTheirLanesAndTakeTheirShareOfPlaces) {
+  const scene::Scene all = load("parkedCars(share=1)\n");
+  const std::vector<scene::Object> cars = called(all, "parked car");
+  EXPECT_GT(cars.size(), 60u);
+  for (const scene::Object& car : cars) {
+    EXPECT_TRUE(car.takes_reflection && car.is_dynamic);
+    EXPECT_GT(distance_to_lanes(all, place_of(car)), 0.9f) << car.name;
+    // Vehicles drive on the right: along the street that runs east, cars on its north look west.
+    const glm::vec2 ahead(car.world_from_model[0]);
+    if (std::abs(place_of(car).y) < 6.0f) {
+      EXPECT_LT(ahead.x * place_of(car).y, 0.0f) << car.name;
+    }
+  }
+  const std::size_t half = called(load("parkedCars(share=0.5)\n"), "parked car").size();
+  EXPECT_NEAR(double(half), 0.5 * double(cars.size()), 0.2 * double(cars.size()));
+  EXPECT_TRUE(called(load("parkedCars(share=0)\n"), "parked car").empty());
+}
+
+TEST_F(Kerbside, WhatComesFirstTakesItsPlacesFirst) {
+  const std::size_t alone = called(load("streetTrees()\n"), "street tree").size();
+  const std::size_t beside_few = called(load("parkedCars(share=0.2)\nstreetTrees()\n"), "street tree").size();
+  const scene::Scene both = load("parkedCars(share=1)\nstreetTrees()\n");
+  EXPECT_LT(called(both, "street tree").size(), beside_few);
+  EXPECT_LT(beside_few, alone);
+  EXPECT_LT(called(both, "street tree").size(), alone);
+  for (const scene::Object& tree : called(both, "street tree"))
+    for (const scene::Object& car : called(both, "parked car"))
+      EXPECT_GT(glm::distance(place_of(tree), place_of(car)), 1.5f) << tree.name << ", " << car.name;
+}
+
+TEST_F(Kerbside, BenchesTurnTheirBacksToTheHouses) {
+  const scene::Scene scene = load("streetFurniture(kind=\"benches\", spacing=10)\n");
+  const std::vector<scene::Object> benches = called(scene, "bench");
+  EXPECT_GT(benches.size(), 30u);
+  for (const scene::Object& bench : benches)
+    if (std::abs(place_of(bench).y) < 6.0f) {
+      EXPECT_GT(bench.world_from_model[1].y * place_of(bench).y, 0.0f) << bench.name;
+    }
+}
+
+TEST_F(Kerbside, RepeatsWhatTheScriptNames) {
+  folder_.write("post.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  const std::string post = "model(name=\"post\", file=\"post.obj\", scale=2, visible=0)\n";
+  const scene::Scene scene = load(post + "streetFurniture(kind=\"bollards\", of=\"post\", spacing=20)\n");
+  const std::vector<scene::Object> posts = called(scene, "bollard");
+  ASSERT_FALSE(posts.empty());
+  EXPECT_NEAR(glm::length(glm::vec3(posts.front().world_from_model[0])), 2.0f, 1e-4f);
+  EXPECT_EQ(posts.front().model, called(scene, "post").front().model);
+  const std::string errors = errors_of("streetTrees(of=\"oak *\")\n");
+  EXPECT_NE(errors.find("no object is called \"oak *\""), std::string::npos) << errors;
+  EXPECT_NE(errors.find("scene.xp:6"), std::string::npos) << errors;
+}
+
+TEST_F(Kerbside, ManyThingsAreRefusedWithTheNumberThatIsAllowed) {
+  const std::string errors =
+      errors_of("road(path=\"0 500, 40000 500\")\nstreetFurniture(kind=\"bollards\", spacing=1)\n");
+  EXPECT_NE(errors.find("50000"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("wider spacing"), std::string::npos) << errors;
+}
+
+TEST_F(Kerbside, ASceneWithoutStreetsHasNone) {
+  folder_.write(
+      "bare.xp",
+      "terrain_plane()\nstreetTrees()\ncamera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+  const auto loaded = scene::load_scene(folder_.path() / "bare.xp", house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_TRUE(called(loaded->scene, "street tree").empty());
+  EXPECT_NE(to_string(loaded->warnings).find("no streets"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace parvis::kerbside

@@ -1,0 +1,219 @@
+// streetTrees, parkedCars, streetFurniture: what stands along the kerbs of every street, in one node each.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/content_hash.h"
+#include "base/random.h"
+#include "places/kerbside/kerb_places.h"
+#include "places/kerbside/room.h"
+#include "places/kerbside/street_models.h"
+#include "scene/data/name_pattern.h"
+#include "scene/script/attribute.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::kerbside {
+namespace {
+
+using namespace scene::attribute;
+
+constexpr std::size_t max_objects = 50'000;
+
+/// A series that a script asks for.
+struct PlannedSeries {
+  static constexpr std::string_view name = "kerbside.planned_series";
+  static constexpr scene::DataRole role = scene::DataRole::settings;  // what stands is among the objects
+  KerbSeries series;
+  std::string object_name;  ///< of each; a number follows
+  std::string of;           ///< pattern of the objects that are repeated; empty: `models`
+  FileLocation where_of;
+  std::function<Models()> models;  ///< makes what is repeated where `of` is empty
+  bool turns_at_random = false;    ///< as trees do
+  bool is_car = false;             ///< takes reflections and is dynamic: reference maps leave it out
+
+  /// What follows from the script is in the objects.
+  void hash(ContentHash& hash) const { hash.add_text(object_name); }
+};
+
+/// What is repeated: models, and how each is turned and scaled.
+struct Repeated {
+  std::shared_ptr<const scene::Model> model;
+  glm::mat3 turn{1.0f};
+};
+
+scene::AttributeSchema of_attribute(const std::string& else_what) {
+  return text("of",
+              "names of objects of the scene, with * and ?, of which one stands at each place; they may "
+              "be hidden themselves. Without it: " +
+                  else_what);
+}
+scene::AttributeSchema seed_attribute() {
+  return integer("seed", "another one, other shapes and places").between(0, 1e9).by_default("1");
+}
+scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) {
+  return number("spacing", help).in("m").between(min_m, 500);
+}
+
+scene::NodeSchema street_trees_schema() {
+  return {
+      .type = "streetTrees",
+      .help = "Trees along both kerbs of every street, where neither walls nor anything else is in the way.",
+      .attributes =
+          {of_attribute("trees of `height`"), spacing_attribute("between trees", 2).by_default("10"),
+           number("beside", "from the kerb to the trunk").in("m").between(0.3, 20).by_default("0.9"),
+           number("clear", "from the trunk to walls and all else").in("m").between(0.2, 10).by_default("1.6"),
+           number("height", "of the trees").in("m").between(2, 30).by_default("8"), seed_attribute()},
+      .example = "road(path=\"0 0, 120 0\")\nstreetTrees(spacing=9, height=7)",
+      .is_laid_out_once = true};
+}
+
+void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
+  const float height_m = float(node.number("height"));
+  const auto seed = std::uint64_t(node.integer("seed"));
+  PlannedSeries planned;
+  planned.series = {.spacing_m = float(node.number("spacing")),
+                    .beside_m = float(node.number("beside")),
+                    .radius_m = float(node.number("clear"))};
+  planned.object_name = "street tree";
+  planned.of = node.text("of"), planned.where_of = node.where_of("of");
+  planned.models = [height_m, seed] { return street_trees(height_m, seed); };
+  planned.series.seed = seed, planned.turns_at_random = true;
+  builder.add(std::move(planned));
+}
+
+scene::NodeSchema parked_cars_schema() {
+  return {
+      .type = "parkedCars",
+      .help =
+          "Cars parked along the kerbs of every street: on lanes of 4.8 m and more, else beside the lane. "
+          "They take reflections.",
+      .attributes = {of_attribute("cars of the paper's city"),
+                     number("share", "of the places that are taken").between(0, 1).by_default("0.6"),
+                     spacing_attribute("from the middle of a place to that of the next", 5).by_default("6"),
+                     seed_attribute()},
+      .example = "road(path=\"0 0, 120 0\")\nparkedCars(share=0.4)",
+      .is_laid_out_once = true};
+}
+
+void build_parked_cars(const scene::Node& node, scene::SceneBuilder& builder) {
+  PlannedSeries planned;
+  planned.series = {.spacing_m = float(node.number("spacing")),
+                    .beside_m = 1.0f,
+                    .half_length_m = 1.5f,
+                    .radius_m = 0.9f,
+                    .from_lanes_m = 0.7f,
+                    .stands_on_wide_lanes = true};
+  planned.object_name = "parked car";
+  planned.of = node.text("of"), planned.where_of = node.where_of("of");
+  planned.models = parked_cars;
+  planned.series.share = float(node.number("share")),
+  planned.series.seed = std::uint64_t(node.integer("seed"));
+  planned.is_car = true;
+  builder.add(std::move(planned));
+}
+
+scene::NodeSchema street_furniture_schema() {
+  std::vector<std::string> kinds;
+  for (const FurnitureKind& kind : furniture_kinds()) kinds.push_back(kind.name);
+  return {
+      .type = "streetFurniture",
+      .help =
+          "Lamps, benches, bins or bollards along both kerbs of every street. A lamp(of=\"street lamp *\") "
+          "lights the lamps.",
+      .attributes = {choice("kind", "what stands there", kinds).by_default("lamps"),
+                     of_attribute("generated ones"),
+                     spacing_attribute("between two of them; else what is usual for the kind", 1),
+                     seed_attribute()},
+      .example =
+          "road(path=\"0 0, 120 0\")\nstreetFurniture(kind=\"lamps\")\n"
+          "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)",
+      .is_laid_out_once = true};
+}
+
+void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builder) {
+  const FurnitureKind& kind = *std::ranges::find(furniture_kinds(), node.text("kind"), &FurnitureKind::name);
+  PlannedSeries planned;
+  planned.series = {.spacing_m = node.gives("spacing") ? float(node.number("spacing")) : kind.spacing_m,
+                    .beside_m = kind.beside_m,
+                    .half_length_m = kind.half_length_m,
+                    .radius_m = 0.28f};
+  planned.object_name = kind.object_name;
+  planned.of = node.text("of"), planned.where_of = node.where_of("of");
+  planned.models = [make = kind.make] { return Models{std::make_shared<scene::Model>(make())}; };
+  planned.series.seed = std::uint64_t(node.integer("seed"));
+  builder.add(std::move(planned));
+}
+
+/// Empty, and an error of the builder, where no object has such a name.
+std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, scene::SceneBuilder& builder) {
+  std::vector<Repeated> repeated;
+  if (planned.of.empty()) {
+    for (const auto& model : planned.models()) repeated.push_back({model});
+    return repeated;
+  }
+  for (const scene::Object& object : builder.scene.objects)
+    if (scene::matches(planned.of, object.name))
+      repeated.push_back({object.model, glm::mat3(object.world_from_model)});
+  if (repeated.empty())
+    builder.fail(error_at(planned.where_of,
+                          "no object is called \"{}\"; give one a name, hide it with visible=0, "
+                          "and name it here",
+                          planned.of));
+  return repeated;
+}
+
+void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
+  const std::vector<Repeated> repeated = what_is_repeated(planned, builder);
+  if (repeated.empty()) return;
+  Random random(planned.series.seed, 300);
+  const std::vector<KerbPlace> places = take_kerb_places(builder.scene.roads, planned.series, ground);
+  if (builder.scene.objects.size() + places.size() > max_objects)
+    return builder.fail(error_at(planned.where_of,
+                                 "{} places for a {} with {} objects in the scene; {} is the most. "
+                                 "Give a wider spacing",
+                                 places.size(), planned.object_name, builder.scene.objects.size(),
+                                 max_objects));
+  std::size_t number = 0;
+  for (const KerbPlace& place : places) {
+    const Repeated& chosen = repeated[std::size_t(random.index(int(repeated.size())))];
+    const float turn = random.uniform(0.0f, 6.2831853f);
+    // Cars look where the lane leads; what has a back turns it, and its y, to the houses.
+    const glm::vec2 x = planned.is_car || place.is_left ? place.along : -place.along;
+    const float angle = planned.turns_at_random ? turn : std::atan2(x.y, x.x);
+    scene::Object object;
+    object.name = fmt::format("{} {}", planned.object_name, ++number);
+    object.model = chosen.model;
+    object.world_from_model =
+        glm::rotate(glm::translate(glm::mat4(1.0f), place.foot), angle, {0.0f, 0.0f, 1.0f}) *
+        glm::mat4(chosen.turn);
+    object.is_dynamic = object.takes_reflection = planned.is_car;
+    builder.add(std::move(object));
+  }
+}
+
+/// Series in the order of the script: what comes first takes its places first.
+void finish(scene::SceneBuilder& builder) {
+  const std::vector<PlannedSeries> all = builder.scene.items<PlannedSeries>();
+  if (all.empty() || !builder.errors().empty()) return;
+  if (builder.scene.roads.empty())
+    return builder.warn(error_at(all.front().where_of,
+                                 "the scene has no streets along which a {} could stand; "
+                                 "road() and streets() make them",
+                                 all.front().object_name));
+  FreeGround ground(builder.scene);
+  for (const PlannedSeries& planned : all) set_up(planned, ground, builder);
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+  registry.add(street_trees_schema(), build_street_trees);
+  registry.add(parked_cars_schema(), build_parked_cars);
+  registry.add(street_furniture_schema(), build_street_furniture);
+  registry.add_finish_step(finish);
+}
+
+}  // namespace parvis::kerbside
