@@ -12,10 +12,9 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr unsigned char lane_bit = 1, thing_bit = 2;
-constexpr float reach_m = 12.0f;     // beside a lane, of what is looked at
-constexpr float fine_cell_m = 0.4f;  // where the place is small enough for `max_cells`
-constexpr float max_cells = 64e6f;   // a byte each
-constexpr float step_m = 0.35f;      // between points of walls
+constexpr float reach_m = 12.0f;  // beside a lane, of what is looked at
+constexpr float cell_m = 0.4f;
+constexpr float step_m = 0.35f;  // between points of walls
 constexpr float low_m = 0.35f, high_m = 3.5f;
 constexpr float steep = 0.8f;  // z of unit normals below which a triangle is a side of something
 
@@ -25,12 +24,16 @@ scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
     for (const vec3& point : lane.points) bounds.add(point);
   if (bounds.empty()) return {};
   const vec2 origin = vec2(bounds.min) - reach_m, size = vec2(bounds.size()) + 2.0f * reach_m;
-  const float cell_m = std::max(fine_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells(glm::ceil(size / cell_m));
   return {cells.x, cells.y, cell_m, origin};
 }
 
 }  // namespace
+
+std::uint64_t FreeGround::bytes(const scene::RoadGraph& roads) {
+  const scene::GroundGrid grid = grid_of(roads);
+  return std::uint64_t(grid.width) * std::uint64_t(grid.height);
+}
 
 FreeGround::FreeGround(const scene::Scene& scene)
     : heights_(scene, reach_m), taken_(grid_of(scene.roads), 0) {

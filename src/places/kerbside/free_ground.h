@@ -1,6 +1,8 @@
 // Where beside the lanes of a scene there is room for one more thing.
 #pragma once
 
+#include <cstdint>
+
 #include "formats/terrain/ground_heights.h"
 #include "formats/terrain/ground_raster.h"
 #include "scene/data/scene.h"
@@ -10,6 +12,8 @@ namespace parvis::kerbside {
 /// A plan of what is taken: carriageways, walls, and whatever else stands on the ground.
 class FreeGround {
  public:
+  /// What the plan takes in memory: a byte for each cell between the outermost lanes.
+  static std::uint64_t bytes(const scene::RoadGraph& roads);
   /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
   /// what hangs higher does not.
   explicit FreeGround(const scene::Scene& scene);

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/content_hash.h"
+#include "base/memory_budget.h"
 #include "base/random.h"
 #include "places/kerbside/kerb_places.h"
 #include "places/kerbside/room.h"
@@ -202,6 +203,9 @@ void finish(scene::SceneBuilder& builder) {
                                  "the scene has no streets along which a {} could stand; "
                                  "road() and streets() make them",
                                  all.front().object_name));
+  if (const Status enough = check_memory(FreeGround::bytes(builder.scene.roads), "the plan of all streets");
+      !enough)
+    return builder.fail(enough.errors(), all.front().where_of);
   FreeGround ground(builder.scene);
   for (const PlannedSeries& planned : all) set_up(planned, ground, builder);
 }
