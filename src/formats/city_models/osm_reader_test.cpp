@@ -275,6 +275,10 @@ TEST(Osm, TreesTakeFewTriangles) {
     if (part.object == "SolitaryVegetationObject") triangles += part.mesh.triangle_count();
   EXPECT_EQ(triangles, 12u * (1 + 18)) << "one tree, and a row of 137 m";
   EXPECT_NEAR(bounds_of(*town.model, "SolitaryVegetationObject").max.z, 12.0f, 1e-3f);
+  // `greenery` takes what is lower than 1.2 m for ground: a crown that began there would stay as a mound.
+  for (const Part& part : town.model->parts)
+    for (const glm::vec3& p : part.mesh.positions)
+      EXPECT_TRUE(part.object != "SolitaryVegetationObject" || p.z < 0.01f || p.z > 1.25f) << p.z;
 }
 
 TEST(Osm, HedgesAndWallsStandAndRailsLie) {

@@ -11,7 +11,8 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-constexpr double row_step_m = 8.0;  // between the trees of a row
+constexpr double row_step_m = 8.0;      // between the trees of a row
+constexpr double lowest_crown_m = 1.3;  // `greenery` takes what is lower for ground
 constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, ballast_half_m = 1.7;
 constexpr double ballast_lift_m = 0.03;
 constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
@@ -43,12 +44,13 @@ std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const Grou
 /// Trunk and crown as two pyramids, foot to foot: 12 triangles.
 void add_tree(dvec3 foot, double height_m, CityAssembly& city) {
   const LineLook look{{"tree", "SolitaryVegetationObject", ""}};
-  const double radius_m = 0.25 * height_m, crown_m = 0.35 * height_m;
+  const double radius_m = 0.25 * height_m, crown_m = std::max(0.35 * height_m, lowest_crown_m + 0.05);
   const auto around = [&](int i, double radius, double up_m) {
     const double angle = 2.0 * 3.14159265358979 * double(i) / 4.0;
     return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), up_m);
   };
-  const dvec3 top = foot + dvec3(0.0, 0.0, height_m), base = foot + dvec3(0.0, 0.0, 0.15 * height_m);
+  const dvec3 top = foot + dvec3(0.0, 0.0, height_m),
+              base = foot + dvec3(0.0, 0.0, std::max(0.15 * height_m, lowest_crown_m));
   for (int i = 0; i < 4; ++i) {
     add_polygon({around(i, radius_m, crown_m), around(i + 1, radius_m, crown_m), top}, look, city);
     add_polygon({around(i + 1, radius_m, crown_m), around(i, radius_m, crown_m), base}, look, city);
