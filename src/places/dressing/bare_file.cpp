@@ -19,7 +19,9 @@ constexpr float alone_m = 70.0f;      // a town model no larger is one house
 constexpr double dense_share = 0.12;  // of the ground, which is built over
 constexpr float margin_m = 60.0f;     // of ground around the place, for choosing views
 constexpr float steep = 0.7f;         // cosine of 45 degrees: green that rises so was measured from the air
-constexpr int max_scripts = 1000;     // of one name in a folder
+constexpr float furnished_m =
+    6000.0f;                       // of streets; kerbs of larger places stay bare: pictures would take long
+constexpr int max_scripts = 1000;  // of one name in a folder
 
 using scene::Model, scene::Part;
 
@@ -132,6 +134,18 @@ std::string dressing_of(const Model& model) {
   return nodes;
 }
 
+/// What stands along kerbs: generated trees where the file has none.
+std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets) {
+  float length_m = 0.0f;
+  for (const scene::Road& street : streets)
+    for (std::size_t i = 0; i + 1 < street.path.size(); ++i)
+      length_m += glm::distance(street.path[i], street.path[i + 1]);
+  if (streets.empty() || length_m > furnished_m) return "";
+  const bool has_trees = has_surface(model, "SolitaryVegetationObject");
+  return std::string("streetFurniture(kind=\"lamps\")\nparkedCars(share=0.4)\n") +
+         (has_trees ? "" : "streetTrees(spacing=12, clear=2.5)\n");
+}
+
 std::string number(float value) {
   const float rounded = std::round(10.0f * value) / 10.0f;
   return fmt::format("{}", rounded == 0.0f ? 0.0f : rounded);
@@ -184,6 +198,7 @@ std::string bare_scene(const Model& model, const std::string& file) {
   if (!surfaces.empty()) script += "streets(of=\"place\")\n";
   if (!model.roads.empty()) script += "paving()\n";
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
+  script += nodes_of_kerbs(model, surfaces);
   script +=
       "\n// A summer's afternoon.\n"
       "dayLight(latitude=48, longitude=10, standardMeridian=2, julianDay=172, timeOfDay=16)\n"
