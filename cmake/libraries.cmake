@@ -23,6 +23,7 @@ pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)  # with its backends for
 pkg_check_modules(gdal REQUIRED IMPORTED_TARGET gdal)
 pkg_check_modules(tiff REQUIRED IMPORTED_TARGET libtiff-4)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
+pkg_check_modules(mpi REQUIRED IMPORTED_TARGET ompi-c)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 

@@ -1,5 +1,6 @@
 // parvis tree: a real tree from photographs.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -12,11 +13,14 @@
 #include "capture/trees/judge.h"
 #include "capture/trees/matte.h"
 #include "capture/trees/measure.h"
+#include "capture/trees/processes.h"
 #include "capture/trees/reconstruction.h"
 #include "capture/trees/sample_trees.h"
+#include "capture/trees/shown_tree.h"
 #include "capture/trees/synthetic_capture.h"
 #include "capture/trees/tree_file.h"
 #include "commands.h"
+#include "graphics/gl/context.h"
 #include "strict_numbers.h"
 
 namespace parvis {
@@ -143,14 +147,28 @@ Status reconstruct(ReconstructArguments arguments) {
   const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
   if (arguments.is_octree) arguments.options.grid.branching = 2;
+  const Result<trees::MpiSession> session = trees::MpiSession::join();
+  if (!session) return session.errors();
+  arguments.options.processes = session->processes();
   const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
   if (!made) return made.errors();
+  if (arguments.options.processes.rank != 0) return Done{};  // all have the same cells
   for (const std::string& row : made->notes) fmt::print("{}\n", row);
   const Result<std::size_t> bytes = trees::write_volume(arguments.output, made->volume);
   if (!bytes) return bytes.errors();
-  fmt::print("{}: {} cells, {:.2f} MB\n", arguments.output.string(), made->volume.grid.size(),
-             double(*bytes) * 1e-6);
+  fmt::print("{}: {} cells, {:.2f} MB, {} process{}\n", arguments.output.string(), made->volume.grid.size(),
+             double(*bytes) * 1e-6, arguments.options.processes.count,
+             arguments.options.processes.count == 1 ? "" : "es");
   return Done{};
+}
+
+/// The sun that was found in the textures, for people.
+std::string light_row(const trees::CapturedLight& light) {
+  const float azimuth = glm::degrees(std::atan2(light.to_sun.x, light.to_sun.y));
+  return fmt::format(
+      "light of the photographs: sun at azimuth {:.0f}, height {:.0f} degrees, {:.2f} of the light",
+      azimuth < 0.0f ? azimuth + 360.0f : azimuth, glm::degrees(std::asin(light.to_sun.z)),
+      light.sun / std::max(light.sun + light.sky, 1e-6f));
 }
 
 Status texture(const TextureArguments& arguments) {
@@ -163,6 +181,7 @@ Status texture(const TextureArguments& arguments) {
   if (!bytes) return bytes.errors();
   fmt::print("{}: {} billboards, {:.2f} MB\n", arguments.output.string(), tree.grid.size(),
              double(*bytes) * 1e-6);
+  fmt::print("{}\n", light_row(tree.light));
   return Done{};
 }
 
@@ -195,14 +214,22 @@ Status measure(const FileArguments& arguments) {
   return Done{};
 }
 
+/// Compares what the house draws, in the light of the photographs, with views of the real tree.
 Status report(const FileArguments& arguments) {
-  const Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
+  Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
   if (!tree) return tree.errors();
   const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  const scene::Scene light = trees::scene_in_light_of(tree->light);
+  fmt::print("{}\n", light_row(tree->light));
+  Result<trees::ShownTree> shown = trees::ShownTree::create(
+      std::make_shared<const trees::TreeLevels>(trees::levels_of(*std::move(tree))), light);
+  if (!shown) return shown.errors();
   trees::ViewErrors mean;
   for (const trees::TreeView& view : *views) {
-    const ImageF picture = trees::render_billboards(*tree, view.camera);
+    const ImageF picture = shown->picture(view.camera);
     const Result<trees::ViewErrors> errors = trees::judged(picture, view);
     if (!errors) return errors.errors();
     fmt::print("{}: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}\n", view.name,
@@ -275,6 +302,11 @@ void add_reconstruct(CLI::App& tree, Chosen& chosen) {
       ->capture_default_str()
       ->check(CLI::Range(1, 9));
   command->add_option("--iterations", arguments->options.opacity.iterations, "Of the opacity estimate")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--coarse-epochs", arguments->options.coarse_epochs,
+                   "Passes over the photographs that fit colours and opacity together; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));
   command

@@ -1,8 +1,8 @@
-// Textures by optimisation. A pixel is the over of the billboards' texels (equation 4.2), so with T the light
-// that reaches a texel from the eye, its colour takes the share T alpha of the pixel's error (simultaneous
-// iterative reconstruction), and its extinction the factor by which the room's opacity method would change it
-// (opacity.h): the products of transparency along the pixel then agree with the matte. What a photograph does
-// not see keeps the volume's colour.
+// Textures by optimisation, in linear light as they are drawn. A pixel is the over of the billboards' texels
+// (equation 4.2), so with T the light that reaches a texel from the eye, its colour takes the share T alpha
+// of the pixel's error (simultaneous iterative reconstruction), and its extinction the factor by which the
+// room's opacity method would change it (opacity.h): the products of transparency along the pixel then agree
+// with the matte. What a photograph does not see keeps the volume's colour.
 #include "capture/trees/billboard_textures.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <map>
 #include <span>
 
+#include "base/colour.h"
 #include "base/parallel.h"
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/tree_light.h"
@@ -41,14 +42,14 @@ BillboardTree bare_billboards(const TreeVolume& volume, int levels) {
     const float alpha = 1.0f - std::exp(-sum.w / float(step * step * step) * chord_m);
     if (alpha < 1.0f / 510.0f) continue;
     cells.emplace_back(place[2], place[1], place[0]);
-    tree.base.emplace_back(
-        glm::round(255.0f * glm::vec4(glm::clamp(glm::vec3(sum) / sum.w, 0.0f, 1.0f), alpha)));
+    tree.base.emplace_back(glm::round(
+        255.0f * glm::vec4(srgb_from_linear(glm::clamp(glm::vec3(sum) / sum.w, 0.0f, 1.0f)), alpha)));
   }
   tree.grid = CellGrid(volume.grid.box(), branching, side, std::move(cells));
   return tree;
 }
 
-/// Colour and opacity of the volume along a ray within a box.
+/// Light (straight) and opacity of the volume along a ray within a box.
 glm::vec4 seen_within(const TreeVolume& volume, const Bounds& box, const ViewRay& ray) {
   glm::vec3 direction = ray.direction;
   const glm::vec2 span = box_distances(box, ray.origin, inverse_of(direction));
@@ -70,7 +71,11 @@ glm::vec4 seen_within(const TreeVolume& volume, const Bounds& box, const ViewRay
 class Fit {
  public:
   Fit(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view, int side)
-      : tree_(tree), view_(view), side_(side), placed_(placed_billboards(tree.grid, view.camera, false)) {
+      : tree_(tree),
+        view_(view),
+        photograph_(linear_from_srgb8(view.picture)),
+        side_(side),
+        placed_(placed_billboards(tree.grid, view.camera, false)) {
     const std::size_t per_texture = std::size_t(side * side);
     texels_.assign(tree.grid.size() * per_texture, glm::vec4(0.0f));
     colour_.assign(texels_.size(), glm::vec4(0.0f)), opacity_.assign(texels_.size(), glm::vec2(0.0f));
@@ -79,7 +84,7 @@ class Fit {
       const glm::vec3 centre = tree.grid.centre(b.cell);
       const BillboardFrame frame = billboard_frame(centre, tree.grid.cell_size_m(), eye);
       const Bounds box = tree.grid.bounds(b.cell);
-      const glm::vec3 base = glm::vec3(tree.base[b.cell]) / 255.0f;
+      const glm::vec3 base = linear_from_srgb(glm::vec3(tree.base[b.cell]) / 255.0f);
       for (int v = 0; v < side; ++v)
         for (int u = 0; u < side; ++u) {
           glm::vec2 place((2.0f * float(u) + 1.0f) / float(side) - 1.0f,
@@ -122,7 +127,8 @@ class Fit {
       if (seen < min_seen * float(extent.x * extent.y)) continue;
       textures.texture_of_cell[b.cell] = next++;
       for (std::size_t k = 0; k < per_texture; ++k) {
-        const glm::vec4 t = glm::round(255.0f * texels_[b.cell * per_texture + k]);
+        const glm::vec4 texel = texels_[b.cell * per_texture + k];
+        const glm::vec4 t = glm::round(255.0f * glm::vec4(srgb_from_linear(glm::vec3(texel)), texel.w));
         for (int c = 0; c < 4; ++c) textures.texels.push_back(std::uint8_t(t[c]));
       }
     }
@@ -160,9 +166,9 @@ class Fit {
       visit_pixels(b, 0, view_.camera.height, [&](int x, int y, glm::vec2 place) {
         float& before = pixel(passed, x, y);
         const glm::vec4 found = pixel(picture_, x, y);
-        const std::uint8_t* p = view_.picture.at(x, y);
-        const float alpha = float(p[3]) / 255.0f, left = 1.0f - found.w + 1e-3f;
-        const glm::vec3 wanted = glm::vec3(float(p[0]), float(p[1]), float(p[2])) * (alpha / 255.0f);
+        const float* p = photograph_.at(x, y);
+        const float alpha = p[3], left = 1.0f - found.w + 1e-3f;
+        const glm::vec3 wanted = alpha * glm::vec3(p[0], p[1], p[2]);
         const glm::vec3 residual = wanted - glm::vec3(found);
         const glm::vec4 own = sample(b, place, footprint);
         const std::size_t first = b.cell * std::size_t(side_ * side_);
@@ -183,9 +189,10 @@ class Fit {
 
   const BillboardTree& tree_;
   const TreeView& view_;
+  ImageF photograph_;  // straight alpha, linear light
   int side_;
   std::vector<PlacedBillboard> placed_;  // front to back
-  std::vector<glm::vec4> texels_;        // straight colour and alpha, side * side per cell
+  std::vector<glm::vec4> texels_;        // straight linear light and alpha, side * side per cell
   std::vector<glm::vec4> colour_;        // per texel: sum of share * residual; sum of shares
   std::vector<glm::vec2> opacity_;       // per texel: wanted and found
   std::vector<glm::vec4> picture_;       // premultiplied

@@ -17,28 +17,11 @@ float angle_between(glm::vec3 a, glm::vec3 b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-std::array<float, 256> table(float (*decode)(float)) {
+/// The linear light of each byte of a colour.
+std::array<float, 256> linear_of_bytes() {
   std::array<float, 256> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = decode(float(i) / 255.0f);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(float(i) / 255.0f);
   return values;
-}
-
-/// Premultiplied; `decoded`: what each byte of a colour stands for.
-glm::vec4 interpolated(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
-                       glm::vec2 place, const std::array<float, 256>& decoded) {
-  const auto premultiplied = [&](const std::uint8_t* t, float weight) {
-    const float alpha = weight * float(t[3]) / 255.0f;
-    return alpha * glm::vec4(decoded[t[0]], decoded[t[1]], decoded[t[2]], 1.0f);
-  };
-  const std::int32_t texture = view.texture_of_cell[cell];
-  if (texture < 0) return premultiplied(&tree.base[cell].x, 1.0f);
-  const int side = tree.texels_per_side;
-  const std::uint8_t* texels = view.texels.data() + 4 * std::size_t(texture) * std::size_t(side * side);
-  const Footprint footprint(display::billboard_uv(place), side);
-  glm::vec4 sum(0.0f);
-  for (std::size_t k = 0; k < 4; ++k)
-    sum += premultiplied(texels + 4 * footprint.texel[k], footprint.weight[k]);
-  return sum;
 }
 
 }  // namespace
@@ -55,14 +38,20 @@ BillboardFrame billboard_frame(glm::vec3 centre, glm::vec3 cell_size_m, glm::vec
 
 glm::vec4 texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
                          glm::vec2 place) {
-  static const std::array<float, 256> as_stored = table([](float value) { return value; });
-  return interpolated(tree, view, cell, place, as_stored);
-}
-
-glm::vec4 linear_texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
-                                glm::vec2 place) {
-  static const std::array<float, 256> linear = table([](float value) { return linear_from_srgb(value); });
-  return interpolated(tree, view, cell, place, linear);
+  static const std::array<float, 256> linear = linear_of_bytes();
+  const auto premultiplied = [&](const std::uint8_t* t, float weight) {
+    const float alpha = weight * float(t[3]) / 255.0f;
+    return alpha * glm::vec4(linear[t[0]], linear[t[1]], linear[t[2]], 1.0f);
+  };
+  const std::int32_t texture = view.texture_of_cell[cell];
+  if (texture < 0) return premultiplied(&tree.base[cell].x, 1.0f);
+  const int side = tree.texels_per_side;
+  const std::uint8_t* texels = view.texels.data() + 4 * std::size_t(texture) * std::size_t(side * side);
+  const Footprint footprint(display::billboard_uv(place), side);
+  glm::vec4 sum(0.0f);
+  for (std::size_t k = 0; k < 4; ++k)
+    sum += premultiplied(texels + 4 * footprint.texel[k], footprint.weight[k]);
+  return sum;
 }
 
 std::vector<PlacedBillboard> placed_billboards(const CellGrid& grid, const Pinhole& camera,

@@ -67,13 +67,11 @@ struct BillboardFrame {
 /// The billboard of a cell, turned to the eye. All in the tree's frame.
 BillboardFrame billboard_frame(glm::vec3 centre, glm::vec3 cell_size_m, glm::vec3 eye);
 
-/// A texture's colour at a point of its billboard (-1..1), sRGB, premultiplied; of a cell that the photograph
-/// does not see, the cell's own.
+/// A texture's colour at a point of its billboard (-1..1), premultiplied, in the linear light that scenes are
+/// drawn in: texels are decoded before they are interpolated. Of a cell that the photograph does not see, the
+/// cell's own.
 glm::vec4 texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
                          glm::vec2 place);
-/// The same in linear light, which scenes are drawn in: texels are decoded before they are interpolated.
-glm::vec4 linear_texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
-                                glm::vec2 place);
 
 /// Up to two photographs and their weights, which add up to 1.
 struct ClosestViews {
@@ -83,8 +81,8 @@ struct ClosestViews {
 /// The two photographs whose directions from a point of the tree are closest to the eye's, `to_eye` (unit).
 ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye);
 
-/// The picture from a camera: RGBA, premultiplied, sRGB. Billboards from back to front, the textures of the
-/// two closest photographs, over.
+/// The picture from a camera: RGBA, premultiplied, linear light. Billboards from back to front, the textures
+/// of the two closest photographs, over.
 ImageF render_billboards(const BillboardTree& tree, const Pinhole& camera);
 
 /// Calls visit(x, y, place) for the pixels that show the billboard's cell, within rows [row0, row1); `place`

@@ -28,16 +28,7 @@ TreeVolume coloured_ball(int side = 9) {
 /// Photographs of a volume, as 8-bit RGBA.
 std::vector<TreeView> photographs_of(const TreeVolume& volume, int count, int size, float first = 0.0f) {
   std::vector<TreeView> views = TestVolume(3).ring(count, size, first);
-  for (TreeView& view : views) {
-    const ImageF seen = render_volume(volume, view.camera);
-    for (std::size_t i = 0; i < seen.pixels.size(); i += 4) {
-      const float alpha = seen.pixels[i + 3];
-      for (std::size_t c = 0; c < 3; ++c)
-        view.picture.pixels[i + c] =
-            std::uint8_t(std::lround(alpha > 0.0f ? 255.0f * seen.pixels[i + c] / alpha : 0.0f));
-      view.picture.pixels[i + 3] = std::uint8_t(std::lround(255.0f * alpha));
-    }
-  }
+  for (TreeView& view : views) view.picture = photograph_of(render_volume(volume, view.camera));
   return views;
 }
 

@@ -1,8 +1,8 @@
 #include "capture/trees/judge.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "base/colour.h"
 #include "graphics/reference/metrics.h"
 
 namespace parvis::trees {
@@ -18,24 +18,18 @@ ViewErrors& ViewErrors::operator/=(double count) {
 }
 
 Image8 over_white(const ImageF& premultiplied) {
-  Image8 result(premultiplied.width, premultiplied.height, 3);
-  for (std::size_t i = 0; i < result.pixels.size() / 3; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = premultiplied.pixels[4 * i + c] + 1.0f - premultiplied.pixels[4 * i + 3];
-      result.pixels[3 * i + c] = std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-    }
-  return result;
+  ImageF light(premultiplied.width, premultiplied.height, 3);
+  for (std::size_t i = 0; i < light.pixels.size() / 3; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      light.pixels[3 * i + c] = premultiplied.pixels[4 * i + c] + 1.0f - premultiplied.pixels[4 * i + 3];
+  return srgb8_from_linear(light);
 }
 
 Image8 over_white(const Image8& straight) {
-  Image8 result(straight.width, straight.height, 3);
-  for (std::size_t i = 0; i < result.pixels.size() / 3; ++i) {
-    const float alpha = float(straight.pixels[4 * i + 3]) / 255.0f;
-    for (std::size_t c = 0; c < 3; ++c)
-      result.pixels[3 * i + c] =
-          std::uint8_t(std::lround(float(straight.pixels[4 * i + c]) * alpha + 255.0f * (1.0f - alpha)));
-  }
-  return result;
+  ImageF light = linear_from_srgb8(straight);
+  for (std::size_t i = 0; i < light.pixels.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c) light.pixels[i + c] *= light.pixels[i + 3];
+  return over_white(light);
 }
 
 Result<ViewErrors> judged(const ImageF& premultiplied, const TreeView& view) {

@@ -8,7 +8,7 @@ namespace parvis::trees {
 
 /// Of one view, or their mean.
 struct ViewErrors {
-  double psnr_db = 0.0;     ///< RGBA over white, sRGB
+  double psnr_db = 0.0;     ///< over white, sRGB
   double ssim = 0.0;        ///< over white
   double flip = 0.0;        ///< over white, mean
   double alpha_rmse = 0.0;  ///< 0..1
@@ -17,12 +17,13 @@ struct ViewErrors {
   ViewErrors& operator/=(double count);
 };
 
-/// A premultiplied RGBA picture over white, 8-bit RGB.
+/// A premultiplied picture of linear light over white, 8-bit sRGB. Light adds up before it is encoded, as in
+/// a camera and in the house.
 Image8 over_white(const ImageF& premultiplied);
-/// A view over white, 8-bit RGB.
+/// A view over white, 8-bit sRGB.
 Image8 over_white(const Image8& straight);
 
-/// Compares a premultiplied RGBA picture with the view of the same size.
+/// Compares a premultiplied picture of linear light with the view of the same size.
 Result<ViewErrors> judged(const ImageF& premultiplied, const TreeView& view);
 
 }  // namespace parvis::trees

@@ -109,7 +109,9 @@ void add_multiplicative(const Estimate& e, const RayCells& ray, float alpha, Sum
 Sums gather(const Estimate& e, std::span<const Matte> mattes) {
   tbb::enumerable_thread_specific<Sums> partial([&] { return Sums(2 * e.tau.size(), 0.0f); });
   tbb::enumerable_thread_specific<RayCells> rays;
-  for (const Matte& matte : mattes) {
+  for (std::size_t i = 0; i < mattes.size(); ++i) {
+    if (!e.options.processes.has(i)) continue;
+    const Matte& matte = mattes[i];
     const float inverse_focal_area = 1.0f / (matte.camera.focal.x * matte.camera.focal.y);
     parallel_for(
         std::size_t(matte.alpha.height),
@@ -138,7 +140,7 @@ Sums gather(const Estimate& e, std::span<const Matte> mattes) {
   Sums all(2 * e.tau.size(), 0.0f);
   for (const Sums& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
-  if (e.options.sum_over_processes) e.options.sum_over_processes(all);
+  if (e.options.processes.sum) e.options.processes.sum(all);
   return all;
 }
 
@@ -253,7 +255,7 @@ float cutoff_by_held_out_error(const CellGrid& grid, std::span<const TreeView> v
                                OpacityOptions options) {
   std::vector<TreeView> used, held_out;
   for (std::size_t i = 0; i < views.size(); ++i) (i % 5 == 2 ? held_out : used).push_back(views[i]);
-  options.cutoff.reset();
+  options.cutoff.reset(), options.processes = {};
   const Opacities found = estimate_opacity(grid, used, silhouettes(used), options);
   const float chord_m = mean_chord_m(grid.cell_size_m());
   float best = 1.0f;

@@ -5,13 +5,13 @@
 // lengths within a cell).
 #pragma once
 
-#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "capture/trees/cell_grid.h"
+#include "capture/trees/processes.h"
 #include "capture/trees/visual_hull.h"
 
 namespace parvis::trees {
@@ -34,11 +34,9 @@ struct OpacityOptions {
   int iterations = 20;
   bool clamps = true;  ///< `projection` only: t' <= 1; false: as the thesis prints it
   std::optional<float>
-      cutoff;              ///< transparency t above which a cell becomes empty after each iteration (4.5.2)
-  int picture_factor = 0;  ///< mattes are reduced so many times; 0: until a pixel is about half a cell
-  /// Adds what other processes gathered to this one's sums, element by element (MPI's all-reduce). Empty:
-  /// alone.
-  std::function<void(std::span<float>)> sum_over_processes = {};
+      cutoff;                ///< transparency t above which a cell becomes empty after each iteration (4.5.2)
+  int picture_factor = 0;    ///< mattes are reduced so many times; 0: until a pixel is about half a cell
+  Processes processes = {};  ///< each takes its share of the photographs
 };
 
 /// The result of an estimate.

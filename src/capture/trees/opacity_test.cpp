@@ -90,19 +90,17 @@ TEST(Opacity, TheCutoffEmptiesCells) {
 
 TEST(Opacity, SharesOfPhotographsSummedOverProcessesGiveTheSameResult) {
   const Judged& judged = sparse_ball();
-  const std::vector<TreeView> first(judged.views.begin(), judged.views.begin() + 8),
-      second(judged.views.begin() + 8, judged.views.end());
   // Two "processes" in turn: record what one iteration of the other gathers, then add it.
   OpacityOptions options;
   options.iterations = 1, options.picture_factor = 1;
   std::vector<float> others;
-  options.sum_over_processes = [&](std::span<float> sums) { others.assign(sums.begin(), sums.end()); };
-  estimate_opacity(judged.grid, second, judged.masks, options);
-  options.sum_over_processes = [&](std::span<float> sums) {
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += others[i];
-  };
-  const Opacities divided = estimate_opacity(judged.grid, first, judged.masks, options);
-  options.sum_over_processes = {};
+  options.processes = {1, 2, [&](std::span<float> sums) { others.assign(sums.begin(), sums.end()); }};
+  estimate_opacity(judged.grid, judged.views, judged.masks, options);
+  options.processes = {0, 2, [&](std::span<float> sums) {
+                         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += others[i];
+                       }};
+  const Opacities divided = estimate_opacity(judged.grid, judged.views, judged.masks, options);
+  options.processes = {};
   const Opacities whole = estimate_opacity(judged.grid, judged.views, judged.masks, options);
   for (std::size_t i = 0; i < whole.extinction_per_m.size(); ++i)
     ASSERT_NEAR(divided.extinction_per_m[i], whole.extinction_per_m[i],

@@ -37,8 +37,9 @@ Result<Reconstruction> reconstruct(std::span<const TreeView> all, const Reconstr
   Reconstruction result;
   Progress progress("reconstructing", 5);
   auto start = std::chrono::steady_clock::now();
-  const auto note = [&](const std::string& what) {
-    result.notes.push_back(fmt::format("{}: {:.1f} s", what, seconds_since(start)));
+  const auto note = [&](const std::string& step, const std::string& what) {
+    result.times.push_back({step, seconds_since(start)});
+    result.notes.push_back(fmt::format("{}: {:.1f} s", what, result.times.back().seconds));
     start = std::chrono::steady_clock::now();
     progress.advance();
   };
@@ -51,33 +52,35 @@ Result<Reconstruction> reconstruct(std::span<const TreeView> all, const Reconstr
   if (!box) return box.errors();
   Result<CellGrid> grid = hull_grid(*views, masks, *box, options.grid);
   if (!grid) return grid.errors();
-  note(fmt::format("hull of {} photographs, {} of {}^3 cells", views->size(), grid->size(), grid->side()));
+  note("hull",
+       fmt::format("hull of {} photographs, {} of {}^3 cells", views->size(), grid->size(), grid->side()));
 
   OpacityOptions opacity = options.opacity;
   opacity.iterations = std::min(opacity.iterations, cutoff_iterations);
   result.cutoff = options.cutoff ? *options.cutoff : cutoff_by_held_out_error(*grid, *views, opacity);
-  note(fmt::format("cutoff {}", result.cutoff));
-  opacity.iterations = options.opacity.iterations;
+  note("cutoff", fmt::format("cutoff {}", result.cutoff));
+  opacity.iterations = options.opacity.iterations, opacity.processes = options.processes;
   result.opacities = estimate_opacity(*grid, *views, masks, opacity);
-  note(fmt::format("opacity in {} iterations, mean change {:.4f} to {:.4f}", opacity.iterations,
+  note("opacity",
+       fmt::format("opacity in {} iterations, mean change {:.4f} to {:.4f}", opacity.iterations,
                    result.opacities.mean_change.empty() ? 0.0 : result.opacities.mean_change.front(),
                    result.opacities.mean_change.empty() ? 0.0 : result.opacities.mean_change.back()));
 
   result.volume = coloured(*std::move(grid), result.opacities.extinction_per_m, *views);
   FitOptions fit;
-  fit.epochs = options.coarse_epochs;
+  fit.epochs = options.coarse_epochs, fit.processes = options.processes;
   std::vector<double> errors = fit_volume(result.volume, *views, fit);
   result.volume = without_transparent_cells(result.volume, result.cutoff);
-  note(fmt::format("colours, {} cells, RMS error {:.4f}", result.volume.grid.size(),
-                   errors.empty() ? 0.0 : errors.back()));
+  note("colours", fmt::format("colours, {} cells, RMS error {:.4f}", result.volume.grid.size(),
+                              errors.empty() ? 0.0 : errors.back()));
   if (options.fine_epochs > 0) {
     Result<TreeVolume> fine = subdivided(result.volume);
     if (!fine) return fine.errors();
     fit.epochs = options.fine_epochs, fit.smoothing = options.fine_smoothing;
     errors = fit_volume(*fine, *views, fit);
     result.volume = without_transparent_cells(*fine, result.cutoff);
-    note(
-        fmt::format("one level finer, {} cells, RMS error {:.4f}", result.volume.grid.size(), errors.back()));
+    note("finer", fmt::format("one level finer, {} cells, RMS error {:.4f}", result.volume.grid.size(),
+                              errors.back()));
   } else {
     progress.advance();
   }

@@ -19,7 +19,14 @@ struct ReconstructionOptions {
   int fine_epochs = 4;          ///< of the fit at one level more; 0: there is none
   float fine_smoothing =
       0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/trees.md
+  Processes processes = {};              ///< that share the work (MPI)
   bool leaves_out_inconsistent = false;  ///< a photograph that contradicts all others; else it is an error
+};
+
+/// How long a step took.
+struct StepTime {
+  std::string step;  ///< hull, cutoff, opacity, colours, finer
+  double seconds = 0.0;
 };
 
 /// What was reconstructed.
@@ -28,6 +35,7 @@ struct Reconstruction {
   Opacities opacities;             ///< of the first estimate, with its convergence
   float cutoff = 1.0f;             ///< that was used
   std::vector<std::string> notes;  ///< per step: what was found, and seconds
+  std::vector<StepTime> times;     ///< in their order
 };
 
 /// Reconstructs a tree. Errors: what hull_box and hull_grid say; a photograph whose silhouette contradicts

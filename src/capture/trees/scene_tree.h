@@ -38,7 +38,7 @@ struct TreeDetail {
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
   /// A texel may be so many pixels wide before a finer level of detail is shown.
-  float max_texel_pixels = 1.5f;
+  float max_texel_pixels = 1.0f;
 
   /// Adds the setting.
   void hash(ContentHash& hash) const { hash.add(max_texel_pixels); }

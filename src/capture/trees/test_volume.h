@@ -1,11 +1,13 @@
 // A small volume of known extinction and views of it, for tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
+#include "base/colour.h"
 #include "base/random.h"
 #include "capture/trees/opacity.h"
 
@@ -54,5 +56,12 @@ struct TestVolume {
     return views;
   }
 };
+
+/// What a camera makes of premultiplied linear light: straight alpha, sRGB.
+inline Image8 photograph_of(ImageF premultiplied) {
+  for (std::size_t i = 0; i < premultiplied.pixels.size(); ++i)
+    if (i % 4 != 3) premultiplied.pixels[i] /= std::max(premultiplied.pixels[i / 4 * 4 + 3], 1e-6f);
+  return srgb8_from_linear(premultiplied);
+}
 
 }  // namespace parvis::trees

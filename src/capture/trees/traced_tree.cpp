@@ -2,12 +2,15 @@
 // the ray's origin says colour and opacity, as the renderer's does; a ray is stopped by the chance of that
 // opacity, so that the mean of a pixel's rays is their over.
 #include <algorithm>
+#include <array>
+#include <mutex>
 #include <unordered_map>
 
 #include "base/colour.h"
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
+#include "graphics/shading/sky.h"
 #include "graphics/shading/surface.h"
 
 namespace parvis::trees {
@@ -41,19 +44,49 @@ Mesh boxes_of(const CellGrid& grid) {
   return mesh;
 }
 
+/// The mean radiance of a scene's sky, computed when the first ray asks.
+class MeanSky {
+ public:
+  explicit MeanSky(const scene::Scene& scene) : scene_(scene) {}
+  glm::vec3 radiance() const {
+    std::call_once(once_, [&] {
+      std::array<glm::vec3, 9> sh =
+          shading::make_sky_light(scene_.sky.picture, scene_.sky.intensity, scene_.sky.heading).irradiance_sh;
+      radiance_ = (shading::sky_irradiance(sh.data(), glm::vec3(0, 0, 1)) +
+                   shading::sky_irradiance(sh.data(), glm::vec3(0, 0, -1))) /
+                  (2.0f * shading::pi);
+    });
+    return radiance_;
+  }
+
+ private:
+  const scene::Scene& scene_;  // outlives its rays
+  mutable std::once_flag once_;
+  mutable glm::vec3 radiance_{0.0f};
+};
+
 class TreeSurface final : public scene::TracedSurface {
  public:
-  TreeSurface(const SceneTree& tree, glm::vec3 to_sun)
-      : tree_(tree.tree), tree_from_world_(glm::inverse(tree.world_from_tree)), to_sun_(to_sun) {}
+  TreeSurface(const SceneTree& tree, std::shared_ptr<const MeanSky> sky, glm::vec3 to_sun)
+      : tree_(tree.tree),
+        sky_(std::move(sky)),
+        tree_from_world_(glm::inverse(tree.world_from_tree)),
+        to_sun_(to_sun) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     const glm::vec4 colour = colour_at(hit);
-    const glm::vec3 albedo = colour.w > 0.0f ? glm::vec3(colour) / colour.w : glm::vec3(0.0f);
-    const shading::Surface s = foliage::foliage_surface(albedo, to_sun_);
+    const std::size_t cell = hit.triangle / 12;
+    const CrownLight& crown = tree_->crown;
+    const glm::vec3 albedo = crown.albedo_factor[0][cell] * glm::vec3(colour) / std::max(colour.w, 1e-6f);
+    const shading::Surface s = foliage::foliage_surface(albedo, to_sun_, hit.to_viewer);
+    const float sky_share = crown.sky[0][cell];
     scene::TracedPoint point;
     point.normal = s.normal, point.base_colour = s.base_colour;
     point.metallic = s.metallic, point.roughness = s.roughness;
-    point.translucency = s.translucency, point.occlusion = s.occlusion;
+    point.translucency = s.translucency, point.occlusion = sky_share * s.occlusion;
+    // The tracer mirrors all of the sky that the place sees: what the crown hides of it is taken off.
+    point.emission = -(1.0f - sky_share) * sky_radiance() *
+                     shading::base_reflectance(s, glm::max(glm::dot(s.normal, hit.to_viewer), 1e-4f));
     return point;
   }
   float alpha(const scene::TracedHit& hit) const override {
@@ -63,6 +96,7 @@ class TreeSurface final : public scene::TracedSurface {
   scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
 
  private:
+  glm::vec3 sky_radiance() const { return sky_->radiance(); }
   /// Linear, premultiplied.
   glm::vec4 colour_at(const scene::TracedHit& hit) const {
     const BillboardTree& shown = tree_->levels.front();
@@ -79,13 +113,14 @@ class TreeSurface final : public scene::TracedSurface {
     glm::vec4 sum(0.0f);
     for (std::size_t v = 0; v < 2; ++v) {
       if (closest.weights[v] <= 0.0f) continue;
-      sum += closest.weights[v] *
-             linear_texture_colour(shown, shown.views[std::size_t(closest.views[v])], cell, place);
+      sum +=
+          closest.weights[v] * texture_colour(shown, shown.views[std::size_t(closest.views[v])], cell, place);
     }
     return sum;
   }
 
   std::shared_ptr<const TreeLevels> tree_;
+  std::shared_ptr<const MeanSky> sky_;
   glm::mat4 tree_from_world_;
   glm::vec3 to_sun_;
 };
@@ -98,11 +133,12 @@ scene::TracedKind traced_trees() {
   kind.count = [](const scene::Scene& scene) { return int(scene_trees(scene).size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     std::unordered_map<const TreeLevels*, std::shared_ptr<const Mesh>> meshes;
+    const auto sky = std::make_shared<const MeanSky>(scene);
     int thing = 0;
     for (const SceneTree& tree : scene_trees(scene)) {
       std::shared_ptr<const Mesh>& mesh = meshes[tree.tree.get()];
       if (!mesh) mesh = std::make_shared<const Mesh>(boxes_of(tree.tree->levels.front().grid));
-      traced.add(mesh, std::make_shared<const TreeSurface>(tree, scene.sun.direction_to_sun),
+      traced.add(mesh, std::make_shared<const TreeSurface>(tree, sky, scene.sun.direction_to_sun),
                  tree.world_from_tree, {thing++, false, tree.is_visible, true});
     }
   };

@@ -16,6 +16,7 @@
 #include "graphics/render/bindings.h"
 #include "graphics/render/stream_buffer.h"
 #include "graphics/render/view_programs.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::trees {
 namespace {
@@ -35,6 +36,7 @@ struct DrawnBillboard {
   glm::vec4 base;
   glm::uvec3 tiles_and_thing;
   float reach;  ///< how far the quad goes beyond the billboard: its pixels choose by their centres
+  glm::vec4 light_in_crown;
 };
 
 /// What one view shows.
@@ -64,6 +66,7 @@ class TreeDrawable final : public render::Drawable {
   void update(const scene::Scene& scene) override {
     const std::vector<SceneTree>& trees = scene_trees(scene);
     max_texel_pixels_ = scene.data<TreeDetail>().max_texel_pixels;
+    sun_ = scene::sun_light(scene);
     change_ = {};
     fixed_ = {};
     if (const Status status = upload(scene); !status) fmt::print(stderr, "{}", to_string(status.errors()));
@@ -141,6 +144,7 @@ class TreeDrawable final : public render::Drawable {
     glVertexArrayAttribIFormat(array, 5, 3, GL_UNSIGNED_INT, offsetof(DrawnBillboard, tiles_and_thing));
     glVertexArrayAttribBinding(array, 5, 0);
     attribute(6, 1, offsetof(DrawnBillboard, reach));
+    attribute(7, 4, offsetof(DrawnBillboard, light_in_crown));
     glVertexArrayBindingDivisor(array, 0, 1);
   }
 
@@ -152,6 +156,7 @@ class TreeDrawable final : public render::Drawable {
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
     if (distinct == uploaded_) return Done{};
     uploaded_ = distinct;
+    crowns_ = {};
     Result<TreeAtlas> atlas = TreeAtlas::create(distinct);
     if (!atlas) return atlas.errors();
     atlas_ = *std::move(atlas);
@@ -169,6 +174,10 @@ class TreeDrawable final : public render::Drawable {
     const BillboardTree& shown = placed.tree->levels[level];
     const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(eye_in_world, 1.0f));
     order_.back_to_front(shown.grid, eye, cells_);
+    const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(bounds_[i].centre()));
+    const std::vector<float>& sun = crowns_.shares(*placed.tree, to_sun)[level];
+    const std::vector<float>&albedo_factor = placed.tree->crown.albedo_factor[level],
+          &sky = placed.tree->crown.sky[level];
     const glm::vec3 cell_size_m = shown.grid.cell_size_m();
     const float half_cell_pixels =
         0.5f * std::min({cell_size_m.x, cell_size_m.y, cell_size_m.z}) * pixels_per_metre;
@@ -190,7 +199,14 @@ class TreeDrawable final : public render::Drawable {
         b.tiles_and_thing[v] =
             atlas_.tile(placed.tree.get(), level, std::size_t(closest.views[std::size_t(v)]), cell);
       b.tiles_and_thing.z = std::uint32_t(first_thing_) + std::uint32_t(i);
+      b.light_in_crown = {albedo_factor[cell], sun[cell], sky[cell],
+                          scale * way_out(placed.tree->box, centre, to_sun)};
     }
+  }
+
+  /// Unit.
+  glm::vec3 to_sun_at(glm::vec3 in_world) const {
+    return glm::normalize(sun_.spot ? sun_.spot->position - in_world : sun_.direction_to_sun);
   }
 
   DrawList& list_of(const View& view) { return view.kind == ViewKind::main ? main_list_ : other_list_; }
@@ -210,6 +226,8 @@ class TreeDrawable final : public render::Drawable {
   // drawing.
   render::StreamBuffer main_stream_, other_stream_;
   DrawList main_list_, other_list_;
+  scene::SunLight sun_;
+  SunInCrowns crowns_;
   CellOrder order_;
   std::vector<std::uint32_t> cells_;
 };

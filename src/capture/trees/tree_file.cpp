@@ -12,7 +12,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr SealedKind kind{"PVTREE_2", "captured tree"}, volume_kind{"PVTVOL_1", "tree volume"};
+constexpr SealedKind kind{"PVTREE_2", "captured tree"}, volume_kind{"PVTVOL_2", "tree volume"};
 constexpr int max_billboard_side = 256;  // finer billboards than this are smaller than pixels
 constexpr int max_texels_per_side = 64, max_views = 1024;
 

@@ -132,7 +132,7 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
     const std::string content = *read_file(entry.path());
     const bool is_tree = entry.path().filename().string().starts_with("tree");
     const SealedKind kind =
-        is_tree ? SealedKind{"PVTREE_2", "captured tree"} : SealedKind{"PVTVOL_1", "tree volume"};
+        is_tree ? SealedKind{"PVTREE_2", "captured tree"} : SealedKind{"PVTVOL_2", "tree volume"};
     ASSERT_TRUE(write_sealed(file, kind, content).ok());
     EXPECT_TRUE(is_tree ? read_tree(file).ok() : read_volume(file).ok()) << entry.path();
     ++seeds;

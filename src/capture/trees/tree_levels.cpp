@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/colour.h"
 #include "base/parallel.h"
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/cell_order.h"
@@ -48,11 +49,11 @@ glm::u8vec4 base_of(const BillboardTree& tree, const std::vector<std::uint32_t>&
   for (const std::uint32_t part : parts) {
     const glm::vec4 base = glm::vec4(tree.base[part]) / 255.0f;
     const float depth = -std::log(1.0f - std::min(base.w, 0.998f));
-    colour += depth * glm::vec3(base), sum += depth;
+    colour += depth * linear_from_srgb(glm::vec3(base)), sum += depth;
   }
   const float extinction_per_m = sum / (chord_m * float(branching * branching * branching));
   const float alpha = 1.0f - std::exp(-extinction_per_m * chord_m * float(branching));
-  return glm::u8vec4(glm::round(255.0f * glm::vec4(colour / sum, alpha)));
+  return glm::u8vec4(glm::round(255.0f * glm::vec4(srgb_from_linear(colour / sum), alpha)));
 }
 
 /// Draws the parts of one coarse cell into its texture, as one photograph sees them.
@@ -85,7 +86,7 @@ class PartsPicture {
           sum += along(eye, glm::normalize(centre + m.x * whole.right + m.y * whole.up - eye), parts);
         }
         sum /= float(samples_per_side * samples_per_side);
-        if (sum.w > 0.0f) sum = glm::vec4(glm::vec3(sum) / sum.w, sum.w);
+        if (sum.w > 0.0f) sum = glm::vec4(srgb_from_linear(glm::vec3(sum) / sum.w), sum.w);
         const glm::vec4 bytes = glm::round(255.0f * glm::clamp(sum, 0.0f, 1.0f));
         for (int c = 0; c < 4; ++c) texels.push_back(std::uint8_t(bytes[c]));
       }
@@ -169,6 +170,7 @@ TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells) {
   result.levels.push_back(std::move(tree));
   while (result.levels.back().grid.size() > max_last_cells && result.levels.back().grid.side() > 1)
     result.levels.push_back(coarser(result.levels.back()));
+  result.crown = crown_light(result.levels);
   return result;
 }
 

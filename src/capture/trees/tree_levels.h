@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/trees/billboard_tree.h"
+#include "capture/trees/crown_light.h"
 
 namespace parvis::trees {
 
@@ -12,6 +13,7 @@ struct TreeLevels {
   std::vector<BillboardTree> levels;  ///< the finest first; each is coarser by the grid's branching
   Bounds box;                         ///< of the grid, metres
   glm::vec3 foot{0.0f};               ///< where the trunk stands on the ground
+  CrownLight crown;                   ///< of the levels
 };
 
 /// The tree with each cell's parts drawn into one billboard, as each photograph sees them: with twice the

@@ -1,6 +1,4 @@
-// Section 4.8 of the thesis names the way: "the existence of opacity information should allow us to
-// approximate light distribution, and perform approximate lighting or relighting calculations". Light is one
-// number per cell; its colour stays in the albedo.
+// Light is one number per cell; its colour stays in the textures.
 #include "capture/trees/tree_light.h"
 
 #include <algorithm>
@@ -16,10 +14,7 @@ namespace {
 constexpr int sky_rows = 3, sky_columns = 8;  // directions of the sky
 constexpr int azimuths = 24;                  // of the search for the sun
 constexpr std::array heights_deg{15.0f, 30.0f, 45.0f, 60.0f};
-constexpr float mean_albedo =
-    0.12f;  // of foliage, in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15)
-constexpr float min_light_share = 0.15f;  // of the mean, of a relit tree: darker is noise
-constexpr float no_limit = 1e9f;
+constexpr std::array refinements_deg{7.5f, 3.75f, 2.0f};
 constexpr float pi = 3.14159265f;
 
 glm::vec3 direction_of(float azimuth, float height) {
@@ -38,7 +33,7 @@ std::vector<float> extinctions(const BillboardTree& tree) {
   return result;
 }
 
-/// What reaches the middle of each cell along a direction.
+/// What reaches each cell along a direction, from its middle on: its own leaves are what is lit.
 std::vector<float> passed(const BillboardTree& tree, const std::vector<float>& extinction_per_m,
                           glm::vec3 direction) {
   std::vector<float> result(tree.grid.size());
@@ -47,7 +42,7 @@ std::vector<float> passed(const BillboardTree& tree, const std::vector<float>& e
       [&](std::size_t cell) {
         float depth = 0.0f;
         tree.grid.walk({tree.grid.centre(cell), direction}, [&](std::size_t other, float enter, float leave) {
-          depth += extinction_per_m[other] * (leave - enter);
+          if (other != cell) depth += extinction_per_m[other] * (leave - enter);
           return depth < 8.0f;
         });
         result[cell] = std::exp(-depth);
@@ -75,37 +70,6 @@ LightFit fitted(const BillboardTree& tree, const std::vector<float>& brightness,
   if (s < 0.0) s = 0.0, k = by / std::max(bb, 1e-9);
   if (k < 0.0) k = 0.0, s = ay / std::max(aa, 1e-9);
   return {float(s), float(k), yy - s * ay - k * by};
-}
-
-/// Multiplies the linear light of each cell's textures.
-void scale_light(BillboardTree& tree, const std::vector<float>& factors) {
-  const auto scale = [](std::uint8_t* texel, float factor) {
-    for (int c = 0; c < 3; ++c)
-      texel[c] = std::uint8_t(std::lround(
-          255.0f * srgb_from_linear(std::min(factor * linear_from_srgb(float(texel[c]) / 255.0f), 1.0f))));
-  };
-  const std::size_t per_texture = std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
-  for (std::size_t cell = 0; cell < tree.base.size(); ++cell) scale(&tree.base[cell].x, factors[cell]);
-  parallel_for(tree.views.size(), [&](std::size_t v) {
-    BillboardTextures& view = tree.views[v];
-    for (std::size_t cell = 0; cell < tree.grid.size(); ++cell) {
-      if (view.texture_of_cell[cell] < 0) continue;
-      std::uint8_t* texels = view.texels.data() + 4 * per_texture * std::size_t(view.texture_of_cell[cell]);
-      for (std::size_t k = 0; k < per_texture; ++k) scale(texels + 4 * k, factors[cell]);
-    }
-  });
-}
-
-std::vector<float> light_of_cells(const CapturedLight& light, const std::vector<float>& sun,
-                                  const std::vector<float>& sky, float min_share, float max_share) {
-  std::vector<float> result(sky.size());
-  double mean = 0.0;
-  for (std::size_t i = 0; i < sky.size(); ++i) {
-    result[i] = light.sun * sun[i] + light.sky * sky[i];
-    mean += double(result[i]) / double(sky.size());
-  }
-  for (float& value : result) value = std::clamp(value, min_share * float(mean), max_share * float(mean));
-  return result;
 }
 
 }  // namespace
@@ -145,30 +109,12 @@ CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3
   for (const float height : heights_deg)
     for (int i = 0; i < azimuths; ++i)
       attempt(direction_of(2.0f * pi * float(i) / azimuths, glm::radians(height)));
+  for (const float step : refinements_deg) {
+    const float azimuth = std::atan2(best.to_sun.x, best.to_sun.y), height = std::asin(best.to_sun.z);
+    for (const glm::vec2 off : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)})
+      attempt(direction_of(azimuth + glm::radians(step * off.x), height + glm::radians(step * off.y)));
+  }
   return best;
-}
-
-BillboardTree relit(BillboardTree tree, glm::vec3 to_sun) {
-  const std::vector<float> sky = sky_visibility(tree);
-  const std::vector<float> before =
-      light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun), sky, min_light_share, no_limit);
-  const std::vector<float> after =
-      light_of_cells(tree.light, sun_visibility(tree, to_sun), sky, min_light_share, no_limit);
-  std::vector<float> factors(before.size());
-  for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = after[i] / std::max(before[i], 1e-6f);
-  scale_light(tree, factors);
-  tree.light.to_sun = to_sun;
-  return tree;
-}
-
-BillboardTree unlit(BillboardTree tree, float contrast) {
-  const std::vector<float> light = light_of_cells(tree.light, sun_visibility(tree, tree.light.to_sun),
-                                                  sky_visibility(tree), 1.0f / contrast, contrast);
-  std::vector<float> factors;
-  for (const float value : light) factors.push_back(mean_albedo / std::max(value, 1e-6f));
-  scale_light(tree, factors);
-  tree.light = {};
-  return tree;
 }
 
 }  // namespace parvis::trees

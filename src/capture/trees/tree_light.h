@@ -1,5 +1,8 @@
-// The light in which a tree was photographed, taken out of its textures, and another put in: trees are lit by
-// the sun and sky of the scene they stand in.
+// The light in which a tree was photographed, found by the sun's direction and the cells' opacity.
+//
+// Section 4.8 of the thesis (003_d5b01da2d2f805f6) names the way: "the existence of opacity information
+// should allow us to approximate light distribution, and perform approximate lighting or relighting
+// calculations".
 #pragma once
 
 #include <optional>
@@ -8,6 +11,10 @@
 #include "capture/trees/billboard_tree.h"
 
 namespace parvis::trees {
+
+/// Of foliage, in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15): the reflectance that the mean
+/// of a tree is given, for no photograph says how bright its light was.
+inline constexpr float mean_albedo = 0.12f;
 
 /// The share of the sun's light that reaches each cell from a direction (unit), 0..1: what the cells between
 /// let through.
@@ -19,13 +26,5 @@ std::vector<float> sky_visibility(const BillboardTree& tree);
 /// plus `sky` times what it sees of the sky, by least squares over the cells. Without `to_sun` the direction
 /// is the one that explains most.
 CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3> to_sun = std::nullopt);
-
-/// The tree as another sun would show it, with the same sky.
-BillboardTree relit(BillboardTree tree, glm::vec3 to_sun);
-
-/// The tree with its textures as albedo: divided by the light that each cell had, which is taken to lie
-/// within a factor of `contrast` of the mean. What a cell's own opacity says of its light is noisy: with a
-/// contrast of 6 the crown of a real capture falls into light and dark cells.
-BillboardTree unlit(BillboardTree tree, float contrast = 1.5f);
 
 }  // namespace parvis::trees

@@ -6,7 +6,6 @@
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
-#include "capture/trees/tree_light.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -68,9 +67,8 @@ const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
   for (const BillboardTextures& view : tree->views) hash.add(view.texels);
   hash.add(tree->grid.cells()), hash.add(tree->base), hash.add(tree->light);
   return &shelf
-              .emplace(file,
-                       TreeShelf::Read{std::make_shared<const TreeLevels>(levels_of(unlit(*std::move(tree)))),
-                                       hash.value()})
+              .emplace(file, TreeShelf::Read{std::make_shared<const TreeLevels>(levels_of(*std::move(tree))),
+                                             hash.value()})
               .first->second;
 }
 

@@ -9,6 +9,7 @@ flat in vec4 slants;
 flat in vec4 base_of_cell;
 flat in uvec2 tiles;
 flat in float second_share;
+flat in float albedo_factor;
 
 // Linear, premultiplied.
 vec4 tile_colour(uint tile) {
@@ -28,5 +29,5 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
 #ifdef HAS_HOLES
   alpha = alpha > opacity_threshold(position) ? 1.0f : 0.0f;
 #endif
-  return foliage_surface(colour.rgb / colour.a, frame_to_sun.xyz);
+  return foliage_surface(albedo_factor * colour.rgb / colour.a, to_sun_at(position), seen.to_viewer);
 }

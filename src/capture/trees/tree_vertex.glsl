@@ -13,11 +13,15 @@ layout(location = 3) in vec4 billboard_slants;  // of the cell's silhouette, bil
 layout(location = 4) in vec4 base_colour_of_cell;
 layout(location = 5) in uvec3 tiles_and_thing;  // textures of the two photographs; number of the thing
 layout(location = 6) in float reach;            // of the quad, in half billboards
+// Factor from textures to albedo, shares of sun and sky that the crown lets through, metres toward the sun
+// beyond which the crown ends.
+layout(location = 7) in vec4 light_in_crown;
 
 flat out vec4 slants;
 flat out vec4 base_of_cell;  // sRGB and opacity, where a photograph has no texture
 flat out uvec2 tiles;
 flat out float second_share;
+flat out float albedo_factor;
 
 void surface_vertex() {
   vec2 corner = reach * (vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0f - 1.0f);
@@ -29,8 +33,11 @@ void surface_vertex() {
   tiles = tiles_and_thing.xy;
   second_share = billboard_centre.w;
   vec3 facing = normalize(vertex_normal);
-  leaf_sun = visible_sun(position, facing);
+  albedo_factor = light_in_crown.x;
+  // The crown's own shadow is its cells' share of the sun; the maps have that of all else.
+  leaf_sun = light_in_crown.y * visible_sun(position + light_in_crown.w * to_sun_at(position), facing);
   leaf_sky_cell = shaded_cell(sky_visibility_cell(position, facing),
                               sky_share_beside_bodies(position, facing, int(tiles_and_thing.z)));
+  leaf_sky_cell = mix(vec4(0.5f, 0.5f, 0.5f, 0.0f), leaf_sky_cell, light_in_crown.z);
   object_of_surface = int(tiles_and_thing.z);
 }

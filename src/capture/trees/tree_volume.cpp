@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/colour.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
@@ -16,27 +17,38 @@ namespace {
 constexpr int rows_per_task = 8;
 constexpr float opaque_enough = 1e-3f;  // of the light: what lies behind is not seen
 constexpr float max_depth_per_cell =
-    12.0f;  // optical, along the mean chord: more is not distinguishable from opaque
+    12.0f;                           // optical, along the mean chord: more is not distinguishable from opaque
+constexpr float rate_decay = 0.25f;  // of the steps, per pass
 constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
 
-/// A photograph, premultiplied, at the resolution of the fit.
+/// A photograph, premultiplied linear light, at the resolution of the fit.
 struct Target {
   Pinhole camera;
   ImageF rgba;
 };
 
+constexpr float min_light = 0.01f;  // below it the slope of sRGB is taken as there
+constexpr float min_root = 0.03f;   // of a colour's light: from 0 no step leads away
+
+/// By how much a display magnifies an error of light: the slope of sRGB where the pixel's light stands before
+/// grey; alpha counts as it is.
+glm::vec4 display_slope(glm::vec4 rgba) {
+  const glm::vec3 light = glm::max(glm::vec3(rgba) + 0.5f * (1.0f - rgba.w), min_light);
+  return glm::vec4((1.055f / 2.4f) * glm::pow(light, glm::vec3(1.0f / 2.4f - 1.0f)), 1.0f);
+}
+
 Target target_of(const TreeView& view, int factor) {
   Target result{reduced(view.camera, factor), {}};
+  const ImageF picture = linear_from_srgb8(view.picture);
   result.rgba = ImageF(result.camera.width, result.camera.height, 4);
   for (int y = 0; y < result.rgba.height; ++y)
     for (int x = 0; x < result.rgba.width; ++x) {
       glm::vec4 sum(0.0f);
       int count = 0;
-      for (int v = y * factor; v < std::min((y + 1) * factor, view.picture.height); ++v)
-        for (int u = x * factor; u < std::min((x + 1) * factor, view.picture.width); ++u, ++count) {
-          const std::uint8_t* p = view.picture.at(u, v);
-          const float alpha = float(p[3]) / 255.0f;
-          sum += glm::vec4(glm::vec3(float(p[0]), float(p[1]), float(p[2])) * (alpha / 255.0f), alpha);
+      for (int v = y * factor; v < std::min((y + 1) * factor, picture.height); ++v)
+        for (int u = x * factor; u < std::min((x + 1) * factor, picture.width); ++u, ++count) {
+          const float* p = picture.at(u, v);
+          sum += glm::vec4(p[3] * glm::vec3(p[0], p[1], p[2]), p[3]);
         }
       for (int c = 0; c < 4; ++c) result.rgba.at(x, y)[c] = sum[c] / float(count);
     }
@@ -67,14 +79,14 @@ glm::vec4 colour_of(const TreeVolume& volume, std::uint32_t cell) {
   return glm::vec4(volume.colour[cell], 1.0f);
 }
 
-using Gradients = std::vector<glm::vec4>;  // per cell: of the colour; of the logarithm of the extinction
+using Gradients = std::vector<glm::vec4>;  // per cell: of the light; of the logarithm of the extinction
 
 /// Gradients of one pixel's squared error; returns that error.
 double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossings, glm::vec4 wanted,
                  Gradients& gradients) {
   glm::vec4 found(0.0f);
   for (const Crossing& c : crossings) found += c.before * (1.0f - c.kept) * colour_of(volume, c.cell);
-  const glm::vec4 residual = found - wanted;
+  const glm::vec4 slope = display_slope(wanted), error = slope * (found - wanted), residual = slope * error;
   glm::vec4 behind = found;  // what the cells from here on bring
   for (const Crossing& c : crossings) {
     const float weight = c.before * (1.0f - c.kept);
@@ -85,7 +97,7 @@ double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossing
     g += glm::vec4(weight * glm::vec3(residual),
                    volume.extinction_per_m[c.cell] * glm::dot(by_extinction, residual));
   }
-  return double(glm::dot(residual, residual));
+  return double(glm::dot(error, error));
 }
 
 /// Moments of Adam per cell.
@@ -138,6 +150,94 @@ void smooth(TreeVolume& volume, float share) {
   }
 }
 
+/// The gradients of some rows of a photograph, and the step along them.
+class VolumeFit {
+ public:
+  VolumeFit(TreeVolume& volume, const FitOptions& options)
+      : volume_(volume),
+        options_(options),
+        max_extinction_per_m_(max_depth_per_cell / mean_chord_m(volume.grid.cell_size_m())),
+        adam_(volume.grid.size()),
+        gradients_([count = volume.grid.size()] { return Gradients(count, glm::vec4(0.0f)); }) {}
+
+  /// Every `parts`-th row from `first` on; returns the sum of the pixels' squared errors.
+  double gather(const Target& target, int first, int parts) {
+    first += options_.processes.rank * parts, parts *= options_.processes.count;
+    tbb::enumerable_thread_specific<double> errors(0.0);
+    parallel_for(
+        std::size_t(std::max(target.rgba.height - first + parts - 1, 0) / parts),
+        [&](std::size_t i) {
+          const int row = first + int(i) * parts;
+          std::vector<Crossing>& crossings = rays_.local();
+          Gradients& gradients = gradients_.local();
+          double& error = errors.local();
+          for (int x = 0; x < target.rgba.width; ++x) {
+            collect(volume_, target.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
+            const float* p = target.rgba.at(x, row);
+            error += add_pixel(volume_, crossings, {p[0], p[1], p[2], p[3]}, gradients);
+          }
+        },
+        rows_per_task);
+    return errors.combine(std::plus<>());
+  }
+
+  /// Moves every cell that a ray has met.
+  void step(float rate) {
+    sum_over_processes();
+    parallel_for(
+        volume_.grid.size(),
+        [&](std::size_t i) {
+          glm::vec4 gradient(0.0f);
+          for (Gradients& g : gradients_) gradient += g[i], g[i] = glm::vec4(0.0f);
+          if (gradient == glm::vec4(0.0f)) return;
+          const glm::vec3 root = glm::max(glm::sqrt(volume_.colour[i]), min_root);
+          gradient *= glm::vec4(2.0f * root, 1.0f);  // of the root of the light
+          const glm::vec4 step = rate * adam_.step(i, gradient);
+          const glm::vec3 moved = glm::clamp(root - options_.colour_rate * glm::vec3(step), min_root, 1.0f);
+          volume_.colour[i] = moved * moved;
+          volume_.extinction_per_m[i] =
+              std::min(volume_.extinction_per_m[i] * std::exp(-options_.extinction_rate * step.w),
+                       max_extinction_per_m_);
+        },
+        1024);
+  }
+
+ private:
+  void sum_over_processes() {
+    if (!options_.processes.sum) return;
+    Gradients& all = gradients_.local();
+    for (Gradients& g : gradients_) {
+      if (&g == &all) continue;
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += g[i], g[i] = glm::vec4(0.0f);
+    }
+    options_.processes.sum({&all.front().x, 4 * all.size()});
+  }
+
+  TreeVolume& volume_;
+  const FitOptions& options_;
+  float max_extinction_per_m_;
+  Adam adam_;
+  tbb::enumerable_thread_specific<Gradients> gradients_;
+  tbb::enumerable_thread_specific<std::vector<Crossing>> rays_;
+};
+
+/// The cells for which `keeps(cell)` holds.
+template <class Keeps>
+TreeVolume with_cells(const TreeVolume& volume, Keeps&& keeps) {
+  std::vector<std::uint8_t> is_kept(volume.grid.size());
+  parallel_for(
+      volume.grid.size(), [&](std::size_t i) { is_kept[i] = keeps(i); }, 1024);
+  TreeVolume result;
+  std::vector<glm::u16vec3> cells;
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    if (!is_kept[i]) continue;
+    cells.push_back(volume.grid.cells()[i]);
+    result.extinction_per_m.push_back(volume.extinction_per_m[i]), result.colour.push_back(volume.colour[i]);
+  }
+  result.grid = CellGrid(volume.grid.box(), volume.grid.branching(), volume.grid.side(), std::move(cells));
+  return result;
+}
+
 }  // namespace
 
 float TreeVolume::alpha(std::size_t cell) const {
@@ -158,7 +258,8 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
           for (int x = 0; x < view.camera.width; ++x) {
             const std::uint8_t* p = view.picture.at(x, int(row));
             if (p[3] == 0) continue;
-            const glm::vec4 seen = glm::vec4(float(p[0]), float(p[1]), float(p[2]), 255.0f) / 255.0f;
+            const glm::vec4 seen(linear_from_srgb(glm::vec3(float(p[0]), float(p[1]), float(p[2])) / 255.0f),
+                                 1.0f);
             collect(volume, view.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
             for (const Crossing& c : crossings)
               sums[c.cell] += c.before * (1.0f - c.kept + 1e-4f) * (float(p[3]) / 255.0f) * seen;
@@ -169,76 +270,46 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
   for (const Gradients& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
   for (const glm::vec4& sum : all)
-    volume.colour.push_back(sum.w > 0.0f ? glm::vec3(sum) / sum.w : glm::vec3(0.2f, 0.25f, 0.15f));
+    volume.colour.push_back(sum.w > 0.0f ? glm::vec3(sum) / sum.w : glm::vec3(0.03f, 0.05f, 0.02f));
   return volume;
 }
 
 std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
                                const FitOptions& options) {
-  const std::size_t count = volume.grid.size();
   std::vector<Target> targets(views.size());
   parallel_for(views.size(),
                [&](std::size_t i) { targets[i] = target_of(views[i], options.picture_factor); });
-  const float chord_m = mean_chord_m(volume.grid.cell_size_m());
-  Adam adam(count);
-  Random random(options.seed, 500);
-  std::vector<std::size_t> order(views.size());
+  const int parts = std::max(options.steps_per_view, 1);
+  std::vector<std::size_t> order(views.size() * std::size_t(parts));
   std::iota(order.begin(), order.end(), std::size_t(0));
+  Random random(options.seed, 500);
   std::vector<double> errors;
-  tbb::enumerable_thread_specific<Gradients> partial([&] { return Gradients(count, glm::vec4(0.0f)); });
-  tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
+  VolumeFit fit(volume, options);
   for (int epoch = 0; epoch < options.epochs; ++epoch) {
     for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[std::size_t(random.index(int(i)))]);
-    const float rate = 1.0f / (1.0f + 0.25f * float(epoch));  // smaller steps toward the end
-    double error = 0.0, pixels = 0.0;
-    for (const std::size_t view : order) {
-      const Target& target = targets[view];
-      tbb::enumerable_thread_specific<double> errors_of_rows(0.0);
-      parallel_for(
-          std::size_t(target.rgba.height),
-          [&](std::size_t row) {
-            for (int x = 0; x < target.rgba.width; ++x) {
-              std::vector<Crossing>& crossings = rays.local();
-              collect(volume, target.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
-              const float* p = target.rgba.at(x, int(row));
-              errors_of_rows.local() +=
-                  add_pixel(volume, crossings, {p[0], p[1], p[2], p[3]}, partial.local());
-            }
-          },
-          rows_per_task);
-      error += errors_of_rows.combine(std::plus<>()), pixels += double(target.rgba.pixels.size());
-      parallel_for(
-          count,
-          [&](std::size_t i) {
-            glm::vec4 gradient(0.0f);
-            for (Gradients& g : partial) gradient += g[i], g[i] = glm::vec4(0.0f);
-            if (gradient == glm::vec4(0.0f)) return;
-            const glm::vec4 step = rate * adam.step(i, gradient);
-            volume.colour[i] =
-                glm::clamp(volume.colour[i] - options.colour_rate * glm::vec3(step), 0.0f, 1.0f);
-            volume.extinction_per_m[i] =
-                std::min(volume.extinction_per_m[i] * std::exp(-options.extinction_rate * step.w),
-                         max_depth_per_cell / chord_m);
-          },
-          1024);
+    double error = 0.0, values = 0.0;
+    for (const std::size_t step : order) {
+      const Target& target = targets[step / std::size_t(parts)];
+      error += fit.gather(target, int(step % std::size_t(parts)), parts);
+      values += double(target.rgba.pixels.size()) / double(parts);
+      fit.step(1.0f / (1.0f + rate_decay * float(epoch)));
     }
-    errors.push_back(std::sqrt(error / pixels));
+    errors.push_back(std::sqrt(error / values));
     if (options.smoothing > 0.0f) smooth(volume, options.smoothing);
   }
   return errors;
 }
 
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff) {
-  TreeVolume result;
-  std::vector<glm::u16vec3> cells;
-  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
-    if (1.0f - volume.alpha(i) > cutoff) continue;
-    cells.push_back(volume.grid.cells()[i]);
-    result.extinction_per_m.push_back(volume.extinction_per_m[i]), result.colour.push_back(volume.colour[i]);
-  }
-  result.grid = CellGrid(volume.grid.box(), volume.grid.branching(), volume.grid.side(), std::move(cells));
-  return result;
+  return with_cells(volume, [&](std::size_t i) { return 1.0f - volume.alpha(i) <= cutoff; });
+}
+
+TreeVolume within_hull(const TreeVolume& volume, std::span<const Silhouette> silhouettes) {
+  return with_cells(volume, [&](std::size_t i) {
+    const Bounds box = volume.grid.bounds(i);
+    return std::ranges::all_of(silhouettes, [&](const Silhouette& s) { return s.may_show(box); });
+  });
 }
 
 Result<TreeVolume> subdivided(const TreeVolume& volume) {

@@ -18,7 +18,7 @@ namespace parvis::trees {
 struct TreeVolume {
   CellGrid grid;
   std::vector<float> extinction_per_m;  ///< per cell
-  std::vector<glm::vec3> colour;        ///< per cell, sRGB 0..1
+  std::vector<glm::vec3> colour;        ///< per cell, linear light, 0..1
 
   /// Opacity of a cell along its mean chord, 0..1: the thesis's alpha of the cell.
   float alpha(std::size_t cell) const;
@@ -27,30 +27,35 @@ struct TreeVolume {
 /// How the volume is fitted.
 struct FitOptions {
   int epochs = 10;                ///< passes over all photographs
-  float colour_rate = 0.04f;      ///< Adam's step, in sRGB
+  float colour_rate = 0.04f;      ///< Adam's step, of the square root of the light
   float extinction_rate = 0.12f;  ///< Adam's step, of the logarithm of the extinction
+  int steps_per_view = 1;         ///< steps per photograph and pass, each with as great a share of its rows
   float smoothing = 0.0f;         ///< after each pass: share of the neighbours' mean in each cell
   int picture_factor = 1;         ///< photographs are reduced so many times
   std::uint64_t seed = 1;         ///< of the photographs' order
+  Processes processes = {};       ///< each takes its share of the rows
 };
 
 /// Colours of an opacity estimate: for each cell the mean of the photographs' foreground, weighed by how much
 /// of it each pixel sees.
 TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views);
 
-/// Improves extinction and colours together. Returns the root mean square error over RGBA (premultiplied) of
-/// each epoch.
+/// Improves extinction and colours together. Returns the root mean square error over RGBA of each epoch, as a
+/// display shows it: colours by the slope of sRGB.
 std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
                                const FitOptions& options);
 
 /// Without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its oak).
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff);
 
+/// Without the cells that a photograph shows as empty: what its finer cells show of the hull (4.5.1).
+TreeVolume within_hull(const TreeVolume& volume, std::span<const Silhouette> silhouettes);
+
 /// The volume with every cell divided once more; the parts inherit what the whole had. Errors: a side above
 /// max_grid_side.
 Result<TreeVolume> subdivided(const TreeVolume& volume);
 
-/// What a camera sees of the volume: RGBA, premultiplied, sRGB.
+/// What a camera sees of the volume: RGBA, premultiplied, linear light.
 ImageF render_volume(const TreeVolume& volume, const Pinhole& camera);
 
 }  // namespace parvis::trees

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "capture/trees/bench/tree_figures.h"
+#include "capture/trees/billboard_textures.h"
 #include "capture/trees/billboard_tree.h"
+#include "capture/trees/judge.h"
 #include "capture/trees/reconstruction.h"
 #include "capture/trees/synthetic_capture.h"
+#include "capture/trees/tree_levels.h"
 
 namespace parvis::trees {
 
@@ -15,7 +18,7 @@ namespace parvis::trees {
 struct BenchCaptureSize {
   CaptureOptions capture;
   ReconstructionOptions options;
-  int held_out = 40;
+  int held_out = 40, many = 100;  ///< photographs left out, and of the larger capture
 };
 /// The sizes of the full run, or of the quick one.
 BenchCaptureSize bench_capture_size(const FigureOptions& options);
@@ -32,11 +35,26 @@ Result<SampleCapture> sample_capture(std::string_view name, int views, const Ben
 /// What comes of it.
 struct ReconstructedTree {
   TreeVolume volume;
-  BillboardTree tree;
-  double seconds = 0.0, megabytes = 0.0;  ///< all steps; of the file
-  std::vector<std::string> notes;         ///< per step
+  std::shared_ptr<const TreeLevels> levels;  ///< as read back from the file
+  std::vector<StepTime> times;               ///< of all steps from photographs to levels of detail
+  double megabytes = 0.0;                    ///< of the file
+  std::vector<std::string> notes;            ///< per step
+
+  /// Of all steps.
+  double seconds() const;
 };
-/// All steps from views to a tree that can be drawn.
+/// All steps from views to a tree that can be drawn, on two cores.
 Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size);
+
+/// A tree of a volume as the house would read it from a file.
+std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::span<const TreeView> views,
+                                              TextureMethod method);
+
+/// Mean errors of what the house draws of a tree from the places of views, in the light of `light`; alpha's
+/// root mean square over all of them. Needs a current OpenGL context. Errors: no views.
+Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
+                             std::span<const TreeView> views);
+/// The same in the light of the tree's photographs.
+Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views);
 
 }  // namespace parvis::trees

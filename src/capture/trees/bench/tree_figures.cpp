@@ -1,29 +1,22 @@
+// Every sample tree is reconstructed from 22 photographs and from many, and judged as the house draws it.
 #include "capture/trees/bench/tree_figures.h"
 
 #include <algorithm>
-#include <barrier>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <thread>
 
-#include "base/random.h"
 #include "capture/trees/bench/reconstructed_tree.h"
-#include "capture/trees/billboard_textures.h"
-#include "capture/trees/judge.h"
 #include "capture/trees/measure.h"
-#include "capture/trees/reconstruction.h"
 #include "capture/trees/sample_trees.h"
-#include "capture/trees/synthetic_capture.h"
+#include "capture/trees/shown_tree.h"
 #include "capture/trees/tree_file.h"
-#include "capture/trees/tree_light.h"
 
 namespace parvis::trees {
 namespace {
 
 constexpr float sun_turn_deg = 60.0f;  // of the relit tree
-constexpr float wrong_height = 1.05f;  // a tree so much taller must be noticed
+constexpr float wrong_scale = 1.05f;   // of a reconstruction that is measured wrongly
 constexpr int thesis_iterations = 4;
+constexpr float thesis_cutoff = 0.94f;  // of its oak
 
 /// Sums over trees, reported as means.
 class Means {
@@ -33,8 +26,10 @@ class Means {
     if (entry == entries_.end()) entry = entries_.insert(entries_.end(), Entry{key, 0.0, 0.0});
     entry->sum += value, entry->count += 1.0;
   }
-  void report(const FigureSink& sink) const {
-    for (const Entry& entry : entries_) sink.add(entry.key, entry.sum / entry.count);
+  Status report(const FigureSink& sink) const {
+    for (const Entry& entry : entries_)
+      if (Status status = sink.figure(entry.key, entry.sum / entry.count); !status) return status;
+    return Done{};
   }
 
  private:
@@ -45,149 +40,154 @@ class Means {
   std::vector<Entry> entries_;
 };
 
-/// Mean errors of what a tree shows from the places of views; alpha's root mean square over all of them.
-ViewErrors errors_of(const BillboardTree& tree, std::span<const TreeView> views) {
-  ViewErrors mean;
-  double squares = 0.0;
-  for (const TreeView& view : views) {
-    const ViewErrors one = *judged(render_billboards(tree, view.camera), view);
-    mean += one, squares += one.alpha_rmse * one.alpha_rmse;
-  }
-  mean /= double(views.size());
-  mean.alpha_rmse = std::sqrt(squares / double(views.size()));
-  return mean;
-}
-
-/// Against the thesis's opacities on the same grid, clamped; the control is their start.
-Status measure_opacity(const SampleCapture& capture, const ReconstructionOptions& options,
-                       double alpha_rmse_of_ours, Means& means) {
+/// The thesis's tree: its opacities, clamped, with its cutoff, and its textures. `iterations` of 0: its
+/// start.
+Result<std::shared_ptr<const TreeLevels>> thesis_tree(const SampleCapture& capture, const GridOptions& grid,
+                                                      int iterations) {
   const std::vector<Silhouette> masks = silhouettes(capture.views);
   const Result<Bounds> box = hull_box(capture.views, masks);
   if (!box) return box.errors();
-  const Result<CellGrid> grid = hull_grid(capture.views, masks, *box, options.grid);
-  if (!grid) return grid.errors();
-  OpacityOptions thesis;
-  thesis.method = OpacityMethod::projection, thesis.iterations = thesis_iterations;
-  const Opacities found = estimate_opacity(*grid, capture.views, masks, thesis);
-  const double projection = alpha_rmse(*grid, found.extinction_per_m, capture.held_out, 1);
-  means.add("alpha_rmse_ratio_over_projection", alpha_rmse_of_ours / projection);
-  means.add("alpha_rmse_ratio_of_the_start",
-            alpha_rmse(*grid, initial_extinction(*grid, masks), capture.held_out, 1) / projection);
+  Result<CellGrid> cells = hull_grid(capture.views, masks, *box, grid);
+  if (!cells) return cells.errors();
+  OpacityOptions options;
+  options.method = OpacityMethod::projection, options.iterations = iterations;
+  options.cutoff = thesis_cutoff;
+  std::vector<float> extinction = estimate_opacity(*cells, capture.views, masks, options).extinction_per_m;
+  const TreeVolume volume = without_transparent_cells(
+      coloured(*std::move(cells), std::move(extinction), capture.views), thesis_cutoff);
+  TextureOptions textures;
+  textures.method = TextureMethod::age_importance, textures.parent_levels = 0;
+  return std::make_shared<const TreeLevels>(levels_of(as_stored(textured(volume, capture.views, textures))));
+}
+
+/// Against the thesis's tree as the same house draws it; the control is the thesis's start.
+Status measure_opacity(const SampleCapture& capture, const BenchCaptureSize& size, double alpha_rmse_of_ours,
+                       Means& means) {
+  double rmse[2]{};
+  for (const int is_start : {0, 1}) {
+    const auto tree = thesis_tree(capture, size.options.grid, is_start ? 0 : thesis_iterations);
+    if (!tree) return tree.errors();
+    const Result<ViewErrors> errors = errors_of(*tree, capture.held_out);
+    if (!errors) return errors.errors();
+    rmse[is_start] = errors->alpha_rmse;
+    if (!is_start) means.add("psnr_db_22_of_the_thesis", errors->psnr_db);
+  }
+  means.add("alpha_rmse_ratio_over_projection", alpha_rmse_of_ours / rmse[0]);
+  means.add("alpha_rmse_ratio_over_projection_of_the_start", rmse[1] / rmse[0]);
   return Done{};
 }
 
-void measure_sizes(const ReconstructedTree& made, const scene::Model& model, Means& means) {
-  const TreeMeasures truth = measured(model), found = measured(made.volume);
+/// The control measures the same tree at a wrong scale, as from cameras that are too far apart.
+void measure_sizes(const TreeVolume& volume, const scene::Model& model, Means& means) {
+  TreeVolume wrong = volume;
+  const Bounds box = volume.grid.box();
+  wrong.grid = CellGrid({wrong_scale * box.min, wrong_scale * box.max}, volume.grid.branching(),
+                        volume.grid.side(), volume.grid.cells());
+  const TreeMeasures truth = measured(model);
   const auto percent = [](float value, float expected) {
     return 100.0 * std::abs(double(value / expected) - 1.0);
   };
-  means.add("measure_height_error_percent", percent(found.height_m, truth.height_m));
-  means.add("measure_height_error_percent_5_too_tall",
-            percent(wrong_height * truth.height_m, truth.height_m));
-  means.add("measure_crown_volume_error_percent", percent(found.crown_volume_m3, truth.crown_volume_m3));
-  means.add(
-      "measure_crown_volume_error_percent_5_too_wide",
-      percent(wrong_height * wrong_height * wrong_height * truth.crown_volume_m3, truth.crown_volume_m3));
+  for (const bool is_control : {false, true}) {
+    const TreeMeasures found = measured(is_control ? wrong : volume);
+    const std::string end = is_control ? "_at_a_wrong_scale" : "";
+    means.add("measure_height_error_percent" + end, percent(found.height_m, truth.height_m));
+    means.add("measure_crown_volume_error_percent" + end,
+              percent(found.crown_volume_m3, truth.crown_volume_m3));
+  }
 }
 
-/// The sun moves by 60 degrees: FLIP against photographs under that sun, over that of the textures as they
-/// are.
-void measure_relighting(const SampleCapture& capture, const BillboardTree& tree,
-                        const CaptureOptions& options, Means& means) {
+/// The scene's sun moves by 60 degrees: FLIP of what the house draws against photographs under that sun, over
+/// that of the tree as it was photographed; the control is lit from the wrong side.
+Status measure_relighting(const SampleCapture& capture, const std::shared_ptr<const TreeLevels>& tree,
+                          const CaptureOptions& options, Means& means) {
   CaptureLight moved;
   moved.sun_azimuth_deg += sun_turn_deg;
   const scene::Scene truth_scene = capture_scene(capture.model, moved);
   const std::vector<TreeView> truth =
       photograph_tree(truth_scene, capture.held_out_cameras, "relit", options);
   moved.sun_azimuth_deg -= 2.0f * sun_turn_deg;
-  const double baked = errors_of(tree, truth).flip;
-  means.add("relight_flip_over_baked",
-            errors_of(relit(tree, truth_scene.sun.direction_to_sun), truth).flip / baked);
-  means.add(
-      "relight_flip_over_baked_to_the_wrong_side",
-      errors_of(relit(tree, capture_scene(capture.model, moved).sun.direction_to_sun), truth).flip / baked);
+  scene::Scene light = scene_in_light_of(tree->levels.front().light);
+  const Result<ViewErrors> baked = errors_of(tree, light, truth);
+  if (!baked) return baked.errors();
+  light.sun.direction_to_sun = truth_scene.sun.direction_to_sun;
+  const Result<ViewErrors> relit = errors_of(tree, light, truth);
+  if (!relit) return relit.errors();
+  light.sun.direction_to_sun = capture_scene(capture.model, moved).sun.direction_to_sun;
+  const Result<ViewErrors> wrong = errors_of(tree, light, truth);
+  if (!wrong) return wrong.errors();
+  means.add("relight_flip", relit->flip), means.add("relight_flip_baked", baked->flip);
+  means.add("relight_flip_over_baked", relit->flip / baked->flip);
+  means.add("relight_flip_over_baked_to_the_wrong_side", wrong->flip / baked->flip);
+  return Done{};
 }
 
-/// The estimate by two groups of photographs that add up their sums in each iteration, against all in one.
-Status measure_distribution(const SampleCapture& capture, const FigureSink& sink) {
-  const std::vector<Silhouette> masks = silhouettes(capture.views);
-  const Result<Bounds> box = hull_box(capture.views, masks);
-  if (!box) return box.errors();
-  const Result<CellGrid> grid = hull_grid(capture.views, masks, *box, {3, 3});
-  if (!grid) return grid.errors();
-  OpacityOptions options;
-  options.picture_factor = 2;
-  const std::vector<float> one = estimate_opacity(*grid, capture.views, masks, options).extinction_per_m;
-  const std::span<const TreeView> all(capture.views);
-  const std::array groups{all.first(all.size() / 2), all.subspan(all.size() / 2)};
-  std::array<std::vector<float>, 2> results, sums;
-  std::barrier meeting(2);
-  const auto estimate = [&](std::size_t group) {
-    OpacityOptions own = options;
-    own.sum_over_processes = [&, group](std::span<float> values) {
-      sums[group].assign(values.begin(), values.end());
-      meeting.arrive_and_wait();
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = sums[0][i] + sums[1][i];
-      meeting.arrive_and_wait();
-    };
-    results[group] = estimate_opacity(*grid, groups[group], masks, own).extinction_per_m;
-  };
-  std::thread other(estimate, 1);
-  estimate(0);
-  other.join();
-  const float chord_m = mean_chord_m(grid->cell_size_m());
-  const auto difference = [&](const std::vector<float>& tau) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < one.size(); ++i)
-      most =
-          std::max(most, std::abs(std::exp(-double(tau[i] * chord_m)) - std::exp(-double(one[i] * chord_m))));
-    return most;
-  };
-  sink.add("mpi_2_over_1_difference", std::max(difference(results[0]), difference(results[1])));
-  sink.add("mpi_2_over_1_difference_without_the_sum",
-           difference(estimate_opacity(*grid, groups[0], masks, options).extinction_per_m));
-  sink.note("two groups of photographs in two threads of one process: transparencies of the cells");
+void add_steps(const ReconstructedTree& made, int photographs, Means& means) {
+  for (const StepTime& time : made.times)
+    means.add(fmt::format("seconds_{}_{}", time.step, photographs), time.seconds);
+  means.add(fmt::format("minutes_{}", photographs), made.seconds() / 60.0);
+}
+
+Status measure_many(std::string_view name, const BenchCaptureSize& size, Means& means) {
+  const Result<SampleCapture> capture = sample_capture(name, size.many, size);
+  if (!capture) return capture.errors();
+  const Result<ReconstructedTree> made = reconstructed_tree(*capture, size);
+  if (!made) return made.errors();
+  const Result<ViewErrors> errors = errors_of(made->levels, capture->held_out);
+  if (!errors) return errors.errors();
+  means.add("psnr_db_100", errors->psnr_db), means.add("ssim_100", errors->ssim);
+  means.add("flip_100", errors->flip);
+  const Result<ViewErrors> naive =
+      errors_of(levels_from(made->volume, capture->views, TextureMethod::naive), capture->held_out);
+  if (!naive) return naive.errors();
+  means.add("psnr_db_100_naive", naive->psnr_db), means.add("ssim_100_naive", naive->ssim);
+  add_steps(*made, size.many, means);
   return Done{};
 }
 
 Status measure_tree(std::string_view name, const FigureOptions& options, Means& means,
                     const FigureSink& sink) {
   const BenchCaptureSize size = bench_capture_size(options);
-  Result<SampleCapture> capture = sample_capture(name, 22, size);
+  const Result<SampleCapture> capture = sample_capture(name, 22, size);
   if (!capture) return capture.errors();
-  Result<ReconstructedTree> made = reconstructed_tree(*capture, size);
+  const Result<ReconstructedTree> made = reconstructed_tree(*capture, size);
   if (!made) return made.errors();
-  const ViewErrors left_out = errors_of(made->tree, capture->held_out),
-                   seen = errors_of(made->tree, capture->views);
-  means.add("psnr_db_22", left_out.psnr_db);
-  means.add("input_view_psnr_db", seen.psnr_db);
-  means.add("minutes_22", made->seconds / 60.0);
-  means.add("cells", double(made->tree.grid.size()));
-  if (name == "oak") sink.add("tree_mb", made->megabytes);
   for (const std::string& row : made->notes) sink.note(fmt::format("{}, 22 photographs: {}", name, row));
-  TextureOptions naive;
-  naive.method = TextureMethod::naive;
-  const BillboardTree naive_tree = textured(made->volume, capture->views, naive);
-  means.add("psnr_db_22_naive", errors_of(naive_tree, capture->held_out).psnr_db);
-  means.add("input_view_psnr_db_naive", errors_of(naive_tree, capture->views).psnr_db);
-  if (Status status = measure_opacity(*capture, size.options, left_out.alpha_rmse, means); !status)
-    return status;
-  measure_sizes(*made, capture->model, means);
-  measure_relighting(*capture, made->tree, size.capture, means);
-  if (name == "oak")
-    if (Status status = measure_distribution(*capture, sink); !status) return status;
-
-  Result<SampleCapture> many = sample_capture(name, 100, size);
-  if (!many) return many.errors();
-  made = reconstructed_tree(*many, size);
-  if (!made) return made.errors();
-  const ViewErrors of_many = errors_of(made->tree, many->held_out);
-  means.add("psnr_db_100", of_many.psnr_db), means.add("ssim_100", of_many.ssim);
-  means.add("flip_100", of_many.flip), means.add("minutes_100", made->seconds / 60.0);
-  return Done{};
+  const Result<ViewErrors> left_out = errors_of(made->levels, capture->held_out);
+  if (!left_out) return left_out.errors();
+  const Result<ViewErrors> seen = errors_of(made->levels, capture->views);
+  if (!seen) return seen.errors();
+  sink.note(
+      fmt::format("{}: {:.2f} dB left out, {:.2f} dB input views", name, left_out->psnr_db, seen->psnr_db));
+  means.add("psnr_db_22", left_out->psnr_db), means.add("input_view_psnr_db", seen->psnr_db);
+  const auto naive = levels_from(made->volume, capture->views, TextureMethod::naive);
+  const Result<ViewErrors> naive_left_out = errors_of(naive, capture->held_out);
+  if (!naive_left_out) return naive_left_out.errors();
+  const Result<ViewErrors> naive_seen = errors_of(naive, capture->views);
+  if (!naive_seen) return naive_seen.errors();
+  means.add("psnr_db_22_naive", naive_left_out->psnr_db);
+  means.add("input_view_psnr_db_naive", naive_seen->psnr_db);
+  add_steps(*made, 22, means);
+  const BillboardTree& tree = made->levels->levels.front();
+  means.add("cells", double(tree.grid.size()));
+  if (name == "oak") {
+    std::size_t texels = 0;
+    for (const BillboardTextures& view : tree.views) texels += view.texels.size();
+    if (Status status = sink.figure("tree_mb", made->megabytes); !status) return status;
+    if (Status status = sink.figure("tree_mb_uncompressed", 1e-6 * double(texels)); !status) return status;
+  }
+  if (Status status = measure_opacity(*capture, size, left_out->alpha_rmse, means); !status) return status;
+  measure_sizes(made->volume, capture->model, means);
+  if (Status status = measure_relighting(*capture, made->levels, size.capture, means); !status) return status;
+  return measure_many(name, size, means);
 }
 
 }  // namespace
+
+Status FigureSink::figure(const std::string& key, double value) const {
+  if (!std::isfinite(value)) return error("{}: the figure is {}, no number", key, value);
+  add(key, value);
+  return Done{};
+}
 
 Status measure_reconstruction(const FigureOptions& options, const FigureSink& sink) {
   Means means;
@@ -195,9 +195,8 @@ Status measure_reconstruction(const FigureOptions& options, const FigureSink& si
     if (options.is_quick && name != "oak" && name != "winter") continue;
     if (Status status = measure_tree(name, options, means, sink); !status) return status;
   }
-  sink.add("iterations", double(OpacityOptions{}.iterations));
-  means.report(sink);
-  return Done{};
+  if (Status status = sink.figure("iterations", double(OpacityOptions{}.iterations)); !status) return status;
+  return means.report(sink);
 }
 
 }  // namespace parvis::trees

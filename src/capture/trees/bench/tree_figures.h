@@ -1,7 +1,9 @@
-// What the bench `trees` measures: captures with truth, path-traced, from photographs to the display. Every
-// figure has a control beside it that must fail the figure's target: its key ends in what was done wrong.
+// What the bench `trees` measures: captures with truth, path-traced, from photographs to what the house
+// draws. Every figure that has a target has a control beside it that must fail it: its key ends in what was
+// done wrong. Figures that are no numbers, or of nothing, are errors.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -13,6 +15,10 @@ namespace parvis::trees {
 struct FigureSink {
   std::function<void(const std::string& key, double value)> add;
   std::function<void(const std::string& row)> note;
+  std::function<void(const std::string& key, const std::string& why)> skip;
+
+  /// Adds a figure. Errors: it is not finite.
+  Status figure(const std::string& key, double value) const;
 };
 
 /// How much is measured: `is_quick` takes two trees in place of four, small pictures and a coarser grid.
@@ -20,11 +26,15 @@ struct FigureOptions {
   bool is_quick = false;
 };
 
-/// Opacity, pictures, sizes, minutes, measurements and relighting of reconstructed trees, and the estimate in
-/// two groups of photographs.
+/// Opacity, pictures, sizes, minutes, measurements and relighting of reconstructed trees. Needs a current
+/// OpenGL context.
 Status measure_reconstruction(const FigureOptions& options, const FigureSink& sink);
 
-/// A thousand trees in a scene, and what levels of detail change. Needs a current OpenGL context.
+/// A thousand trees in a scene, and what levels of detail change there. Needs a current OpenGL context.
 Status measure_display(const FigureOptions& options, const FigureSink& sink);
+
+/// The estimate by two processes of MPI that run `program`, the parvis command, against one.
+Status measure_distribution(const FigureOptions& options, const std::filesystem::path& program,
+                            const FigureSink& sink);
 
 }  // namespace parvis::trees

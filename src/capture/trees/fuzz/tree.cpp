@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   if (parvis::write_sealed(file, {"PVTREE_2", "captured tree"}, content))
     (void)parvis::trees::read_tree(file);
-  if (parvis::write_sealed(file, {"PVTVOL_1", "tree volume"}, content))
+  if (parvis::write_sealed(file, {"PVTVOL_2", "tree volume"}, content))
     (void)parvis::trees::read_volume(file);
   return 0;
 }

@@ -1,0 +1,81 @@
+// The estimate of opacity by two processes that mpirun starts, against one process: the largest difference of
+// a cell's transparency. The control is one process that stops an iteration earlier.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "bench/scratch_folder.h"
+#include "capture/trees/bench/reconstructed_tree.h"
+#include "capture/trees/capture_folder.h"
+#include "capture/trees/tree_file.h"
+
+namespace parvis::trees {
+namespace {
+
+constexpr int photographs = 12, iterations = 20;
+
+/// Transparencies by the places of the cells.
+using Cells = std::map<std::tuple<int, int, int>, double>;
+
+/// The cells that a run of the command finds. `before`: what starts it.
+Result<Cells> cells_of_run(const std::filesystem::path& program, const std::filesystem::path& folder,
+                           const std::string& before, int iteration_count) {
+  const std::filesystem::path file = folder / "run.volume";
+  const std::string command = fmt::format(
+      "{}'{}' tree reconstruct '{}' -o '{}' --level 3 --cutoff 1 --iterations {} --coarse-epochs 0 "
+      "--fine-epochs 0 > /dev/null 2>&1",
+      before, program.string(), (folder / "capture").string(), file.string(), iteration_count);
+  if (const int code = std::system(command.c_str()); code != 0)
+    return error("this command ended with {}: {}", code, command);
+  const Result<TreeVolume> volume = read_volume(file);
+  if (!volume) return volume.errors();
+  Cells cells;
+  for (std::size_t i = 0; i < volume->grid.size(); ++i) {
+    const glm::ivec3 place(volume->grid.cells()[i]);
+    cells[{place.x, place.y, place.z}] = 1.0 - double(volume->alpha(i));
+  }
+  if (cells.empty()) return error("{}: no cells were found", file.string());
+  return cells;
+}
+
+/// A cell that only one of the two has counts as a difference of all its opacity.
+double max_difference(const Cells& a, const Cells& b) {
+  double most = 0.0;
+  const auto compare = [&](const Cells& these, const Cells& those) {
+    for (const auto& [place, transparency] : these) {
+      const auto other = those.find(place);
+      most = std::max(most, std::abs(transparency - (other == those.end() ? 1.0 : other->second)));
+    }
+  };
+  compare(a, b), compare(b, a);
+  return most;
+}
+
+}  // namespace
+
+Status measure_distribution(const FigureOptions& options, const std::filesystem::path& program,
+                            const FigureSink& sink) {
+  const std::string key = "mpi_2_over_1_difference",
+                    mpirun = "mpirun --allow-run-as-root --oversubscribe -n 2 ";
+  if (std::system("mpirun --version > /dev/null 2>&1") != 0) {
+    sink.skip(key, "there is no mpirun here: package openmpi-bin");
+    return Done{};
+  }
+  BenchCaptureSize size = bench_capture_size(options);
+  size.held_out = 1;
+  const Result<SampleCapture> capture = sample_capture("winter", photographs, size);
+  if (!capture) return capture.errors();
+  const bench::ScratchFolder folder;
+  if (Status status = write_capture(folder.path / "capture", capture->views); !status) return status;
+  const Result<Cells> one = cells_of_run(program, folder.path, "", iterations);
+  if (!one) return one.errors();
+  const Result<Cells> two = cells_of_run(program, folder.path, mpirun, iterations);
+  if (!two) return two.errors();
+  const Result<Cells> less = cells_of_run(program, folder.path, "", iterations - 1);
+  if (!less) return less.errors();
+  if (Status status = sink.figure(key, max_difference(*one, *two)); !status) return status;
+  return sink.figure(key + "_one_iteration_less", max_difference(*one, *less));
+}
+
+}  // namespace parvis::trees

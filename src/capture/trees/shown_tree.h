@@ -1,0 +1,41 @@
+// A captured tree as the house draws it, for figures and comparisons: the node's drawable, its light and its
+// levels of detail, with what the tree lets through told apart from what it shows.
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "capture/trees/scene_tree.h"
+#include "capture/trees/tree_view.h"
+#include "graphics/render/renderer.h"
+
+namespace parvis::trees {
+
+/// Sun and sky in which a tree looks as in its photographs.
+scene::Scene scene_in_light_of(const CapturedLight& light);
+
+/// One tree alone in a scene. Needs a current OpenGL context for as long as it lives.
+class ShownTree {
+ public:
+  /// `light`: whose sun, sky and haze it stands in; other things of that scene are not drawn.
+  static Result<ShownTree> create(std::shared_ptr<const TreeLevels> tree, const scene::Scene& light);
+
+  /// What a camera sees of the tree: RGBA, premultiplied, linear light before any tone curve.
+  ImageF picture(const Pinhole& camera);
+
+ private:
+  class Backdrop;
+  ShownTree() = default;
+  ImageF before(float backdrop, const Camera& camera, int width, int height);
+
+  std::unique_ptr<scene::Scene> scene_;  // the renderer's
+  std::unique_ptr<Backdrop> backdrop_;
+  std::unique_ptr<render::Renderer> renderer_;
+
+ public:
+  ShownTree(ShownTree&&) noexcept;
+  ShownTree& operator=(ShownTree&&) noexcept;
+  ~ShownTree();
+};
+
+}  // namespace parvis::trees
