@@ -591,6 +591,52 @@ class Facades(InAFolder):
         self.assertIn("place.facade", done.stderr)
 
 
+MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2"]
+
+
+class Trees(InAFolder):
+    """A tree that the command photographs, small."""
+
+    def photograph(self, views):
+        capture = self.folder / "capture"
+        done = run("tree", "synthesize", "winter", "--views", views, "--size", "64x64", "--samples", "4", "-o", capture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return capture
+
+    def test_two_photographs_are_too_few(self):
+        capture = self.photograph(2)
+        self.expect_failure("tree", "reconstruct", capture, "-o", self.folder / "a.volume", words=["2 photographs", "3"])
+
+    def test_one_wrong_camera_among_twenty_is_named_and_left_out(self):
+        capture = self.photograph(20)
+        lines, wrong = (capture / "images.txt").read_text().splitlines(), "winter_007.png"
+        for i, line in enumerate(lines):
+            words = line.split()
+            if words[-1:] == [wrong]:
+                lines[i] = " ".join([*words[:5], str(float(words[5]) + 1.5), str(float(words[6]) + 0.7), *words[7:]])
+        (capture / "images.txt").write_text("\n".join(lines) + "\n")
+        output, quick = self.folder / "a.volume", ["--level", "2", "--coarse-epochs", "1", "--fine-epochs", "0"]
+        self.expect_failure("tree", "reconstruct", capture, "-o", output, *quick, words=[wrong, "--leave-out-inconsistent"])
+        done = run("tree", "reconstruct", capture, "-o", output, *quick, "--leave-out-inconsistent")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(wrong, done.stdout)
+        self.assertIn("19 photographs", done.stdout)
+
+    @unittest.skipUnless(shutil.which("mpirun"), "there is no mpirun here: package openmpi-bin")
+    def test_two_processes_reconstruct_the_tree_of_one(self):
+        capture, volumes = self.photograph(8), {}
+        for name, before, iterations in [("one", [], 20), ("two", MPIRUN, 20), ("less", [], 19)]:
+            output = self.folder / f"{name}.volume"
+            options = ["--level", "3", "--iterations", iterations, "--fine-epochs", "1"]
+            done = run("tree", "reconstruct", capture, "-o", output, *options, before=before)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count("2 processes"), 1 if before else 0, "one of them reports")
+            volumes[name] = output.read_bytes()
+        self.assertGreater(len(volumes["one"]), 20_000)
+        self.assertEqual(volumes["one"], volumes["two"], "sums are exact: capture/trees/exact_sum.h")
+        self.assertNotEqual(volumes["one"], volumes["less"], "the control")
+
+
 class BadScripts(InAFolder):
     def test_names_that_are_not_there_or_taken(self):
         place = 'camera(name="a")\ngroup(name="trees") { }\n'

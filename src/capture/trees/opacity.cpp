@@ -13,6 +13,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "capture/trees/exact_sum.h"
 
 namespace parvis::trees {
 namespace {
@@ -20,6 +21,9 @@ namespace {
 constexpr float max_factor = 4.0f;          // of one multiplicative step
 constexpr float min_alpha = 1.0f / 510.0f;  // half a step of 8-bit alpha
 constexpr float min_start = 1e-3f;          // of alpha: what starts at 0 could never grow by multiplication
+constexpr int term_bits = 36;               // exact_sum.h: sums of up to 1e5 chords
+constexpr double min_evidence =
+    1e-8;  // chords of light: where less passes a cell no pixel shows what it holds
 constexpr int rows_per_task = 8;
 constexpr std::array thesis_cutoffs{0.85f, 0.9f, 0.94f, 0.97f, 0.985f, 1.0f};
 
@@ -37,8 +41,10 @@ struct RayCells {
   }
 };
 
-/// Numerators, then denominators, per cell.
-using Sums = std::vector<float>;
+/// Numerators, then denominators, per cell. Lengths in them are parts of the mean chord.
+using Sums = std::vector<double>;
+
+void add(double& sum, float term) { sum += exact_term<term_bits>(double(term)); }
 
 /// A matte at the resolution of the estimate.
 struct Matte {
@@ -75,8 +81,8 @@ void add_projection(const Estimate& e, const RayCells& ray, float alpha, float i
     if (e.options.clamps) projected = std::min(projected, 1.0f);
     const float weight =
         ray.lengths_m[k] * ray.enter_m[k] * ray.enter_m[k] * inverse_focal_area * inverse_volume;
-    sums[cell] += weight * (projected - std::exp(q));
-    sums[count + cell] += weight;
+    add(sums[cell], weight * (projected - std::exp(q)));
+    add(sums[count + cell], weight);
   }
 }
 
@@ -89,8 +95,8 @@ void add_sirt(const Estimate& e, const RayCells& ray, float alpha, Sums& sums) {
   if (length <= 0.0f) return;
   const float residual = (-std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_alpha)) - depth) / length;
   for (std::size_t k = 0; k < ray.cells.size(); ++k) {
-    sums[ray.cells[k]] += ray.lengths_m[k] * residual;
-    sums[count + ray.cells[k]] += ray.lengths_m[k];
+    add(sums[ray.cells[k]], ray.lengths_m[k] * residual);
+    add(sums[count + ray.cells[k]], ray.lengths_m[k] / e.chord_m);
   }
 }
 
@@ -98,16 +104,17 @@ void add_multiplicative(const Estimate& e, const RayCells& ray, float alpha, Sum
   const std::size_t count = e.tau.size();
   float depth = 0.0f;
   for (std::size_t k = 0; k < ray.cells.size(); ++k) depth += e.tau[ray.cells[k]] * ray.lengths_m[k];
-  const float passed = std::exp(-depth), wanted = alpha * passed, found = (1.0f - passed) * passed;
+  const float passed = std::exp(-depth), wanted = alpha * passed / e.chord_m,
+              found = (1.0f - passed) * passed / e.chord_m;
   for (std::size_t k = 0; k < ray.cells.size(); ++k) {
-    sums[ray.cells[k]] += ray.lengths_m[k] * wanted;
-    sums[count + ray.cells[k]] += ray.lengths_m[k] * found;
+    add(sums[ray.cells[k]], ray.lengths_m[k] * wanted);
+    add(sums[count + ray.cells[k]], ray.lengths_m[k] * found);
   }
 }
 
 /// One pass over all pixels of all mattes.
 Sums gather(const Estimate& e, std::span<const Matte> mattes) {
-  tbb::enumerable_thread_specific<Sums> partial([&] { return Sums(2 * e.tau.size(), 0.0f); });
+  tbb::enumerable_thread_specific<Sums> partial([&] { return Sums(2 * e.tau.size(), 0.0); });
   tbb::enumerable_thread_specific<RayCells> rays;
   for (std::size_t i = 0; i < mattes.size(); ++i) {
     if (!e.options.processes.has(i)) continue;
@@ -137,7 +144,7 @@ Sums gather(const Estimate& e, std::span<const Matte> mattes) {
         },
         rows_per_task);
   }
-  Sums all(2 * e.tau.size(), 0.0f);
+  Sums all(2 * e.tau.size(), 0.0);
   for (const Sums& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
   if (e.options.processes.sum) e.options.processes.sum(all);
@@ -149,20 +156,21 @@ double update_cells(const Estimate& e, const Sums& sums) {
   const std::size_t count = e.tau.size();
   double change = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const float top = sums[i], bottom = sums[count + i];
-    if (bottom <= 0.0f) continue;
+    const double top = sums[i], bottom = sums[count + i];
+    if (bottom < min_evidence) continue;
     const float before = std::exp(-e.tau[i] * e.chord_m);
     switch (e.options.method) {
       case OpacityMethod::projection: {
-        const float t = before + top / bottom;  // above 1 without the clamp: negative extinction, as printed
+        const float t =
+            before + float(top / bottom);  // above 1 without the clamp: negative extinction, as printed
         e.tau[i] = -std::log(std::max(t, min_alpha)) / e.chord_m;
         break;
       }
       case OpacityMethod::sirt:
-        e.tau[i] = std::max(0.0f, e.tau[i] + top / bottom);
+        e.tau[i] = std::max(0.0f, e.tau[i] + float(top / (bottom * double(e.chord_m))));
         break;
       case OpacityMethod::multiplicative:
-        e.tau[i] *= std::min(max_factor, top / bottom);
+        e.tau[i] *= std::min(max_factor, float(top / bottom));
         break;
     }
     const float after = std::exp(-e.tau[i] * e.chord_m);

@@ -88,25 +88,6 @@ TEST(Opacity, TheCutoffEmptiesCells) {
   EXPECT_LT(empty, judged.grid.size());
 }
 
-TEST(Opacity, SharesOfPhotographsSummedOverProcessesGiveTheSameResult) {
-  const Judged& judged = sparse_ball();
-  // Two "processes" in turn: record what one iteration of the other gathers, then add it.
-  OpacityOptions options;
-  options.iterations = 1, options.picture_factor = 1;
-  std::vector<float> others;
-  options.processes = {1, 2, [&](std::span<float> sums) { others.assign(sums.begin(), sums.end()); }};
-  estimate_opacity(judged.grid, judged.views, judged.masks, options);
-  options.processes = {0, 2, [&](std::span<float> sums) {
-                         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += others[i];
-                       }};
-  const Opacities divided = estimate_opacity(judged.grid, judged.views, judged.masks, options);
-  options.processes = {};
-  const Opacities whole = estimate_opacity(judged.grid, judged.views, judged.masks, options);
-  for (std::size_t i = 0; i < whole.extinction_per_m.size(); ++i)
-    ASSERT_NEAR(divided.extinction_per_m[i], whole.extinction_per_m[i],
-                1e-5f * (1.0f + whole.extinction_per_m[i]));
-}
-
 TEST(Opacity, TheAutomaticCutoffIsOneOfTheThesiss) {
   const Judged& judged = sparse_ball();
   const float cutoff = cutoff_by_held_out_error(judged.grid, judged.views, {});

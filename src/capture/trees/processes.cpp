@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t max_per_call = std::size_t{1}
                                      << 24;  // MPI counts in int; pieces pass through caches, too
 
-void all_reduce(std::span<float> values) {
+void all_reduce(std::span<double> values) {
   for (std::size_t first = 0; first < values.size(); first += max_per_call) {
     const int count = int(std::min(max_per_call, values.size() - first));
-    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_FLOAT, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   }
 }
 

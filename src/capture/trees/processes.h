@@ -1,5 +1,6 @@
 // Processes that reconstruct one tree together (MPI): each casts the rays of its share of the pixels, and
-// what they gather is added up once per iteration. All have all photographs and end with the same cells.
+// what they gather is added up once per iteration. All have all photographs and end with the same cells:
+// their sums are exact (exact_sum.h), so that they are those of one process.
 #pragma once
 
 #include <functional>
@@ -13,7 +14,7 @@ namespace parvis::trees {
 struct Processes {
   int rank = 0, count = 1;
   /// Adds up, element by element, what all processes have (an all-reduce). Empty where there is but one.
-  std::function<void(std::span<float>)> sum = {};
+  std::function<void(std::span<double>)> sum = {};
 
   /// Is a share of the work this process's?
   bool has(std::size_t share) const { return share % std::size_t(count) == std::size_t(rank); }

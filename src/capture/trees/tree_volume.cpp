@@ -10,6 +10,7 @@
 #include "base/colour.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "capture/trees/exact_sum.h"
 
 namespace parvis::trees {
 namespace {
@@ -19,6 +20,8 @@ constexpr float opaque_enough = 1e-3f;  // of the light: what lies behind is not
 constexpr float max_depth_per_cell =
     12.0f;                           // optical, along the mean chord: more is not distinguishable from opaque
 constexpr float rate_decay = 0.25f;  // of the steps, per pass
+constexpr int term_bits = 30;        // exact_sum.h: gradients of up to 8e6
+const glm::vec3 unseen_colour(0.03f, 0.05f, 0.02f);  // of cells that no photograph shows: a leaf in the shade
 constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
 
 /// A photograph, premultiplied linear light, at the resolution of the fit.
@@ -79,7 +82,8 @@ glm::vec4 colour_of(const TreeVolume& volume, std::uint32_t cell) {
   return glm::vec4(volume.colour[cell], 1.0f);
 }
 
-using Gradients = std::vector<glm::vec4>;  // per cell: of the light; of the logarithm of the extinction
+// Per cell: of the light; of the logarithm of the extinction. Exact sums.
+using Gradients = std::vector<glm::dvec4>;
 
 /// Gradients of one pixel's squared error; returns that error.
 double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossings, glm::vec4 wanted,
@@ -93,9 +97,9 @@ double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossing
     const glm::vec4 colour = colour_of(volume, c.cell);
     behind -= weight * colour;
     const glm::vec4 by_extinction = c.length_m * (c.before * c.kept * colour - behind);
-    glm::vec4& g = gradients[c.cell];
-    g += glm::vec4(weight * glm::vec3(residual),
-                   volume.extinction_per_m[c.cell] * glm::dot(by_extinction, residual));
+    const glm::vec4 gradient(weight * glm::vec3(residual),
+                             volume.extinction_per_m[c.cell] * glm::dot(by_extinction, residual));
+    gradients[c.cell] += exact_term<term_bits>(glm::dvec4(gradient));
   }
   return double(glm::dot(error, error));
 }
@@ -158,7 +162,7 @@ class VolumeFit {
         options_(options),
         max_extinction_per_m_(max_depth_per_cell / mean_chord_m(volume.grid.cell_size_m())),
         adam_(volume.grid.size()),
-        gradients_([count = volume.grid.size()] { return Gradients(count, glm::vec4(0.0f)); }) {}
+        gradients_([count = volume.grid.size()] { return Gradients(count, glm::dvec4(0.0)); }) {}
 
   /// Every `parts`-th row from `first` on; returns the sum of the pixels' squared errors.
   double gather(const Target& target, int first, int parts) {
@@ -187,11 +191,12 @@ class VolumeFit {
     parallel_for(
         volume_.grid.size(),
         [&](std::size_t i) {
-          glm::vec4 gradient(0.0f);
-          for (Gradients& g : gradients_) gradient += g[i], g[i] = glm::vec4(0.0f);
-          if (gradient == glm::vec4(0.0f)) return;
+          glm::dvec4 sum(0.0);
+          for (Gradients& g : gradients_) sum += g[i], g[i] = glm::dvec4(0.0);
+          if (sum == glm::dvec4(0.0)) return;
           const glm::vec3 root = glm::max(glm::sqrt(volume_.colour[i]), min_root);
-          gradient *= glm::vec4(2.0f * root, 1.0f);  // of the root of the light
+          const glm::vec4 gradient =
+              glm::vec4(sum) * glm::vec4(2.0f * root, 1.0f);  // of the root of the light
           const glm::vec4 step = rate * adam_.step(i, gradient);
           const glm::vec3 moved = glm::clamp(root - options_.colour_rate * glm::vec3(step), min_root, 1.0f);
           volume_.colour[i] = moved * moved;
@@ -208,7 +213,7 @@ class VolumeFit {
     Gradients& all = gradients_.local();
     for (Gradients& g : gradients_) {
       if (&g == &all) continue;
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] += g[i], g[i] = glm::vec4(0.0f);
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += g[i], g[i] = glm::dvec4(0.0);
     }
     options_.processes.sum({&all.front().x, 4 * all.size()});
   }
@@ -247,7 +252,7 @@ float TreeVolume::alpha(std::size_t cell) const {
 TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views) {
   TreeVolume volume{std::move(grid), std::move(extinction_per_m), {}};
   tbb::enumerable_thread_specific<Gradients> partial(
-      [&] { return Gradients(volume.grid.size(), glm::vec4(0.0f)); });
+      [&] { return Gradients(volume.grid.size(), glm::dvec4(0.0)); });
   tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
   for (const TreeView& view : views)
     parallel_for(
@@ -262,15 +267,16 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
                                  1.0f);
             collect(volume, view.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
             for (const Crossing& c : crossings)
-              sums[c.cell] += c.before * (1.0f - c.kept + 1e-4f) * (float(p[3]) / 255.0f) * seen;
+              sums[c.cell] += exact_term<term_bits>(
+                  glm::dvec4(c.before * (1.0f - c.kept + 1e-4f) * (float(p[3]) / 255.0f) * seen));
           }
         },
         rows_per_task);
-  Gradients all(volume.grid.size(), glm::vec4(0.0f));
+  Gradients all(volume.grid.size(), glm::dvec4(0.0));
   for (const Gradients& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
-  for (const glm::vec4& sum : all)
-    volume.colour.push_back(sum.w > 0.0f ? glm::vec3(sum) / sum.w : glm::vec3(0.03f, 0.05f, 0.02f));
+  for (const glm::dvec4& sum : all)
+    volume.colour.push_back(sum.w > 0.0 ? glm::vec3(glm::dvec3(sum) / sum.w) : unseen_colour);
   return volume;
 }
 

@@ -1,5 +1,5 @@
-// The estimate of opacity by two processes that mpirun starts, against one process: the largest difference of
-// a cell's transparency. The control is one process that stops an iteration earlier.
+// The reconstruction by two processes that mpirun starts, against one process: the largest difference of a
+// cell's transparency. The control is one process whose opacities stop an iteration earlier.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -22,10 +22,9 @@ using Cells = std::map<std::tuple<int, int, int>, double>;
 Result<Cells> cells_of_run(const std::filesystem::path& program, const std::filesystem::path& folder,
                            const std::string& before, int iteration_count) {
   const std::filesystem::path file = folder / "run.volume";
-  const std::string command = fmt::format(
-      "{}'{}' tree reconstruct '{}' -o '{}' --level 3 --cutoff 1 --iterations {} --coarse-epochs 0 "
-      "--fine-epochs 0 > /dev/null 2>&1",
-      before, program.string(), (folder / "capture").string(), file.string(), iteration_count);
+  const std::string command =
+      fmt::format("{}'{}' tree reconstruct '{}' -o '{}' --level 3 --iterations {} > /dev/null 2>&1", before,
+                  program.string(), (folder / "capture").string(), file.string(), iteration_count);
   if (const int code = std::system(command.c_str()); code != 0)
     return error("this command ended with {}: {}", code, command);
   const Result<TreeVolume> volume = read_volume(file);
@@ -41,15 +40,15 @@ Result<Cells> cells_of_run(const std::filesystem::path& program, const std::file
 
 /// A cell that only one of the two has counts as a difference of all its opacity.
 double max_difference(const Cells& a, const Cells& b) {
-  double most = 0.0;
+  double max = 0.0;
   const auto compare = [&](const Cells& these, const Cells& those) {
     for (const auto& [place, transparency] : these) {
       const auto other = those.find(place);
-      most = std::max(most, std::abs(transparency - (other == those.end() ? 1.0 : other->second)));
+      max = std::max(max, std::abs(transparency - (other == those.end() ? 1.0 : other->second)));
     }
   };
   compare(a, b), compare(b, a);
-  return most;
+  return max;
 }
 
 }  // namespace
