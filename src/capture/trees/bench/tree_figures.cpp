@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capture/trees/bench/reconstructed_tree.h"
+#include "capture/trees/crossed_billboards.h"
 #include "capture/trees/measure.h"
 #include "capture/trees/sample_trees.h"
 #include "capture/trees/shown_tree.h"
@@ -121,6 +122,19 @@ Status measure_relighting(const SampleCapture& capture, const std::shared_ptr<co
   return Done{};
 }
 
+/// The baseline of two crossed billboards.
+Result<ViewErrors> errors_of_crossed(const SampleCapture& capture) {
+  const CrossedBillboards crossed = crossed_billboards(capture.views, scene::bounds(capture.model));
+  ViewErrors mean;
+  for (const TreeView& view : capture.held_out) {
+    const Result<ViewErrors> one = judged(render_crossed_billboards(crossed, view.camera), view);
+    if (!one) return one.errors();
+    mean += *one;
+  }
+  mean /= double(capture.held_out.size());
+  return mean;
+}
+
 void add_steps(const ReconstructedTree& made, int photographs, Means& means) {
   for (const StepTime& time : made.times)
     means.add(fmt::format("seconds_{}_{}", time.step, photographs), time.seconds);
@@ -165,6 +179,9 @@ Status measure_tree(std::string_view name, const FigureOptions& options, Means& 
   const Result<ViewErrors> naive_seen = errors_of(naive, capture->views);
   if (!naive_seen) return naive_seen.errors();
   means.add("psnr_db_22_naive", naive_left_out->psnr_db);
+  const Result<ViewErrors> crossed = errors_of_crossed(*capture);
+  if (!crossed) return crossed.errors();
+  means.add("psnr_db_22_crossed_billboards", crossed->psnr_db);
   means.add("input_view_psnr_db_naive", naive_seen->psnr_db);
   add_steps(*made, 22, means);
   const BillboardTree& tree = made->levels->levels.front();
