@@ -22,6 +22,7 @@
 #include "commands.h"
 #include "graphics/gl/context.h"
 #include "strict_numbers.h"
+#include "tree_calibrate.h"
 
 namespace parvis {
 namespace {
@@ -373,6 +374,7 @@ void add_tree(CLI::App& app, Chosen& chosen) {
   tree->require_subcommand(1);
   add_synthesize(*tree, chosen);
   add_matte(*tree, chosen);
+  add_tree_calibrate(*tree, chosen);
   add_reconstruct(*tree, chosen);
   add_texture(*tree, chosen);
   add_on_file(*tree, chosen, "pack", "What the thesis's packing of disjoint alphas saves", "The tree (.tree)",

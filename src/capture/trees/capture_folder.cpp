@@ -52,11 +52,14 @@ Status write_capture(const std::filesystem::path& folder, std::span<const TreeVi
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code) return error("{}: the folder cannot be made: {}", folder.string(), code.message());
-  photographs::PhotographSet set;
-  for (const TreeView& view : views) {
+  for (const TreeView& view : views)
     if (Status status = write_image(folder / (view.name + ".png"), view.picture); !status) return status;
-    set.photographs.push_back(photograph_of(view));
-  }
+  return write_cameras(folder, views);
+}
+
+Status write_cameras(const std::filesystem::path& folder, std::span<const TreeView> views) {
+  photographs::PhotographSet set;
+  for (const TreeView& view : views) set.photographs.push_back(photograph_of(view));
   return photographs::write_colmap_model(folder, photographs::colmap_model_of(set),
                                          photographs::ColmapFormat::text);
 }

@@ -14,6 +14,9 @@ namespace parvis::trees {
 /// made.
 Status write_capture(const std::filesystem::path& folder, std::span<const TreeView> views);
 
+/// Writes the model alone, for pictures NAME.png that lie in the folder.
+Status write_cameras(const std::filesystem::path& folder, std::span<const TreeView> views);
+
 /// Reads the views of a folder, ordered by name. All that is wrong is reported at once, by photograph: a
 /// missing picture, a size other than the camera's, a lens with distortion, a matte that is all 0 or all 255.
 Result<std::vector<TreeView>> read_capture(const std::filesystem::path& folder);
