@@ -38,7 +38,7 @@ glm::vec4 colour_at(const ImageF& picture, glm::vec2 pixel) {
   return sum;
 }
 
-/// Where a ray meets one of the planes, metres.
+/// Where a ray intersects one of the planes, metres.
 std::optional<float> distance_to(const CrossedBillboards& billboards, std::size_t which, const ViewRay& ray) {
   const float along = glm::dot(ray.direction, billboards.normals[which]);
   if (std::abs(along) < 1e-6f) return std::nullopt;

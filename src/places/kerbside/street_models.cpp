@@ -58,10 +58,10 @@ scene::Model make_bin() {
   const Outline body{{0.21f, 0.08f}, {0.24f, 0.12f}, {0.25f, 0.78f},
                      {0.26f, 0.8f},  {0.25f, 0.83f}, {0.21f, 0.84f}};
   const Outline hood{{0.23f, 0.98f}, {0.25f, 1.0f}, {0.2f, 1.08f}, {0.02f, 1.12f}};
-  const Outline hollow{{0.21f, 0.84f}, {0.2f, 0.6f}, {0.02f, 0.58f}};
+  const Outline inside{{0.21f, 0.84f}, {0.2f, 0.6f}, {0.02f, 0.58f}};
   Mesh shell = turned(body, 24), iron = turned(hood, 24);
   append(iron, turned({{0.24f, 0.0f}, {0.24f, 0.08f}, {0.1f, 0.1f}}, 24));
-  append(iron, turned(hollow, 24));
+  append(iron, turned(inside, 24));
   for (const float x : {-0.2f, 0.2f})
     append(iron, tube({{{x, 0.0f, 0.8f}, 0.015f}, {{x, 0.0f, 1.0f}, 0.015f}}));
   scene::Model model;
