@@ -3,6 +3,7 @@
 #include "graphics/gl/context.h"
 #include "graphics/render/bake_steps.h"
 #include "house/stage/baking.h"
+#include "machines/processes.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -15,11 +16,13 @@ struct Arguments : SceneArguments {
 Status bake(Arguments arguments) {
   if (!arguments.plan.empty())
     if (Status status = arguments.expect_one_scenario(); !status) return status;
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   std::vector<std::string> states = arguments.scenarios;
   if (states.empty()) states = {"base"};
-  house::Baking baking(house::all_rooms());
+  house::Baking baking(house::all_rooms(), *processes);
   for (std::size_t i = 0; i < states.size(); ++i) {
     arguments.scenarios = {states[i]};
     const Result<house::Play> play = arguments.open_play();
@@ -27,6 +30,7 @@ Status bake(Arguments arguments) {
     if (Status status = baking.bake(play->scene, arguments.plan); !status) return status;
     if (i + 1 == states.size()) baking.forget_other_states(play->scene);
   }
+  processes->leave();
   return Done{};
 }
 
@@ -55,7 +59,8 @@ void add_bake(CLI::App& app, Chosen& chosen) {
       "NAME.baked beside the script holds the results; view and render read them. Interrupted work resumes "
       "when "
       "the same command is given again. Deletes the results of all states that are not listed with "
-      "--scenario.");
+      "--scenario.\n"
+      "Started by mpirun, several processes or machines divide the work: the same results, sooner.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return bake(*arguments); }; });
 }
 

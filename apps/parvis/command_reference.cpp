@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/stage/photographs.h"
+#include "machines/processes.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -29,11 +30,27 @@ struct Arguments : SceneArguments {
 
 std::atomic<bool> is_interrupted = false;
 
+Status write_traced(const Arguments& arguments, const reference::TracedPicture& traced, float exposure) {
+  fmt::print("{:.1f} million rays in {:.1f} s: {:.2f} million a second\n", double(traced.rays) * 1e-6,
+             traced.seconds, double(traced.rays) * 1e-6 / traced.seconds);
+  if (!arguments.mask.empty())
+    if (Status status = write_image(arguments.mask, traced.mirror_mask); !status) return status;
+  for (const std::filesystem::path& output : arguments.outputs) {
+    const bool is_linear = output.extension() == ".exr" || output.extension() == ".hdr";
+    Status status = is_linear ? write_image(output, traced.radiance)
+                              : write_image(output, shading::tone_mapped_picture(traced.radiance, exposure));
+    if (!status) return status;
+  }
+  return Done{};
+}
+
 Status trace(const Arguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   if (arguments.cameras.size() > 1) return error("several cameras are for --path-traced only");
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
@@ -41,19 +58,10 @@ Status trace(const Arguments& arguments) {
   const Result<Camera> camera = (*stage)->camera(arguments.cameras.empty() ? "" : arguments.cameras.front());
   if (!camera) return camera.errors();
   const reference::TracedPicture traced =
-      (*stage)->trace(*camera, width, height, arguments.samples.value_or(truth_samples));
-  fmt::print("{:.1f} million rays in {:.1f} s: {:.2f} million a second\n", double(traced.rays) * 1e-6,
-             traced.seconds, double(traced.rays) * 1e-6 / traced.seconds);
-  if (!arguments.mask.empty())
-    if (Status status = write_image(arguments.mask, traced.mirror_mask); !status) return status;
-  for (const std::filesystem::path& output : arguments.outputs) {
-    const bool is_linear = output.extension() == ".exr" || output.extension() == ".hdr";
-    Status status =
-        is_linear
-            ? write_image(output, traced.radiance)
-            : write_image(output, shading::tone_mapped_picture(traced.radiance, (*stage)->scene().exposure));
-    if (!status) return status;
-  }
+      (*stage)->trace(*camera, width, height, arguments.samples.value_or(truth_samples), *processes);
+  if (processes->is_first())
+    if (Status status = write_traced(arguments, traced, (*stage)->scene().exposure); !status) return status;
+  processes->leave();
   return Done{};
 }
 
@@ -89,6 +97,8 @@ Status photograph(const Arguments& arguments) {
   house::PhotographJob job = arguments.job;
   if (Status status = arguments.read_size(job.width, job.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
   const Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   Result<std::vector<scene::NamedCamera>> cameras =
@@ -99,7 +109,10 @@ Status photograph(const Arguments& arguments) {
   job.options.samples_per_pixel = arguments.samples.value_or(photograph_samples);
   job.options.is_interrupted = &is_interrupted;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
-  return house::take_photographs(play->scene, job);
+  job.options.processes = *processes;
+  if (Status status = house::take_photographs(play->scene, job); !status) return status;
+  processes->leave();
+  return Done{};
 }
 
 void Arguments::add_photograph(CLI::App& command) {
@@ -161,7 +174,8 @@ void add_reference(CLI::App& app, Chosen& chosen) {
       "Example: parvis reference out/paper/paper.xp --camera street -o truth.png --mask mirrors.png\n"
       "Example: parvis reference out/paper/paper.xp --path-traced --all-cameras --size 1280x960 -o photo.png "
       "--depth depth.exr --colmap model\n"
-      "An interrupted photograph goes on when the same command is given again.");
+      "An interrupted photograph goes on when the same command is given again.\n"
+      "Started by mpirun, several processes or machines divide the picture: the same result, sooner.");
   command->callback([arguments, &chosen] {
     chosen = [arguments] { return arguments->is_path_traced ? photograph(*arguments) : trace(*arguments); };
   });

@@ -338,6 +338,95 @@ class Reflections(BeforeAMirror):
         self.assertTrue(picture.exists())
 
 
+class SeveralProcesses(BeforeAMirror):
+    """Work that mpirun divides: the same files bit for bit as alone."""
+
+    # Both share the cores: bound to one each, they would be slower where tests run side by side.
+    MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", "2"]
+
+    def setUp(self):
+        super().setUp()
+        if not shutil.which("mpirun"):
+            self.skipTest("skipped: no mpirun here (package openmpi-bin)")
+
+    def expect_done(self, *arguments, before=()):
+        done = run(*arguments, before=before)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def expect_same(self, output, *arguments):
+        """Alone and divided, the command writes the same bytes."""
+        self.expect_done(*arguments)
+        alone = output.read_bytes()
+        output.unlink()
+        self.expect_done(*arguments, before=self.MPIRUN)
+        self.assertEqual(output.read_bytes(), alone)
+
+    def test_a_reference_picture(self):
+        picture = self.folder / "out.exr"
+        self.expect_same(picture, "reference", self.write_place(), "--size", "160x120", "--samples", "4", "-o", picture)
+
+    def test_a_photograph(self):
+        picture = self.folder / "out.exr"
+        scene, options = self.write_place(), ["--path-traced", "--size", "160x120", "--samples", "4"]
+        self.expect_same(picture, "reference", scene, *options, "-o", picture)
+        self.assertEqual([name for name in self.files() if "checkpoint" in name], [])
+
+    def test_baked_maps(self):
+        scene = self.write_place('referenceMaps(position="0 -3 1.2", position="0 -9 1.2", position="4 -9 1.2")')
+        told = [self.expect_done("bake", scene).stdout]
+        alone = {path.name: path.read_bytes() for path in self.folder.glob("scene.baked/*/*.map")}
+        self.assertEqual(len(alone), 3)
+        shutil.rmtree(self.folder / "scene.baked")
+        told.append(self.expect_done("bake", scene, before=self.MPIRUN).stdout)
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.glob("scene.baked/*/*.map")}, alone)
+        self.assertEqual(told[0], told[1], "only the first process prints")
+
+    def test_a_process_that_dies_ends_the_run_and_the_work_goes_on(self):
+        scene, picture = self.write_place(), self.folder / "out.exr"
+        command = ["reference", scene, "--path-traced", "--size", "320x256", "--samples", "256", "-o", picture]
+        checkpoint = self.folder / "out.exr.checkpoint"
+        process = subprocess.Popen(
+            [*self.MPIRUN, PARVIS, *map(str, command)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+        tile = 32 * 32 * 5 * 4
+        while process.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_size > 3 * tile):
+            time.sleep(0.02)
+        self.assertIsNone(process.poll(), "it ended too soon for this test")
+        os.kill(self.process_of_rank(1, process.pid), signal.SIGKILL)
+        _, told = process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("rank 1", told)
+        self.assertFalse(picture.exists())
+        kept = checkpoint.stat().st_size
+        self.assertGreater(kept, 3 * tile)
+        done = self.expect_done(*command)
+        self.assertFalse(checkpoint.exists())
+        resumed, rays = picture.read_bytes(), float(done.stdout.split()[1])
+        picture.unlink()
+        done = self.expect_done(*command)
+        self.assertEqual(picture.read_bytes(), resumed)
+        self.assertLess(rays, 0.98 * float(done.stdout.split()[1]), "finished tiles are not traced again")
+
+    def process_of_rank(self, rank, parent):
+        """The number of mpirun's child of this rank."""
+        for status in pathlib.Path("/proc").glob("[0-9]*/status"):
+            try:
+                is_child = f"PPid:\t{parent}\n" in status.read_text()
+                environment = (status.parent / "environ").read_bytes() if is_child else b""
+            except OSError:
+                continue
+            if f"OMPI_COMM_WORLD_RANK={rank}".encode() in environment.split(b"\0"):
+                return int(status.parent.name)
+        self.fail(f"mpirun has no child of rank {rank}")
+
+    def test_an_error_ends_all(self):
+        missing = self.folder / "missing.xp"
+        done = run("bake", missing, before=self.MPIRUN)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("missing.xp", done.stderr)
+
+
 class CurvedMirrors(BeforeAMirror):
     """Balls that are no balls, as curved mirrors: a picture all the same, and a word of what was done."""
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <optional>
 
 #include "base/content_hash.h"
-#include "base/parallel.h"
 #include "base/progress.h"
+#include "base/sealed_file.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/photograph_checkpoint.h"
 #include "graphics/reference/scene_key.h"
+#include "machines/divided_work.h"
 
 namespace parvis::reference {
 namespace {
@@ -107,7 +107,7 @@ Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& sce
       std::size_t((width + tile_side - 1) / tile_side) * std::size_t((height + tile_side - 1) / tile_side);
   std::vector<std::uint8_t> is_done(tiles, 0);
   std::optional<PhotographCheckpoint> checkpoint;
-  if (!options.checkpoint.empty()) {
+  if (!options.checkpoint.empty() && options.processes.is_first()) {
     const auto put_found = [&](std::uint32_t index, std::span<const float> values) {
       if (index >= tiles || values.size() != tile_at(index, width, height).value_count()) return;
       put_tile(tile_at(index, width, height), values, photograph);
@@ -120,29 +120,38 @@ Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& sce
     checkpoint.emplace(*std::move(opened));
   }
 
-  std::vector<std::uint32_t> to_do;
+  machines::Tasks to_do;
   for (std::size_t i = 0; i < tiles; ++i)
     if (!is_done[i]) to_do.push_back(std::uint32_t(i));
   const PathTracer tracer(rays, scene, sky, options.paths);
   const auto start = std::chrono::steady_clock::now();
-  std::atomic<std::uint64_t> all_rays = 0;
-  std::atomic<std::size_t> finished = 0;
   Progress progress(options.progress, to_do.size());
-  parallel_for(to_do.size(), [&](std::size_t i) {
-    if (options.is_interrupted && *options.is_interrupted) return;
-    const Tile tile = tile_at(to_do[i], width, height);
+  machines::DividedWork work;
+  work.is_interrupted = options.is_interrupted;
+  work.run = [&](std::uint32_t index) -> Result<std::string> {
+    const Tile tile = tile_at(index, width, height);
     std::vector<float> values;
     values.reserve(tile.value_count());
-    all_rays += trace_tile(tracer, rays, camera, width, height, options, tile, values);
-    put_tile(tile, values, photograph);
-    if (checkpoint) checkpoint->keep(to_do[i], values);
-    ++finished;
+    std::string bytes;
+    append_value(bytes, trace_tile(tracer, rays, camera, width, height, options, tile, values));
+    append_values(bytes, values);
+    return bytes;
+  };
+  work.keep = [&](std::uint32_t index, std::string_view bytes) -> Status {
+    Taker taker(bytes);
+    photograph.rays += taker.take<std::uint64_t>();
+    const std::vector<float> values = taker.take_values<float>();
+    put_tile(tile_at(index, width, height), values, photograph);
+    if (checkpoint) checkpoint->keep(index, values);
     progress.advance();
-  });
-  photograph.rays = all_rays;
+    return Done{};
+  };
+  const Result<std::size_t> finished = machines::divide(options.processes, to_do, work);
+  if (!finished) return finished.errors();
   photograph.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (finished < to_do.size())
-    return error("interrupted: {} of {} tiles are done{}", tiles - to_do.size() + finished, tiles,
+  const bool is_whole = !options.processes.is_first() || *finished == to_do.size();
+  if (!is_whole)
+    return error("interrupted: {} of {} tiles are done{}", tiles - to_do.size() + *finished, tiles,
                  checkpoint ? fmt::format(" and kept in {}; the same command goes on from there",
                                           options.checkpoint.string())
                             : "");

@@ -1,13 +1,16 @@
 #include "graphics/reference/tracer.h"
 
+#include <algorithm>
 #include <array>
-#include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
+#include "base/sealed_file.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/glass_walk.h"
 #include "graphics/reference/scene_lamps.h"
@@ -15,6 +18,7 @@
 #include "graphics/reference/sun_disc.h"
 #include "graphics/shading/lighting.h"
 #include "graphics/shading/tone_curve.h"
+#include "machines/divided_work.h"
 #include "scene/data/sun_shadows.h"
 
 namespace parvis::reference {
@@ -286,50 +290,93 @@ ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int widt
   return objects;
 }
 
-TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
-                            const Camera& camera, int width, int height, const TraceOptions& options) {
-  const Tracer tracer(rays, scene, sky, options);
+namespace {
+
+/// A row of a picture as it travels between processes.
+struct TracedRow {
+  std::uint64_t rays = 0;
+  std::vector<float> radiance;             ///< linear RGB
+  std::vector<std::uint8_t> mirror_share;  ///< of each pixel, 0..255
+};
+
+std::string bytes_of(const TracedRow& row) {
+  std::string bytes;
+  append_value(bytes, row.rays);
+  append_values(bytes, row.radiance);
+  append_values(bytes, row.mirror_share);
+  return bytes;
+}
+
+TracedRow row_of(std::string_view bytes) {
+  Taker taker(bytes);
+  TracedRow row;
+  row.rays = taker.take<std::uint64_t>();
+  row.radiance = taker.take_values<float>();
+  row.mirror_share = taker.take_values<std::uint8_t>();
+  return row;
+}
+
+/// Traces one row of the window. Random numbers belong to the pixel of the whole picture.
+TracedRow trace_row(const Tracer& tracer, const Camera& camera, int width, int height,
+                    const TraceOptions& options, const PixelWindow& window, int row, float exposure) {
   const int side = int(std::ceil(std::sqrt(float(options.samples_per_pixel)))), samples = side * side;
   const float spread =  // of a sample's share of the pixel
       camera.height_at_1m() / float(height) / float(side);
+  TracedRow traced;
+  for (int column = 0; column < window.width; ++column) {
+    const int x = window.x + column, y = window.y + row;
+    Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
+    LobePoints lobe_points{
+        {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
+    vec3 sum(0.0f);
+    float weights = 0.0f;
+    int mirrors = 0;
+    for (int i = 0; i < samples; ++i) {
+      const int column_in_pixel = i % side, row_in_pixel = i / side;
+      const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
+      const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
+      const Ray ray = camera_ray(camera, width, height, {px, py});
+      bool is_mirror = false;
+      const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, lobe_points, traced.rays, &is_mirror);
+      const float weight = shading::sample_weight(exposure * sample);
+      sum += weight * sample;
+      weights += weight;
+      mirrors += is_mirror;
+    }
+    for (int c = 0; c < 3; ++c) traced.radiance.push_back(sum[c] / weights);
+    traced.mirror_share.push_back(std::uint8_t(255 * mirrors / samples));
+  }
+  return traced;
+}
 
+}  // namespace
+
+TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+                            const Camera& camera, int width, int height, const TraceOptions& options) {
+  const Tracer tracer(rays, scene, sky, options);
   const PixelWindow window = options.window.width > 0 ? options.window : PixelWindow{0, 0, width, height};
-
   TracedPicture picture;
   picture.radiance = ImageF(window.width, window.height, 3);
   picture.mirror_mask = Image8(window.width, window.height, 1);
-  std::atomic<std::uint64_t> all_rays = 0;
   const auto start = std::chrono::steady_clock::now();
   Progress progress(options.progress, std::size_t(window.height));
-  parallel_for(std::size_t(window.height), [&](std::size_t row) {
-    std::uint64_t ray_count = 0;
-    for (int column = 0; column < window.width; ++column) {
-      const int x = window.x + column, y = window.y + int(row);
-      Random random(options.seed, std::size_t(y) * std::size_t(width) + std::size_t(x));
-      LobePoints lobe_points{
-          {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
-      vec3 sum(0.0f);
-      float weights = 0.0f;
-      int mirrors = 0;
-      for (int i = 0; i < samples; ++i) {
-        const int column_in_pixel = i % side, row_in_pixel = i / side;
-        const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
-        const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
-        const Ray ray = camera_ray(camera, width, height, {px, py});
-        bool is_mirror = false;
-        const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, lobe_points, ray_count, &is_mirror);
-        const float weight = shading::sample_weight(scene.exposure * sample);
-        sum += weight * sample;
-        weights += weight;
-        mirrors += is_mirror;
-      }
-      for (int c = 0; c < 3; ++c) picture.radiance.at(column, int(row))[c] = sum[c] / weights;
-      *picture.mirror_mask.at(column, int(row)) = std::uint8_t(255 * mirrors / samples);
-    }
-    all_rays += ray_count;
+  machines::DividedWork work;
+  work.run = [&](std::uint32_t row) -> Result<std::string> {
+    return bytes_of(trace_row(tracer, camera, width, height, options, window, int(row), scene.exposure));
+  };
+  work.keep = [&](std::uint32_t row, std::string_view bytes) -> Status {
+    const TracedRow traced = row_of(bytes);
+    std::ranges::copy(traced.radiance, picture.radiance.at(0, int(row)));
+    std::ranges::copy(traced.mirror_share, picture.mirror_mask.at(0, int(row)));
+    picture.rays += traced.rays;
     progress.advance();
-  });
-  picture.rays = all_rays;
+    return Done{};
+  };
+  machines::Tasks rows(std::size_t(window.height));
+  std::iota(rows.begin(), rows.end(), 0u);
+  const Result<std::size_t> kept =
+      machines::divide(options.processes ? *options.processes : machines::Processes(), rows, work);
+  assert(kept && "rows are traced without errors");
   picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return picture;
 }

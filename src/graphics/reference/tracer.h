@@ -11,6 +11,10 @@
 #include "graphics/shading/drawn_light.h"
 #include "graphics/shading/sky.h"
 
+namespace parvis::machines {
+class Processes;
+}
+
 namespace parvis::reference {
 
 /// A rectangle of an image in pixels, from the top left.
@@ -29,6 +33,9 @@ struct TraceOptions {
   int mirror_bounces = 1;              ///< after as many mirrors, mirror-like parts show the sky
   PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all
   std::string progress = "tracing";    ///< what the progress bar says
+  /// That divide the rows among them; null: this one alone. All of them call trace_picture; the picture is
+  /// complete in the first one. Not owned.
+  const machines::Processes* processes = nullptr;
 };
 
 /// A ground truth image of the window's size, top row first.

@@ -11,6 +11,7 @@
 
 #include "graphics/render/drawables.h"
 #include "graphics/render/renderer.h"
+#include "machines/processes.h"
 
 namespace parvis::render {
 
@@ -19,8 +20,9 @@ class BakeInput {
  public:
   /// The arguments outlive it. `plan`: where to write a picture of what is baked, seen from above; empty:
   /// nowhere.
-  BakeInput(const scene::Scene& scene, const Drawables& drawables, std::filesystem::path plan = {})
-      : scene_(scene), drawables_(drawables), plan_(std::move(plan)) {}
+  BakeInput(const scene::Scene& scene, const Drawables& drawables, std::filesystem::path plan = {},
+            const machines::Processes& processes = {})
+      : scene_(scene), drawables_(drawables), plan_(std::move(plan)), processes_(processes) {}
   BakeInput(const BakeInput&) = delete;
 
   /// The state that is baked.
@@ -29,11 +31,14 @@ class BakeInput {
   Result<Renderer*> renderer();
   /// Steps that know places write their picture here; empty: it is not wanted.
   const std::filesystem::path& plan() const { return plan_; }
+  /// All of them run each step; the first one alone writes files.
+  const machines::Processes& processes() const { return processes_; }
 
  private:
   const scene::Scene& scene_;
   const Drawables& drawables_;
   std::filesystem::path plan_;
+  machines::Processes processes_;
   std::unique_ptr<Renderer> renderer_;
 };
 

@@ -12,11 +12,14 @@ namespace {
 
 constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings cast shadows
 constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
-constexpr float near_stay_m = 25.0f;        // how far the viewer goes before it is drawn again
-constexpr float room_radius_m = 12.0f;      // a place no larger lies in the near map as a whole, and finer
-constexpr float round_room_m = 4.0f;        // margin for dynamic objects around it
-constexpr float spot_near_m = 0.05f;        // nothing nearer to a lamp shades
-constexpr float moving_height_m = 30.0f;    // vehicles stand no higher over the viewer's surroundings
+// Middles of the window are this far apart: it is drawn again when the viewer comes nearer to another one.
+// They do not depend on where the viewer was: maps and films that several processes draw are equal to those
+// of one.
+constexpr float near_step_m = 25.0f;
+constexpr float room_radius_m = 12.0f;    // a place no larger lies in the near map as a whole, and finer
+constexpr float round_room_m = 4.0f;      // margin for dynamic objects around it
+constexpr float spot_near_m = 0.05f;      // nothing nearer to a lamp shades
+constexpr float moving_height_m = 30.0f;  // vehicles stand no higher over the viewer's surroundings
 
 glm::mat3 sun_frame(glm::vec3 to_sun) {
   const glm::vec3 aside = std::abs(to_sun.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
@@ -30,13 +33,13 @@ float near_half_width(const Bounds& place) {
   return is_room(place) ? place.radius() + round_room_m : near_half_width_m;
 }
 
-/// Middle of what a viewer sees best, among the heights of the place; of all of a room.
+/// Near the middle of what a viewer sees best, among the heights of the place; the middle of all of a room.
 glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
   if (is_room(place)) return place.centre();
   const glm::vec3 forward = camera.forward_in_world();
   glm::vec3 focus = camera.position_in_world() + near_ahead_m * glm::vec3(forward.x, forward.y, 0.0f);
   focus.z = std::clamp(focus.z, place.min.z, place.max.z);
-  return focus;
+  return near_step_m * glm::round(focus / near_step_m);
 }
 
 /// The box around a box as a map shows it; all of the map where the box reaches behind its projection's
@@ -294,7 +297,7 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
       draw_near_fixed(draw);
     }
   } else if (const glm::vec3 focus = sun_.spot ? sun_.spot->position : focus_of(camera, fixed_);
-             glm::distance(focus, near_centre_) > near_stay_m) {
+             focus != near_centre_) {
     draw_postponed(draw);
     aim_near(focus);
     draw_near_fixed(draw);

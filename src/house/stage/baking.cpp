@@ -8,7 +8,7 @@
 namespace parvis::house {
 
 Status Baking::bake(const scene::Scene& state, const std::filesystem::path& plan) {
-  render::BakeInput input(state, house_.get<render::Drawables>(), plan);
+  render::BakeInput input(state, house_.get<render::Drawables>(), plan, processes_);
   for (const render::BakeStep& step : house_.get<render::BakeSteps>().all()) {
     if (!house_.get<methods::Registry>().reads_baked(state, step.name)) continue;
     Result<render::Baked> baked = step.run(input);
@@ -20,6 +20,7 @@ Status Baking::bake(const scene::Scene& state, const std::filesystem::path& plan
 }
 
 void Baking::forget_other_states(const scene::Scene& scene) const {
+  if (!processes_.is_first()) return;
   for (const render::BakeStep& step : house_.get<render::BakeSteps>().all()) {
     const auto kept = kept_.find(step.name);
     step.forget_others(scene, kept == kept_.end() ? std::set<std::filesystem::path>() : kept->second);

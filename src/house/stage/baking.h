@@ -8,6 +8,7 @@
 
 #include "base/house.h"
 #include "base/result.h"
+#include "machines/processes.h"
 #include "scene/data/scene.h"
 
 namespace parvis::house {
@@ -15,8 +16,9 @@ namespace parvis::house {
 /// One run of `parvis bake`: states are baked one by one; then what is kept of all others is removed.
 class Baking {
  public:
-  /// `house` outlives it.
-  explicit Baking(const House& house) : house_(house) {}
+  /// `house` outlives it. `processes` divide the work of steps that can be divided; all of them bake.
+  explicit Baking(const House& house, const machines::Processes& processes = {})
+      : house_(house), processes_(processes) {}
 
   /// Runs all steps on one state, except those whose results its reflection method never reads. Prints a line
   /// per step that has something to bake. `plan`: see render::BakeInput. Needs a current OpenGL 4.5 context.
@@ -27,6 +29,7 @@ class Baking {
 
  private:
   const House& house_;
+  machines::Processes processes_;
   std::map<std::string, std::set<std::filesystem::path>> kept_;  ///< per name of a step
 };
 

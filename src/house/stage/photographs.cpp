@@ -110,6 +110,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
     const Result<reference::Photograph> photograph =
         reference::take_photograph(rays, scene, sky, named.camera, job.width, job.height, options);
     if (!photograph) return photograph.errors();
+    if (!options.processes.is_first()) continue;
     displays.push_back(shading::tone_mapped_picture(photograph->radiance, scene.exposure));
     if (Status status = write_photograph(*photograph, displays.back(), named, job); !status) return status;
     const double millions = 1e-6 * double(photograph->rays);
@@ -118,6 +119,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
     taken.push_back(
         {file_of(job.pictures.front(), named, job).filename().string(), named.camera, job.width, job.height});
   }
+  if (!job.options.processes.is_first()) return Done{};
   if (!job.colmap_folder.empty()) {
     const auto points = reference::seen_points(rays, taken, displays, std::max(job.width / points_across, 1));
     if (Status status = write_colmap(job.colmap_folder, taken, points); !status) return status;

@@ -29,8 +29,9 @@ Result<std::vector<scene::NamedCamera>> circle_of_cameras(glm::vec3 target, floa
                                                           float eye_above_target_m, int count,
                                                           float vertical_fov);
 
-/// Takes all photographs. A job that is interrupted (or killed) goes on where it stopped when it is called
-/// again: finished tiles lie in files ".checkpoint" beside the first picture until all is written.
+/// Takes all photographs; the first of several processes writes the files. A job that is interrupted (or
+/// killed) goes on where it stopped when it is called again: finished tiles lie in files ".checkpoint" beside
+/// the first picture until all is written.
 Status take_photographs(const scene::Scene& scene, const PhotographJob& job);
 
 }  // namespace parvis::house

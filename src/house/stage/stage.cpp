@@ -126,6 +126,14 @@ void Stage::draw(const Camera& camera, int width, int height) {
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
+                                      const machines::Processes& processes) {
+  reference::TraceOptions options;
+  options.samples_per_pixel = samples_per_pixel;
+  options.processes = &processes;
+  return methods::trace_frame(*renderer_, play_.scene, {camera, width, height}, options);
+}
+
+reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;

@@ -15,6 +15,7 @@
 #include "graphics/render/picture_scale.h"
 #include "graphics/render/renderer.h"
 #include "house/stage/scene_camera.h"
+#include "machines/processes.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
@@ -99,6 +100,9 @@ class Stage {
   /// The same view by the ray tracer, with the renderer's shadow maps; completely or a window of it.
   reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                  const reference::PixelWindow& window = {});
+  /// The same, its rows divided among the processes: all of them call it, the first has the picture.
+  reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
+                                 const machines::Processes& processes);
 
  private:
   Stage(Play play, std::unique_ptr<render::Renderer> renderer);

@@ -19,9 +19,9 @@ Result<render::Baked> bake_and_plan(render::BakeInput& input) {
   const Result<render::Renderer*> renderer = input.renderer();
   if (!renderer) return renderer.errors();
   const HeightPyramid heights(heights_of(scene));
-  const Result<std::vector<glm::vec3>> places = keep_maps(scene, heights, **renderer);
+  const Result<std::vector<glm::vec3>> places = keep_maps(scene, heights, **renderer, input.processes());
   if (!places) return places.errors();
-  if (!input.plan().empty()) {
+  if (!input.plan().empty() && input.processes().is_first()) {
     const std::vector<glm::vec3> even = spread_over_roads(scene, heights, int(places->size()));
     if (Status status =
             write_image(input.plan(), placement_plan(**renderer, scene, *places, even, plan_side_px));

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/progress.h"
+#include "base/sealed_file.h"
 #include "graphics/render/fixed_parts.h"
+#include "machines/divided_work.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
 
@@ -129,22 +131,57 @@ Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& 
   return maps;
 }
 
+namespace {
+
+/// Where the maps are: the first process finds out and shares it.
+std::vector<glm::vec3> shared_places(const scene::Scene& scene, const HeightPyramid& heights,
+                                     const MapCache& cache, const machines::Processes& processes) {
+  std::string bytes;
+  if (processes.is_first()) append_values(bytes, places_of(scene, heights, cache));
+  processes.share_of_first(bytes);
+  return Taker(bytes).take_values<glm::vec3>();
+}
+
+/// The numbers of the maps that are not kept.
+machines::Tasks maps_to_draw(const MapCache& cache, const std::vector<glm::vec3>& places) {
+  machines::Tasks numbers;
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    if (const std::optional<MapFile> kept = cache.read(i); !kept || kept->places != places)
+      numbers.push_back(i);
+  return numbers;
+}
+
+}  // namespace
+
 Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const HeightPyramid& heights,
-                                         render::Renderer& renderer) {
+                                         render::Renderer& renderer, const machines::Processes& processes) {
   Result<MapPainter> painter = MapPainter::create(map_resolution(scene));
   if (!painter) return painter.errors();
   const MapCache cache(scene);
-  std::vector<glm::vec3> places = places_of(scene, heights, cache);
-  Progress progress("reference maps", places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (const std::optional<MapFile> kept = cache.read(i); !kept || kept->places != places) {
-      const Result<ReferenceMaps> drawn = drawn_map(scene, renderer, *painter, places[i]);
-      if (!drawn) return drawn.errors();
-      const MapFile file{0, places, std::uint32_t(i), std::uint32_t(drawn->resolution()), drawn->read(0)};
-      if (Status status = cache.write(file); !status) return status.errors();
-    }
+  const std::vector<glm::vec3> places = shared_places(scene, heights, cache, processes);
+  const machines::Tasks to_do = processes.is_first() ? maps_to_draw(cache, places) : machines::Tasks();
+  Progress progress("reference maps", to_do.size());
+  machines::DividedWork work;
+  work.uses_threads = false;
+  work.run = [&](std::uint32_t number) -> Result<std::string> {
+    const Result<ReferenceMaps> drawn = drawn_map(scene, renderer, *painter, places[number]);
+    if (!drawn) return drawn.errors();
+    std::string bytes;
+    const std::vector<std::vector<std::uint8_t>> textures = drawn->read(0);
+    append_value(bytes, std::uint32_t(drawn->resolution()));
+    append_value(bytes, std::uint32_t(textures.size()));
+    for (const std::vector<std::uint8_t>& texture : textures) append_values(bytes, texture);
+    return bytes;
+  };
+  work.keep = [&](std::uint32_t number, std::string_view bytes) -> Status {
+    Taker taker(bytes);
+    MapFile file{0, places, number, taker.take<std::uint32_t>(), {}};
+    file.textures.resize(taker.take<std::uint32_t>());
+    for (std::vector<std::uint8_t>& texture : file.textures) texture = taker.take_values<std::uint8_t>();
     progress.advance();
-  }
+    return cache.write(file);
+  };
+  if (const Result<std::size_t> kept = machines::divide(processes, to_do, work); !kept) return kept.errors();
   return places;
 }
 

@@ -1,6 +1,7 @@
 // What every method of this room starts from: a scene's heights, and its reference maps.
 #pragma once
 
+#include "machines/processes.h"
 #include "reflections/reference_maps/height_pyramid.h"
 #include "reflections/reference_maps/map_cache.h"
 #include "reflections/reference_maps/map_painter.h"
@@ -45,8 +46,10 @@ Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& 
                                 render::Renderer& renderer);
 
 /// Draws the scene's reference maps that are not baked and keeps each beside the scene; one is in memory at a
-/// time. Returns the places of all maps. Errors: a shader; a map cannot be kept.
+/// time. `processes` draw them together, and the first one keeps them. Returns the places of all maps.
+/// Errors: a shader; a map cannot be kept.
 Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const HeightPyramid& heights,
-                                         render::Renderer& renderer);
+                                         render::Renderer& renderer,
+                                         const machines::Processes& processes = {});
 
 }  // namespace parvis::reference_maps

@@ -4,6 +4,7 @@
 
 #include "base/content_hash.h"
 #include "base/progress.h"
+#include "machines/divided_work.h"
 #include "reflections/reflector_maps/reflector_file.h"
 #include "reflections/reflector_maps/settings.h"
 #include "scene/data/baked_folder.h"
@@ -28,19 +29,26 @@ std::uint64_t key_of(const ReflectorSource& source) {
   return hash.value();
 }
 
-/// Makes and keeps it, unless it is kept. `without` describes the consequence if it cannot be made.
-Status bake(const ReflectorCache& cache, const ReflectorSource& source, std::string_view without,
-            BakedReflectors& baked) {
-  if (!cache.has(source)) {
-    const Result<Reflector> made = cache.reflector(source);
-    if (!made) {
-      fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), without);
-      return Done{};
-    }
-    if (Status status = cache.keep(source, *made); !status) return status;
+/// A reflector that the scene looks up, and the consequence if it cannot be made.
+struct WantedReflector {
+  ReflectorSource source;
+  std::string_view without;
+};
+
+/// All that the scene's method looks up, each once; in the same order in every process.
+std::vector<WantedReflector> wanted_reflectors(const scene::Scene& scene) {
+  std::vector<WantedReflector> wanted;
+  std::unordered_set<const scene::Model*> known;
+  const bool wants_mirrors = shows_all_objects(scene) || shows_near_objects(scene);
+  for (const scene::Object& object : scene.objects) {
+    if (!object.takes_reflection || !(wants_mirrors || has_glass(*object.model)) ||
+        !known.insert(object.model.get()).second)
+      continue;
+    if (wants_mirrors) wanted.push_back({mirror_source(scene, object), "it mirrors the sky alone"});
+    for (GlassSource& glass : glass_sources(object))
+      wanted.push_back({std::move(glass.outside), "as solid glass it shows the sky straight through"});
   }
-  baked.files.insert(cache.file(source));
-  return Done{};
+  return wanted;
 }
 
 }  // namespace
@@ -69,39 +77,41 @@ bool ReflectorCache::has(const ReflectorSource& source) const {
   return !folder_.empty() && bool(read_reflector_file(file(source), key_of(source)));
 }
 
-Status ReflectorCache::keep(const ReflectorSource& source, const Reflector& reflector) const {
+Status ReflectorCache::keep(const ReflectorSource& source, std::string_view content) const {
   std::error_code code;
   if (folder_.empty())
     return error("{}: its folder of reflectors is a link; nothing is kept there", source.name);
   fs::create_directories(folder_, code);
-  return write_reflector_file(file(source), key_of(source), reflector);
+  return write_reflector_content(file(source), content);
 }
 
-Result<BakedReflectors> bake_reflectors(const scene::Scene& scene) {
+Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machines::Processes& processes) {
   const ReflectorCache cache(scene);
-  std::vector<const scene::Object*> objects;
-  std::unordered_set<const scene::Model*> known;
-  const bool wants_mirrors = shows_all_objects(scene) || shows_near_objects(scene);
-  for (const scene::Object& object : scene.objects)
-    if (object.takes_reflection && (wants_mirrors || has_glass(*object.model)) &&
-        known.insert(object.model.get()).second)
-      objects.push_back(&object);
+  const std::vector<WantedReflector> wanted = wanted_reflectors(scene);
   BakedReflectors baked{cache.folder(), {}};
-  Progress progress("baking reflectors", objects.size());
-  for (const scene::Object* object : objects) {
-    if (wants_mirrors) {
-      const ReflectorSource mirror = mirror_source(scene, *object);
-      if (Status status = bake(cache, mirror, "it mirrors the sky alone", baked); !status)
-        return status.errors();
-    }
-    for (const GlassSource& glass : glass_sources(*object)) {
-      if (Status status =
-              bake(cache, glass.outside, "as solid glass it shows the sky straight through", baked);
-          !status)
-        return status.errors();
-    }
+  machines::Tasks to_do;
+  for (std::uint32_t i = 0; i < wanted.size() && processes.is_first(); ++i)
+    if (cache.has(wanted[i].source))
+      baked.files.insert(cache.file(wanted[i].source));
+    else
+      to_do.push_back(i);
+  Progress progress("baking reflectors", to_do.size());
+  machines::DividedWork work;
+  work.uses_threads = false;  // each takes all cores
+  work.run = [&](std::uint32_t i) -> Result<std::string> {
+    const ReflectorSource& source = wanted[i].source;
+    const Result<Reflector> made = cache.reflector(source);
+    if (made) return reflector_content(key_of(source), *made);
+    fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), wanted[i].without);
+    return std::string();
+  };
+  work.keep = [&](std::uint32_t i, std::string_view content) -> Status {
     progress.advance();
-  }
+    if (content.empty()) return Done{};  // it cannot be a reflector
+    baked.files.insert(cache.file(wanted[i].source));
+    return cache.keep(wanted[i].source, content);
+  };
+  if (const Result<std::size_t> kept = machines::divide(processes, to_do, work); !kept) return kept.errors();
   return baked;
 }
 

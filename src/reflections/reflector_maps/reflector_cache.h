@@ -3,7 +3,9 @@
 #pragma once
 
 #include <set>
+#include <string_view>
 
+#include "machines/processes.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/reflector_maps/reflector_sources.h"
 
@@ -19,7 +21,8 @@ class ReflectorCache {
   Result<Reflector> reflector(const ReflectorSource& source) const;
   /// Is it kept, and fit?
   bool has(const ReflectorSource& source) const;
-  Status keep(const ReflectorSource& source, const Reflector& reflector) const;
+  /// Keeps a reflector's content (reflector_file.h).
+  Status keep(const ReflectorSource& source, std::string_view content) const;
 
   /// Empty for a scene that was made in memory.
   const std::filesystem::path& folder() const { return folder_; }
@@ -38,8 +41,8 @@ struct BakedReflectors {
 
 /// Makes and keeps all reflectors that the scene's method looks up and that are not kept yet, with progress:
 /// curved mirrors where virtual objects are wanted, solid glass by every method. What cannot be a reflector
-/// is reported on standard error.
-Result<BakedReflectors> bake_reflectors(const scene::Scene& scene);
+/// is reported on standard error. `processes` make them together; the first one keeps them.
+Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machines::Processes& processes = {});
 /// Removes what is kept of others.
 void forget_other_reflectors(const BakedReflectors& kept);
 

@@ -122,12 +122,20 @@ bool is_right(const Reflector& reflector) {
 
 }  // namespace
 
-Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key,
-                            const Reflector& reflector) {
+std::string reflector_content(std::uint64_t key, const Reflector& reflector) {
   Writer writer;
   writer.value(key);
   pass(writer, reflector);
-  return write_sealed(file, kind, writer.bytes);
+  return writer.bytes;
+}
+
+Status write_reflector_content(const std::filesystem::path& file, std::string_view content) {
+  return write_sealed(file, kind, content);
+}
+
+Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key,
+                            const Reflector& reflector) {
+  return write_reflector_content(file, reflector_content(key, reflector));
 }
 
 Result<Reflector> read_reflector_file(const std::filesystem::path& file, std::uint64_t key) {

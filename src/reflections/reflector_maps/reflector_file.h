@@ -4,12 +4,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "reflections/reflector_maps/reflector_map.h"
 
 namespace parvis::reflector_maps {
 
-/// `key` is a hash of what the reflector was made of; it is sealed with it.
+/// The content of the file for `write_reflector_content`: reflectors may be made in another process than the
+/// one that writes them. `key` is a hash of what the reflector was made of; it is sealed with it.
+std::string reflector_content(std::uint64_t key, const Reflector& reflector);
+/// Writes it; the file appears completely or not at all.
+Status write_reflector_content(const std::filesystem::path& file, std::string_view content);
+/// Both.
 Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key, const Reflector& reflector);
 
 /// Errors say whether the file is missing, foreign, of another version, cut short or damaged, of another key,

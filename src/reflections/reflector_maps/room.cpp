@@ -7,7 +7,7 @@ namespace parvis::reflector_maps {
 namespace {
 
 Result<render::Baked> bake(render::BakeInput& input) {
-  Result<BakedReflectors> baked = bake_reflectors(input.scene());
+  Result<BakedReflectors> baked = bake_reflectors(input.scene(), input.processes());
   if (!baked) return baked.errors();
   render::Baked step;
   if (!baked->files.empty())

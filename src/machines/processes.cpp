@@ -1,0 +1,67 @@
+#include "machines/processes.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "machines/requests.h"
+
+namespace parvis::machines {
+namespace {
+
+constexpr std::size_t max_per_call = std::size_t{1} << 24;  // MPI counts in int; pieces pass through caches
+
+}  // namespace
+
+Result<Processes> Processes::join() {
+  Processes processes;
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) return processes;
+  int provided = 0;
+  // One thread at a time: the first process hands out work from a thread of its own (divided_work.cpp).
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
+      provided < MPI_THREAD_SERIALIZED)
+    return error("MPI does not start, or not for programs with threads, though mpirun has started this one");
+  processes.is_joined_ = true;
+  MPI_Comm_rank(MPI_COMM_WORLD, &processes.rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &processes.count_);
+  if (!processes.is_first() && !std::freopen("/dev/null", "w", stdout))
+    return error("the standard output of process {} cannot be discarded", processes.rank_);
+  return processes;
+}
+
+void Processes::wait_for_all() const {
+  if (!are_several()) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
+
+void Processes::share_of_first(std::string& bytes) const {
+  if (!are_several()) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  unsigned long long size = bytes.size();
+  MPI_Ibcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD, &request);
+  wait_for(request);
+  bytes.resize(size);
+  for (std::size_t first = 0; first < bytes.size(); first += max_per_call) {
+    const int count = int(std::min(max_per_call, bytes.size() - first));
+    MPI_Ibcast(bytes.data() + first, count, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+    wait_for(request);
+  }
+}
+
+void Processes::sum(std::span<float> values) const {
+  if (!are_several()) return;
+  for (std::size_t first = 0; first < values.size(); first += max_per_call) {
+    const int count = int(std::min(max_per_call, values.size() - first));
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_FLOAT, MPI_SUM, MPI_COMM_WORLD);
+  }
+}
+
+void Processes::leave() const {
+  if (!is_joined_) return;
+  wait_for_all();
+  MPI_Finalize();
+}
+
+}  // namespace parvis::machines
