@@ -1,9 +1,8 @@
-// C++ face of blend.glsl.
+// How photographs are blended (graphics/shading/view_blend.glsl), for this room's own text that is GLSL, too.
 #pragma once
 
-#include "graphics/shading/glsl.h"
+#include "graphics/shading/view_blend.h"
 
 namespace parvis::facades {
-using namespace shading;  // GLSL's own functions and types, for the included text
-#include "capture/facades/blend.glsl"
+using namespace shading;
 }  // namespace parvis::facades

@@ -1,7 +1,7 @@
 // Of a captured facade: light that photographs have recorded, as emission over a black metal.
 #include "graphics/shading/tone_curve.glsl"
-#include "capture/facades/blend.glsl"
-#include "capture/facades/recorded_light.glsl"
+#include "graphics/shading/view_blend.glsl"
+#include "graphics/shading/recorded_light.glsl"
 #include "capture/facades/facade_photo.glsl"
 
 uniform highp sampler2D facade_photos;  // a row of 7 texels per photograph

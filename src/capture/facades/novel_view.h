@@ -1,5 +1,5 @@
 // Views of the model from anywhere, coloured by photographs: on the CPU with the shader's own mathematics
-// (blend.glsl), for measurements and as the ray-traced counterpart.
+// (shading/view_blend.glsl), for measurements and as the ray-traced counterpart.
 #pragma once
 
 #include <glm/glm.hpp>

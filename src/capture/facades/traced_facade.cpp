@@ -10,7 +10,7 @@ namespace parvis::facades {
 namespace {
 
 using namespace shading;  // GLSL's own functions and types, for the included text
-#include "capture/facades/recorded_light.glsl"
+#include "graphics/shading/recorded_light.glsl"
 
 /// A facade's photographs, as a surface that depends on the view.
 class FacadeSurface final : public scene::TracedSurface {
