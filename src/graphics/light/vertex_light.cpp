@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "base/parallel.h"
 #include "graphics/reference/frame.h"
+#include "graphics/reference/traced_hit.h"
 #include "graphics/shading/octahedral.h"
+#include "graphics/shading/shadow.h"
+#include "graphics/shading/sky.h"
 
 namespace parvis::light {
 namespace {
 
 constexpr float lift_m = 1e-3f;
 constexpr std::size_t max_places = 1'000'000;
+constexpr std::size_t packet_rays = 8, squares = 16;
+/// Of surfaces that rooms draw by themselves: photographs of walls.
+constexpr float wall_albedo = 0.35f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
 
@@ -48,19 +56,110 @@ bool is_open(const reference::RayScene& scene, glm::vec3 from, glm::vec3 directi
 
 glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
 
+glm::vec2 shift_of(std::size_t vertex) {
+  return {scrambled(std::uint32_t(2 * vertex)), scrambled(std::uint32_t(2 * vertex + 1))};
+}
+
+/// Mean colour of a surface that a ray hit.
+glm::vec3 albedo_of(const reference::PlacedPart& place) {
+  if (place.surface) return glm::vec3(wall_albedo);
+  const scene::Material& material = *place.material;
+  const glm::vec3 colour = (1.0f - material.metallic) * material.base_colour;
+  if (material.base_colour_texture == scene::no_index) return colour;
+  const reference::MipTexture& texture = (*place.textures)[std::size_t(material.base_colour_texture)];
+  return colour * glm::vec3(texture.sample(glm::vec2(0.5f), texture.size().x + texture.size().y));
+}
+
+/// Light that a matt surface gives back to a vertex: of the sun, by a ray, and of the sky as if half of what
+/// lies before the surface were open.
+glm::vec3 bounced_radiance(const reference::RayScene& scene, const SkyTable& sky, const reference::Ray& ray,
+                           std::size_t v) {
+  constexpr float open_share = 0.5f;
+  reference::Passage passage{Random(v)};
+  const std::optional<reference::Hit> hit = scene.nearest_hit(ray, passage);
+  if (!hit) return glm::vec3(0.0f);
+  const scene::TracedHit at =
+      reference::traced_hit(*hit->place, hit->triangle, {hit->u, hit->v}, -ray.direction, 0.0f);
+  if (!(glm::dot(at.normal, at.normal) > 0.5f)) return glm::vec3(0.0f);  // a sliver without a normal
+  glm::vec3 irradiance = open_share * sky.irradiance(at.normal);
+  const glm::vec3 away = at.position + lift_m * at.normal;
+  const float facing = sky.spot() ? 0.0f : glm::dot(sky.to_sun(), at.normal);
+  if (facing > 0.0f && is_open(scene, away, sky.to_sun(), v)) irradiance += facing * sky.sun_irradiance();
+  return albedo_of(*hit->place) / 3.14159265f * irradiance;
+}
+
+/// Of level ground that is as bright everywhere.
+glm::vec3 from_below(glm::vec3 normal, const SkyTable& sky, Blocked blocked) {
+  if (blocked == Blocked::dark) return glm::vec3(0.0f);
+  return 0.5f * (1.0f - normal.z) * 3.14159265f * sky.radiance({0.0f, 0.0f, -1.0f});
+}
+
+/// Of a lamp in the sun's place: as bright at any distance, within its cone.
+glm::vec3 spot_light(const reference::RayScene& scene, const SkyTable& sky, const LitVertex& vertex,
+                     glm::vec3 from, std::size_t v) {
+  const glm::vec3 away = sky.spot()->position - from;
+  const float distance = glm::length(away);
+  if (distance < lift_m) return glm::vec3(0.0f);
+  const glm::vec3 direction = away / distance;
+  const float facing =
+      glm::dot(direction, vertex.normal) *
+      shading::spot_share(glm::dot(direction, sky.to_sun()), std::cos(sky.spot()->half_angle));
+  reference::Passage passage{Random(v)};
+  if (facing <= 0.0f || scene.is_blocked({from, direction, 1e-4f, distance}, passage)) return glm::vec3(0.0f);
+  return facing * sky.sun_irradiance();
+}
+
 }  // namespace
 
 SkyTable::SkyTable(const SkyModel& sky)
-    : to_sun_(sky.to_sun()),
-      sun_irradiance_(displayable(sky.sun_irradiance_xyz())),
-      texels_(std::size_t(side) * side) {
+    : to_sun_(sky.to_sun()), sun_irradiance_(displayable(sky.sun_irradiance_xyz())) {
+  fill([&](glm::vec3 direction) { return displayable(sky.sky_radiance_xyz(direction)); });
+}
+
+SkyTable::SkyTable(const scene::Scene& scene)
+    : to_sun_(glm::normalize(scene.sun.direction_to_sun)),
+      sun_irradiance_(scene.sun.irradiance),
+      spot_(scene.data<scene::SunShadows>().spot) {
+  const shading::SkyLight light =
+      shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
+  fill([&](glm::vec3 direction) { return shading::sky_radiance(light, direction, 0.0f); });
+}
+
+void SkyTable::fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance) {
+  texels_.resize(std::size_t(side) * side);
+  const auto direction_of = [](std::size_t i) {
+    const glm::vec2 uv = (glm::vec2(float(int(i) % side), float(int(i) / side)) + 0.5f) / float(side);
+    return shading::octahedral_direction(uv);
+  };
   parallel_for(
-      texels_.size(),
-      [&](std::size_t i) {
-        const glm::vec2 uv = (glm::vec2(float(int(i) % side), float(int(i) / side)) + 0.5f) / float(side);
-        texels_[i] = displayable(sky.sky_radiance_xyz(shading::octahedral_direction(uv)));
-      },
-      256);
+      texels_.size(), [&](std::size_t i) { texels_[i] = radiance(direction_of(i)); }, 256);
+  // Nine spherical harmonics with the cosine lobe (Ramamoorthi and Hanrahan 2001); a texel of the octahedron
+  // |x| + |y| + |z| = 1 stands for a solid angle that grows with 1 / distance^3 from its middle.
+  constexpr std::array<float, 9> lobe{3.1415927f, 2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
+                                      0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
+  float sphere = 0.0f;
+  for (std::size_t i = 0; i < texels_.size(); ++i) {
+    const glm::vec3 d = direction_of(i);
+    const float one_norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
+                weight = one_norm * one_norm * one_norm;
+    const std::array<float, 9> basis{0.282095f,
+                                     0.488603f * d.y,
+                                     0.488603f * d.z,
+                                     0.488603f * d.x,
+                                     1.092548f * d.x * d.y,
+                                     1.092548f * d.y * d.z,
+                                     0.315392f * (3.0f * d.z * d.z - 1.0f),
+                                     1.092548f * d.x * d.z,
+                                     0.546274f * (d.x * d.x - d.y * d.y)};
+    for (std::size_t k = 0; k < 9; ++k) sh_[k] += weight * lobe[k] * basis[k] * texels_[i];
+    sphere += weight;
+  }
+  for (glm::vec3& coefficient : sh_) coefficient *= 12.566371f / sphere;
+}
+
+glm::vec3 SkyTable::irradiance(glm::vec3 normal) const {
+  std::array<glm::vec3, 9> sh = sh_;
+  return shading::sky_irradiance(sh.data(), normal);
 }
 
 glm::vec3 SkyTable::radiance(glm::vec3 direction) const {
@@ -78,30 +177,73 @@ void VertexLight::restart(std::vector<LitVertex> vertices) {
   rays_ = sun_rays_ = 0;
 }
 
-void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays) {
+/// Rays of one vertex leave it in packets of eight that go about the same way: sorted by the sixteen squares
+/// in which their points lie.
+glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
+                                 int rays, Blocked blocked) const {
+  const LitVertex& vertex = vertices_[v];
+  const reference::Frame frame(vertex.normal);
+  const glm::vec3 from = lifted(vertex);
+  const glm::vec2 shift = shift_of(v);
+  std::array<std::array<reference::Ray, packet_rays>, squares> packets;
+  std::array<std::size_t, squares> sizes{};
+  glm::vec3 sum(0.0f);
+  const auto trace = [&](std::size_t square) {
+    const std::span<const reference::Ray> packet(packets[square].data(), std::exchange(sizes[square], 0));
+    reference::Passage passage{Random(v + square)};
+    const std::uint32_t stopped = scene.blocked(packet, passage);
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+      if (!(stopped >> i & 1u))
+        sum += sky.radiance(packet[i].direction);
+      else if (blocked == Blocked::bounces)
+        sum += bounced_radiance(scene, sky, packet[i], v);
+    }
+  };
+  for (int i = 0; i < rays; ++i) {
+    const glm::vec2 u = low_discrepancy(rays_ + i, shift), p = on_disc(u);
+    const std::size_t square = std::size_t(int(4.0f * u.x) + 4 * int(4.0f * u.y)) % squares;
+    packets[square][sizes[square]] = {
+        from, frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))})};
+    if (++sizes[square] == packet_rays) trace(square);
+  }
+  for (std::size_t square = 0; square < squares; ++square)
+    if (sizes[square] > 0) trace(square);
+  return sum;
+}
+
+glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
+                                 int rays) const {
+  const LitVertex& vertex = vertices_[v];
+  const glm::vec3 from = lifted(vertex);
+  if (sky.spot()) return float(rays) * spot_light(scene, sky, vertex, from, v);
+  if (glm::dot(sky.to_sun(), vertex.normal) < -float(sun_radius_rad)) return glm::vec3(0.0f);
+  const reference::Frame frame(sky.to_sun());
+  const glm::vec2 shift = shift_of(v);
+  glm::vec3 sum(0.0f);
+  std::array<reference::Ray, packet_rays> packet;
+  for (int first = 0; first < rays; first += int(packet_rays)) {
+    std::size_t size = 0;
+    for (int i = first; i < std::min(rays, first + int(packet_rays)); ++i) {
+      const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
+      const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
+      if (glm::dot(direction, vertex.normal) > 0.0f) packet[size++] = {from, direction};
+    }
+    reference::Passage passage{Random(v + std::uint64_t(first))};
+    const std::uint32_t stopped = scene.blocked({packet.data(), size}, passage);
+    for (std::size_t i = 0; i < size; ++i)
+      if (!(stopped >> i & 1u)) sum += glm::dot(packet[i].direction, vertex.normal) * sky.sun_irradiance();
+  }
+  return sum;
+}
+
+void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays, Blocked blocked) {
   const int sun_rays = std::max(1, rays / 4);
-  const reference::Frame sun_frame(sky.to_sun());
   const bool has_sun = sky.sun_irradiance() != glm::vec3(0.0f);
   parallel_for(
       vertices_.size(),
       [&](std::size_t v) {
-        const LitVertex& vertex = vertices_[v];
-        const reference::Frame frame(vertex.normal);
-        const glm::vec3 from = lifted(vertex);
-        const glm::vec2 shift(scrambled(std::uint32_t(2 * v)), scrambled(std::uint32_t(2 * v + 1)));
-        for (int i = 0; i < rays; ++i) {
-          const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
-          const glm::vec3 direction =
-              frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))});
-          if (is_open(scene, from, direction, v + std::uint64_t(i))) sky_sums_[v] += sky.radiance(direction);
-        }
-        for (int i = 0; has_sun && i < sun_rays; ++i) {
-          const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
-          const glm::vec3 direction = glm::normalize(sun_frame.in_world({p.x, p.y, 1.0f}));
-          const float facing = glm::dot(direction, vertex.normal);
-          if (facing > 0.0f && is_open(scene, from, direction, v + std::uint64_t(i)))
-            sun_sums_[v] += facing * sky.sun_irradiance();
-        }
+        sky_sums_[v] += sky_light(scene, sky, v, rays, blocked);
+        if (has_sun) sun_sums_[v] += sun_light(scene, sky, v, sun_rays);
       },
       16);
   rays_ += rays, sun_rays_ += sun_rays;
@@ -167,7 +309,8 @@ void VisibilityPlaces::interpolate(glm::vec3 point, float (&shares)[64]) const {
 
 std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& vertices,
                                                const VisibilityPlaces& places,
-                                               const reference::RayScene& scene, const SkyTable& sky) {
+                                               const reference::RayScene& scene, const SkyTable& sky,
+                                               Blocked blocked) {
   std::vector<glm::vec3> radiance;
   for (const glm::vec3 direction : VisibilityPlaces::directions())
     radiance.push_back(sky.radiance(direction));
@@ -181,7 +324,11 @@ std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& ver
         for (std::size_t k = 0; k < 64; ++k)
           sum += shares[k] * std::max(glm::dot(VisibilityPlaces::directions()[k], vertices[v].normal), 0.0f) *
                  radiance[k];
-        result[v] = 6.2831853f / 64.0f * sum;
+        result[v] = 6.2831853f / 64.0f * sum + from_below(vertices[v].normal, sky, blocked);
+        if (sky.spot()) {
+          result[v] += spot_light(scene, sky, vertices[v], lifted(vertices[v]), v);
+          return;
+        }
         const float facing = glm::dot(sky.to_sun(), vertices[v].normal);
         if (facing > 0.0f && is_open(scene, lifted(vertices[v]), sky.to_sun(), v))
           result[v] += facing * sky.sun_irradiance();
@@ -200,7 +347,8 @@ RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double ra
   return {Relighting::open, 0};
 }
 
-std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky) {
+std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky,
+                                       Blocked blocked) {
   std::vector<glm::vec3> result(vertices.size());
   parallel_for(
       vertices.size(),
@@ -209,7 +357,8 @@ std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, c
         for (const glm::vec3 direction : VisibilityPlaces::directions())
           sum += std::max(glm::dot(direction, vertices[v].normal), 0.0f) * sky.radiance(direction);
         result[v] = 6.2831853f / 64.0f * sum +
-                    std::max(glm::dot(sky.to_sun(), vertices[v].normal), 0.0f) * sky.sun_irradiance();
+                    std::max(glm::dot(sky.to_sun(), vertices[v].normal), 0.0f) * sky.sun_irradiance() +
+                    from_below(vertices[v].normal, sky, blocked);
       },
       64);
   return result;

@@ -3,13 +3,17 @@
 // all.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "base/bounds.h"
 #include "graphics/light/sky_model.h"
 #include "graphics/reference/ray_scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::light {
 
@@ -21,17 +25,33 @@ struct LitVertex {
 class SkyTable {
  public:
   explicit SkyTable(const SkyModel& sky);
+  /// Of a scene, as its renderer has them: Scene::sky, Scene::sun, and the lamp in the sun's place.
+  explicit SkyTable(const scene::Scene& scene);
   /// Radiance of the sky without the sun's disc, from a unit direction.
   glm::vec3 radiance(glm::vec3 direction) const;
   /// Unit direction to the sun.
   glm::vec3 to_sun() const { return to_sun_; }
   /// Irradiance of the sun on a surface that faces it.
   glm::vec3 sun_irradiance() const { return sun_irradiance_; }
+  /// A lamp in the sun's place, or none.
+  const std::optional<scene::Spot>& spot() const { return spot_; }
+  /// Irradiance of the open sky without the sun on a surface with unit `normal`.
+  glm::vec3 irradiance(glm::vec3 normal) const;
 
  private:
+  void fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance);
+
   static constexpr int side = 128;  ///< of an octahedral map
   glm::vec3 to_sun_, sun_irradiance_;
+  std::optional<scene::Spot> spot_;
   std::vector<glm::vec3> texels_;
+  std::array<glm::vec3, 9> sh_{};  ///< shading/sky.glsl
+};
+
+/// What a ray that does not reach the sky brings.
+enum class Blocked : std::uint8_t {
+  dark,    ///< nothing: the sum of the thesis's appendix A.2, visibility alone
+  bounces  ///< light that the surface it hits gives back of the sun, which a ray finds, and of half the sky
 };
 
 /// The irradiance of vertices, traced progressively: each call adds rays, and what was traced counts on.
@@ -45,16 +65,24 @@ class VertexLight {
   void restart() { restart(std::move(vertices_)); }
 
   /// Adds `rays` directions of low discrepancy per vertex, cosine-weighted about its normal, and a quarter as
-  /// many to the sun's disc. What stands in the way gives no light. Same result for any number of threads,
-  /// and however rays are divided into calls of whole fours.
-  void refine(const reference::RayScene& scene, const SkyTable& sky, int rays);
+  /// many to the sun's disc. Same result for any number of threads, and however rays are divided into calls
+  /// of whole fours.
+  void refine(const reference::RayScene& scene, const SkyTable& sky, int rays,
+              Blocked blocked = Blocked::dark);
 
   /// Of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
   std::vector<glm::vec3> irradiance() const;
   /// Rays that each vertex has had.
   int rays() const { return rays_; }
+  /// As given.
+  const std::vector<LitVertex>& vertices() const { return vertices_; }
 
  private:
+  glm::vec3 sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex, int rays,
+                      Blocked blocked) const;
+  glm::vec3 sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
+                      int rays) const;
+
   std::vector<LitVertex> vertices_;
   std::vector<glm::vec3> sky_sums_, sun_sums_;
   int rays_ = 0, sun_rays_ = 0;
@@ -81,10 +109,12 @@ class VisibilityPlaces {
   std::vector<std::uint64_t> masks_;
 };
 
-/// With interpolated visibility, no rays at all; the sun by one ray per vertex.
+/// With interpolated visibility, no rays at all; the sun by one ray per vertex. Here and in open_irradiance
+/// `Blocked::bounces` has the sky's own ground shine from below, where `dark` leaves out all that is below.
 std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& vertices,
                                                const VisibilityPlaces& places,
-                                               const reference::RayScene& scene, const SkyTable& sky);
+                                               const reference::RayScene& scene, const SkyTable& sky,
+                                               Blocked blocked = Blocked::dark);
 
 /// How an object that has moved is lit again.
 enum class Relighting : unsigned char { traced, interpolated, open };
@@ -100,6 +130,7 @@ struct RelightingPlan {
 RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double rays_per_ms, bool has_places);
 
 /// As if nothing stood in the way.
-std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky);
+std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky,
+                                       Blocked blocked = Blocked::dark);
 
 }  // namespace parvis::light
