@@ -20,6 +20,7 @@
 #include "graphics/shading/tone_curve.h"
 #include "machines/divided_work.h"
 #include "scene/data/sun_shadows.h"
+#include "scene/data/vertex_irradiance.h"
 
 namespace parvis::reference {
 namespace {
@@ -77,6 +78,7 @@ class Tracer {
     light_.to_sun = glm::normalize(scene.sun.direction_to_sun);
     light_.sun_irradiance = scene.sun.irradiance;
     spot_ = scene.data<scene::SunShadows>().spot;
+    lit_ = &scene.data<scene::VertexIrradiance>();
     for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
     light_.bounced = light_.bounced_behind = vec3(0.0f);
     light_.haze_radiance = sky.haze_radiance;
@@ -197,9 +199,25 @@ class Tracer {
       light.bounced_behind = bounced.irradiance(point.position, point.geometric_normal, -s.normal);
     }
     const float sun = sun_visible(point, light.to_sun, hit.place->receives_shadow, ray_count);
-    return lit_radiance(s, light, to_viewer, sun, shading::sky_share_of_normal(sky_cell, s.normal),
-                        mirrored.base, mirrored.coat) +
-           lamp_radiance_at(point, s, to_viewer, ray_count);
+    const vec3 by_lamps = lamp_radiance_at(point, s, to_viewer, ray_count);
+    if (const scene::LitVertices* lit = lit_->of(std::size_t(hit.place->object))) {
+      const auto [before, behind] = vertex_light(*lit, hit, point.is_back);
+      return by_lamps +
+             vertex_lit_radiance(s, light, before, behind, to_viewer, sun, mirrored.base, mirrored.coat);
+    }
+    return by_lamps + lit_radiance(s, light, to_viewer, sun, shading::sky_share_of_normal(sky_cell, s.normal),
+                                   mirrored.base, mirrored.coat);
+  }
+
+  /// Irradiance on the viewer's side of a surface that is lit at its vertices, and on the other side.
+  static std::pair<vec3, vec3> vertex_light(const scene::LitVertices& lit, const Hit& hit, bool is_back) {
+    const scene::LitVertices::PartLight& part = lit.parts[std::size_t(hit.place->part)];
+    const std::uint32_t* corner = hit.place->mesh->indices.data() + 3 * std::size_t(hit.triangle);
+    const auto at = [&](const std::vector<vec3>& light) {
+      return (1.0f - hit.u - hit.v) * light[corner[0]] + hit.u * light[corner[1]] + hit.v * light[corner[2]];
+    };
+    const vec3 front = at(part.front), behind = part.behind.empty() ? front : at(part.behind);
+    return is_back ? std::pair(behind, front) : std::pair(front, behind);
   }
 
   /// What lamps do: by their depth maps, or by exact rays where those replace maps.
@@ -274,6 +292,7 @@ class Tracer {
   bool mirrors_see_themselves_;
   shading::SceneLight light_;
   std::optional<scene::Spot> spot_;
+  const scene::VertexIrradiance* lit_ = nullptr;
 };
 
 }  // namespace

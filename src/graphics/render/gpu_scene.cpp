@@ -13,6 +13,7 @@
 #include "scene/data/mip_levels.h"
 #include "scene/data/sun_shadows.h"
 #include "scene/data/surroundings.h"
+#include "scene/data/vertex_irradiance.h"
 
 namespace parvis::render {
 namespace {
@@ -97,6 +98,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   add_models(scene);
   add_levels(scene);
   add_deformed_parts(scene);
+  add_lit_parts(scene);
   geometry_.upload();
   material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
   material_bytes_ = {};
@@ -163,6 +165,33 @@ void GpuScene::add_deformed_parts(const scene::Scene& scene) {
   }
 }
 
+/// An object that is lit at its vertices has parts and materials of its own, over the geometry of its model.
+void GpuScene::add_lit_parts(const scene::Scene& scene) {
+  const auto& lit = scene.data<scene::VertexIrradiance>();
+  std::unordered_map<int, int> lit_material;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    if (!lit.of(o)) continue;
+    const bool has_own = !scene.objects[o].deformed_meshes.empty();
+    const std::size_t first = std::size_t(first_part_[o]);
+    if (!has_own) first_part_[o] = int(parts_.size());
+    for (std::size_t p = 0; p < scene.objects[o].model->parts.size(); ++p) {
+      if (!has_own) parts_.push_back(PartRange(parts_[first + p]));
+      PartRange& part = parts_[std::size_t(first_part_[o]) + p];
+      const auto [material, is_new] = lit_material.try_emplace(part.material, int(materials_.size()));
+      if (is_new) {
+        materials_.push_back(GpuMaterial(materials_[std::size_t(part.material)]));
+        materials_.back().features |= surface_has_vertex_light;
+        const std::size_t stride = std::size_t(block_stride_), offset = material_bytes_.size();
+        material_bytes_.resize(offset + stride);
+        std::memcpy(material_bytes_.data() + offset,
+                    material_bytes_.data() + std::size_t(part.material) * stride, stride);
+      }
+      part.material = material->second;
+    }
+  }
+  vertex_light_.reserve(scene);
+}
+
 void GpuScene::deform(const scene::Object& object, std::size_t o) {
   for (std::size_t p = 0; p < object.deformed_meshes.size(); ++p) {
     if (!object.model->parts[p].deformation) continue;
@@ -210,7 +239,8 @@ void GpuScene::make_items(const scene::Scene& scene) {
       const int part = first + int(p);
       const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
       const std::uint32_t flags = shadows.receives(o) ? 0 : no_shadow_received;
-      items_.push_back({{{}, std::uint32_t(o) | flags},
+      const glm::ivec2 light = vertex_light_.first_texels(o, p) - parts_[std::size_t(part)].base_vertex;
+      items_.push_back({{{}, std::uint32_t(o) | flags, {}, light},
                         {},
                         part,
                         int(o),
@@ -298,6 +328,7 @@ void GpuScene::update(const scene::Scene& scene) {
     }
   }
   geometry_.upload_deformed();
+  vertex_light_.update(scene);
 }
 
 std::vector<GpuMaterial> GpuScene::mirror_materials() const {

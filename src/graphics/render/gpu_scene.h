@@ -11,6 +11,7 @@
 #include "graphics/gl/objects.h"
 #include "graphics/render/drawable.h"
 #include "graphics/render/gpu_geometry.h"
+#include "graphics/render/gpu_vertex_light.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/body_shade.h"
 #include "scene/data/scene.h"
@@ -41,9 +42,10 @@ enum SurfaceFeature : std::uint16_t {
   surface_has_holes = 32,
   surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
   surface_has_relief = 128,
-  surface_is_glass = 256  ///< solid: refracts light
+  surface_is_glass = 256,         ///< solid: refracts light
+  surface_has_vertex_light = 512  ///< of single objects, not of the material: their diffuse light is given
 };
-inline constexpr std::size_t surface_feature_combinations = 512;
+inline constexpr std::size_t surface_feature_combinations = 1024;
 
 /// True if hardware anisotropic filtering is affordable: on Mesa's software renderer it takes 30 times as
 /// long.
@@ -64,6 +66,7 @@ struct Item {
     glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;
     glm::ivec2 vertex_data{0};  ///< of mirrored views: what VirtualVertices::add has given
+    glm::ivec2 first_light{0};  ///< texels of the vertex light, less the mesh's base vertex: front, behind
   };
   Record record;
   Bounds bounds;  ///< in the world
@@ -113,6 +116,8 @@ class GpuScene {
   /// True if the object was visible at the last update.
   bool is_visible(int object) const { return is_visible_[std::size_t(object)] != 0; }
 
+  /// Binds the light of objects that are lit at their vertices (`vertex_light_unit`), if there are any.
+  void bind_vertex_light() const { vertex_light_.bind(); }
   /// Binds a material's textures (units 0 to 3) and uniform block (binding 1).
   void bind_material(int material) const;
   /// Enables or disables back-face culling in OpenGL.
@@ -125,6 +130,7 @@ class GpuScene {
   void add_models(const scene::Scene& scene);
   void add_levels(const scene::Scene& scene);
   void add_deformed_parts(const scene::Scene& scene);
+  void add_lit_parts(const scene::Scene& scene);
   void deform(const scene::Object& object, std::size_t o);
   void upload_model_materials(const scene::Model& model);
   void make_items(const scene::Scene& scene);
@@ -137,6 +143,7 @@ class GpuScene {
   std::unordered_map<const scene::Model*, int> first_part_of_model_;
   std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it deforms
   GpuGeometry geometry_;
+  GpuVertexLight vertex_light_;
   std::vector<PartRange> parts_;
   std::vector<LevelRange> levels_;
   std::vector<GpuMaterial> materials_;

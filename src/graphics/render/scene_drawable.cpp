@@ -29,6 +29,9 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   glEnableVertexArrayAttrib(name, 7);
   glVertexArrayAttribIFormat(name, 7, 2, GL_INT, offsetof(Item::Record, vertex_data));
   glVertexArrayAttribBinding(name, 7, 1);
+  glEnableVertexArrayAttrib(name, 8);
+  glVertexArrayAttribIFormat(name, 8, 2, GL_INT, offsetof(Item::Record, first_light));
+  glVertexArrayAttribBinding(name, 8, 1);
   glVertexArrayBindingDivisor(name, 1, 1);
   return array;
 }
@@ -265,6 +268,7 @@ void SceneDrawable::draw(const View& view, Pass pass) {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
   if (view.kind == ViewKind::shadow && pass == Pass::opaque) return draw_depth(list);
 
+  gpu_.bind_vertex_light();
   const gl::Program* current = nullptr;
   for (const Batch& batch : batches) {
     const gl::Program& program = program_for(view, batch);

@@ -54,6 +54,10 @@ SeenPoint seen_point() {
 #ifdef HAS_BACKS
   if (!is_front) seen.normal = -seen.normal;
 #endif
+#ifdef HAS_VERTEX_LIGHT
+  light_before = is_front ? vertex_light : vertex_light_behind;
+  light_behind = is_front ? vertex_light_behind : vertex_light;
+#endif
   return seen;
 }
 
@@ -96,9 +100,14 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   s.emission += (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, seen.to_viewer), 1e-4f, 1.0f))) *
                 light_through(-seen.to_viewer);
 #endif
+#ifdef HAS_VERTEX_LIGHT
+  vec3 light_out = vertex_lit_radiance(s, light, light_before, light_behind, seen.to_viewer, sun,
+                                       base_reflection, coat_reflection);
+#else
   vec3 light_out =
       lit_radiance(s, light, seen.to_viewer, sun, sky_share_of_normal(surface_sky_cell, s.normal),
                    base_reflection, coat_reflection);
+#endif
   light_out += lamp_radiance(s, seen.to_viewer, lamp_light(s, position, seen.normal, seen.to_viewer));
   return through_haze(light_out, seen.distance_m, light.haze_per_m, light.haze_radiance);
 }

@@ -9,6 +9,11 @@ in vec2 uv;
 in float leaf_sun;
 in vec4 leaf_sky_cell;
 #endif
+#ifdef HAS_VERTEX_LIGHT
+in vec3 vertex_light;
+in vec3 vertex_light_behind;
+vec3 light_before, light_behind;  // of the two, on the viewer's side and on the other one
+#endif
 flat in int object_of_surface;
 #ifdef IS_MIRRORED
 in vec3 seen_from;             // origin of the mirrored ray

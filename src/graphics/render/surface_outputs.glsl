@@ -8,5 +8,9 @@ out vec2 uv;
 out float leaf_sun;
 out vec4 leaf_sky_cell;
 #endif
+#ifdef HAS_VERTEX_LIGHT
+out vec3 vertex_light;  // irradiance on the side of the normal, and on the other one
+out vec3 vertex_light_behind;
+#endif
 flat out int
     object_of_surface;  // its number in the scene; the complement of it (~) where it receives no shadows

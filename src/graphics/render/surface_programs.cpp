@@ -16,6 +16,7 @@ gl::Defines defines_of(std::uint16_t features) {
   if (features & surface_has_backs) defines.emplace_back("HAS_BACKS", "");
   if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
   if (features & surface_is_leaf) defines.emplace_back("IS_LEAF", "");
+  if (features & surface_has_vertex_light) defines.emplace_back("HAS_VERTEX_LIGHT", "");
   if (features & surface_is_glass) defines.emplace_back("IS_GLASS", "");
   if (!has_fast_anisotropy()) defines.emplace_back("ANISOTROPY_BY_TAPS", "");
   return defines;

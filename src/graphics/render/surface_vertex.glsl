@@ -13,6 +13,10 @@ layout(location = 3) in vec4 world_from_mesh_row0;
 layout(location = 4) in vec4 world_from_mesh_row1;
 layout(location = 5) in vec4 world_from_mesh_row2;
 layout(location = 6) in uint object;
+#ifdef HAS_VERTEX_LIGHT
+layout(location = 8) in ivec2 first_light;  // of vertex 0 of the buffer, on both sides
+#include "graphics/render/vertex_light_lookup.glsl"
+#endif
 
 #include "graphics/render/surface_outputs.glsl"
 #include "graphics/render/object_flags.glsl"
@@ -34,6 +38,10 @@ void surface_vertex() {
   leaf_sun = visible_sun(position, normal);
   leaf_sky_cell =
       shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number));
+#endif
+#ifdef HAS_VERTEX_LIGHT
+  vertex_light = vertex_light_at(first_light.x + gl_VertexID);
+  vertex_light_behind = vertex_light_at(first_light.y + gl_VertexID);
 #endif
   object_of_surface = receives ? number : ~number;
 }

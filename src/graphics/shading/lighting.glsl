@@ -22,3 +22,15 @@ GLSL_FUNCTION vec3 lit_radiance(Surface s, SceneLight light, vec3 to_viewer, flo
   return sun +
          ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
 }
+
+// The same for a surface whose diffuse light was found at its vertices, with all that hides sky and sun
+// (`irradiance` before it and `irradiance_behind` it): the thesis's emissive colour, diffuse times radiance
+// (appendix A.2.2). The sun, as directional light, adds its highlights alone.
+GLSL_FUNCTION vec3 vertex_lit_radiance(Surface s, SceneLight light, vec3 irradiance, vec3 irradiance_behind,
+                                       vec3 to_viewer, float sun_visible, vec3 base_reflection,
+                                       vec3 coat_reflection) {
+  vec3 highlights = scattered_share(s, to_viewer, light.to_sun, 1.0f, 1.0f) -
+                    scattered_share(s, to_viewer, light.to_sun, 0.0f, 0.0f);
+  return highlights * (sun_visible * light.sun_irradiance) +
+         ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
+}
