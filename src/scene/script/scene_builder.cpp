@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/camera_check.h"
+#include "scene/script/performer_file.h"
 
 namespace parvis::scene {
 
@@ -47,6 +48,8 @@ void SceneBuilder::build_one(const Node& node) {
   const int outer_number = std::exchange(node_number_, number);
   NodeFrame& frame = frames_[&node] = frame_;
   frame.number = number;
+  if (!known_frames_)
+    for (Error& told : replaced_performer_files(node)) warn(std::move(told));
   registry_.find(node.schema->type)->build(node, *this);
   node_ = outer, node_number_ = outer_number;
 }
