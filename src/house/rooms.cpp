@@ -14,6 +14,7 @@
 #include "graphics/lamps/room.h"
 #include "graphics/light/bench/light_bench.h"
 #include "graphics/light/light_nodes.h"
+#include "graphics/lit_objects/room.h"
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
@@ -64,6 +65,7 @@ constexpr Furnish rooms[]{
     shadows::furnish,
     lamps::furnish,  // after shadows: its light is laid over that one
     bounced_light::furnish,
+    lit_objects::furnish,  // after all processes that move things
     facades::furnish,
     trees::furnish,
     bench::furnish_frame,

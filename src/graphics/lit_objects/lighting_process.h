@@ -1,0 +1,70 @@
+// Lights the objects of litVirtualObject nodes while a scene runs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "graphics/lit_objects/lit_object.h"
+#include "scene/action/process.h"
+#include "scene/data/scene.h"
+
+namespace parvis::lit_objects {
+
+inline constexpr const char* lit_type = "litVirtualObject";
+
+/// When the scene begins, all vertices get all their rays. Later each presented moment compares where objects
+/// stand with where they stood, and the sky with the one before: what differs is lit at once as well as the
+/// budget allows, and what is left of the budget goes to the vertices that have had the fewest rays. Budgets
+/// are counted in rays, not by the clock: the same moments give the same picture.
+class LightingProcess final : public action::Process {
+ public:
+  std::string name() const override { return "lit objects"; }
+  void begin(scene::Scene& scene, action::SharedByProcesses& shared) override;
+  void present(scene::Scene& scene, double ahead_s) override;
+
+  /// How many rays the vertex has had that has had the fewest; 0 without lit objects.
+  int rays() const;
+
+ private:
+  /// What the sky was made of.
+  struct SkySource {
+    std::filesystem::path file;
+    int version;
+    float intensity, heading;
+    scene::SunLight sun;
+    bool operator==(const SkySource&) const = default;
+  };
+  /// A thing that may stand in the light.
+  struct Standing {
+    glm::mat4 world_from_model;
+    bool is_visible;
+    bool operator==(const Standing&) const = default;
+  };
+
+  void find_objects(scene::Scene& scene);
+  std::vector<Standing> standing_in(const scene::Scene& scene) const;
+  void make_casters(const scene::Scene& scene);
+  bool follow_casters(const scene::Scene& scene);
+  bool follow_sky(const scene::Scene& scene);
+  void relight(scene::Scene& scene, const std::vector<LitObject*>& changed);
+  void light_quickly(const std::vector<LitObject*>& changed, double& rays_left);
+  const light::VisibilityPlaces& places_around(const Bounds& bounds);
+  void refine(double rays_left);
+
+  const scene::LiveScene* live_ = nullptr;
+  std::vector<LitObject> lit_;
+  std::vector<bool> is_lit_;  ///< by object
+  int rays_wanted_ = 256;
+  double budget_ms_ = 0.0;
+  bool is_first_ = true;
+  std::optional<SkySource> sky_source_;
+  std::optional<light::SkyTable> sky_;
+  scene::Scene casters_;  ///< static things and lit objects; others come and go
+  std::unique_ptr<reference::RayScene> rays_;
+  std::vector<Standing> standing_;
+  std::optional<light::VisibilityPlaces> places_;
+  Bounds places_region_;
+};
+
+}  // namespace parvis::lit_objects

@@ -1,0 +1,323 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/random.h"
+#include "base/test_folder.h"
+#include "formats/gltf/gltf_formats.h"
+#include "formats/gltf/gltf_writer.h"
+#include "formats/meshes/mesh_nodes.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/light/light_nodes.h"
+#include "graphics/lit_objects/lighting_process.h"
+#include "graphics/lit_objects/room.h"
+#include "graphics/reference/frame.h"
+#include "graphics/reference/tracer.h"
+#include "graphics/render/light_source.h"
+#include "graphics/render/renderer.h"
+#include "scene/action/action_nodes.h"
+#include "scene/action/scene_clock.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/scene_loader.h"
+#include "scene/script/script_nodes.h"
+
+namespace parvis::lit_objects {
+namespace {
+
+using glm::vec3;
+
+/// A scene that runs.
+struct Running {
+  scene::Scene scene;
+  std::unique_ptr<action::SceneClock> clock;
+  Errors warnings;
+
+  scene::Object& object(const std::string& name) {
+    for (scene::Object& each : scene.objects)
+      if (each.name == name) return each;
+    ADD_FAILURE() << name;
+    return scene.objects.front();
+  }
+  std::size_t index(const std::string& name) { return std::size_t(&object(name) - scene.objects.data()); }
+  const scene::LitVertices* light(const std::string& name) {
+    return scene.data<scene::VertexIrradiance>().of(index(name));
+  }
+  /// Mean over the vertices of the first part.
+  vec3 mean(const std::string& name) {
+    vec3 sum(0.0f);
+    for (const vec3 each : light(name)->parts[0].front) sum += each;
+    return sum / float(light(name)->parts[0].front.size());
+  }
+  int rays() { return clock->find<LightingProcess>()->rays(); }
+};
+
+class LitObjects : public gl::ContextTest {
+ protected:
+  LitObjects() {
+    for (const auto furnish : {scene::furnish_script, scene::furnish_gltf, scene::furnish_meshes,
+                               scene::furnish_light, action::furnish, lit_objects::furnish})
+      furnish(house_);
+    save("ground.glb", scene::ground(40));
+    save("wall.glb", scene::box({-8, 2, 0}, {8, 3, 9}));
+    save("ball.glb", scene::sphere({0, 0, 1}, 0.8f, 24));
+  }
+
+  void save(const std::string& name, const Mesh& mesh, bool is_double_sided = false) const {
+    scene::Material material = scene::matt(vec3(0.5f));
+    material.is_double_sided = is_double_sided;
+    EXPECT_TRUE(scene::write_gltf(folder_.path() / name, *scene::model_of(mesh, material)));
+  }
+
+  Running run(const std::string& script) {
+    Running running;
+    auto loaded = scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    if (!loaded) return running;
+    running.scene = std::move(loaded->scene);
+    running.clock = std::make_unique<action::SceneClock>(
+        house_.get<action::Processes>(), scene::LiveScene(std::move(loaded->script)), running.scene);
+    running.warnings = running.clock->take_warnings();
+    return running;
+  }
+
+  std::string errors_of(const std::string& script) {
+    const auto loaded =
+        scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    return loaded ? "" : to_string(loaded.errors());
+  }
+
+  static std::string street(const std::string& lit) {
+    return "dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\n"
+           "model(file=\"ground.glb\")\nmodel(file=\"wall.glb\")\nlitVirtualObject(" +
+           lit + ") { object(file=\"ball.glb\", grab=1) }\n";
+  }
+
+  TestFolder folder_;
+  House house_;
+};
+
+/// Irradiance by independent random rays over the sphere about a point, with one bounce as documented: the
+/// sun by a ray, and half of the sky's irradiance, on what blocks a ray.
+vec3 brute_force(const scene::Scene& scene, const reference::RayScene& rays, vec3 at, vec3 normal,
+                 int count) {
+  const light::SkyTable sky(scene);
+  const vec3 to_sun = glm::normalize(scene.sun.direction_to_sun), from = at + 1e-3f * normal;
+  Random random(11);
+  vec3 sum(0.0f);
+  for (int i = 0; i < count; ++i) {
+    const float z = random.uniform(-1.0f, 1.0f), turn = random.uniform(0.0f, 6.2831853f);
+    const vec3 d(std::sqrt(1.0f - z * z) * std::cos(turn), std::sqrt(1.0f - z * z) * std::sin(turn), z);
+    const float facing = glm::dot(d, normal);
+    if (facing <= 0.0f) continue;
+    reference::Passage passage{Random(7)};
+    const auto hit = rays.nearest_hit({from, d}, passage);
+    if (!hit) {
+      sum += facing * sky.radiance(d);
+      continue;
+    }
+    const Mesh& mesh = *hit->place->mesh;
+    const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(hit->triangle);
+    vec3 n = glm::normalize(hit->place->world_from_normal *
+                            ((1.0f - hit->u - hit->v) * mesh.normals[corner[0]] +
+                             hit->u * mesh.normals[corner[1]] + hit->v * mesh.normals[corner[2]]));
+    if (glm::dot(n, d) > 0.0f) n = -n;
+    vec3 irradiance = 0.5f * sky.irradiance(n);
+    const vec3 point = from + hit->distance_m * d + 1e-3f * n;
+    reference::Passage to_light{Random(7)};
+    if (glm::dot(n, to_sun) > 0.0f && !rays.is_blocked({point, to_sun}, to_light))
+      irradiance += glm::dot(n, to_sun) * scene.sun.irradiance;
+    sum += facing * 0.5f / 3.14159265f * irradiance;
+  }
+  vec3 result = 12.566371f / float(count) * sum;
+  reference::Passage passage{Random(7)};
+  if (glm::dot(normal, to_sun) > 0.0f && !rays.is_blocked({from, to_sun}, passage))
+    result += glm::dot(normal, to_sun) * scene.sun.irradiance;
+  return result;
+}
+
+TEST_F(LitObjects, HaveTheLightThatRandomRaysFind) {
+  Running street_scene = run(street("rays=256"));
+  const scene::LitVertices* light = street_scene.light("ball");
+  ASSERT_NE(light, nullptr);
+  EXPECT_EQ(street_scene.light("wall"), nullptr);
+  EXPECT_GE(street_scene.rays(), 256);
+  const reference::RayScene rays(street_scene.scene);
+  const Mesh& mesh = street_scene.object("ball").mesh(0);
+  double off = 0.0, dark_off = 0.0, mean = 0.0;
+  int count = 0;
+  for (std::size_t v = 5; v < mesh.positions.size(); v += 37, ++count) {
+    const vec3 truth = brute_force(street_scene.scene, rays, mesh.positions[v], mesh.normals[v], 40'000);
+    const vec3 found = light->parts[0].front[v];
+    off += double((found.y - truth.y) * (found.y - truth.y)), mean += double(truth.y);
+    dark_off += double(truth.y) * double(truth.y);
+  }
+  off = 100.0 * std::sqrt(off * count) / mean;
+  std::printf("%.2f %% of the mean off, %d vertices\n", off, count);
+  EXPECT_LT(off, 3.0) << "256 rays, and 40,000 at random that err by a percent";
+  EXPECT_GT(100.0 * std::sqrt(dark_off * count) / mean, 50.0);
+}
+
+TEST_F(LitObjects, WhatMovesIsLitAgainFirstQuicklyThenBetter) {
+  Running scene = run(street("rays=128, budget_ms=2"));
+  const vec3 open = scene.mean("ball");
+  scene.object("ball").world_from_model =
+      glm::translate(glm::mat4(1.0f), vec3(0, 4.3f, 0));  // behind the wall
+  scene.clock->advance(scene.scene, 0.02);
+  EXPECT_LT(scene.rays(), 128) << "no time for all";
+  const vec3 quick = scene.mean("ball");
+  EXPECT_GT(glm::distance(quick, open), 0.05f * open.y);
+  for (int frame = 0; frame < 400 && scene.rays() < 128; ++frame) scene.clock->advance(scene.scene, 0.02);
+  EXPECT_GE(scene.rays(), 128);
+  const vec3 converged = scene.mean("ball");
+  Running there = run("group() { " + street("rays=128, budget_ms=0") + " }");
+  there.object("ball").world_from_model = glm::translate(glm::mat4(1.0f), vec3(0, 4.3f, 0));
+  there.clock->advance(there.scene, 0.02);
+  EXPECT_GE(there.rays(), 128) << "without a budget all rays are traced at once";
+  const vec3 truth = there.mean("ball");
+  EXPECT_NEAR(converged.y, truth.y, 0.02f * truth.y);
+  EXPECT_LT(std::abs(converged.y - truth.y), std::abs(quick.y - truth.y) + 1e-4f);
+  const float jump = std::abs(open.y - truth.y);
+  EXPECT_LT(std::abs(quick.y - truth.y), 0.5f * jump) << "even the quick light is nearer than the old one";
+}
+
+TEST_F(LitObjects, FollowTheSkyAndAreLeftAloneWhileNothingChanges) {
+  Running scene = run(street("rays=64, budget_ms=0"));
+  const auto noon = scene.scene.data<scene::VertexIrradiance>().objects;
+  scene.clock->advance(scene.scene, 0.1);
+  EXPECT_EQ(scene.scene.data<scene::VertexIrradiance>().objects, noon) << "nothing to upload";
+  const vec3 before = scene.mean("ball");
+  ASSERT_TRUE(scene.clock->send("%dayLight", "timeOfDay 20.5"));
+  scene.clock->advance(scene.scene, 0.1);
+  EXPECT_LT(scene.mean("ball").y, 0.4f * before.y);
+  EXPECT_GE(scene.rays(), 64);
+}
+
+TEST_F(LitObjects, HaveOnlyTheSkyWhileTheSunIsBelowTheHorizon) {
+  Running scene =
+      run("sun(azimuth_deg=180, elevation_deg=-10, irradiance=\"0 0 0\")\nmodel(file=\"ground.glb\")\n"
+          "litVirtualObject(rays=64) { object(file=\"ball.glb\") }");
+  const scene::LitVertices& light = *scene.light("ball");
+  for (const vec3 each : light.parts[0].front) {
+    EXPECT_GE(each.y, 0.0f);
+    EXPECT_TRUE(std::isfinite(each.x + each.y + each.z));
+  }
+  EXPECT_GT(scene.mean("ball").y, 0.0f);
+  Running night =
+      run("dayLight(timeOfDay=0.5, standardMeridian=1)\nlitVirtualObject() { object(file=\"ball.glb\") }");
+  EXPECT_LT(night.mean("ball").y, 1e-3f);
+}
+
+TEST_F(LitObjects, InsideOutMeshesAndThoseWithoutNormalsAreNamedAndLit) {
+  Mesh inward = scene::sphere({0, 0, 1}, 0.8f, 8);
+  for (std::size_t i = 0; i < inward.indices.size(); i += 3)
+    std::swap(inward.indices[i], inward.indices[i + 1]);
+  for (vec3& normal : inward.normals) normal = -normal;
+  save("inward.glb", inward);
+  save("inward_both.glb", inward, true);
+  Running scene = run(
+      "dayLight()\nlitVirtualObject(rays=64) { object(file=\"inward.glb\") object(file=\"inward_both.glb\", "
+      "position=\"9 0 0\") }");
+  EXPECT_NE(to_string(scene.warnings).find("is inside out"), std::string::npos) << to_string(scene.warnings);
+  const auto& both = scene.light("inward_both")->parts[0];
+  vec3 outside(0.0f), inside(0.0f);
+  for (std::size_t v = 0; v < both.front.size(); ++v) outside += both.behind[v], inside += both.front[v];
+  EXPECT_GT(outside.y, 3.0f * inside.y) << "seen from outside it is lit as from outside";
+
+  Mesh bare = scene::sphere({0, 0, 1}, 0.8f, 8);
+  scene::Scene by_hand;
+  for (vec3& normal : bare.normals) normal = vec3(0.0f);
+  scene::add(by_hand, scene::model_of(bare, scene::matt(vec3(0.5f))));
+  std::vector<std::string> odd;
+  const LitObject lit(by_hand, 0, odd);
+  ASSERT_EQ(odd.size(), 1u);
+  EXPECT_NE(odd[0].find("without normals"), std::string::npos);
+  for (const light::LitVertex& vertex : lit.blocks()[0].light.vertices())
+    EXPECT_NEAR(glm::length(vertex.normal), 1.0f, 1e-4f);
+}
+
+TEST_F(LitObjects, SayWhatIsWrong) {
+  EXPECT_NE(to_string(run("litVirtualObject() { }").warnings).find("holds no object"), std::string::npos);
+  EXPECT_NE(errors_of("litVirtualObject() { sun() }").find("sun"), std::string::npos);
+  EXPECT_NE(errors_of("litVirtualObject(rays=3)").find("rays=\"3\""), std::string::npos);
+  EXPECT_NE(errors_of("object()").find("object needs file="), std::string::npos);
+  EXPECT_NE(errors_of("object(file=duck.pfb)").find("no .glb, .gltf, .iv or .wrl of that name"),
+            std::string::npos);
+}
+
+/// Appendix A.2.2, as printed, with models that can be read beside the names of those that cannot.
+TEST_F(LitObjects, TheExampleOfTheThesisRuns) {
+  save("duck.glb", scene::sphere({0, 0, 1}, 0.8f, 8));
+  save("duck2.glb", scene::sphere({3, 0, 1}, 0.8f, 8));
+  const std::string example =
+      "litVirtualObject() {\n object (file=duck.pfb, grab=1, wall=0)\n"
+      " object (file=duck2.pfb, grab=1, wall=0)\n}\n";
+  Running scene = run("dayLight()\n" + example);
+  ASSERT_EQ(scene.scene.objects.size(), 2u);
+  for (const char* name : {"duck", "duck2"}) {
+    ASSERT_NE(scene.light(name), nullptr) << name;
+    EXPECT_TRUE(scene.object(name).is_dynamic);
+    EXPECT_GT(scene.mean(name).y, 1.0f);
+  }
+  const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+  EXPECT_NE(to_string(loaded->warnings).find("\"duck.glb\" is used"), std::string::npos)
+      << to_string(loaded->warnings);
+}
+
+TEST_F(LitObjects, AreDrawnAndTracedAlike) {
+  Running scene =
+      run("sun(azimuth_deg=140, elevation_deg=50)\nmodel(file=\"ground.glb\")\nmodel(file=\"wall.glb\")\n"
+          "litVirtualObject(rays=64) { object(file=\"ball.glb\") }");
+  Camera camera;
+  camera.world_from_camera = look_at({1, -4, 1.7f}, {0, 0, 1});
+  camera.vertical_fov = 0.6f;
+  constexpr int size = 128;
+  auto renderer = render::Renderer::create(scene.scene, {}, render::sun_and_sky);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto drawn = [&] {
+    (*renderer)->begin_frame(scene.scene, camera);
+    (*renderer)->prepare_main_view(camera, size, size);
+    (*renderer)->draw_main_view();
+    return (*renderer)->read_radiance();
+  };
+  const auto traced = [&](const scene::Scene& of) {
+    const reference::RayScene rays(of);
+    reference::TraceOptions options;
+    const shading::DrawnLight light = (*renderer)->drawn_light();
+    options.drawn_light = &light;
+    return reference::trace_picture(rays, of, (*renderer)->sky(), camera, size, size, options).radiance;
+  };
+  // The ball without its silhouette, where the two count samples of other places.
+  const reference::ObjectPicture objects =
+      reference::trace_objects(reference::RayScene(scene.scene), camera, size, size);
+  const auto is_inside = [&](int x, int y) {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (*objects.at(x + dx, y + dy) != scene.index("ball") + 1) return false;
+    return true;
+  };
+  const auto wrong_percent = [&](const ImageF& a, const ImageF& b) {
+    int wrong = 0, count = 0;
+    for (int y = 1; y + 1 < size; ++y)
+      for (int x = 1; x + 1 < size; ++x) {
+        if (!is_inside(x, y)) continue;
+        ++count;
+        wrong += std::abs(a.at(x, y)[1] - b.at(x, y)[1]) > 0.02f * b.at(x, y)[1] + 1e-3f;
+      }
+    EXPECT_GT(count, 1000);
+    return 100.0 * wrong / count;
+  };
+  const ImageF picture = drawn();
+  EXPECT_LT(wrong_percent(picture, traced(scene.scene)), 1.0);
+  scene::Scene unlit = scene.scene;
+  unlit.data<scene::VertexIrradiance>() = {};
+  EXPECT_GT(wrong_percent(picture, traced(unlit)), 30.0) << "the comparison sees where the light comes from";
+  // What is put into the scene is on the GPU with the next frame.
+  auto dark = std::make_shared<scene::LitVertices>(*scene.light("ball"));
+  for (vec3& each : dark->parts[0].front) each = vec3(0.0f);
+  scene.scene.data<scene::VertexIrradiance>().objects[scene.index("ball")] = dark;
+  EXPECT_LT(wrong_percent(drawn(), traced(scene.scene)), 1.0);
+}
+
+}  // namespace
+}  // namespace parvis::lit_objects

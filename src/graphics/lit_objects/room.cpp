@@ -1,0 +1,56 @@
+#include "graphics/lit_objects/room.h"
+
+#include "graphics/lit_objects/lighting_process.h"
+#include "scene/script/attribute.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::lit_objects {
+namespace {
+
+using namespace scene::attribute;
+
+scene::NodeSchema lit_virtual_object_schema() {
+  return {
+      .type = lit_type,
+      .help =
+          "Objects whose diffuse light is found at their vertices: of the sky and the sun with what hides "
+          "them, "
+          "by rays, when the scene is loaded and again when an object moves or the sky changes; first "
+          "quickly, "
+          "then better from frame to frame.",
+      .attributes =
+          {integer("rays", "to the sky from each vertex, in the end")
+               .between(16, 4096)
+               .by_default("256")
+               .live(),
+           number(
+               "budget_ms",
+               "about how long lighting may take in a frame after a change, as this program's rays take on "
+               "two "
+               "cores: too little for rays, and what was seen from places around is interpolated, or nothing "
+               "hides the sky; 0: however long it takes")
+               .in("ms")
+               .between(0.0, 10'000.0)
+               .by_default("30")
+               .live()},
+      .stands_in = {scene::top_level, "group", "scenario"},
+      .example =
+          "dayLight(timeOfDay=16)\n"
+          "litVirtualObject() {\n"
+          "  object(file=\"duck.glb\", grab=1, wall=0)\n"
+          "  model(file=\"bench.glb\", position=\"3 0 0\", dynamic=1)\n"
+          "}"};
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+  registry.add(lit_virtual_object_schema(),
+               [](const scene::Node& node, scene::SceneBuilder& builder) { builder.build(node.children); });
+  for (const char* const child : {"object", "model", "group", "include"}) registry.allow(child, lit_type);
+  house.get<action::Processes>().add([] { return std::make_unique<LightingProcess>(); });
+}
+
+}  // namespace parvis::lit_objects
