@@ -13,6 +13,7 @@ find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
+find_package(Coin REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
 

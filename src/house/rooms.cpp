@@ -7,6 +7,7 @@
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/ifc/ifc_formats.h"
+#include "formats/inventor/inventor_formats.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/readers/bench/import_export_bench.h"
 #include "formats/terrain/terrain_formats.h"
@@ -45,6 +46,7 @@ constexpr Furnish rooms[]{
     scene::furnish_gltf,
     scene::furnish_city_models,
     scene::furnish_ifc,
+    inventor::furnish,
     scene::furnish_terrain,
     scene::furnish_meshes,
     dressing::furnish,  // before roads: see its docstring

@@ -1,0 +1,19 @@
+#include "formats/inventor/inventor_formats.h"
+
+#include "formats/inventor/inventor_reader.h"
+#include "formats/readers/isolated_reader.h"
+
+namespace parvis::inventor {
+namespace {
+
+bool looks_like_inventor(std::string_view front) {
+  return front.starts_with("#Inventor V") || front.starts_with("#VRML V");
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  house.get<formats::Readers>().add({".iv", ".wrl"}, formats::isolated<read_inventor>(), looks_like_inventor);
+}
+
+}  // namespace parvis::inventor

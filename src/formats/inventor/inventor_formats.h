@@ -1,0 +1,11 @@
+// What this room brings to the house: models of Open Inventor and VRML.
+#pragma once
+
+#include "base/house.h"
+
+namespace parvis::inventor {
+
+/// The reader of .iv and .wrl.
+void furnish(House& house);
+
+}  // namespace parvis::inventor
