@@ -4,6 +4,7 @@
 #include "capture/facades/room.h"
 #include "capture/trees/bench/trees_bench.h"
 #include "capture/trees/room.h"
+#include "capture/view_dependent_objects/room.h"
 #include "formats/city_models/city_formats.h"
 #include "formats/gltf/gltf_formats.h"
 #include "formats/ifc/ifc_formats.h"
@@ -70,6 +71,7 @@ constexpr Furnish rooms[]{
     lit_objects::furnish,  // after all processes that move things
     facades::furnish,
     trees::furnish,
+    view_dependent_objects::furnish,
     bench::furnish_frame,
     bench::furnish_import_export,
     bench::furnish_multiple_environment_maps,

@@ -1,0 +1,144 @@
+#include "capture/view_dependent_objects/object_drawable.h"
+
+#include <map>
+
+#include "capture/view_dependent_objects/object_textures.h"
+#include "capture/view_dependent_objects/placed_object.h"
+#include "graphics/render/view_programs.h"
+#include "scene/data/scene.h"
+
+namespace parvis::view_dependent_objects {
+namespace {
+
+using render::Culling;
+using render::Extents;
+using render::Pass;
+using render::View;
+using render::ViewKind;
+
+class ObjectDrawable final : public render::Drawable {
+ public:
+  static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
+    const auto programs_of = [](gl::Defines defines) {
+      defines.emplace_back("HAS_BACKS", "");
+      return render::ViewPrograms::create({"capture/view_dependent_objects/object_vertex.glsl",
+                                           "capture/view_dependent_objects/object_surface.glsl",
+                                           std::move(defines)});
+    };
+    Result<render::ViewPrograms> solid = programs_of({}), cutout = programs_of({{"HAS_HOLES", ""}});
+    if (!solid) return solid.errors();
+    if (!cutout) return cutout.errors();
+    std::unique_ptr<ObjectDrawable> made(
+        new ObjectDrawable(first_thing, *std::move(solid), *std::move(cutout)));
+    if (Status status = made->load(scene); !status) return status.errors();
+    made->update(scene);
+    made->change_ = {};
+    return std::unique_ptr<render::Drawable>(std::move(made));
+  }
+
+  void update(const scene::Scene& scene) override {
+    if (!load(scene)) return;  // what is new shows nothing where graphics memory is full
+    placed_ = scene.items<PlacedObject>();
+    exposure_ = scene.exposure;
+    change_ = {}, fixed_ = {};
+    bounds_.resize(placed_.size()), is_newcomer_.assign(placed_.size(), 0);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const Bounds all = transformed(placed_[i].world_from_object, placed_[i].model->bounds());
+      const Bounds bounds = placed_[i].is_visible ? all : Bounds{};
+      fixed_.add(all);
+      if (bounds.min == bounds_[i].min && bounds.max == bounds_[i].max) continue;
+      is_newcomer_[i] = !bounds.empty();
+      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
+      if (!bounds.empty()) change_.come.push_back(bounds);
+      bounds_[i] = bounds;
+    }
+  }
+
+  Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+
+  void prepare(const View& view, const Culling& culling) override {
+    std::vector<Shown>& list = list_of(view);
+    list.clear();
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      if (!placed_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}))
+        continue;
+      for (const Piece& piece : placed_[i].model->pieces) {
+        const Bounds bounds = transformed(placed_[i].world_from_object, piece.bounds);
+        if (culling.may_see(bounds) && !culling.is_hidden(bounds)) list.push_back({i, &piece});
+      }
+    }
+  }
+
+  void draw(const View& view, Pass pass) override {
+    if (pass == Pass::blend) return;
+    const gl::Program* program = nullptr;
+    std::size_t bound = placed_.size();
+    for (const Shown& shown : list_of(view)) {
+      const PlacedObject& object = placed_[shown.object];
+      if (object.model->has_holes != (pass == Pass::cutout)) continue;
+      if (!program) program = (pass == Pass::cutout ? cutout_ : solid_).use(view);
+      if (!program) return;
+      if (bound != shown.object) bind(*program, object, first_thing_ + int(shown.object));
+      bound = shown.object;
+      ObjectTextures::draw(*program, *shown.piece);
+    }
+  }
+
+ private:
+  struct Shown {
+    std::size_t object;
+    const Piece* piece;
+  };
+  using Loaded = std::map<std::shared_ptr<const BlendedModel>, ObjectTextures>;
+
+  ObjectDrawable(int first_thing, render::ViewPrograms solid, render::ViewPrograms cutout)
+      : first_thing_(first_thing), solid_(std::move(solid)), cutout_(std::move(cutout)) {}
+
+  /// Models that are new in the scene; those that left it are given back.
+  Status load(const scene::Scene& scene) {
+    Loaded kept;
+    for (const PlacedObject& placed : scene.items<PlacedObject>()) {
+      if (kept.contains(placed.model)) continue;
+      if (auto known = loaded_.extract(placed.model)) {
+        kept.insert(std::move(known));
+        continue;
+      }
+      Result<ObjectTextures> textures = ObjectTextures::create(*placed.model);
+      if (!textures) return textures.errors();
+      kept.emplace(placed.model, *std::move(textures));
+    }
+    loaded_ = std::move(kept);
+    return Done{};
+  }
+
+  void bind(const gl::Program& program, const PlacedObject& object, int thing) const {
+    loaded_.at(object.model).bind(program);
+    program.set("world_from_object", object.world_from_object);
+    program.set("object_from_world", glm::inverse(object.world_from_object));
+    program.set("thing", thing);
+    program.set("radiance_of_exposed", object.brightness / exposure_);
+    program.set("pass_count", object.passes);
+    glDisable(GL_CULL_FACE);
+  }
+
+  std::vector<Shown>& list_of(const View& view) {
+    return view.kind == ViewKind::main ? main_list_ : other_list_;
+  }
+
+  int first_thing_;
+  render::ViewPrograms solid_, cutout_;
+  Loaded loaded_;
+  std::vector<PlacedObject> placed_;  ///< as of the last update
+  float exposure_ = 1.0f;
+  Bounds fixed_;
+  std::vector<Bounds> bounds_;
+  std::vector<std::uint8_t> is_newcomer_;
+  render::FixedChange change_;
+  std::vector<Shown> main_list_, other_list_;
+};
+
+}  // namespace
+
+render::DrawableKind objects_kind() { return {traced_objects(), &ObjectDrawable::create}; }
+
+}  // namespace parvis::view_dependent_objects

@@ -1,0 +1,39 @@
+// Of a view-dependent object: light that its textures have recorded, as emission over a black metal.
+#include "graphics/shading/tone_curve.glsl"
+#include "graphics/shading/recorded_light.glsl"
+#include "graphics/shading/view_blend.glsl"
+
+uniform highp sampler2D view_table;  // in rows of 1024
+uniform highp sampler2DArray view_pictures;
+uniform mat4 object_from_world;
+uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
+uniform int first_entry, view_count, pass_count, first_triangle;
+
+in vec3 position_in_object;
+in vec3 corner_weights;
+flat in int triangle_of_object;
+
+vec4 view_entry(int index) { return texelFetch(view_table, ivec2(index & 1023, index >> 10), 0); }
+vec4 view_picture(int layer, vec2 uv, vec2 along_x, vec2 along_y) {
+  return textureGrad(view_pictures, vec3(uv, float(layer)), along_x, along_y);
+}
+#include "capture/view_dependent_objects/view_lookup.glsl"
+
+Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+  vec3 to_eye = normalize((object_from_world * vec4(seen.to_viewer, 0.0f)).xyz);
+  vec4 colour =
+      blended_colour(first_entry, view_count, triangle_of_object - first_triangle, pass_count,
+                     position_in_object, to_eye, corner_weights, dFdx(corner_weights), dFdy(corner_weights));
+  alpha = colour.a;
+  Surface s;
+  s.normal = seen.normal;
+  s.base_colour = vec3(0.0f);
+  s.metallic = 1.0f;
+  s.roughness = 1.0f;
+  s.clear_coat = 0.0f;
+  s.clear_coat_roughness = 0.03f;
+  s.translucency = 0.0f;
+  s.occlusion = 1.0f;
+  s.emission = radiance_of_exposed * tone_unmapped(colour.rgb);
+  return s;
+}
