@@ -226,23 +226,6 @@ class VolumeFit {
   tbb::enumerable_thread_specific<std::vector<Crossing>> rays_;
 };
 
-/// The cells for which `keeps(cell)` holds.
-template <class Keeps>
-TreeVolume with_cells(const TreeVolume& volume, Keeps&& keeps) {
-  std::vector<std::uint8_t> is_kept(volume.grid.size());
-  parallel_for(
-      volume.grid.size(), [&](std::size_t i) { is_kept[i] = keeps(i); }, 1024);
-  TreeVolume result;
-  std::vector<glm::u16vec3> cells;
-  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
-    if (!is_kept[i]) continue;
-    cells.push_back(volume.grid.cells()[i]);
-    result.extinction_per_m.push_back(volume.extinction_per_m[i]), result.colour.push_back(volume.colour[i]);
-  }
-  result.grid = CellGrid(volume.grid.box(), volume.grid.branching(), volume.grid.side(), std::move(cells));
-  return result;
-}
-
 }  // namespace
 
 float TreeVolume::alpha(std::size_t cell) const {
@@ -308,14 +291,15 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
 }
 
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff) {
-  return with_cells(volume, [&](std::size_t i) { return 1.0f - volume.alpha(i) <= cutoff; });
-}
-
-TreeVolume within_hull(const TreeVolume& volume, std::span<const Silhouette> silhouettes) {
-  return with_cells(volume, [&](std::size_t i) {
-    const Bounds box = volume.grid.bounds(i);
-    return std::ranges::all_of(silhouettes, [&](const Silhouette& s) { return s.may_show(box); });
-  });
+  TreeVolume result;
+  std::vector<glm::u16vec3> cells;
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    if (1.0f - volume.alpha(i) > cutoff) continue;
+    cells.push_back(volume.grid.cells()[i]);
+    result.extinction_per_m.push_back(volume.extinction_per_m[i]), result.colour.push_back(volume.colour[i]);
+  }
+  result.grid = CellGrid(volume.grid.box(), volume.grid.branching(), volume.grid.side(), std::move(cells));
+  return result;
 }
 
 Result<TreeVolume> subdivided(const TreeVolume& volume) {

@@ -48,9 +48,6 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
 /// Without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its oak).
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff);
 
-/// Without the cells that a photograph shows as empty: what its finer cells show of the hull (4.5.1).
-TreeVolume within_hull(const TreeVolume& volume, std::span<const Silhouette> silhouettes);
-
 /// The volume with every cell divided once more; the parts inherit what the whole had. Errors: a side above
 /// max_grid_side.
 Result<TreeVolume> subdivided(const TreeVolume& volume);
