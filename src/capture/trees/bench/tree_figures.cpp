@@ -19,17 +19,21 @@ constexpr float wrong_scale = 1.05f;   // of a reconstruction that is measured w
 constexpr int thesis_iterations = 4;
 constexpr float thesis_cutoff = 0.94f;  // of its oak
 
-/// Sums over trees, reported as means.
+/// Sums over trees, reported as means; each tree's own value is noted as it comes.
 class Means {
  public:
+  explicit Means(const FigureSink& sink) : sink_(sink) {}
+
+  void begin_tree(std::string_view name) { tree_ = name; }
   void add(const std::string& key, double value) {
+    sink_.note(fmt::format("{}: {} {:.4g}", tree_, key, value));
     auto entry = std::ranges::find(entries_, key, &Entry::key);
     if (entry == entries_.end()) entry = entries_.insert(entries_.end(), Entry{key, 0.0, 0.0});
     entry->sum += value, entry->count += 1.0;
   }
-  Status report(const FigureSink& sink) const {
+  Status report() const {
     for (const Entry& entry : entries_)
-      if (Status status = sink.figure(entry.key, entry.sum / entry.count); !status) return status;
+      if (Status status = sink_.figure(entry.key, entry.sum / entry.count); !status) return status;
     return Done{};
   }
 
@@ -38,6 +42,8 @@ class Means {
     std::string key;
     double sum, count;
   };
+  const FigureSink& sink_;
+  std::string tree_;
   std::vector<Entry> entries_;
 };
 
@@ -170,8 +176,6 @@ Status measure_tree(std::string_view name, const FigureOptions& options, Means& 
   if (!left_out) return left_out.errors();
   const Result<ViewErrors> seen = errors_of(made->levels, capture->views);
   if (!seen) return seen.errors();
-  sink.note(
-      fmt::format("{}: {:.2f} dB left out, {:.2f} dB input views", name, left_out->psnr_db, seen->psnr_db));
   means.add("psnr_db_22", left_out->psnr_db), means.add("input_view_psnr_db", seen->psnr_db);
   const auto naive = levels_from(made->volume, capture->views, TextureMethod::naive);
   const Result<ViewErrors> naive_left_out = errors_of(naive, capture->held_out);
@@ -207,13 +211,14 @@ Status FigureSink::figure(const std::string& key, double value) const {
 }
 
 Status measure_reconstruction(const FigureOptions& options, const FigureSink& sink) {
-  Means means;
+  Means means(sink);
   for (const std::string_view name : sample_tree_names) {
     if (options.is_quick && name != "oak" && name != "winter") continue;
+    means.begin_tree(name);
     if (Status status = measure_tree(name, options, means, sink); !status) return status;
   }
   if (Status status = sink.figure("iterations", double(OpacityOptions{}.iterations)); !status) return status;
-  return means.report(sink);
+  return means.report();
 }
 
 }  // namespace parvis::trees
