@@ -51,14 +51,14 @@ class FirstError {
   void add(const Status& status) {
     if (status) return;
     const std::scoped_lock lock(mutex_);
-    if (!errors_) errors_ = status.errors();
+    if (!has_any_) errors_ = status.errors();
     has_any_ = true;
   }
   bool has_any() const { return has_any_; }
-  const Errors& errors() const { return *errors_; }  ///< where there is one
+  const Errors& errors() const { return errors_; }  ///< empty where there is none
 
  private:
-  std::optional<Errors> errors_;
+  Errors errors_;
   std::atomic<bool> has_any_ = false;
   std::mutex mutex_;
 };
@@ -125,6 +125,7 @@ std::optional<Message> received() {
   Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(std::size_t(size), '\0')};
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Imrecv(message.bytes.data(), size, MPI_BYTE, &handle, &request);
+  // It polls, where MPI_Wait would spin. NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker)
   wait_for(request);
   return message;
 }
@@ -132,6 +133,7 @@ std::optional<Message> received() {
 void send(int to, Tag tag, std::string_view bytes) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Isend(bytes.data(), int(bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
+  // It polls, where MPI_Wait would spin. NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker)
   wait_for(request);
 }
 
