@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
 
 #include "base/parallel.h"
 #include "graphics/reference/frame.h"
@@ -17,7 +15,6 @@ namespace {
 
 constexpr float lift_m = 1e-3f;
 constexpr std::size_t max_places = 1'000'000;
-constexpr std::size_t packet_rays = 8, squares = 16;
 /// Of surfaces that rooms draw by themselves: photographs of walls.
 constexpr float wall_albedo = 0.35f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
@@ -177,37 +174,21 @@ void VertexLight::restart(std::vector<LitVertex> vertices) {
   rays_ = sun_rays_ = 0;
 }
 
-/// Rays of one vertex leave it in packets of eight that go about the same way: sorted by the sixteen squares
-/// in which their points lie.
 glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
                                  int rays, Blocked blocked) const {
   const LitVertex& vertex = vertices_[v];
   const reference::Frame frame(vertex.normal);
   const glm::vec3 from = lifted(vertex);
   const glm::vec2 shift = shift_of(v);
-  std::array<std::array<reference::Ray, packet_rays>, squares> packets;
-  std::array<std::size_t, squares> sizes{};
   glm::vec3 sum(0.0f);
-  const auto trace = [&](std::size_t square) {
-    const std::span<const reference::Ray> packet(packets[square].data(), std::exchange(sizes[square], 0));
-    reference::Passage passage{Random(v + square)};
-    const std::uint32_t stopped = scene.blocked(packet, passage);
-    for (std::size_t i = 0; i < packet.size(); ++i) {
-      if (!(stopped >> i & 1u))
-        sum += sky.radiance(packet[i].direction);
-      else if (blocked == Blocked::bounces)
-        sum += bounced_radiance(scene, sky, packet[i], v);
-    }
-  };
   for (int i = 0; i < rays; ++i) {
-    const glm::vec2 u = low_discrepancy(rays_ + i, shift), p = on_disc(u);
-    const std::size_t square = std::size_t(int(4.0f * u.x) + 4 * int(4.0f * u.y)) % squares;
-    packets[square][sizes[square]] = {
-        from, frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))})};
-    if (++sizes[square] == packet_rays) trace(square);
+    const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
+    const glm::vec3 direction = frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))});
+    if (is_open(scene, from, direction, v + std::uint64_t(i)))
+      sum += sky.radiance(direction);
+    else if (blocked == Blocked::bounces)
+      sum += bounced_radiance(scene, sky, {from, direction}, v + std::uint64_t(i));
   }
-  for (std::size_t square = 0; square < squares; ++square)
-    if (sizes[square] > 0) trace(square);
   return sum;
 }
 
@@ -216,22 +197,15 @@ glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTabl
   const LitVertex& vertex = vertices_[v];
   const glm::vec3 from = lifted(vertex);
   if (sky.spot()) return float(rays) * spot_light(scene, sky, vertex, from, v);
-  if (glm::dot(sky.to_sun(), vertex.normal) < -float(sun_radius_rad)) return glm::vec3(0.0f);
   const reference::Frame frame(sky.to_sun());
   const glm::vec2 shift = shift_of(v);
   glm::vec3 sum(0.0f);
-  std::array<reference::Ray, packet_rays> packet;
-  for (int first = 0; first < rays; first += int(packet_rays)) {
-    std::size_t size = 0;
-    for (int i = first; i < std::min(rays, first + int(packet_rays)); ++i) {
-      const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
-      const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
-      if (glm::dot(direction, vertex.normal) > 0.0f) packet[size++] = {from, direction};
-    }
-    reference::Passage passage{Random(v + std::uint64_t(first))};
-    const std::uint32_t stopped = scene.blocked({packet.data(), size}, passage);
-    for (std::size_t i = 0; i < size; ++i)
-      if (!(stopped >> i & 1u)) sum += glm::dot(packet[i].direction, vertex.normal) * sky.sun_irradiance();
+  for (int i = 0; i < rays; ++i) {
+    const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
+    const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
+    const float facing = glm::dot(direction, vertex.normal);
+    if (facing > 0.0f && is_open(scene, from, direction, v + std::uint64_t(i)))
+      sum += facing * sky.sun_irradiance();
   }
   return sum;
 }
