@@ -1,7 +1,6 @@
 #include "graphics/reference/ray_scene.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <unordered_set>
@@ -48,80 +47,66 @@ std::size_t place_of(unsigned instance, unsigned geometry) {
   return instance == joined_instance ? geometry : instance - 1;
 }
 
-/// One candidate hit of a ray, alone or in a packet.
-struct Candidate {
-  const RTCFilterFunctionNArguments* arguments;
-  unsigned lane;
-
-  /// The ray's, in the frame of the triangles.
-  glm::vec3 direction() const {
-    return {RTCRayN_dir_x(arguments->ray, arguments->N, lane),
-            RTCRayN_dir_y(arguments->ray, arguments->N, lane),
-            RTCRayN_dir_z(arguments->ray, arguments->N, lane)};
-  }
-  /// Front and back are decided in the mesh's frame, where a mirroring transform does not exchange them.
-  bool meets_back() const {
-    const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, lane),
-                       RTCHitN_Ng_y(arguments->hit, arguments->N, lane),
-                       RTCHitN_Ng_z(arguments->hit, arguments->N, lane));
-    return glm::dot(ng, direction()) > 0.0f;
-  }
-  std::size_t place() const {
-    return place_of(RTCHitN_instID(arguments->hit, arguments->N, lane, 0),
-                    RTCHitN_geomID(arguments->hit, arguments->N, lane));
-  }
-  std::uint32_t triangle() const { return RTCHitN_primID(arguments->hit, arguments->N, lane); }
-  glm::vec2 barycentric() const {
-    return {RTCHitN_u(arguments->hit, arguments->N, lane), RTCHitN_v(arguments->hit, arguments->N, lane)};
-  }
-};
-
-glm::vec3 direction_in_world(const PlacedPart& place, const Candidate& hit) {
-  return place.is_joined ? hit.direction() : glm::mat3(place.world_from_mesh) * hit.direction();
+/// Front and back are decided in the mesh's frame, where a mirroring transform does not exchange them.
+bool meets_back(const RTCFilterFunctionNArguments* arguments) {
+  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
+                     RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
+                     RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
+  return glm::dot(ng, direction) > 0.0f;
 }
 
-float alpha_at_hit(const PlacedPart& place, const Candidate& hit, bool is_shadow) {
-  const glm::vec2 at = hit.barycentric();
+/// The ray is in the frame of the triangles.
+glm::vec3 direction_in_world(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
+  return place.is_joined ? direction : glm::mat3(place.world_from_mesh) * direction;
+}
+
+float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
+  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+  const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
   if (place.surface) {
-    const glm::vec3 along = glm::normalize(direction_in_world(place, hit));
-    return place.surface->alpha(traced_hit(place, hit.triangle(), at, is_shadow ? along : -along, 0.0f));
+    const glm::vec3 along = glm::normalize(direction_in_world(place, arguments));
+    return place.surface->alpha(traced_hit(place, triangle, {u, v}, is_shadow ? along : -along, 0.0f));
   }
   const scene::Material& material = *place.material;
   if (material.base_colour_texture == scene::no_index) return material.alpha;
-  const glm::vec2 uv = texture_coordinates(place, hit.triangle(), at.x, at.y);
+  const glm::vec2 uv = texture_coordinates(place, triangle, u, v);
   return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
 }
 
-bool stops_light(const PlacedPart& place, Passage& passage, const Candidate& hit, bool is_shadow) {
+bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments,
+                 bool is_shadow) {
   const scene::Material& material = *place.material;
-  if (!passage.sees_backs && !material.is_double_sided && hit.meets_back()) return false;
+  if (!passage.sees_backs && !material.is_double_sided && meets_back(arguments)) return false;
   if (material.alpha_mode == scene::Alpha::opaque) return true;
-  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, hit, is_shadow) >= 0.5f;
-  return place.casts_shadow && passage.random.uniform() < alpha_at_hit(place, hit, is_shadow);
+  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
+  return place.casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments, is_shadow);
 }
 
 /// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass throw no
 /// shadow.
-bool stops_as_drawn(const PlacedPart& place, const Candidate& hit, bool is_shadow) {
+bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
   const scene::Material& material = *place.material;
   const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
   if (is_shadow && (!place.casts_shadow || lets_through)) return false;
-  if (!material.is_double_sided && hit.meets_back() != is_shadow) return false;
-  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, hit, is_shadow) >= 0.5f;
+  if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
+  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
 }
 
-/// Embree calls this for each candidate hit, or for those of a packet.
+/// Embree calls this for each candidate hit.
 template <bool is_shadow>
 void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
   const QueryContext& context = *reinterpret_cast<const QueryContext*>(arguments->context);
-  for (unsigned lane = 0; lane < arguments->N; ++lane) {
-    if (arguments->valid[lane] != -1) continue;
-    const Candidate hit{arguments, lane};
-    const PlacedPart& place = *context.places[hit.place()];
-    const bool stops = context.passage ? stops_light(place, *context.passage, hit, is_shadow)
-                                       : stops_as_drawn(place, hit, is_shadow);
-    if (!stops) arguments->valid[lane] = 0;
-  }
+  const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, arguments->N, 0, 0),
+                                                     RTCHitN_geomID(arguments->hit, arguments->N, 0))];
+  const bool stops = context.passage ? stops_light(place, *context.passage, arguments, is_shadow)
+                                     : stops_as_drawn(place, arguments, is_shadow);
+  if (!stops) arguments->valid[0] = 0;
 }
 
 }  // namespace
@@ -436,27 +421,6 @@ bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
   RTCRay query = embree_ray(ray);
   rtcOccluded1(top_, &context.embree, &query);
   return query.tfar < 0.0f;
-}
-
-std::uint32_t RayScene::blocked(std::span<const Ray> rays, Passage& passage) const {
-  assert(rays.size() <= 8);
-  QueryContext context(places_, &passage);
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(32) int valid[8]{};
-  RTCRay8 packet{};
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!is_finite(rays[i])) continue;
-    valid[i] = -1;
-    const RTCRay ray = embree_ray(rays[i]);
-    packet.org_x[i] = ray.org_x, packet.org_y[i] = ray.org_y, packet.org_z[i] = ray.org_z;
-    packet.dir_x[i] = ray.dir_x, packet.dir_y[i] = ray.dir_y, packet.dir_z[i] = ray.dir_z;
-    packet.tnear[i] = ray.tnear, packet.tfar[i] = ray.tfar, packet.mask[i] = ray.mask;
-  }
-  rtcOccluded8(valid, top_, &context.embree, &packet);
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    if (valid[i] == -1 && packet.tfar[i] < 0.0f) bits |= 1u << i;
-  return bits;
 }
 
 std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const { return nearest_hit(ray, nullptr); }

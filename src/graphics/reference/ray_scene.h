@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -82,8 +81,6 @@ class RayScene {
   bool is_blocked(const Ray& ray) const;
   /// True if a surface blocks the ray under the rules of a photograph.
   bool is_blocked(const Ray& ray, Passage& passage) const;
-  /// The same for up to eight rays at once, faster where they are alike: bit i is set where ray i is blocked.
-  std::uint32_t blocked(std::span<const Ray> rays, Passage& passage) const;
   /// Of what is traced, without dynamic objects of the scene that this was made of.
   Bounds fixed_bounds(const scene::Scene& scene) const;
   std::size_t triangle_count() const { return triangle_count_; }  ///< summed over all placements of a mesh
