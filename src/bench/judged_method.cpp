@@ -22,7 +22,7 @@ Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
 Status keep_maps(const House& house, scene::Scene scene, const methods::Settings& reflection) {
   methods::settings(scene) = reflection;
   const Result<std::unique_ptr<render::Renderer>> renderer =
-      render::Renderer::create(scene, house.get<render::Drawables>());
+      render::Renderer::create(scene, house.get<render::Drawables>(), house.get<render::Lights>().make);
   if (!renderer) return renderer.errors();
   const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
   const Result<std::vector<glm::vec3>> places = reference_maps::keep_maps(scene, heights, **renderer);

@@ -6,6 +6,7 @@
 #include "capture/facades/placed_facade.h"
 #include "capture/facades/test_street.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/sky.h"
@@ -34,7 +35,8 @@ class FacadeDrawableTest : public gl::ContextTest {
   void place(PlacedFacade placed) { scene_.data<scene::ItemsOf<PlacedFacade>>().add(std::move(placed), 0); }
 
   ImageF draw() {
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_, drawables_);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     (*renderer)->begin_frame(scene_, camera_);
     (*renderer)->prepare_main_view(camera_, width, height);

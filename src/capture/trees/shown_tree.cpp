@@ -5,6 +5,7 @@
 
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_light.h"
+#include "graphics/light/sun_and_sky.h"
 
 namespace parvis::trees {
 namespace {
@@ -80,7 +81,8 @@ Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, cons
   SceneTree placed;
   placed.tree = std::move(tree);
   shown.scene_->data<SceneTrees>().add(std::move(placed), 0);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(*shown.scene_, drawables);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(*shown.scene_, drawables, light::sun_and_sky);
   if (!renderer) return renderer.errors();
   shown.renderer_ = *std::move(renderer);
   Result<std::unique_ptr<Backdrop>> backdrop = Backdrop::create();

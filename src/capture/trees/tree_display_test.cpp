@@ -15,6 +15,7 @@
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/renderer.h"
@@ -73,7 +74,8 @@ class TreeDisplayTest : public gl::ContextTest {
     scene_.data<SceneTrees>().add(tree, int(scene_trees(scene_).size()));
   }
   std::unique_ptr<render::Renderer> renderer() const {
-    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_, drawables_);
+    Result<std::unique_ptr<render::Renderer>> made =
+        render::Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(made) << to_string(made.errors());
     return *std::move(made);
   }

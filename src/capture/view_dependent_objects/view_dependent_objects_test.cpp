@@ -13,6 +13,7 @@
 #include "formats/gltf/gltf_writer.h"
 #include "formats/inventor/inventor_formats.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/drawables.h"
 #include "graphics/render/renderer.h"
@@ -257,7 +258,8 @@ TEST_F(VdObject, IsDrawnAndTracedAlikeFromEverySide) {
   scene.sky.picture = ImageF(16, 8, 3, 0.1f);
   const auto& drawables = house_.get<render::Drawables>();
   drawables.furnish(scene);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene, drawables);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, drawables, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   constexpr int size = 96;
   std::vector<vec3> seen;

@@ -7,6 +7,7 @@
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/renderer.h"
@@ -148,7 +149,7 @@ TEST_F(BouncedPicture, IsNearerToThePhotographThanTheConstant) {
   ASSERT_TRUE(truth) << to_string(truth.errors());
   const auto error = [&](bool is_bounced) {
     scene.data<scene::BouncedSettings>().is_on = is_bounced;
-    auto renderer = render::Renderer::create(scene, {}, with_bounced_light(render::sun_and_sky));
+    auto renderer = render::Renderer::create(scene, {}, with_bounced_light(light::sun_and_sky));
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     (*renderer)->begin_frame(scene, camera);
     (*renderer)->prepare_main_view(camera, size, size);

@@ -10,6 +10,7 @@
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
 #include "graphics/light/light_nodes.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/tracer.h"
@@ -163,7 +164,7 @@ TEST(PathTracer, SeesTheGroundUnderALampAsBrightAsTheLawSays) {
 class LampPicture : public gl::ContextTest {
  protected:
   static std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
-    auto renderer = render::Renderer::create(scene, {}, with_lamps(render::sun_and_sky));
+    auto renderer = render::Renderer::create(scene, {}, with_lamps(light::sun_and_sky));
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     return *std::move(renderer);
   }

@@ -8,6 +8,7 @@
 #include "graphics/light/nodes_shadow_map.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/light/sky_picture.h"
+#include "graphics/light/sun_and_sky.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -113,6 +114,7 @@ NodeSchema exposure_schema() {
 }  // namespace
 
 void furnish_light(House& house) {
+  house.get<render::Lights>().make = light::sun_and_sky;
   NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(sun_schema(), build_sun);
   registry.add(sky_schema(), build_sky);

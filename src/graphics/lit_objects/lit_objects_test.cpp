@@ -10,6 +10,7 @@
 #include "formats/meshes/mesh_nodes.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/light_nodes.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/lit_objects/lighting_process.h"
 #include "graphics/lit_objects/room.h"
 #include "graphics/reference/frame.h"
@@ -272,7 +273,7 @@ TEST_F(LitObjects, AreDrawnAndTracedAlike) {
   camera.world_from_camera = look_at({1, -4, 1.7f}, {0, 0, 1});
   camera.vertical_fov = 0.6f;
   constexpr int size = 128;
-  auto renderer = render::Renderer::create(scene.scene, {}, render::sun_and_sky);
+  auto renderer = render::Renderer::create(scene.scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   const auto drawn = [&] {
     (*renderer)->begin_frame(scene.scene, camera);

@@ -7,7 +7,7 @@ namespace parvis::render {
 
 Result<Renderer*> BakeInput::renderer() {
   if (!renderer_) {
-    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, drawables_);
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, drawables_, make_light_);
     if (!made) return made.errors();
     renderer_ = *std::move(made);
   }

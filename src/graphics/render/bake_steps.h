@@ -20,9 +20,13 @@ class BakeInput {
  public:
   /// The arguments outlive it. `plan`: where to write a picture of what is baked, seen from above; empty:
   /// nowhere.
-  BakeInput(const scene::Scene& scene, const Drawables& drawables, std::filesystem::path plan = {},
-            const machines::Processes& processes = {})
-      : scene_(scene), drawables_(drawables), plan_(std::move(plan)), processes_(processes) {}
+  BakeInput(const scene::Scene& scene, const Drawables& drawables, const MakeLight& make_light,
+            std::filesystem::path plan = {}, const machines::Processes& processes = {})
+      : scene_(scene),
+        drawables_(drawables),
+        make_light_(make_light),
+        plan_(std::move(plan)),
+        processes_(processes) {}
   BakeInput(const BakeInput&) = delete;
 
   /// The state that is baked.
@@ -37,6 +41,7 @@ class BakeInput {
  private:
   const scene::Scene& scene_;
   const Drawables& drawables_;
+  const MakeLight& make_light_;
   std::filesystem::path plan_;
   machines::Processes processes_;
   std::unique_ptr<Renderer> renderer_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/renderer.h"
 #include "graphics/render/test_quads.h"
 #include "reflections/methods/cube_map.h"
@@ -44,7 +45,7 @@ class DrawableTest : public gl::ContextTest {
     renderer_ = fresh_renderer();
   }
   std::unique_ptr<Renderer> fresh_renderer() const {
-    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, drawables_);
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(made) << to_string(made.errors());
     return *std::move(made);
   }
@@ -229,7 +230,7 @@ TEST_F(DrawableTest, AKindThatNothingDrawsIsAnError) {
   quads_ = {upright({0, 0, 3})};
   drawables_.add(test_quads_kind(quads_));
   drawables_.furnish(scene_);
-  const Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_);
+  const Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_FALSE(made);
   EXPECT_NE(to_string(made.errors()).find("test quads"), std::string::npos) << to_string(made.errors());
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::render {
@@ -38,7 +39,7 @@ class FrameViewsTest : public gl::ContextTest {
   }
   void TearDown() override { renderer_.reset(); }
   std::unique_ptr<Renderer> fresh() const {
-    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_);
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, {}, light::sun_and_sky);
     EXPECT_TRUE(made) << to_string(made.errors());
     return *std::move(made);
   }

@@ -49,12 +49,10 @@ class LightSource;
 /// Makes the light of a scene; `fixed` bounds all static things. Needs a current OpenGL context.
 using MakeLight =
     std::function<Result<std::unique_ptr<LightSource>>(const scene::Scene& scene, const Bounds& fixed)>;
-/// Scene::sun with two cascades of shadow maps, and Scene::sky.
-Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
-
-/// Registry of light: the one source that lights all scenes. A room that knows more replaces it.
+/// Registry of light: the one source that lights all scenes. The room light sets it; a room that knows more
+/// replaces it or lays its own light over it.
 struct Lights {
-  MakeLight make = sun_and_sky;
+  MakeLight make;
 };
 
 /// Light of a scene. Sun and sky may change in every frame; static geometry, too.

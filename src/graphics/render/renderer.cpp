@@ -2,8 +2,6 @@
 
 #include "graphics/render/bindings.h"
 #include "graphics/render/frame.h"
-#include "graphics/render/sun_and_sky.h"
-#include "graphics/render/sun_shadow_maps.h"
 
 namespace parvis::render {
 namespace {
@@ -57,10 +55,6 @@ void append(std::vector<T>& all, const Range& more) {
 }
 
 }  // namespace
-
-Result<std::unique_ptr<LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed) {
-  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene::sun_light(scene), fixed));
-}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables,
                                                    const MakeLight& make_light) {

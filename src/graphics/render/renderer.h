@@ -28,8 +28,8 @@ class Renderer {
   /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene and what rooms draw by
   /// themselves in it: `drawables` has furnished it. Fails only if a shader does, or if a kind of
   /// Scene::traced_kinds is not among the drawables.
-  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables = {},
-                                                  const MakeLight& make_light = sun_and_sky);
+  static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables,
+                                                  const MakeLight& make_light);
   Renderer(const Renderer&) = delete;
 
   /// Adds a drawable, drawn after the scene's in every view. Not owned.

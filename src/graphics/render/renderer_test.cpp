@@ -5,6 +5,7 @@
 #include "base/colour.h"
 #include "base/random.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/culling_check.h"
 #include "graphics/render/golden.h"
 #include "graphics/render/picture_reader.h"
@@ -20,7 +21,7 @@ constexpr float pi = 3.14159265f;
 class RendererTest : public gl::ContextTest {
  protected:
   static std::unique_ptr<Renderer> renderer_of(const scene::Scene& scene) {
-    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene);
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(scene, {}, light::sun_and_sky);
     EXPECT_TRUE(made) << to_string(made.errors());
     return *std::move(made);
   }

@@ -34,7 +34,7 @@ ChosenShadows::ChosenShadows(const scene::Scene& scene, const Bounds& fixed)
 }
 
 void ChosenShadows::make_maps() {
-  render::FitNearMap fit;
+  light::FitNearMap fit;
   if (fits_maps(settings_.technique))
     fit = [this](const Camera& camera, const scene::SunLight& sun, const Bounds& fixed) {
       glm::vec3 to_sun = glm::normalize(sun.direction_to_sun);
@@ -42,7 +42,7 @@ void ChosenShadows::make_maps() {
       const light::SeenSurfaces seen = seen_surfaces(*followed_, camera, settings_.updates_near);
       return fit_near_map(fitted_by(settings_.technique), camera, to_sun, seen, fixed);
     };
-  maps_ = std::make_unique<render::SunShadowMaps>(sun_, fixed_, std::move(fit));
+  maps_ = std::make_unique<light::SunShadowMaps>(sun_, fixed_, std::move(fit));
 }
 
 bool ChosenShadows::choose(const scene::Scene& scene) {
@@ -88,7 +88,7 @@ Result<std::unique_ptr<render::LightSource>> ChosenLight::create(const scene::Sc
                                                                  const Bounds& fixed) {
   auto shadows = std::make_unique<ChosenShadows>(scene, fixed);
   ChosenShadows* const chosen = shadows.get();
-  Result<std::unique_ptr<render::LightSource>> light = render::SunAndSky::create(scene, std::move(shadows));
+  Result<std::unique_ptr<render::LightSource>> light = light::SunAndSky::create(scene, std::move(shadows));
   if (!light) return light.errors();
   return std::unique_ptr<render::LightSource>(new ChosenLight(*std::move(light), chosen));
 }

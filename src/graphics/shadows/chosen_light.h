@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "graphics/light/shadow_settings.h"
+#include "graphics/light/sun_and_sky.h"
+#include "graphics/light/sun_shadow_maps.h"
 #include "graphics/render/light_source.h"
-#include "graphics/render/sun_and_sky.h"
-#include "graphics/render/sun_shadow_maps.h"
 #include "graphics/shadows/traced_sun.h"
 
 namespace parvis::shadows {
@@ -38,7 +38,7 @@ class ChosenShadows final : public render::ShadowMethod {
   light::ShadowSettings settings_;
   scene::SunLight sun_;
   Bounds fixed_;
-  std::unique_ptr<render::SunShadowMaps> maps_;
+  std::unique_ptr<light::SunShadowMaps> maps_;
   std::unique_ptr<reference::RayScene> followed_;  ///< null where the method needs no rays
   bool has_new_fixed_ = false;
   std::uint64_t scene_version_ = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr int samples_across = 72, samples_up = 48;
 constexpr float sampled_aspect = 1.8f;
 constexpr double moving_height_m = 30.0;  // dynamic objects stand no higher above static ones
-constexpr int resolution = render::SunShadowMaps::map_size;
+constexpr int resolution = light::SunShadowMaps::map_size;
 
 using light::ShadowMap;
 
@@ -44,7 +44,7 @@ glm::dvec2 depth_range(const Bounds& casters, glm::dvec3 to_sun) {
 
 /// Orthographic maps as quarters of one, the coarsest first. Squares of stepped size stand on whole texels of
 /// theirs: edges do not crawl when the viewer moves.
-render::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, const Bounds& casters) {
+light::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, const Bounds& casters) {
   struct Square {
     glm::dvec2 centre;
     double half;
@@ -74,7 +74,7 @@ render::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun,
   const glm::dmat4 rows(glm::dvec4(right, -centre.x) / half, glm::dvec4(up, -centre.y) / half,
                         glm::dvec4(-2.0 * to_sun, range.x + range.y) / (range.y - range.x),
                         glm::dvec4(0, 0, 0, 1));
-  render::NearMap near;
+  light::NearMap near;
   near.clip_from_world = glm::mat4(glm::transpose(rows));
   near.texel_m = float(2.0 * half / resolution);
   near.tile_count = int(squares.size());
@@ -108,7 +108,7 @@ double texel_size(const glm::dmat4& map_from_world, glm::dvec3 to_sun, glm::dvec
 
 /// How large texels are about the points: t w max(1, g w).
 void measure_texels(const ShadowMap& map, const glm::dvec4& w_row, glm::dvec3 to_sun,
-                    const light::SeenSurfaces& seen, render::NearMap& near) {
+                    const light::SeenSurfaces& seen, light::NearMap& near) {
   std::vector<std::pair<double, double>> sizes;  // w, and the size over w
   const std::size_t step = std::max<std::size_t>(1, seen.positions.size() / 200);
   for (std::size_t i = 0; i < seen.positions.size(); i += step) {
@@ -127,8 +127,8 @@ void measure_texels(const ShadowMap& map, const glm::dvec4& w_row, glm::dvec3 to
   near.growth = float(std::max(quantile(of_far, 0.9) / double(near.texel_m), 1e-9));
 }
 
-render::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const light::SeenSurfaces& seen,
-                               const Bounds& casters) {
+light::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const light::SeenSurfaces& seen,
+                              const Bounds& casters) {
   glm::dmat4 rows = glm::transpose(map.map_from_world);
   std::vector<double> w;
   w.reserve(seen.positions.size());
@@ -158,7 +158,7 @@ render::NearMap projective_map(const ShadowMap& map, glm::dvec3 to_sun, const li
   const double alpha = 2.0 / std::max(high - low, 1e-9), gamma = -1.0 - alpha * low;
   rows[2] = gamma * rows[3] + alpha * glm::dvec4(-to_sun, b);
 
-  render::NearMap near;
+  light::NearMap near;
   near.clip_from_world = glm::mat4(glm::transpose(rows));
   measure_texels(map, rows[3], to_sun, seen, near);
   return near;
@@ -187,12 +187,12 @@ light::SeenSurfaces seen_surfaces(const reference::RayScene& rays, const Camera&
   return seen;
 }
 
-render::NearMap fit_near_map(light::ShadowMethod method, const Camera& camera, glm::vec3 to_sun,
-                             const light::SeenSurfaces& seen, const Bounds& casters) {
+light::NearMap fit_near_map(light::ShadowMethod method, const Camera& camera, glm::vec3 to_sun,
+                            const light::SeenSurfaces& seen, const Bounds& casters) {
   const std::vector<ShadowMap> maps = light::fit_shadow_maps(method, camera, to_sun, seen, casters);
   if (maps.size() == 1 && !seen.positions.empty())
     return projective_map(maps.front(), glm::dvec3(to_sun), seen, casters);
-  render::NearMap near = tiled_map(maps, glm::dvec3(to_sun), casters);
+  light::NearMap near = tiled_map(maps, glm::dvec3(to_sun), casters);
   if (maps.size() == 1) near.tile_count = 0, near.tiles = {};  // nothing is seen
   return near;
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "graphics/light/shadow_fit.h"
+#include "graphics/light/sun_shadow_maps.h"
 #include "graphics/reference/ray_scene.h"
-#include "graphics/render/sun_shadow_maps.h"
 
 namespace parvis::shadows {
 
@@ -15,7 +15,7 @@ light::SeenSurfaces seen_surfaces(const reference::RayScene& rays, const Camera&
 /// The near map of a method (not `uniform`). `casters` bounds everything that casts a shadow. Depth grows
 /// from -1 at the sun's side to 1 along every line toward the sun, in perspective maps, too, whose own depth
 /// may run the other way.
-render::NearMap fit_near_map(light::ShadowMethod method, const Camera& camera, glm::vec3 to_sun,
-                             const light::SeenSurfaces& seen, const Bounds& casters);
+light::NearMap fit_near_map(light::ShadowMethod method, const Camera& camera, glm::vec3 to_sun,
+                            const light::SeenSurfaces& seen, const Bounds& casters);
 
 }  // namespace parvis::shadows

@@ -49,7 +49,7 @@ Bounds bounds_of(const scene::Scene& scene) {
   return bounds;
 }
 
-glm::vec3 projected(const render::NearMap& map, glm::vec3 p) {
+glm::vec3 projected(const light::NearMap& map, glm::vec3 p) {
   const glm::vec4 h = map.clip_from_world * glm::vec4(p, 1.0f);
   EXPECT_GT(h.w, 0.0f);
   return glm::vec3(h) / h.w;
@@ -65,7 +65,7 @@ TEST(NearMapFit, DepthGrowsAwayFromTheSunAlongLinesThatKeepTheirTexel) {
                               light::ShadowMethod::light_space_perspective}) {
       const glm::vec3 to_sun = glm::normalize(sun);
       const light::SeenSurfaces seen = seen_surfaces(rays, street_camera(), true);
-      const render::NearMap map = fit_near_map(method, street_camera(), to_sun, seen, casters);
+      const light::NearMap map = fit_near_map(method, street_camera(), to_sun, seen, casters);
       ASSERT_GT(seen.positions.size(), 1000u);
       for (std::size_t i = 0; i < seen.positions.size(); i += 7) {
         const glm::vec3 p = seen.positions[i], here = projected(map, p),
@@ -85,8 +85,8 @@ TEST(NearMapFit, TilesAreQuartersThatHoldWhatTheyServe) {
   const scene::Scene scene = street();
   const reference::RayScene rays(scene);
   const light::SeenSurfaces seen = seen_surfaces(rays, street_camera(), true);
-  const render::NearMap map = fit_near_map(light::ShadowMethod::cascades, street_camera(),
-                                           scene.sun.direction_to_sun, seen, bounds_of(scene));
+  const light::NearMap map = fit_near_map(light::ShadowMethod::cascades, street_camera(),
+                                          scene.sun.direction_to_sun, seen, bounds_of(scene));
   ASSERT_EQ(map.tile_count, 4);
   EXPECT_GT(map.tiles[3].x, 3.0f * map.tiles[0].x) << "the finest is last";
   std::set<int> serving;

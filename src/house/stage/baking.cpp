@@ -8,7 +8,8 @@
 namespace parvis::house {
 
 Status Baking::bake(const scene::Scene& state, const std::filesystem::path& plan) {
-  render::BakeInput input(state, house_.get<render::Drawables>(), plan, processes_);
+  render::BakeInput input(state, house_.get<render::Drawables>(), house_.get<render::Lights>().make, plan,
+                          processes_);
   for (const render::BakeStep& step : house_.get<render::BakeSteps>().all()) {
     if (!house_.get<methods::Registry>().reads_baked(state, step.name)) continue;
     Result<render::Baked> baked = step.run(input);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/environment_rays/map_table.h"
 #include "reflections/environment_rays/multiple_environment_maps.h"
@@ -34,7 +35,8 @@ class MapRenewalTest : public gl::ContextTest {
 };
 
 TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer);
   (*renderer)->begin_frame(scene_, Camera{});
   Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, places, face_resolution);
@@ -64,7 +66,8 @@ TEST_F(MapRenewalTest, AWindowDrawsAMapPerFrameAfterAChangeAndNoneElse) {
   methods::settings(scene_).method = "multiple_environment_maps";
   methods::settings(scene_).resolution = face_resolution;
   map_plan(scene_).places = places;
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer);
   Result<std::unique_ptr<methods::Reflections>> reflections =
       make_multiple_environment_maps(scene_, **renderer);
@@ -96,7 +99,7 @@ class MissingMapsTest : public gl::ContextTest {
     methods::settings(scene_).method = "multiple_environment_maps";
     methods::settings(scene_).resolution = face_resolution;
     for (float x = -28.0f; x < 29.0f; x += 4.0f) map_plan(scene_).places.emplace_back(x, 0.0f, 0.0f);
-    renderer_ = std::move(*render::Renderer::create(scene_));
+    renderer_ = std::move(*render::Renderer::create(scene_, {}, light::sun_and_sky));
     reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
     EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
   }

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "reflections/methods/frame.h"
 #include "reflections/reference_maps/map_levels.h"
 #include "reflections/reference_maps/placement.h"
@@ -20,7 +21,8 @@ class EnvironmentMapsTest : public gl::ContextTest {};
 
 TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
   scene::Scene scene = render::room_scene(room_half_m);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   (*renderer)->begin_frame(scene, Camera{});
   const std::vector<glm::vec3> places{{4, 2.5f, -3.5f}, {-3.5f, -4.5f, 2}};
@@ -48,7 +50,8 @@ TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
 
 TEST_F(EnvironmentMapsTest, AGlossyTileIsTheMeanOverTheLobe) {
   const scene::Scene scene = render::room_scene(room_half_m);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   (*renderer)->begin_frame(scene, Camera{});
   const glm::vec3 place(4, 2.5f, -3.5f);
@@ -136,7 +139,8 @@ TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   scene::Scene scene = tower_square();
   const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
   scene::add(scene, scene::model_of(van, scene::matt({0.85f, 0.1f, 0.05f})), true);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   const auto reflections = make_multiple_environment_maps(scene, **renderer);
   ASSERT_TRUE(reflections) << to_string(reflections.errors());
@@ -156,7 +160,8 @@ TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
 TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {
   scene::Scene scene = tower_square();
   const int mirror = int(scene.objects.size()) - 1;
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   Camera camera;
   camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "reflections/local_maps/local_map_faces.h"
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/frame.h"
@@ -42,7 +43,8 @@ class Court {
  public:
   explicit Court(scene::Scene made) : scene(std::move(made)) {
     camera.world_from_camera = look_at({-4, -5, 2.5f}, mirror_at);
-    Result<std::unique_ptr<render::Renderer>> created = render::Renderer::create(scene);
+    Result<std::unique_ptr<render::Renderer>> created =
+        render::Renderer::create(scene, {}, light::sun_and_sky);
     EXPECT_TRUE(created) << to_string(created.errors());
     renderer = *std::move(created);
     Result<std::unique_ptr<LocalEnvironmentMaps>> method = LocalEnvironmentMaps::create(scene, *renderer);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 
 namespace parvis::methods {
@@ -25,7 +26,7 @@ class CubeMapTest : public gl::ContextTest {
   void SetUp() override {
     gl::ContextTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_);
+    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_, {}, light::sun_and_sky);
     ASSERT_TRUE(made) << to_string(made.errors());
     renderer_ = *std::move(made);
     renderer_->begin_frame(scene_, Camera{});

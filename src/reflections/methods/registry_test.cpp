@@ -7,6 +7,7 @@
 #include "base/house.h"
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/methods/frame.h"
 #include "scene/script/attribute.h"
@@ -123,7 +124,8 @@ class RegistryTest : public gl::ContextTest {
     render::add_mirror(scene, glm::vec3(0.0f), 1.0f);
     settings(scene) = wanted;
     EXPECT_TRUE(registry().prepare(scene));
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene, {}, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     Result<std::unique_ptr<Reflections>> made = registry().make(scene, **renderer);
     EXPECT_TRUE(made) << to_string(made.errors());

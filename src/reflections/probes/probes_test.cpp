@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
@@ -29,7 +30,8 @@ class Show {
  public:
   Show(scene::Scene scene, glm::vec3 eye, glm::vec3 target) : scene_(std::move(scene)) {
     camera_.world_from_camera = look_at(eye, target);
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene_, {}, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     renderer_ = *std::move(renderer);
     Result<std::unique_ptr<methods::Reflections>> made = registry().make(scene_, *renderer_);

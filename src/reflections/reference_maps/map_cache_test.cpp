@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
@@ -62,13 +63,15 @@ class MapCacheTest : public gl::ContextTest {
 
   /// Bakes the maps that are not kept yet; every byte of all.
   std::vector<std::vector<std::uint8_t>> keep() {
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene_, {}, light::sun_and_sky);
     EXPECT_TRUE(renderer && keep_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer));
     return bake();
   }
   /// Every byte of the scene's maps, read or drawn.
   std::vector<std::vector<std::uint8_t>> bake() {
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene_, {}, light::sun_and_sky);
     EXPECT_TRUE(renderer);
     const Result<ReferenceMaps> maps = bake_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer);
     EXPECT_TRUE(maps) << (maps ? "" : to_string(maps.errors()));
@@ -166,7 +169,8 @@ TEST_F(MapCacheTest, ASceneMadeInMemoryKeepsNothing) {
 
 TEST_F(MapCacheTest, CompressedMapsShowNearlyTheSameInAQuarterOfTheMemory) {
   methods::settings(scene_).resolution = 64;
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer);
   const HeightPyramid heights(heights_of(scene_));
   const Result<ReferenceMaps> plain = bake_maps(scene_, heights, **renderer);

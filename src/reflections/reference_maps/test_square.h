@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
@@ -50,7 +51,8 @@ using MakeReflections = std::function<Result<std::unique_ptr<methods::Reflection
 
 /// FLIP inside the mirrors, seen from `eye`, against the ray tracer. No method: they show the sky alone.
 inline double flip_of(const scene::Scene& scene, const MakeReflections& make, glm::vec3 eye) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
   EXPECT_TRUE(renderer) << to_string(renderer.errors());
   std::unique_ptr<methods::Reflections> reflections;
   Camera camera;

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
@@ -96,7 +97,8 @@ struct Compared {
 template <class Make>
 Compared draw_by(const scene::Scene& scene, glm::vec3 eye, glm::vec3 target, Make make,
                  const render::Drawables& drawables = {}) {
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene, drawables);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, drawables, light::sun_and_sky);
   EXPECT_TRUE(renderer) << to_string(renderer.errors());
   Result<std::unique_ptr<methods::Reflections>> reflections = make(scene, **renderer);
   EXPECT_TRUE(reflections) << to_string(reflections.errors());

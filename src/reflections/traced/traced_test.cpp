@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
@@ -22,7 +23,8 @@ class Show {
       : scene_(scene) {
     camera_.world_from_camera = look_at(eye, {0, 0, 0});
     camera_.vertical_fov = 0.7f;
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene_, {}, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
     renderer_ = *std::move(renderer);
     if (!has_method) return;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_quads.h"
 #include "reflections/reflector_maps/test_boxes.h"
 #include "reflections/virtual_objects/virtual_objects.h"
@@ -61,7 +62,8 @@ TEST_F(DrawablesTest, PicturesAndMirrorImagesAreWhatRaysSee) {
 TEST_F(DrawablesTest, PickingAndRaysGiveTheSameNumbers) {
   Camera camera;
   camera.world_from_camera = look_at(eye, target);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(scene_, drawables_);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene_, drawables_, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   (*renderer)->begin_frame(scene_, camera);
   const render::ObjectPicture picked = (*renderer)->pick(camera, width, height, true);

@@ -15,6 +15,7 @@
 #include "capture/photographs/camera_files.h"
 #include "formats/meshes/assimp_reader.h"
 #include "graphics/gl/context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/render/renderer.h"
 
 namespace parvis::bench {
@@ -93,7 +94,8 @@ class TimedScene {
  public:
   static Result<TimedScene> create(scene::Scene scene, const render::Drawables& drawables) {
     auto held = std::make_unique<scene::Scene>(std::move(scene));
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(*held, drawables);
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(*held, drawables, light::sun_and_sky);
     if (!renderer) return renderer.errors();
     return TimedScene(std::move(held), *std::move(renderer));
   }

@@ -7,6 +7,7 @@
 #include "capture/trees/bench/reconstructed_tree.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
@@ -86,7 +87,8 @@ Status measure_display(const FigureOptions& options, const FigureSink& sink) {
   scene::Scene wood;
   drawables.furnish(wood);
   plant(wood, made->levels);
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(wood, drawables);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(wood, drawables, light::sun_and_sky);
   if (!renderer) return renderer.errors();
 
   // One scene, one camera: as shipped, four times as fine, and as coarse as there is; and without the trees.

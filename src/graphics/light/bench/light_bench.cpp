@@ -18,6 +18,7 @@
 #include "graphics/light/preetham.h"
 #include "graphics/light/sky_gpu_check.h"
 #include "graphics/light/sky_model.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/light/sun_hours.h"
 #include "graphics/light/sun_tables.h"
 #include "graphics/light/vertex_light.h"
@@ -122,7 +123,7 @@ Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
   scene.sun = {(*sky)->to_sun(), glm::vec3(1.0f)};
   scene.sky.picture = light::sky_picture(**sky, {}, 512);
   scene.sky.file = "bench";
-  auto renderer = render::Renderer::create(scene);
+  auto renderer = render::Renderer::create(scene, {}, light::sun_and_sky);
   if (!renderer) return renderer.errors();
   shading::SkyLight expected_sky = (*renderer)->sky();
   expected_sky.heading += glm::radians(turned_deg);

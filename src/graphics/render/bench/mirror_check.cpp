@@ -137,7 +137,7 @@ class SwappedFaces final : public probes::CubeMapReflections {
 
 Result<double> flip_of(const House& house, const scene::Scene& scene, bool swaps_faces) {
   Result<std::unique_ptr<render::Renderer>> renderer =
-      render::Renderer::create(scene, house.get<render::Drawables>());
+      render::Renderer::create(scene, house.get<render::Drawables>(), house.get<render::Lights>().make);
   if (!renderer) return renderer.errors();
   std::unique_ptr<methods::Reflections> reflections;
   if (swaps_faces)

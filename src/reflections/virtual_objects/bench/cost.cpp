@@ -154,8 +154,8 @@ Status measure_cost(const BenchSetup& setup, Report& report) {
     return Done{};
   }
   scene::Scene scene = balls_round_a_mirror();
-  Result<std::unique_ptr<render::Renderer>> made =
-      render::Renderer::create(scene, setup.house.get<render::Drawables>());
+  Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(
+      scene, setup.house.get<render::Drawables>(), setup.house.get<render::Lights>().make);
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
   Result<std::unique_ptr<methods::Reflections>> reflections = make_virtual_objects(scene, renderer);

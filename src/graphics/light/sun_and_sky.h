@@ -5,29 +5,30 @@
 
 #include <memory>
 
+#include "graphics/light/sky_textures.h"
 #include "graphics/render/light_source.h"
-#include "graphics/render/sky_textures.h"
 
-namespace parvis::render {
+namespace parvis::light {
 
-class SunAndSky final : public LightSource {
+class SunAndSky final : public render::LightSource {
  public:
   /// Fails only if a shader does.
-  static Result<std::unique_ptr<LightSource>> create(const scene::Scene& scene,
-                                                     std::unique_ptr<ShadowMethod> shadows);
+  static Result<std::unique_ptr<render::LightSource>> create(const scene::Scene& scene,
+                                                             std::unique_ptr<render::ShadowMethod> shadows);
 
   bool update(const scene::Scene& scene) override;
-  void renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
+  void renew(const scene::Scene& scene, const render::GpuScene& gpu, const render::FixedChange& change,
              const Bounds& fixed) override;
-  void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) override {
+  void draw_shadows(const Camera& camera, std::span<const Bounds> moving,
+                    const render::DrawView& draw) override {
     shadows_->update(camera, sun_, moving, draw);
   }
-  TracedSun trace_view(const Camera& camera, int width, int height) override {
+  render::TracedSun trace_view(const Camera& camera, int width, int height) override {
     return shadows_->trace_view(camera, width, height);
   }
   void bind() const override;
-  void fill(Frame& frame) const override;
-  void draw_sky(const View& view) const override { sky_.draw(view); }
+  void fill(render::Frame& frame) const override;
+  void draw_sky(const render::View& view) const override { sky_.draw(view); }
   const shading::SkyLight& sky() const override { return sky_.light(); }
   const shading::SkyVisibility& sky_visibility() const override { return sky_.visibility(); }
   shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const override {
@@ -35,7 +36,7 @@ class SunAndSky final : public LightSource {
   }
 
  private:
-  SunAndSky(const scene::Scene& scene, SkyTextures sky, std::unique_ptr<ShadowMethod> shadows)
+  SunAndSky(const scene::Scene& scene, SkyTextures sky, std::unique_ptr<render::ShadowMethod> shadows)
       : sun_(scene::sun_light(scene)),
         haze_per_m_(scene.haze_per_m),
         sky_(std::move(sky)),
@@ -44,7 +45,10 @@ class SunAndSky final : public LightSource {
   scene::SunLight sun_;
   float haze_per_m_;
   SkyTextures sky_;
-  std::unique_ptr<ShadowMethod> shadows_;
+  std::unique_ptr<render::ShadowMethod> shadows_;
 };
 
-}  // namespace parvis::render
+/// SunAndSky with SunShadowMaps about the viewer: a render::MakeLight.
+Result<std::unique_ptr<render::LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed);
+
+}  // namespace parvis::light

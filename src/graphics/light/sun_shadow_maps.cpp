@@ -1,4 +1,4 @@
-#include "graphics/render/sun_shadow_maps.h"
+#include "graphics/light/sun_shadow_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "graphics/render/bindings.h"
 #include "graphics/render/regions.h"
 
-namespace parvis::render {
+namespace parvis::light {
 namespace {
 
 constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings cast shadows
@@ -96,14 +96,14 @@ void SunShadowMaps::turn_to(const scene::SunLight& sun) {
   near_.reset();
 }
 
-View SunShadowMaps::shadow_view(int map, const glm::mat4& clip_from_world, float texel_m) {
-  View view;
-  view.kind = ViewKind::shadow;
+render::View SunShadowMaps::shadow_view(int map, const glm::mat4& clip_from_world, float texel_m) {
+  render::View view;
+  view.kind = render::ViewKind::shadow;
   view.clip_from_world = clip_from_world;
   view.position_in_world = sun_.spot ? sun_.spot->position : fixed_.centre() + 1e5f * to_sun_;
   view.framebuffer = framebuffers_[std::size_t(map)].name();
   view.width = view.height = map_size;
-  view.subjects = Subjects::fixed;
+  view.subjects = render::Subjects::fixed;
 
   const glm::mat4 uvz_from_clip(0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1);
   maps_.uvz_from_world[map] = uvz_from_clip * view.clip_from_world;
@@ -112,7 +112,7 @@ View SunShadowMaps::shadow_view(int map, const glm::mat4& clip_from_world, float
 }
 
 /// Both maps of a spot light show its whole cone.
-View SunShadowMaps::aim_spot(int map) {
+render::View SunShadowMaps::aim_spot(int map) {
   const glm::vec3 position = sun_.spot->position;
   const glm::vec3 up = std::abs(to_sun_.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const float half_angle = std::min(sun_.spot->half_angle + 0.01f, 1.5f);
@@ -127,7 +127,7 @@ View SunShadowMaps::aim_spot(int map) {
 }
 
 /// Turns a map's light toward a square about `centre`.
-View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
+render::View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   const float texel = 2.0f * half_width_m / float(map_size);
   glm::vec3 middle = sun_from_world_ * centre;
   middle.x = std::round(middle.x / texel) * texel;  // whole texels: edges do not crawl when the viewer moves
@@ -142,7 +142,7 @@ View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
   clip_from_sun[3] = {-middle.x / half_width_m, -middle.y / half_width_m, (top + bottom) / (top - bottom),
                       1.0f};
 
-  View view = shadow_view(map, clip_from_sun * glm::mat4(sun_from_world_), texel);
+  render::View view = shadow_view(map, clip_from_sun * glm::mat4(sun_from_world_), texel);
   view.position_in_world = centre + 1e5f * to_sun_;
   return view;
 }
@@ -157,7 +157,7 @@ void SunShadowMaps::aim_near(glm::vec3 position) {
 void SunShadowMaps::aim_near(const NearMap& near) {
   near_ = near;
   near_centre_ = glm::vec3(0.0f);
-  const View whole = shadow_view(shading::shadow_near_map, near.clip_from_world, near.texel_m);
+  const render::View whole = shadow_view(shading::shadow_near_map, near.clip_from_world, near.texel_m);
   maps_.growth = near.growth;
   maps_.tile_count = near.tile_count;
   for (std::size_t i = 0; i < near.tiles.size(); ++i) maps_.tiles[i] = near.tiles[i];
@@ -172,15 +172,15 @@ void SunShadowMaps::aim_near(const NearMap& near) {
   }
 }
 
-void SunShadowMaps::draw_near_fixed(const DrawView& draw) {
-  for (View view : near_views_) {
+void SunShadowMaps::draw_near_fixed(const render::DrawView& draw) {
+  for (render::View view : near_views_) {
     view.framebuffer = near_fixed_framebuffer_.name();
     draw(view);
   }
   drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
 }
 
-void SunShadowMaps::draw_far(const DrawView& draw) {
+void SunShadowMaps::draw_far(const render::DrawView& draw) {
   const glm::vec3 size = fixed_in_sun_.size();
   far_view_ = sun_.spot ? aim_spot(shading::shadow_far_map)
                         : aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
@@ -189,7 +189,7 @@ void SunShadowMaps::draw_far(const DrawView& draw) {
   postponed_.clear();
 }
 
-void SunShadowMaps::renew(const FixedChange& change, const Bounds& fixed) {
+void SunShadowMaps::renew(const render::FixedChange& change, const Bounds& fixed) {
   Bounds all = fixed_;
   all.add(fixed);
   if (all.min != fixed_.min || all.max != fixed_.max) {
@@ -210,45 +210,45 @@ bool SunShadowMaps::near_map_serves(const Bounds& box) const {
 }
 
 /// Draws anew the squares of a map where the boxes fall, with all of the `subjects` there.
-void SunShadowMaps::redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
-                           const DrawView& draw) const {
+void SunShadowMaps::redraw(render::View view, int map, std::span<const Bounds> boxes,
+                           render::Subjects subjects, const render::DrawView& draw) const {
   std::vector<Bounds> squares;  // in texels, flat
   for (const Bounds& box : boxes) squares.push_back(texels_of(map, box));
   view.subjects = subjects;
-  for (const Bounds& texels : united(std::move(squares), 0.0f)) {
+  for (const Bounds& texels : render::united(std::move(squares), 0.0f)) {
     view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
     if (view.has_part()) draw(view);
   }
 }
 
 /// Draws what came over what is there.
-void SunShadowMaps::draw_newcomers(View view, int map, std::span<const Bounds> boxes,
-                                   const DrawView& draw) const {
+void SunShadowMaps::draw_newcomers(render::View view, int map, std::span<const Bounds> boxes,
+                                   const render::DrawView& draw) const {
   Bounds texels;
   for (const Bounds& box : boxes)
     if (const Bounds square = texels_of(map, box); square.size().x > 0.0f && square.size().y > 0.0f)
       texels.add(square);
   if (texels.empty()) return;
-  view.subjects = Subjects::newcomers;
+  view.subjects = render::Subjects::newcomers;
   view.clears = false;
   view.part = glm::ivec4(glm::ivec2(texels.min), glm::ivec2(texels.size()));
   draw(view);
 }
 
-void SunShadowMaps::draw_changed(const DrawView& draw) {
+void SunShadowMaps::draw_changed(const render::DrawView& draw) {
   if (far_is_drawn_) {
     std::vector<Bounds> gone, come;
     for (const Bounds& box : change_.gone) (near_map_serves(box) ? postponed_ : gone).push_back(box);
     for (const Bounds& box : change_.come) (near_map_serves(box) ? postponed_ : come).push_back(box);
-    redraw(far_view_, shading::shadow_far_map, gone, Subjects::staying, draw);
+    redraw(far_view_, shading::shadow_far_map, gone, render::Subjects::staying, draw);
     draw_newcomers(far_view_, shading::shadow_far_map, come, draw);
   }
   if (near_) {
     near_.reset();  // it is fitted again, and drawn, in this update
   } else if (near_centre_.x < 1e30f) {
-    View fixed_view = near_views_.front();
+    render::View fixed_view = near_views_.front();
     fixed_view.framebuffer = near_fixed_framebuffer_.name();
-    redraw(fixed_view, shading::shadow_near_map, change_.gone, Subjects::staying, draw);
+    redraw(fixed_view, shading::shadow_near_map, change_.gone, render::Subjects::staying, draw);
     draw_newcomers(fixed_view, shading::shadow_near_map, change_.come, draw);
     for (const std::vector<Bounds>* boxes : {&change_.gone, &change_.come})
       for (const Bounds& box : *boxes)
@@ -260,8 +260,8 @@ void SunShadowMaps::draw_changed(const DrawView& draw) {
 }
 
 /// The near map is about to serve another region.
-void SunShadowMaps::draw_postponed(const DrawView& draw) {
-  redraw(far_view_, shading::shadow_far_map, postponed_, Subjects::fixed, draw);
+void SunShadowMaps::draw_postponed(const render::DrawView& draw) {
+  redraw(far_view_, shading::shadow_far_map, postponed_, render::Subjects::fixed, draw);
   postponed_.clear();
 }
 
@@ -287,7 +287,7 @@ Bounds SunShadowMaps::texels_of(int map, const Bounds& box) const {
 }
 
 void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
-                           const DrawView& draw) {
+                           const render::DrawView& draw) {
   if (glm::normalize(sun.direction_to_sun) != to_sun_ || sun.spot != sun_.spot) turn_to(sun);
   if (!change_.empty()) draw_changed(draw);
   if (!far_is_drawn_) draw_far(draw);
@@ -312,14 +312,14 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
       drawn_over_.push_back(square);
   if (maps_.tile_count > 0)  // they may fall into any tile
     drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
-  for (View moving_view : near_views_) {
-    moving_view.subjects = Subjects::moving;
+  for (render::View moving_view : near_views_) {
+    moving_view.subjects = render::Subjects::moving;
     moving_view.clears = false;
     draw(moving_view);
   }
 }
 
-void SunShadowMaps::bind() const { glBindTextureUnit(shadow_unit, depth_.name()); }
+void SunShadowMaps::bind() const { glBindTextureUnit(render::shadow_unit, depth_.name()); }
 
 shading::SunShadow SunShadowMaps::read_back() const {
   shading::SunShadow shadow;
@@ -333,4 +333,4 @@ shading::SunShadow SunShadowMaps::read_back() const {
   return shadow;
 }
 
-}  // namespace parvis::render
+}  // namespace parvis::light

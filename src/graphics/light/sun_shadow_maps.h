@@ -16,7 +16,7 @@
 #include "graphics/render/view.h"
 #include "graphics/shading/shadow.h"
 
-namespace parvis::render {
+namespace parvis::light {
 
 /// Where the near map lies for a view, in place of a square about the viewer.
 struct NearMap {
@@ -33,7 +33,7 @@ struct NearMap {
 using FitNearMap = std::function<NearMap(const Camera&, const scene::SunLight&, const Bounds& fixed)>;
 
 /// The far map of the whole place and the near map, whose static part is kept.
-class SunShadowMaps final : public ShadowMethod {
+class SunShadowMaps final : public render::ShadowMethod {
  public:
   /// Texels along a side of each map.
   static constexpr int map_size = 4096;
@@ -44,12 +44,12 @@ class SunShadowMaps final : public ShadowMethod {
 
   /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
   /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
-  void renew(const FixedChange& change, const Bounds& fixed) override;
+  void renew(const render::FixedChange& change, const Bounds& fixed) override;
 
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.
   /// `moving` bounds each thing that moves.
   void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
-              const DrawView& draw) override;
+              const render::DrawView& draw) override;
 
   void bind() const override;
   const shading::ShadowMaps& maps() const override { return maps_; }
@@ -60,18 +60,19 @@ class SunShadowMaps final : public ShadowMethod {
     glm::ivec2 corner, size;
   };
   void turn_to(const scene::SunLight& sun);
-  View aim(int map, glm::vec3 centre, float half_width_m);
-  View aim_spot(int map);
-  View shadow_view(int map, const glm::mat4& clip_from_world, float texel_m);
+  render::View aim(int map, glm::vec3 centre, float half_width_m);
+  render::View aim_spot(int map);
+  render::View shadow_view(int map, const glm::mat4& clip_from_world, float texel_m);
   void aim_near(glm::vec3 position);
   void aim_near(const NearMap& near);
-  void draw_near_fixed(const DrawView& draw);
-  void draw_far(const DrawView& draw);
-  void draw_changed(const DrawView& draw);
-  void draw_postponed(const DrawView& draw);
-  void redraw(View view, int map, std::span<const Bounds> boxes, Subjects subjects,
-              const DrawView& draw) const;
-  void draw_newcomers(View view, int map, std::span<const Bounds> boxes, const DrawView& draw) const;
+  void draw_near_fixed(const render::DrawView& draw);
+  void draw_far(const render::DrawView& draw);
+  void draw_changed(const render::DrawView& draw);
+  void draw_postponed(const render::DrawView& draw);
+  void redraw(render::View view, int map, std::span<const Bounds> boxes, render::Subjects subjects,
+              const render::DrawView& draw) const;
+  void draw_newcomers(render::View view, int map, std::span<const Bounds> boxes,
+                      const render::DrawView& draw) const;
   bool near_map_serves(const Bounds& box) const;
   void put_back(const Square& square);
   Square square_of(int map, const Bounds& box) const;
@@ -88,14 +89,14 @@ class SunShadowMaps final : public ShadowMethod {
   std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
   gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};
-  View far_view_;
-  std::vector<View> near_views_;    ///< of each tile
-  std::optional<NearMap> near_;     ///< as it was fitted last
-  std::vector<Square> drawn_over_;  ///< of the near map, by what moved
+  render::View far_view_;
+  std::vector<render::View> near_views_;  ///< of each tile
+  std::optional<NearMap> near_;           ///< as it was fitted last
+  std::vector<Square> drawn_over_;        ///< of the near map, by what moved
   bool far_is_drawn_ = false;
-  FixedChange change_;             ///< of this frame
+  render::FixedChange change_;     ///< of this frame
   std::vector<Bounds> postponed_;  ///< changed parts of the far map that nobody looks up: the near one serves
   glm::vec3 near_centre_{1e30f};
 };
 
-}  // namespace parvis::render
+}  // namespace parvis::light

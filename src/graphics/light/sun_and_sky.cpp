@@ -1,14 +1,16 @@
-#include "graphics/render/sun_and_sky.h"
+#include "graphics/light/sun_and_sky.h"
 
 #include <cmath>
 
-namespace parvis::render {
+#include "graphics/light/sun_shadow_maps.h"
 
-Result<std::unique_ptr<LightSource>> SunAndSky::create(const scene::Scene& scene,
-                                                       std::unique_ptr<ShadowMethod> shadows) {
+namespace parvis::light {
+
+Result<std::unique_ptr<render::LightSource>> SunAndSky::create(
+    const scene::Scene& scene, std::unique_ptr<render::ShadowMethod> shadows) {
   Result<SkyTextures> sky = SkyTextures::create(scene);
   if (!sky) return sky.errors();
-  return std::unique_ptr<LightSource>(new SunAndSky(scene, *std::move(sky), std::move(shadows)));
+  return std::unique_ptr<render::LightSource>(new SunAndSky(scene, *std::move(sky), std::move(shadows)));
 }
 
 bool SunAndSky::update(const scene::Scene& scene) {
@@ -19,8 +21,8 @@ bool SunAndSky::update(const scene::Scene& scene) {
   return sky_.renew_light(scene.sky) || has_new_sun;
 }
 
-void SunAndSky::renew(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change,
-                      const Bounds& fixed) {
+void SunAndSky::renew(const scene::Scene& scene, const render::GpuScene& gpu,
+                      const render::FixedChange& change, const Bounds& fixed) {
   shadows_->renew(change, fixed);
   sky_.renew_visibility(scene, gpu, change);
 }
@@ -30,7 +32,7 @@ void SunAndSky::bind() const {
   shadows_->bind();
 }
 
-void SunAndSky::fill(Frame& frame) const {
+void SunAndSky::fill(render::Frame& frame) const {
   frame.frame_to_sun = glm::vec4(glm::normalize(sun_.direction_to_sun), haze_per_m_);
   frame.frame_sun_irradiance = glm::vec4(sun_.irradiance, 0.0f);
   frame.frame_spot = sun_.spot ? glm::vec4(sun_.spot->position, std::cos(sun_.spot->half_angle))
@@ -50,4 +52,8 @@ void SunAndSky::fill(Frame& frame) const {
   frame.frame_lamps = glm::vec4(0.0f, 0.0f, 1.0f, 0.0f);  // none: sources above fill these
 }
 
-}  // namespace parvis::render
+Result<std::unique_ptr<render::LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed) {
+  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene::sun_light(scene), fixed));
+}
+
+}  // namespace parvis::light

@@ -1,11 +1,11 @@
-#include "graphics/render/sky_textures.h"
+#include "graphics/light/sky_textures.h"
 
 #include "graphics/render/bindings.h"
 #include "graphics/render/fixed_parts.h"
 #include "graphics/render/regions.h"
 #include "scene/data/bounced_settings.h"
 
-namespace parvis::render {
+namespace parvis::light {
 namespace {
 
 shading::WallLight wall_light(const scene::Scene& scene) {
@@ -15,11 +15,11 @@ shading::WallLight wall_light(const scene::Scene& scene) {
 /// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
 shading::Heightfield heights_of(const scene::Scene& scene) {
   Bounds bounds;
-  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+  render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
     bounds.add(transformed(part.world_from_mesh, part.mesh.bounds()));
   });
   shading::Heightfield heights(bounds);
-  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+  render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
     if (part.is_visible) heights.add(part.mesh, part.world_from_mesh);
   });
   return heights;
@@ -27,15 +27,15 @@ shading::Heightfield heights_of(const scene::Scene& scene) {
 
 /// Adds new objects to the heights, and rebuilds the heights where an object has gone. All objects stand
 /// where they stood, seen or hidden, and no room's own drawable has changed.
-void renew_heights(const scene::Scene& scene, const GpuScene& gpu, shading::Heightfield& heights) {
-  const std::vector<Bounds> places_left = united(gpu.fixed_change().gone, 0.0f);
+void renew_heights(const scene::Scene& scene, const render::GpuScene& gpu, shading::Heightfield& heights) {
+  const std::vector<Bounds> places_left = render::united(gpu.fixed_change().gone, 0.0f);
   for (const Bounds& place : places_left) heights.clear(place);
-  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+  render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
     if (!part.is_visible) return;
     const bool is_object = std::size_t(part.object) < scene.objects.size();
     if (is_object && gpu.is_newcomer(part.object)) return heights.add(part.mesh, part.world_from_mesh);
     for (const Bounds& place : places_left)
-      if (!is_object || overlap_from_above(place, gpu.object_bounds()[std::size_t(part.object)]))
+      if (!is_object || render::overlap_from_above(place, gpu.object_bounds()[std::size_t(part.object)]))
         heights.add(part.mesh, part.world_from_mesh, &place);
   });
 }
@@ -68,9 +68,9 @@ gl::Texture upload(const shading::SkyVisibility& visibility) {
 
 Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
   Result<gl::Program> program =
-      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/sky.frag");
+      gl::Program::create("graphics/render/whole_screen.vert", "graphics/light/sky.frag");
   if (!program) return program.errors();
-  assign_bindings(*program);
+  render::assign_bindings(*program);
   return SkyTextures(scene, *std::move(program));
 }
 
@@ -94,28 +94,28 @@ bool SkyTextures::renew_light(const scene::Sky& sky) {
   return true;
 }
 
-void SkyTextures::renew_visibility(const scene::Scene& scene, const GpuScene& gpu,
-                                   const FixedChange& change) {
+void SkyTextures::renew_visibility(const scene::Scene& scene, const render::GpuScene& gpu,
+                                   const render::FixedChange& change) {
   if (change.has_moved)
     heights_ = heights_of(scene);  // its bounds may be others, too
   else
     renew_heights(scene, gpu, heights_);
   std::vector<Bounds> changed = change.gone;
   changed.insert(changed.end(), change.come.begin(), change.come.end());
-  for (const Bounds& region : united(std::move(changed), shading::sky_visibility_reach_m))
+  for (const Bounds& region : render::united(std::move(changed), shading::sky_visibility_reach_m))
     shading::renew_sky_visibility(visibility_, heights_, region, wall_light(scene));
   cells_ = upload(visibility_);
 }
 
 void SkyTextures::bind() const {
-  glBindTextureUnit(sky_unit, picture_.name());
-  glBindTextureUnit(sky_visibility_unit, cells_.name());
+  glBindTextureUnit(render::sky_unit, picture_.name());
+  glBindTextureUnit(render::sky_visibility_unit, cells_.name());
 }
 
-void SkyTextures::draw(const View& view) const {
+void SkyTextures::draw(const render::View& view) const {
   program_.use();
   program_.set("world_from_clip", glm::inverse(view.clip_from_world));
-  program_.set("shows_sun", view.kind == ViewKind::main ? 1.0f : 0.0f);
+  program_.set("shows_sun", view.kind == render::ViewKind::main ? 1.0f : 0.0f);
   glBindVertexArray(no_attributes_.name());
   glDepthMask(GL_FALSE);
   glDisable(GL_CULL_FACE);
@@ -123,4 +123,4 @@ void SkyTextures::draw(const View& view) const {
   glDepthMask(GL_TRUE);
 }
 
-}  // namespace parvis::render
+}  // namespace parvis::light

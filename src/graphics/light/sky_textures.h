@@ -9,7 +9,7 @@
 #include "graphics/shading/sky_visibility.h"
 #include "scene/data/scene.h"
 
-namespace parvis::render {
+namespace parvis::light {
 
 class SkyTextures {
  public:
@@ -20,12 +20,13 @@ class SkyTextures {
   bool renew_light(const scene::Sky& sky);
   /// Takes over static things that appeared, vanished or moved in this frame: `change`, of which what is the
   /// scene's has been taken over by `gpu`.
-  void renew_visibility(const scene::Scene& scene, const GpuScene& gpu, const FixedChange& change);
+  void renew_visibility(const scene::Scene& scene, const render::GpuScene& gpu,
+                        const render::FixedChange& change);
 
   /// Texture units `sky_unit` and `sky_visibility_unit`.
   void bind() const;
   /// Fills what the depth buffer says is empty.
-  void draw(const View& view) const;
+  void draw(const render::View& view) const;
 
   const shading::SkyLight& light() const { return light_; }
   const shading::SkyVisibility& visibility() const { return visibility_; }
@@ -53,4 +54,4 @@ class SkyTextures {
   gl::VertexArray no_attributes_;
 };
 
-}  // namespace parvis::render
+}  // namespace parvis::light
