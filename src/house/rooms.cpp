@@ -57,6 +57,9 @@ constexpr Furnish rooms[]{
     city::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
+    shadows::furnish,        // after light, whose shadows it replaces
+    lamps::furnish,          // after shadows: its light is laid over that one
+    bounced_light::furnish,  // likewise; before what is baked in its light
     probes::furnish,
     environment_rays::furnish,
     traced::furnish,
@@ -65,9 +68,6 @@ constexpr Furnish rooms[]{
     reference_maps::furnish,
     virtual_objects::furnish,
     refraction::furnish,
-    shadows::furnish,
-    lamps::furnish,  // after shadows: its light is laid over that one
-    bounced_light::furnish,
     lit_objects::furnish,  // after all processes that move things
     facades::furnish,
     trees::furnish,

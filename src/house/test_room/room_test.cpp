@@ -8,6 +8,8 @@
 #include "base/test_folder.h"
 #include "bench/benches.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
+#include "graphics/render/bake_steps.h"
 #include "house/rooms.h"
 #include "house/stage/baking.h"
 #include "house/stage/stage.h"
@@ -86,6 +88,33 @@ TEST_F(TestRoomTest, ItsBakeStepRunsForEachStateAndForgetsOthers) {
   ASSERT_TRUE(small_alone.bake(play->scene));
   small_alone.forget_other_states(play->scene);
   EXPECT_EQ(volumes(), std::set<std::string>{"0.524\n"});
+}
+
+int lights_made = 0;
+
+Result<std::unique_ptr<render::LightSource>> counted_light(const scene::Scene& scene, const Bounds& fixed) {
+  ++lights_made;
+  return light::sun_and_sky(scene, fixed);
+}
+
+/// Its only bake step asks for a renderer.
+void furnish_step_with_renderer(House& house) {
+  house.get<render::Lights>().make = counted_light;
+  house.get<render::BakeSteps>().add({.name = "nothing",
+                                      .run = [](render::BakeInput& input) -> Result<render::Baked> {
+                                        const Result<render::Renderer*> renderer = input.renderer();
+                                        if (!renderer) return renderer.errors();
+                                        return render::Baked{};
+                                      },
+                                      .forget_others = [](const scene::Scene&, const auto&) {}});
+}
+
+TEST_F(TestRoomTest, WhatIsBakedIsLitAsPicturesAre) {
+  const House house = make_house(std::array{Furnish(furnish_step_with_renderer)});
+  Result<Play> play = open_play(house, folder_.write("scene.xp", "camera(name=front)"), {});
+  ASSERT_TRUE(play) << to_string(play.errors());
+  ASSERT_TRUE(Baking(house).bake(play->scene));
+  EXPECT_EQ(lights_made, 1);
 }
 
 TEST_F(TestRoomTest, ItsBenchIsRunByName) {
