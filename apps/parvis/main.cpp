@@ -27,6 +27,8 @@ int failed(const std::string& message) { return failed(message.c_str()); }
 constexpr const char* no_memory =
     "parvis: there is not enough memory for this; use a smaller scene or --size\n";
 
+constexpr const char* no_output = "parvis: the standard output cannot be written; is its disk full?\n";
+
 /// Memory may end where no exception can pass: destructors of the JSON library and of others allocate.
 void end_without_memory() {
   try {
@@ -57,14 +59,14 @@ int run(int count, char** arguments) {
   } catch (const CLI::ParseError& problem) {
     if (app.exit(problem) != 0) return 2;
     std::cout.flush();
-    return std::cout ? 0 : 1;
+    return std::cout ? 0 : failed(no_output);
   }
   if (const parvis::Status status = chosen(); !status) {
     return failed(parvis::to_string(status.errors()));
   }
   // What was printed may be the result: a full disk behind it is an error.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    return failed("parvis: the standard output cannot be written; is its disk full?\n");
+    return failed(no_output);
   }
   return 0;
 }

@@ -103,15 +103,11 @@ void remove_abandoned(const fs::path& folder, std::string_view front, std::size_
   for (const fs::path& path : left) fs::remove_all(path, code);
 }
 
-/// Locks what was just made, so that others see that somebody works on it; -1 where another program was
+/// Locks what was just made, so that others see that somebody works on it. False where another program was
 /// faster and has taken it for abandoned.
-int hold(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+bool lock_made(int file) {
   struct stat status {};
-  if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 && status.st_nlink > 0)
-    return file;
-  if (file >= 0) close(file);
-  return -1;
+  return flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
 /// A new, empty file of a name that fits into a folder, and the lock on it; empty if none can be made.
@@ -129,8 +125,12 @@ fs::path make_partial(const fs::path& file, int& lock) {
         file.parent_path() / fmt::format("{}{:08x}-{}{}", front, std::uint32_t(random()), stem, extension);
     const int made = open(partial.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
     if (made >= 0) {
+      if (lock_made(made)) {
+        lock = made;
+        return partial;
+      }
+      unlink(partial.c_str());
       close(made);
-      if (lock = hold(partial); lock >= 0) return partial;
       continue;
     }
     if (errno != EEXIST) break;
@@ -210,7 +210,8 @@ Result<PartialFolder> PartialFolder::create(const fs::path& folder) {
   remove_abandoned(folder, front, random.size(), "");
   std::string path = folder / (front + random);
   if (mkdtemp(path.data()) == nullptr) return cannot_write(folder);
-  const int lock = hold(path);
+  int lock = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock >= 0 && !lock_made(lock)) close(std::exchange(lock, -1));
   std::error_code code;
   fs::permissions(path, fs::perms::group_read | fs::perms::others_read, fs::perm_options::add, code);
   const int slot = list(fs::absolute(path, code).string());

@@ -108,6 +108,20 @@ ImageF prefiltered(const ImageF& source, float roughness, int samples) {
   return result;
 }
 
+/// A picture that is large enough for all levels: a smaller one is enlarged.
+ImageF with_room_for_levels(const ImageF& picture) {
+  constexpr int width = 1 << (level_count - 1);
+  if (std::max(picture.width, picture.height) >= width) return picture;
+  ImageF result(width, width / 2, 3);
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x) {
+      const vec2 uv = (vec2(x, y) + 0.5f) / vec2(result.width, result.height);
+      const vec3 colour = bilinear(picture, uv);
+      for (int c = 0; c < 3; ++c) result.at(x, y)[c] = colour[c];
+    }
+  return result;
+}
+
 std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading) {
   constexpr std::array<float, 9> cosine_lobe{pi_f,       2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
                                              0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
@@ -148,7 +162,8 @@ vec3 mean_above_horizon(const ImageF& picture) {
 SkyLight make_sky_light(const ImageF& picture, float intensity, float heading) {
   SkyLight sky;
   sky.heading = heading;
-  sky.levels.push_back(scaled_without_sun(picture.empty() ? plain_blue_sky() : picture, intensity));
+  sky.levels.push_back(
+      scaled_without_sun(with_room_for_levels(picture.empty() ? plain_blue_sky() : picture), intensity));
   std::vector<ImageF> halves{sky.levels.front()};
   for (int level = 1; level < level_count; ++level) {
     halves.push_back(halved(halves.back()));

@@ -20,6 +20,18 @@ vec3 irradiance(const SkyLight& sky, vec3 normal) {
   return sky_irradiance(sh, normal);
 }
 
+TEST(SkyLightTest, APictureOfTwoPixelsHasAllLevelsAndItsColours) {
+  ImageF picture(2, 1, 3);
+  picture.at(0, 0)[0] = 1.0f, picture.at(1, 0)[2] = 1.0f;
+  const SkyLight sky = make_sky_light(picture, 1.0f, 0.0f);
+  for (std::size_t level = 0; level < sky.levels.size(); ++level)
+    EXPECT_EQ(std::max(sky.levels[level].width, 1), std::max(sky.levels[0].width >> level, 1));
+  EXPECT_GE(sky.levels.back().width, 1);
+  EXPECT_GE(sky.levels[0].width >> (sky.levels.size() - 1), 1) << "a texture has no level below one texel";
+  EXPECT_GT(sky_picture_at(sky, {0.25f, 0.5f}).x, 0.9f);
+  EXPECT_GT(sky_picture_at(sky, {0.75f, 0.5f}).z, 0.9f);
+}
+
 TEST(Sky, AConstantSkyIsConstantAtEveryBlur) {
   const SkyLight sky = make_sky_light(ImageF(128, 64, 3, 0.7f), 2.0f, 1.0f);
   ASSERT_GT(sky.levels.size(), 1u);
