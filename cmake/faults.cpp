@@ -81,7 +81,10 @@ bool fails(const void* caller) {
 }
 
 void* allocate(std::size_t size, std::size_t alignment, const void* caller) {
-  if (fails(caller)) return nullptr;
+  if (fails(caller)) {
+    if (const std::new_handler handler = std::get_new_handler()) handler();
+    return nullptr;
+  }
   return alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
                                                 : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }

@@ -29,20 +29,14 @@ constexpr const char* no_memory =
 
 constexpr const char* no_output = "parvis: the standard output cannot be written; is its disk full?\n";
 
-/// Memory may end where no exception can pass: destructors of the JSON library and of others allocate.
-void end_without_memory() {
-  try {
-    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
-  } catch (const std::bad_alloc&) {
-    parvis::remove_partial_files_and_end(no_memory);
-  } catch (...) {  // a fault of the program: it ends as one
-  }
-  std::abort();
-}
+/// Ends the program where memory ends: exceptions must not pass the graphics driver, which holds locks, nor
+/// destructors of libraries that allocate.
+void end_without_memory() { parvis::remove_partial_files_and_end(no_memory); }
 
 /// Reads the command line and does what it says. Throws what no room can answer for.
 int run(int count, char** arguments) {
-  parvis::start_isolation();  // before there are threads
+  parvis::start_isolation();                 // before there are threads
+  std::set_new_handler(end_without_memory);  // not in the processes that read strangers' files: they answer
   parvis::remove_partial_files_on_signals();
   CLI::App app{"Parvis shows a city square before it changes."};
   app.name("parvis");
@@ -74,10 +68,9 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  std::set_terminate(end_without_memory);
   try {
     return run(count, arguments);
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc&) {  // of a library that throws it by itself
     return failed(no_memory);
   } catch (const std::length_error&) {
     return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
