@@ -138,8 +138,10 @@ def cases():
         yield on_ground(entity[:30], "m.osm", HEAD + entity + right[len(HEAD):], "refused")
     for content in (b"", b"\0\0\0\x0d\n\x09OSMHeader" + b"\xff" * 40, b"\0\0\0\x0d\n\x09OSMHeader\x18\x7f" + b"\0" * 200, b"\xff" * 60):
         yield on_ground(f"PBF {content[:12]}", "m.pbf", content, "refused")
-    for width, height in ((2**31, 2**31), (2**32 - 1, 2**32 - 1), (0, 0), (1, 1), (2**31 - 1, 2), (60000, 60000), (4, 4)):
+    for width, height in ((2**31, 2**31), (2**32 - 1, 2**32 - 1), (0, 0), (1, 1), (2**31 - 1, 2), (60000, 60000)):
         yield model_case("terrain", f"{width} x {height}", "m.tif", grid(width, height), "refused", attributes=", cell=1")
         yield model_case("terrain", f"{width} x {height} in strips of all", "m.tif", grid(width, height, 2**32 - 1, 2**31), "refused", attributes=", cell=1")
+    # its strip says 8 bytes, but all 64 are there: libtiff counts again
+    yield model_case("terrain", "4 x 4, a wrong count of bytes", "m.tif", grid(4, 4), "either", attributes=", cell=1")
     for size in (0, 4, 8, 40, 100):
         yield model_case("terrain", f"cut at {size}", "m.tif", grid(4, 4)[:size], "refused", attributes=", cell=1")
