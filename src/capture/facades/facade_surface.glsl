@@ -1,4 +1,4 @@
-// Of a captured facade: light that photographs have recorded, as emission over a black metal.
+// Of a captured facade: light that photographs have recorded (IS_RECORDED).
 #include "graphics/shading/tone_curve.glsl"
 #include "graphics/shading/view_blend.glsl"
 #include "graphics/shading/recorded_light.glsl"

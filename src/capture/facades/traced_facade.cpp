@@ -27,7 +27,8 @@ class FacadeSurface final : public scene::TracedSurface {
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     scene::TracedPoint point;
-    point.normal = hit.normal;
+    // Photographs have recorded reflections, too: a black metal adds none where it faces the viewer.
+    point.normal = hit.to_viewer;
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
     const glm::vec3 srgb = glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f);
     point.emission = radiance_of_exposed_ * tone_unmapped(linear_from_srgb(srgb));

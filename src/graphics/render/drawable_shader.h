@@ -15,7 +15,8 @@ struct DrawableShader {
   /// from `first_drawable_unit` on.
   std::string surface_path;
   /// HAS_HOLES: alpha cuts out. HAS_BACKS: it is there when seen from behind. HAS_COAT: it has a clear coat.
-  /// And the room's own.
+  /// IS_RECORDED: it emits what a photograph recorded, and no light of the scene is added. And the room's
+  /// own.
   gl::Defines defines;
 };
 

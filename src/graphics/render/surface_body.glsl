@@ -82,7 +82,13 @@ vec3 light_through(vec3 ahead) {
 }
 #endif
 
-#ifndef WRITES_SURFACE  // a file that writes the surface has no reflected_radiance: references would not link
+#ifdef IS_RECORDED
+// Radiance toward the viewer, through the haze: what a photograph recorded holds the light of its scene
+// already.
+vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
+  return through_haze(s.emission, seen.distance_m, frame_to_sun.w, frame_haze.rgb);
+}
+#elif !defined(WRITES_SURFACE)  // a file that writes it has no reflected_radiance: references would not link
 // Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets
 // in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
