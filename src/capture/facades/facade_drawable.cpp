@@ -81,9 +81,11 @@ struct DrawnRange {
 
 class FacadeDrawable final : public render::Drawable {
  public:
-  static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
+  static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing,
+                                                          Compared compared) {
     const auto programs_of = [](gl::Defines defines) {
       defines.emplace_back("HAS_BACKS", "");
+      defines.emplace_back("IS_RECORDED", "");
       return render::ViewPrograms::create(
           {"capture/facades/facade_vertex.glsl", "capture/facades/facade_surface.glsl", std::move(defines)});
     };
@@ -91,7 +93,7 @@ class FacadeDrawable final : public render::Drawable {
     if (!solid) return solid.errors();
     if (!cutout) return cutout.errors();
     std::unique_ptr<FacadeDrawable> made(
-        new FacadeDrawable(first_thing, *std::move(solid), *std::move(cutout)));
+        new FacadeDrawable(first_thing, compared, *std::move(solid), *std::move(cutout)));
     if (Status status = made->load(scene); !status) return status.errors();
     made->update(scene);
     made->change_ = {};
@@ -162,8 +164,11 @@ class FacadeDrawable final : public render::Drawable {
   }
 
  private:
-  FacadeDrawable(int first_thing, render::ViewPrograms solid, render::ViewPrograms cutout)
-      : first_thing_(first_thing), solid_(std::move(solid)), cutout_(std::move(cutout)) {}
+  FacadeDrawable(int first_thing, Compared compared, render::ViewPrograms solid, render::ViewPrograms cutout)
+      : first_thing_(first_thing),
+        compared_(compared),
+        solid_(std::move(solid)),
+        cutout_(std::move(cutout)) {}
 
   /// Facades that are new in the scene; those that left it are given back.
   Status load(const scene::Scene& scene) {
@@ -203,7 +208,8 @@ class FacadeDrawable final : public render::Drawable {
     if (!chosen || chosen->loaded != shown.loaded)
       chosen = ChosenForEye{shown.loaded, eye, shown.loaded->textures.chosen_lists()};
     chosen->eye = eye;
-    chosen->lists.set(shown.loaded->chooser.choice(eye, pixel_angle_of(view)));
+    const ViewChooser& chooser = shown.loaded->chooser;
+    chosen->lists.set(compared_ == Compared::all ? chooser.all() : chooser.choice(eye, pixel_angle_of(view)));
   }
 
   static void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,
@@ -223,6 +229,7 @@ class FacadeDrawable final : public render::Drawable {
   using Loaded = std::map<std::shared_ptr<const PackedFacade>, std::unique_ptr<LoadedFacade>>;
 
   int first_thing_;
+  Compared compared_;
   render::ViewPrograms solid_, cutout_;
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
@@ -236,6 +243,10 @@ class FacadeDrawable final : public render::Drawable {
 
 }  // namespace
 
-render::DrawableKind facades_kind() { return {traced_facades(), &FacadeDrawable::create}; }
+render::DrawableKind facades_kind(Compared compared) {
+  return {traced_facades(), [compared](const scene::Scene& scene, int first_thing) {
+            return FacadeDrawable::create(scene, first_thing, compared);
+          }};
+}
 
 }  // namespace parvis::facades

@@ -5,7 +5,13 @@
 
 namespace parvis::facades {
 
+/// Where the photographs of a pixel are chosen among.
+enum class Compared : std::uint8_t {
+  chosen,  ///< the few that its triangle is looked up in from the viewpoint (ViewChooser)
+  all      ///< all that hold its triangle: for benches, which tell what choosing saves
+};
+
 /// The kind of all facades of a scene: its drawable, and its counterpart in the ray tracer.
-render::DrawableKind facades_kind();
+render::DrawableKind facades_kind(Compared compared = Compared::chosen);
 
 }  // namespace parvis::facades

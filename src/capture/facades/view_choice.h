@@ -29,6 +29,8 @@ class ViewChooser {
   /// at a triangle's centre; of a large triangle, at points all over it; all where fewer than two show it, or
   /// where it fills much of the view.
   ViewChoice choice(glm::vec3 eye, float pixel_angle) const;
+  /// All photographs that hold each triangle.
+  ViewChoice all() const { return {facade_.lists, {}}; }
   /// How far the eye may move until photographs have to be chosen anew.
   float step() const { return step_; }
 
