@@ -12,16 +12,16 @@
 #define TILE_SEEN 1u      // the photograph sees all of it
 #define TILE_MIXED 2u     // alpha says how much of a texel the photograph sees
 #define TILE_ALPHA 3u     // seen, with an artist's alpha
-#define TILE_INNER 60.0f  // texels of a tile; 2 more on every side repeat its neighbours, for filters
-#define TILE_BORDER 2.0f
-#define TILE_LEVELS 3  // mipmaps whose filters stay within a slot of 64 texels
+#define TILE_INNER 62.0f  // texels of a tile; 1 more on every side repeats its neighbours, for filters
+#define TILE_BORDER 1.0f
+#define TILE_LEVELS 3  // mipmaps
 
 // Confidence in what was filled over what a photograph sees: it counts where nothing else does.
 #define FILLED_CONFIDENCE 0.01f
 // Below this angle between eye and camera, radians, a photograph is shown plainly; it counts more and more
 // from 4 times that.
 #define OWN_VIEWPOINT_ANGLE 0.002f
-#define DEPTH_CELL 4.0f  // pixels
+#define DEPTH_CELL 8.0f  // pixels
 // A point this much farther than its photograph sees is hidden by its own object, log2 (1.5 %).
 #define HIDDEN_LOG2 0.0215f
 // What was filled lies behind what its photograph sees; this much farther only the backdrop does, of which no
@@ -68,9 +68,12 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   found.kind = int(tile.x);
   found.slot = int(tile.y);
   found.photo = index;
-  found.at = in_box - TILE_INNER * cell + vec2(TILE_BORDER);
   float ratio = depth / (photo.centre.w * max(pixel_m, 1e-6f));
   found.level = clamp(log2(max(1.0f / ratio, 1.0f)), 0.0f, float(TILE_LEVELS - 1));
+  // Filters stay within the slot: in the coarsest level by reading a texel less near its edge.
+  float reach = 0.5f * exp2(ceil(found.level));
+  found.at = clamp(in_box - TILE_INNER * cell + vec2(TILE_BORDER), vec2(reach),
+                   vec2(TILE_INNER + 2.0f * TILE_BORDER - reach));
   found.penalty = view_penalty(to_eye, to_photo, ratio, RESOLUTION_WEIGHT);
   float angle = view_penalty(to_eye, to_photo, 1.0f, 0.0f);
   found.own = 1.0f - smoothstep(OWN_VIEWPOINT_ANGLE, 4.0f * OWN_VIEWPOINT_ANGLE, angle);

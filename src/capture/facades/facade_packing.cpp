@@ -15,8 +15,7 @@ namespace {
 
 constexpr double outline_margin = 0.01;  ///< of the picture's width: how exact outlines before a backdrop are
 constexpr int dilation_rings = 6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
-/// Of pixels that were filled, in mixed tiles: colours share a block's line with alpha, so that a larger step
-/// would cost them most of their precision.
+/// Of pixels that were filled, in mixed tiles.
 constexpr std::uint8_t unseen_alpha = 191;
 constexpr std::size_t max_known_colours = 2000;  ///< that unknown surfaces are coloured from
 
@@ -130,6 +129,7 @@ struct OpenSlot {
   Image8 texels{tile_side, tile_side, 4};
   std::vector<char> is_own = std::vector<char>(std::size_t(tile_side) * tile_side, 0), is_covered = is_own;
   glm::ivec2 cell{0};  ///< of the photograph's grid of tiles
+  bool has_artists_alpha = false;
 
   /// Adds a layer's tile, unless they want the same texel.
   bool take(const OpenSlot& other) {
@@ -185,6 +185,22 @@ void complete(OpenSlot& slot) {
   }
 }
 
+/// Whether a texel was seen is told per block: colours then need not share a block's line with alpha, which
+/// would cost them most of their precision. Blocks that hold what is not known, or an artist's alpha, stay.
+void decide_blocks(Image8& texels) {
+  for (int top = 0; top < texels.height; top += 4)
+    for (int left = 0; left < texels.width; left += 4) {
+      int least = 255, sum = 0;
+      for (int i = 0; i < 16; ++i) {
+        const int alpha = texels.at(left + i % 4, top + i / 4)[3];
+        least = std::min(least, alpha), sum += alpha;
+      }
+      if (least < unseen_alpha || least == 255) continue;
+      const std::uint8_t alpha = 2 * sum >= 16 * (255 + unseen_alpha) ? 255 : unseen_alpha;
+      for (int i = 0; i < 16; ++i) texels.at(left + i % 4, top + i / 4)[3] = alpha;
+    }
+}
+
 Image8 halved(const Image8& image) {
   Image8 half(image.width / 2, image.height / 2, 4);
   for (int y = 0; y < half.height; ++y)
@@ -215,6 +231,7 @@ std::vector<Bc7Block> blocks_of(OpenSlot& slot) {
   complete(slot);
   std::vector<Bc7Block> blocks;
   for (int level = 0; level < tile_levels; ++level) {
+    if (!slot.has_artists_alpha) decide_blocks(slot.texels);
     std::ranges::copy(bc7_blocks(slot.texels), std::back_inserter(blocks));
     slot.texels = halved(slot.texels);
   }
@@ -233,6 +250,7 @@ class PhotoTiles {
         std::uint32_t entry = std::uint32_t(kind);
         if (kind != TileKind::none) {
           OpenSlot tile = tile_of(picture, column, row);
+          tile.has_artists_alpha = kind == TileKind::alpha;
           tile.cell = glm::ivec2(layer.box.x / tile_inner + column, layer.box.y / tile_inner + row);
           entry |= std::uint32_t(first_slot + place(std::move(tile), kind)) << 2;
         }

@@ -8,7 +8,7 @@
 namespace parvis::facades {
 namespace {
 
-constexpr SealedKind kind{"PVFACE_2", "packed facade"};
+constexpr SealedKind kind{"PVFACE_3", "packed facade"};
 constexpr std::size_t max_photos = 4096, max_name_bytes = 4096;
 constexpr int max_side = 65535;  // boxes are kept in 16 bits
 

@@ -17,10 +17,11 @@
 
 namespace parvis::facades {
 
-inline constexpr int tile_inner = 60;  ///< pixels of the photograph in a tile, per side
-inline constexpr int tile_border = 2;  ///< texels about them that repeat the neighbours
+inline constexpr int tile_inner = 62;  ///< pixels of the photograph in a tile, per side
+inline constexpr int tile_border =
+    1;  ///< texels about them that repeat the neighbours; coarse levels are read less near the edge
 inline constexpr int tile_side = tile_inner + 2 * tile_border;
-inline constexpr int tile_levels = 3;  ///< mipmaps; filters of coarser ones would leave the slot
+inline constexpr int tile_levels = 3;  ///< mipmaps
 inline constexpr std::size_t blocks_per_slot = (64 * 64 + 32 * 32 + 16 * 16) / 16;
 static_assert(tile_side == 64);
 
@@ -33,7 +34,7 @@ enum class TileKind : std::uint8_t {
   alpha   ///< seen, with an artist's alpha
 };
 
-inline constexpr int depth_cell = 4;  ///< pixels per side of a cell of PackedFacade::depths
+inline constexpr int depth_cell = 8;  ///< pixels per side of a cell of PackedFacade::depths
 /// Cells of a photograph.
 inline glm::ivec2 depth_cells(const View& view) {
   return {(view.width + depth_cell - 1) / depth_cell, (view.height + depth_cell - 1) / depth_cell};
