@@ -30,7 +30,7 @@ GLSL_FUNCTION float blend_weight(float penalty, float max_penalty) {
 // the better one is shown nearly alone instead of a double image. 0 and 1 stay, and so does 1/2: nothing
 // jumps when the better one changes.
 GLSL_FUNCTION float decided_share(float share, float difference) {
-  float power = 1.0f + 7.0f * smoothstep(0.2f, 0.45f, difference);
+  float power = 1.0f + 7.0f * smoothstep(0.6f, 1.0f, difference);
   float of_second = pow(clamp(share, 0.0f, 1.0f), power),
         of_best = pow(clamp(1.0f - share, 0.0f, 1.0f), power);
   return of_second / max(of_best + of_second, 1e-20f);
