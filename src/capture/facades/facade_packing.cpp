@@ -185,7 +185,7 @@ void complete(OpenSlot& slot) {
   }
 }
 
-/// Whether a texel was seen is told per block: colours then need not share a block's line with alpha, which
+/// Whether a texel was seen is kept per block: colours then need not share a block's line with alpha, which
 /// would cost them most of their precision. Blocks that hold what is not known, or an artist's alpha, stay.
 void decide_blocks(Image8& texels) {
   for (int top = 0; top < texels.height; top += 4)
