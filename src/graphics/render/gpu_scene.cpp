@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/bindings.h"
+#include "graphics/render/foliage_levels.h"
 #include "graphics/render/mesh_levels.h"
 #include "graphics/shading/glsl.h"
 #include "scene/data/mip_levels.h"
@@ -127,8 +128,13 @@ void GpuScene::add_models(const scene::Scene& scene) {
   }
 }
 
-/// For dynamic objects and for models placed many times: only they are far away as a whole.
 void GpuScene::add_levels(const scene::Scene& scene) {
+  add_surface_levels(scene);
+  add_foliage_levels();
+}
+
+/// For dynamic objects and for models placed many times: only they are far away as a whole.
+void GpuScene::add_surface_levels(const scene::Scene& scene) {
   std::unordered_map<const scene::Model*, int> uses;
   for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;
   std::vector<std::pair<const Mesh*, PartRange*>> wanted;
@@ -147,6 +153,25 @@ void GpuScene::add_levels(const scene::Scene& scene) {
     part.level_count = int(levels[i].size());
     for (const MeshLevel& level : levels[i])
       levels_.push_back({geometry_.add_triangles(part, level.indices), level.error_m});
+  }
+}
+
+/// For all foliage: of one tree already there are more leaves than a picture shows from across a street.
+void GpuScene::add_foliage_levels() {
+  std::vector<std::pair<const Mesh*, PartRange*>> foliage;
+  for (const auto& [model, first_part] : first_part_of_model_)
+    for (std::size_t p = 0; p < model->parts.size(); ++p) {
+      PartRange& part = parts_[std::size_t(first_part) + p];
+      const bool is_leaf = (materials_[std::size_t(part.material)].features & surface_is_leaf) != 0;
+      if (is_leaf && !model->parts[p].deformation) foliage.emplace_back(&model->parts[p].mesh, &part);
+    }
+  std::vector<std::vector<FoliageLevel>> levels(foliage.size());
+  parallel_for(foliage.size(), [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].first); });
+  for (std::size_t i = 0; i < foliage.size(); ++i) {
+    PartRange& part = *foliage[i].second;
+    part.first_level = int(levels_.size());
+    part.level_count = int(levels[i].size());
+    for (const FoliageLevel& level : levels[i]) levels_.push_back({geometry_.add(level.mesh), level.error_m});
   }
 }
 
@@ -177,6 +202,8 @@ void GpuScene::add_lit_parts(const scene::Scene& scene) {
     for (std::size_t p = 0; p < scene.objects[o].model->parts.size(); ++p) {
       if (!has_own) parts_.push_back(PartRange(parts_[first + p]));
       PartRange& part = parts_[std::size_t(first_part_[o]) + p];
+      for (const LevelRange& level : levels_of(part))
+        if (level.base_vertex != part.base_vertex) part.level_count = 0;  // light is given for its vertices
       const auto [material, is_new] = lit_material.try_emplace(part.material, int(materials_.size()));
       if (is_new) {
         materials_.push_back(GpuMaterial(materials_[std::size_t(part.material)]));

@@ -129,6 +129,8 @@ class GpuScene {
  private:
   void add_models(const scene::Scene& scene);
   void add_levels(const scene::Scene& scene);
+  void add_surface_levels(const scene::Scene& scene);
+  void add_foliage_levels();
   void add_deformed_parts(const scene::Scene& scene);
   void add_lit_parts(const scene::Scene& scene);
   void deform(const scene::Object& object, std::size_t o);

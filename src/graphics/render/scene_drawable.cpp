@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "graphics/render/bindings.h"
+#include "graphics/render/foliage_levels.h"
 #include "graphics/render/mesh_levels.h"
 
 namespace parvis::render {
@@ -114,7 +115,7 @@ std::uint64_t SceneDrawable::sort_key(const Item& item, int level, const View& v
   const PartRange& part = gpu_.parts()[std::size_t(item.part)];
   const GpuMaterial& material = gpu_.materials()[std::size_t(part.material)];
   const std::uint64_t pass = std::uint64_t(material.pass) << 62;
-  static_assert(max_mesh_levels < 8);
+  static_assert(max_mesh_levels < 8 && max_foliage_levels < 8);
   const std::uint64_t mesh = std::uint64_t(item.part) << 3 | std::uint64_t(level);
   if (material.pass == Pass::blend) {
     const float distance_m = glm::distance(item.bounds.centre(), view.position_in_world);

@@ -1,0 +1,129 @@
+// Cook et al. prune in a random order and correct the contrast of what is left. Here the order is even along
+// the mesh (neighbours on a twig follow each other in it), so that fewer holes open; contrast is left alone:
+// leaves of a level that is drawn are a few pixels large and do not yet average.
+#include "graphics/render/foliage_levels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/bounds.h"
+
+namespace parvis::render {
+namespace {
+
+constexpr std::size_t min_pieces = 256;
+constexpr float kept_share = 2.0f / 3.0f;  // from one level to the next: leaves grow by a fifth
+// With a quarter of a pixel of error that a surface may have, the leaves of a level are 8 pixels or smaller.
+constexpr float error_of_leaf = 1.0f / 32.0f;
+
+/// A part of a mesh that shares no vertex with the rest.
+struct Piece {
+  Bounds bounds;
+  std::uint32_t order = 0;  ///< those below a limit are kept
+};
+
+/// The pieces, in the order of their first vertices, and which one each vertex is of.
+struct Pieces {
+  std::vector<Piece> all;
+  std::vector<std::uint32_t> of_vertex;
+};
+
+Pieces pieces_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> lowest(mesh.positions.size());  // a vertex of the piece that comes earlier
+  std::iota(lowest.begin(), lowest.end(), 0u);
+  const auto root = [&](std::uint32_t vertex) {
+    while (lowest[vertex] != vertex) vertex = lowest[vertex] = lowest[lowest[vertex]];
+    return vertex;
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    for (std::size_t side = 1; side < 3; ++side) {
+      const std::uint32_t a = root(mesh.indices[i]), b = root(mesh.indices[i + side]);
+      lowest[std::max(a, b)] = std::min(a, b);
+    }
+  Pieces pieces{{}, std::vector<std::uint32_t>(mesh.positions.size())};
+  for (std::uint32_t vertex = 0; vertex < lowest.size(); ++vertex) {
+    const std::uint32_t first = root(vertex);
+    if (first == vertex) {
+      pieces.of_vertex[vertex] = std::uint32_t(pieces.all.size());
+      pieces.all.emplace_back();
+    }
+    pieces.of_vertex[vertex] = pieces.of_vertex[first];
+    pieces.all[pieces.of_vertex[vertex]].bounds.add(mesh.positions[vertex]);
+  }
+  return pieces;
+}
+
+/// Numbers the pieces so that those below any limit lie evenly among all: the van der Corput sequence.
+/// Returns where the numbers end.
+std::uint32_t order_evenly(std::vector<Piece>& pieces) {
+  const std::uint32_t end = std::bit_ceil(std::uint32_t(pieces.size()));
+  std::uint32_t number = 0;
+  for (Piece& piece : pieces) {
+    piece.order = number;
+    std::uint32_t bit = end >> 1;  // a step of a counter whose bits stand in reverse
+    for (; bit > 0 && (number & bit) != 0; bit >>= 1) number ^= bit;
+    number |= bit;
+  }
+  return end;
+}
+
+/// The pieces whose order is below `limit`, enlarged.
+Mesh with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t limit, float enlarged) {
+  Mesh kept;
+  const auto piece_of = [&](std::uint32_t vertex) -> const Piece& {
+    return pieces.all[pieces.of_vertex[vertex]];
+  };
+  std::vector<std::uint32_t> place(mesh.positions.size());
+  for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+    const Piece& piece = piece_of(vertex);
+    if (piece.order >= limit) continue;
+    place[vertex] = std::uint32_t(kept.positions.size());
+    const glm::vec3 middle = piece.bounds.centre();
+    kept.positions.push_back(middle + enlarged * (mesh.positions[vertex] - middle));
+    kept.normals.push_back(mesh.normals[vertex]);
+    kept.uvs.push_back(mesh.uvs[vertex]);
+  }
+  for (const std::uint32_t vertex : mesh.indices)
+    if (piece_of(vertex).order < limit) kept.indices.push_back(place[vertex]);
+  return kept;
+}
+
+float area_m2(const Mesh& mesh) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const glm::vec3 a = mesh.positions[mesh.indices[i]];
+    area += 0.5 * double(glm::length(glm::cross(mesh.positions[mesh.indices[i + 1]] - a,
+                                                mesh.positions[mesh.indices[i + 2]] - a)));
+  }
+  return float(area);
+}
+
+float mean_size_m(const std::vector<Piece>& pieces) {
+  double sum_m = 0.0;
+  for (const Piece& piece : pieces) sum_m += 2.0 * double(piece.bounds.radius());
+  return float(sum_m / double(pieces.size()));
+}
+
+}  // namespace
+
+std::vector<FoliageLevel> foliage_levels(const Mesh& mesh) {
+  Pieces pieces = pieces_of(mesh);
+  if (pieces.all.size() < min_pieces) return {};
+  const std::uint32_t end = order_evenly(pieces.all);
+  const float leaf_m = mean_size_m(pieces.all), whole_m2 = area_m2(mesh);
+  std::vector<FoliageLevel> levels;
+  float share = 1.0f;
+  for (int level = 0; level < max_foliage_levels; ++level) {
+    share *= kept_share;
+    const std::uint32_t limit = std::uint32_t(share * float(end));
+    const float kept_m2 = area_m2(with_pieces(mesh, pieces, limit, 1.0f));
+    if (!(kept_m2 > 0.0f)) break;
+    const float enlarged = std::sqrt(whole_m2 / kept_m2);
+    levels.push_back({with_pieces(mesh, pieces, limit, enlarged), error_of_leaf * enlarged * leaf_m});
+  }
+  return levels;
+}
+
+}  // namespace parvis::render
