@@ -6,9 +6,9 @@
 namespace parvis::render {
 namespace {
 
-constexpr double min_pixels = 0.25;  // half as wide, half as high: what enlarging bears
-constexpr double follows =
-    0.3;  // of what a frame is off, taken back in the next: pixels are not all that it takes
+constexpr double min_pixels = 1.0 / 9.0;  // a third as wide, a third as high: what enlarging bears in motion
+// Of what a frame is off, taken back in the next: pixels are not all that it takes.
+constexpr double follows = 0.3, follows_far = 0.7, far_off = 1.5;
 constexpr double bears = 0.03;  // share of the budget: less is the clock's own spread
 
 }  // namespace
@@ -19,7 +19,8 @@ void PictureScale::frame_took(double frame_ms, double budget_ms) {
     return;
   }
   const double over = std::max(frame_ms, 1e-3) / budget_ms;
-  if (std::abs(over - 1.0) > bears) pixels_ = std::clamp(pixels_ * std::pow(over, -follows), min_pixels, 1.0);
+  const double share = over > far_off ? follows_far : follows;
+  if (std::abs(over - 1.0) > bears) pixels_ = std::clamp(pixels_ * std::pow(over, -share), min_pixels, 1.0);
 }
 
 glm::ivec2 PictureScale::drawn_size(int width, int height) const {
