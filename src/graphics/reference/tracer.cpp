@@ -47,8 +47,15 @@ struct LobePoints {
 
   glm::vec2 next(int bounce) {
     glm::vec2& point = last[std::size_t(bounce)];
-    return point = glm::fract(point + glm::vec2(0.75487767f, 0.56984029f));
+    return point = glm::fract(point + step);
   }
+  /// Passes over what so many samples of the pixel would take.
+  void skip(int samples) {
+    for (glm::vec2& point : last) point = glm::fract(point + float(samples * lobe_samples) * step);
+  }
+
+ private:
+  static constexpr glm::vec2 step{0.75487767f, 0.56984029f};
 };
 
 /// A half vector of the GGX distribution about `normal`, by a point of the unit square.
@@ -349,11 +356,13 @@ TracedRow trace_row(const Tracer& tracer, const Camera& camera, int width, int h
         {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
     vec3 sum(0.0f);
     float weights = 0.0f;
-    int mirrors = 0;
+    int mirrors = 0, counted = 0;
+    if (options.only_sample) lobe_points.skip(*options.only_sample);
     for (int i = 0; i < samples; ++i) {
       const int column_in_pixel = i % side, row_in_pixel = i / side;
       const float px = float(x) + (float(column_in_pixel) + random.uniform()) / float(side);
       const float py = float(y) + (float(row_in_pixel) + random.uniform()) / float(side);
+      if (options.only_sample && *options.only_sample != i) continue;
       const Ray ray = camera_ray(camera, width, height, {px, py});
       bool is_mirror = false;
       const vec3 sample = tracer.radiance({ray, 0.0f, spread}, 0, -1, lobe_points, traced.rays, &is_mirror);
@@ -361,9 +370,10 @@ TracedRow trace_row(const Tracer& tracer, const Camera& camera, int width, int h
       sum += weight * sample;
       weights += weight;
       mirrors += is_mirror;
+      ++counted;
     }
     for (int c = 0; c < 3; ++c) traced.radiance.push_back(sum[c] / weights);
-    traced.mirror_share.push_back(std::uint8_t(255 * mirrors / samples));
+    traced.mirror_share.push_back(std::uint8_t(255 * mirrors / std::max(counted, 1)));
   }
   return traced;
 }
@@ -378,7 +388,8 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
   picture.radiance = ImageF(window.width, window.height, 3);
   picture.mirror_mask = Image8(window.width, window.height, 1);
   const auto start = std::chrono::steady_clock::now();
-  Progress progress(options.progress, std::size_t(window.height));
+  std::optional<Progress> progress;
+  if (!options.progress.empty()) progress.emplace(options.progress, std::size_t(window.height));
   machines::DividedWork work;
   work.run = [&](std::uint32_t row) -> Result<std::string> {
     return bytes_of(trace_row(tracer, camera, width, height, options, window, int(row), scene.exposure));
@@ -388,9 +399,10 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
     std::ranges::copy(traced.radiance, picture.radiance.at(0, int(row)));
     std::ranges::copy(traced.mirror_share, picture.mirror_mask.at(0, int(row)));
     picture.rays += traced.rays;
-    progress.advance();
+    if (progress) progress->advance();
     return Done{};
   };
+  work.is_interrupted = options.is_interrupted;
   machines::Tasks rows(std::size_t(window.height));
   std::iota(rows.begin(), rows.end(), 0u);
   const Result<std::size_t> kept =

@@ -2,6 +2,7 @@
 // reflections.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <span>
 
@@ -32,7 +33,12 @@ struct TraceOptions {
   bool mirrors_see_themselves = true;  ///< else a reflection passes through its own object
   int mirror_bounces = 1;              ///< after as many mirrors, mirror-like parts show the sky
   PixelWindow window;                  ///< traces this part alone, which is then the whole result; empty: all
-  std::string progress = "tracing";    ///< what the progress bar says
+  /// Traces this sample of each pixel alone: pictures of all of them, weighted by shading::sample_weight,
+  /// have the mean of the whole picture.
+  std::optional<int> only_sample;
+  std::string progress = "tracing";  ///< what the progress bar says; empty: there is none
+  /// When it turns true no further row is begun, and the rest of the picture stays black; null: never.
+  const std::atomic<bool>* is_interrupted = nullptr;
   /// That divide the rows among them; null: this one alone. All of them call trace_picture; the picture is
   /// complete in the first one. Not owned.
   const machines::Processes* processes = nullptr;
