@@ -824,6 +824,38 @@ class Window(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
+    def test_a_rate_is_held_by_drawing_fewer_pixels(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        scene = self.write("scene.xp", 'sun()\ncamera(name="a", position="0 -9 2")\n')
+        command = ["view", scene, "--size", "640x480", "--frames", "80"]
+        for rate, fewer in [("1000", True), ("off", False), (None, False)]:
+            done = run(*command, *(["--fps", rate] if rate else []), before=self.display())
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawn = float(done.stdout.split("the last one drew ")[1].split()[0])
+            self.assertEqual(drawn < 50, fewer, f"--fps {rate}: {drawn} %")
+        for wrong in ["0", "fast", "-3", "10 20"]:
+            self.expect_failure("view", scene, f"--fps={wrong}", words=["--fps", "frames per second", "off"])
+
+    def test_at_rest_it_says_how_far_it_has_refined(self):
+        if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
+            self.skipTest("skipped: no xvfb-run or no xdotool here")
+        scene = self.write("scene.xp", 'sun()\ncamera(name="a", position="0 -9 2")\n')
+        drive = self.write(
+            "drive.sh",
+            f"{shlex.join(map(str, [PARVIS, 'view', scene, *SIZE]))} & parvis=$!\n"
+            "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
+            "for wait in $(seq 300); do\n"
+            "  xdotool getwindowname $(cat window) > title; grep -q 'reference picture, 256' title && break\n"
+            "  sleep 0.2\ndone\n"
+            "xdotool keydown d sleep 1 getwindowname $(cat window) keyup d > moving\n"
+            "xdotool key Escape\nwait $parvis\n",
+        )
+        done = subprocess.run([*self.display(), "sh", str(drive)], capture_output=True, text=True, timeout=120, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("reference picture, 256 rays per pixel", (self.folder / "title").read_text())
+        self.assertEqual((self.folder / "moving").read_text().strip(), "Parvis: scene")
+
     def test_mouse_and_keys_drive_it(self):
         """The panel opened and a scenario switched by keys, a picture taken by a click; the window is golden."""
         if not shutil.which("xvfb-run") or not shutil.which("xdotool"):

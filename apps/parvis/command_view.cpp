@@ -8,12 +8,29 @@ namespace {
 
 struct Arguments : SceneArguments {
   viewer::WindowOptions window;
+  std::string rate;  ///< of --fps; empty: not given
 };
+
+/// --fps.
+Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
+  constexpr double max_rate = 1000.0;
+  if (rate.empty()) return Done{};
+  if (rate == "off") {
+    window.frames_per_second = 0.0;
+    return Done{};
+  }
+  const std::vector<double> numbers = scene::parse_numbers(rate);
+  if (numbers.size() != 1 || !(numbers[0] >= 1.0 && numbers[0] <= max_rate))
+    return error("--fps {}: expected frames per second, 1 to {}, or off", rate, max_rate);
+  window.frames_per_second = numbers[0];
+  return Done{};
+}
 
 Status view(Arguments& arguments) {
   viewer::WindowOptions& window = arguments.window;
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
+  if (Status status = read_rate(arguments.rate, window); !status) return status;
   window.camera = arguments.camera;
   window.title = arguments.scene.stem().string();
   window.pictures.name = window.title;
@@ -38,6 +55,9 @@ void add_view(CLI::App& app, Chosen& chosen) {
   command->add_option("--tour", arguments->tour, "Begin with a tour of the scene; moving ends it");
   command->add_option("--frames", arguments->window.max_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
+  command->add_option("--fps", arguments->rate,
+                      "Frames per second to hold by drawing fewer pixels while anything moves, or off "
+                      "(default: 10 on a software renderer, 60 on a GPU; off with --frames)");
   command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
   command->add_option("--output", arguments->window.pictures.folder,
                       "Folder of the pictures that the key P takes (default: the scene's)");

@@ -8,7 +8,9 @@
 #include <chrono>
 
 #include "base/image_io.h"
+#include "graphics/gl/context.h"
 #include "graphics/render/picture_target.h"
+#include "house/stage/stillness.h"
 #include "viewer/input.h"
 #include "viewer/keys.h"
 #include "viewer/panel.h"
@@ -25,10 +27,12 @@ struct Glfw {
   }
 };
 
+std::string title_of(const WindowOptions& options) { return "Parvis: " + options.title; }
+
 Status open_window(Glfw& glfw, const WindowOptions& options) {
   if (!glfwInit())
     return error("no window can be opened: there is no display; parvis render makes pictures without one");
-  const std::string title = "Parvis: " + options.title;
+  const std::string title = title_of(options);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -76,6 +80,13 @@ Image8 read_window(int width, int height) {
   return picture;
 }
 
+double rate_of(const WindowOptions& options) {
+  constexpr double software_rate = 10.0, gpu_rate = 60.0;
+  if (options.frames_per_second) return *options.frames_per_second;
+  if (options.max_frames > 0) return 0.0;
+  return gl::is_software() ? software_rate : gpu_rate;
+}
+
 void print_keys() {
   for (const KeyHelp& help : key_help) fmt::print("  {:<8} {}\n", help.keys, help.does);
 }
@@ -94,30 +105,40 @@ class Frames {
         imgui_input_(window) {
     panel_.is_open = options.has_panel;
     visit_.notice("F1 shows the keys, F2 the panel");
+    stage.hold_rate(rate_of(options));
   }
 
   Status run() {
     using Clock = std::chrono::steady_clock;
-    Clock::time_point last = Clock::now();
+    Clock::time_point last = Clock::now(), settled = last;
     for (int frame = 1;; ++frame) {
       const Clock::time_point now = Clock::now();
       const float seconds = std::chrono::duration<float>(now - last).count();
       last = now;
       statistics_.add(double(seconds), visit_.stage().pass_times().latest());
-      visit_.stage().follow_clock();
+      if (!rests_) visit_.stage().follow_clock(1e3 * double(seconds));
       visit_.step(input_.poll(), seconds);
-      draw();
+      draw(double(seconds));
       const bool is_last = glfwWindowShouldClose(window_) || frame == options_.max_frames;
       if (is_last && !options_.screenshot.empty())
         if (Status status = write_image(options_.screenshot, read_window(width_, height_)); !status)
           return status;
       glfwSwapBuffers(window_);
-      if (is_last) return Done{};
+      show_refinement();
+      if (frame == settling_frames) settled = Clock::now();
+      if (is_last) {
+        print_rate(frame - settling_frames, std::chrono::duration<double>(Clock::now() - settled).count());
+        return Done{};
+      }
+      if (rests_) glfwWaitEventsTimeout(rest_s);
     }
   }
 
  private:
-  void draw() {
+  static constexpr int settling_frames = 30;
+  static constexpr double rest_s = 0.1;  ///< between frames at rest: the ray tracer needs the processor
+
+  void draw(double passed_s) {
     glfwGetFramebufferSize(window_, &width_, &height_);
     if (width_ == 0 || height_ == 0) return;  // an icon
     if (const Scale scale = scale_of(window_); scale != scale_) {
@@ -130,7 +151,13 @@ class Frames {
 
     house::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_a_point);
-    stage.draw(visit_.camera(), std::max(width_ - covered, 1), height_);
+    const int shown_width = std::max(width_ - covered, 1);
+    stillness_.add_frame(stage.scene(), visit_.camera(), shown_width, height_, passed_s);
+    rests_ = options_.max_frames == 0 && stillness_.rests();
+    if (rests_)
+      stage.refine(visit_.camera(), shown_width, height_);
+    else
+      stage.draw(visit_.camera(), shown_width, height_);
     stage.display(0);
     stage.pass_times().end_pass("display");
     glViewport(0, 0, width_, height_);
@@ -138,8 +165,31 @@ class Frames {
     stage.pass_times().end_pass("panel");
   }
 
+  /// For measurements: frames of the visit, those apart in which shaders are made and the resolution found.
+  void print_rate(int frames, double seconds) {
+    if (frames < 1) return;
+    fmt::print("{} frames, once settled {:.2f} per second; the last one drew {:.0f} % of its pixels\n",
+               frames, frames / seconds, 100.0 * visit_.stage().drawn_share());
+  }
+
+  /// Says in the window's title how far the picture at rest is refined.
+  void show_refinement() {
+    const int samples = visit_.stage().refined_samples();
+    if (samples == told_samples_) return;
+    told_samples_ = samples;
+    const std::string refined =
+        samples == 0 ? ""
+        : samples == house::Refinement::max_samples
+            ? fmt::format(": reference picture, {} rays per pixel", samples)
+            : fmt::format(": refining, {} of {} rays per pixel", samples, house::Refinement::max_samples);
+    glfwSetWindowTitle(window_, (title_of(options_) + refined).c_str());
+  }
+
   GLFWwindow* window_;
   const WindowOptions& options_;
+  house::Stillness stillness_;
+  bool rests_ = false;  ///< in the last frame
+  int told_samples_ = 0;
   Scale scale_;
   Visit visit_;
   ImguiContext imgui_;

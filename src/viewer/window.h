@@ -1,6 +1,7 @@
 // The window in which one walks, flies and follows a vehicle, with the panel beside the picture.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "house/stage/stage.h"
@@ -15,6 +16,9 @@ struct WindowOptions {
   bool has_panel = false;  ///< at first; F2 opens and closes it
   PicturePlace pictures;   ///< where those go that the visitor takes
   int max_frames = 0;      ///< closes after so many; 0: when the visitor does (tests and screenshots)
+  /// The rate that is held by drawing fewer pixels; 0: none is. Unset: 10 on a software renderer and 60 on a
+  /// GPU, none where `max_frames` asks for pictures that can be repeated.
+  std::optional<double> frames_per_second;
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 

@@ -5,6 +5,7 @@
 #include "base/checked.h"
 #include "base/memory_budget.h"
 #include "graphics/gl/context.h"
+#include "graphics/shading/tone_curve.h"
 #include "house/stage/place_check.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
@@ -70,8 +71,8 @@ Result<Play> open_play(const House& house, const std::filesystem::path& script,
   return make_play(house, std::move(loaded->scene), std::move(live));
 }
 
-Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer)
-    : play_(std::move(play)), renderer_(std::move(renderer)) {}
+Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined)
+    : play_(std::move(play)), renderer_(std::move(renderer)), refined_(std::move(refined)) {}
 
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   if (Status status = play.house->get<methods::Registry>().prepare(play.scene); !status)
@@ -79,7 +80,9 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(
       play.scene, play.house->get<render::Drawables>(), play.house->get<render::Lights>().make);
   if (!renderer) return renderer.errors();
-  std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer)));
+  Result<ShownRadiance> refined = ShownRadiance::create();
+  if (!refined) return refined.errors();
+  std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer), *std::move(refined)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
     return status.errors();
   return stage;
@@ -101,23 +104,32 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
   return Done{};
 }
 
-void Stage::follow_clock() {
+void Stage::follow_clock(double frame_ms) {
   reflections_->prefer_rate();
   double update_ms = 0.0, rest_ms = 0.0;
   for (const gl::PassTime& pass : pass_times_.latest())
     (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;
   if (pass_times_.latest().empty()) return;
   reflections_->frame_took(update_ms, rest_ms);
-  scale_.frame_took(update_ms + rest_ms, double(methods::settings(play_.scene).budget_ms));
+  constexpr double held_share = 0.93;  // of a held frame's time: frames differ, and all of them count
+  const double own_ms = double(methods::settings(play_.scene).budget_ms), held_ms = held_share * held_ms_;
+  const double budget_ms =
+      own_ms > 0.0 && held_ms > 0.0 ? std::min(own_ms, held_ms) : std::max(own_ms, held_ms);
+  scale_.frame_took(gl::is_software() && held_ms_ > 0.0 ? frame_ms : update_ms + rest_ms, budget_ms);
 }
 
-void Stage::draw(const Camera& camera, int width, int height) {
+double Stage::drawn_share() const {
+  return double(renderer_->width()) * double(renderer_->height()) / (double(width_) * double(height_));
+}
+
+void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
+  refinement_.reset();
+  refined_samples_ = 0;
   if (methods::settings(play_.scene) != shown_reflection_)
     if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
-  width_ = width, height_ = height;
+  width_ = size.x, height_ = size.y;
   pass_times_.begin_frame();
-  const glm::ivec2 drawn = scale_.drawn_size(width, height);
   render::FrameSteps steps;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
   const Status status =
@@ -125,8 +137,35 @@ void Stage::draw(const Camera& camera, int width, int height) {
   assert(status.ok() && "one eye has its target");
 }
 
+void Stage::refine(const Camera& camera, int width, int height) {
+  if (!refinement_) {
+    const glm::ivec2 size(width, height);
+    if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
+    refinement_ = std::make_unique<Refinement>(play_.scene, renderer_->sky(), renderer_->drawn_light(),
+                                               camera, width, height, methods::settings(play_.scene).bounces);
+  }
+  if (refinement_->samples() < render::samples_per_pixel) return;
+  if (std::optional<ImageF> radiance = refinement_->take()) {
+    refined_.put(*std::move(radiance));
+    refined_samples_ = refinement_->samples();
+  }
+}
+
+void Stage::display(GLuint framebuffer) const {
+  if (refined_samples_ > 0)
+    refined_.display(framebuffer, play_.scene.exposure);
+  else
+    renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
+}
+
+Image8 Stage::picture() {
+  if (refined_samples_ > 0) return shading::tone_mapped_picture(refined_.radiance(), play_.scene.exposure);
+  return renderer_->read_picture(play_.scene.exposure);
+}
+
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const machines::Processes& processes) {
+  refinement_.reset();  // tracing begins a frame
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.processes = &processes;
@@ -135,6 +174,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
+  refinement_.reset();
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;

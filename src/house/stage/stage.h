@@ -14,7 +14,9 @@
 #include "graphics/render/drawables.h"
 #include "graphics/render/picture_scale.h"
 #include "graphics/render/renderer.h"
+#include "house/stage/refinement.h"
 #include "house/stage/scene_camera.h"
+#include "house/stage/shown_radiance.h"
 #include "machines/processes.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
@@ -78,25 +80,42 @@ class Stage {
   /// Replaces the reflection method. Fails if its shaders or its data cannot be prepared.
   Status set_reflection(const methods::Settings& reflection);
 
-  /// Keeps the frame within the scene's time budget, by measured times of the passes: through the levels of
-  /// detail of reflections and the resolution of the picture. For windows: the result depends on the machine.
-  void follow_clock();
+  /// The rate that `follow_clock` holds, frames per second; 0: none but the scene's own time budget.
+  void hold_rate(double frames_per_second) {
+    held_ms_ = frames_per_second > 0.0 ? 1e3 / frames_per_second : 0.0;
+  }
+  /// Keeps frames within the budget of the held rate and the scene's, whichever is less, through the
+  /// resolution of the picture and, for the scene's, the levels of detail of reflections. By measured times
+  /// of the passes; on a software renderer, whose passes tell nothing, by `frame_ms`: what the last frame
+  /// took by the clock, all of it. For windows: the result depends on the machine.
+  void follow_clock(double frame_ms);
+  /// Of the last frame's pixels as displayed, the share that was drawn.
+  double drawn_share() const;
 
   /// See Play::camera.
   Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
 
   /// Renders the present frame: shadows, reflections, picture. Applies the changes of scenarios and messages
   /// first.
-  void draw(const Camera& camera, int width, int height);
-  /// Displays the last frame in a framebuffer (0: the window's).
-  void display(GLuint framebuffer) const {
-    renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
+  void draw(const Camera& camera, int width, int height) {
+    draw(camera, {width, height}, scale_.drawn_size(width, height));
   }
+
+  /// In place of `draw`, where neither view nor scene has changed since the last frame: draws it once more in
+  /// full resolution if it was not, then refines it by the ray tracer, on other threads, and displays that
+  /// picture from as many samples per pixel on as drawn ones have. `draw` ends it.
+  void refine(const Camera& camera, int width, int height);
+  /// Samples per pixel of the refined picture that is displayed; 0: the drawn picture is.
+  int refined_samples() const { return refined_samples_; }
+
+  /// Displays the last frame in a framebuffer (0: the window's).
+  void display(GLuint framebuffer) const;
   /// Width of the last frame as displayed, pixels.
   int width() const { return width_; }
   int height() const { return height_; }  ///< of the last frame as displayed, pixels
-  /// The last frame, tone-mapped with the scene's exposure.
-  Image8 picture() { return renderer_->read_picture(play_.scene.exposure); }
+  /// The last frame as displayed, tone-mapped with the scene's exposure; as drawn, where it was drawn
+  /// smaller.
+  Image8 picture();
   /// The same view by the ray tracer, with the renderer's shadow maps; completely or a window of it.
   reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                  const reference::PixelWindow& window = {});
@@ -105,15 +124,20 @@ class Stage {
                                  const machines::Processes& processes);
 
  private:
-  Stage(Play play, std::unique_ptr<render::Renderer> renderer);
+  Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
+  void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn);
 
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<methods::Reflections> reflections_;
   methods::Settings shown_reflection_;
   gl::PassTimes pass_times_;
+  double held_ms_ = 0.0;  ///< 0: no rate is held
   render::PictureScale scale_;
   int width_ = 0, height_ = 0;
+  ShownRadiance refined_;
+  int refined_samples_ = 0;
+  std::unique_ptr<Refinement> refinement_;  ///< last: it reads the renderer's light
 };
 
 }  // namespace parvis::house

@@ -5,10 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "graphics/gl/test_context.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/rooms.h"
+#include "house/stage/stillness.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/test_scene.h"
@@ -138,11 +142,96 @@ TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
   for (int frame = 0; frame < frames; ++frame) (*stage)->draw(camera, width, height);
   EXPECT_EQ((*stage)->renderer().width(), width);
   for (int frame = 0; frame < frames; ++frame) {
-    (*stage)->follow_clock();
+    (*stage)->follow_clock(1e3);
     (*stage)->draw(camera, width, height);
   }
   EXPECT_LT((*stage)->renderer().width(), width);
   EXPECT_EQ((*stage)->width(), width);
+}
+
+TEST_F(StageTest, AHeldRateDrawsFewerPixelsUntilNothingMoves) {
+  constexpr int width = 160, height = 90, frames = 12;
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), street()));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
+  const auto move = [&] {
+    for (int frame = 0; frame < frames; ++frame) {
+      (*stage)->draw(camera, width, height);
+      (*stage)->follow_clock(1e3);
+    }
+    return (*stage)->drawn_share();
+  };
+  EXPECT_EQ(move(), 1.0) << "no rate is held";
+  (*stage)->hold_rate(1e6);
+  EXPECT_LT(move(), 0.5);
+  (*stage)->refine(camera, width, height);
+  EXPECT_EQ((*stage)->drawn_share(), 1.0) << "at rest";
+  (*stage)->draw(camera, width, height);
+  EXPECT_LT((*stage)->drawn_share(), 0.5);
+}
+
+/// Toward the picture of `parvis reference`, from which the drawn one differs; any new frame ends it.
+TEST_F(StageTest, AtRestThePictureBecomesTheReferencePicture) {
+  constexpr int width = 96, height = 72, rounds = 600;
+  scene::Scene scene = street();
+  methods::settings(scene).method = "none";
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), std::move(scene)));
+  ASSERT_TRUE(stage) << to_string(stage.errors());
+  Camera camera;
+  camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
+  const auto refine_to = [&](int samples) {
+    for (int round = 0; round < rounds && (*stage)->refined_samples() < samples; ++round) {
+      (*stage)->refine(camera, width, height);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    ASSERT_GE((*stage)->refined_samples(), samples);
+  };
+  (*stage)->draw(camera, width, height);
+  const Image8 drawn = (*stage)->picture();
+  refine_to(render::samples_per_pixel);
+  const Image8 early = (*stage)->picture();
+  refine_to(64);
+  const Image8 refined = (*stage)->picture();
+  (*stage)->draw(camera, width, height);
+  EXPECT_EQ((*stage)->refined_samples(), 0);
+  EXPECT_EQ((*stage)->picture().pixels, drawn.pixels);
+
+  const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 256);
+  const auto flip_of = [&](const Image8& picture) {
+    return reference::compare(picture,
+                              shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure))
+        ->flip;
+  };
+  const double by_drawing = flip_of(drawn), at_first = flip_of(early), at_rest = flip_of(refined);
+  fmt::print("FLIP drawn {:.4f}, {} rays {:.4f}, 64 rays {:.4f}\n", by_drawing, render::samples_per_pixel,
+             at_first, at_rest);
+  EXPECT_LT(at_rest, 0.5 * at_first);
+  EXPECT_LT(at_rest, 0.25 * by_drawing);
+}
+
+TEST(StillnessTest, EndsWhenViewOrSceneChange) {
+  scene::Scene scene;
+  add(scene, model_of(ground(4), matt(glm::vec3(0.25f))));
+  Camera camera;
+  Stillness stillness;
+  const auto frames = [&](int count) {
+    for (int frame = 0; frame < count; ++frame) stillness.add_frame(scene, camera, 64, 48, 0.1);
+    return stillness.rests();
+  };
+  EXPECT_FALSE(frames(2));
+  EXPECT_TRUE(frames(8));
+  camera.world_from_camera[3].x += 1e-4f;
+  EXPECT_FALSE(frames(1));
+  EXPECT_TRUE(frames(8));
+  scene.objects[0].world_from_model[3].x += 1e-4f;
+  EXPECT_FALSE(frames(1));
+  EXPECT_TRUE(frames(8));
+  scene.sun.irradiance.x += 0.1f;
+  EXPECT_FALSE(frames(1));
+  EXPECT_TRUE(frames(8));
+  methods::settings(scene).method = "none";
+  EXPECT_FALSE(frames(1));
 }
 
 /// A board that stands on the ground, whose only target lays its upper edge down to the east within a second.
