@@ -5,13 +5,17 @@
 #include <csignal>
 #include <set>
 
+#include "base/content_hash.h"
 #include "base/image_io.h"
 #include "base/progress.h"
 #include "base/reduction.h"
 #include "commands.h"
+#include "graphics/reference/scene_key.h"
 #include "graphics/render/picture_reader.h"
+#include "house/stage/divided_film.h"
 #include "house/stage/film.h"
 #include "house/stage/probe.h"
+#include "machines/processes.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -35,19 +39,86 @@ Status draw(house::Stage& stage, const Arguments& arguments, int width, int heig
   return Done{};
 }
 
-Status render_film(house::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
-                   int width, int height) {
-  for (const int number : {SIGINT, SIGTERM})
-    std::signal(number, [](int) { is_interrupted = true; });  // half a film is taken away, not left
-  Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
-  if (!film) return film.errors();
+/// Frames of a film, and errors of what is none.
+Result<int> frames_of(const Arguments& arguments, const std::filesystem::path& output) {
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
   if (frames < 1)
     return error("{}: {} s at {} frames per second are no frame; give it more --seconds", output.string(),
                  arguments.seconds, arguments.frames_per_second);
+  return frames;
+}
+
+/// All that the frames of a film depend on.
+std::uint64_t film_key(const house::Stage& stage, const Arguments& arguments, int width, int height) {
+  ContentHash hash;
+  const scene::Scene& scene = stage.scene();
+  hash.add(reference::scene_key(scene));
+  scene.room_data.hash(hash, [](scene::DataRole) { return true; });
+  for (const scene::NamedCamera& named : scene.cameras) {
+    hash.add_text(named.name + "/" + named.follows);
+    hash.add(named.camera.world_from_camera);
+    hash.add(named.camera.vertical_fov);
+    hash.add(named.offset_m);
+  }
+  hash.add(scene.exposure);
+  for (const int value : {width, height, arguments.frames_per_second, arguments.supersample}) hash.add(value);
+  hash.add(arguments.time_s);
+  hash.add_text(arguments.camera + "/" + arguments.tour + "/" + arguments.method);
+  for (const std::vector<std::string>& words : {arguments.scenarios, arguments.presses})
+    for (const std::string& word : words) hash.add_text(word);
+  return hash.value();
+}
+
+/// Methods whose picture depends on the frames before it: a process that draws some of them would draw
+/// others.
+Status expect_single_frames(const house::Stage& stage) {
+  const methods::Settings& reflection = methods::settings(stage.scene());
+  if (reflection.method == "time_sliced_cube_map" || reflection.budget_ms > 0.0f)
+    return error(
+        "reflection(method={}, budget_ms={}): each frame depends on those before it, so that a film cannot "
+        "be "
+        "divided among processes; render it without mpirun, or take another --reflection",
+        reflection.method, reflection.budget_ms);
+  return Done{};
+}
+
+/// A film whose frames several processes divide, or have begun to.
+Status render_divided_film(house::Stage& stage, const Arguments& arguments,
+                           const std::filesystem::path& output, int width, int height,
+                           const machines::Processes& processes) {
+  if (Status status = expect_single_frames(stage); !status) return status;
+  const Result<int> frames = frames_of(arguments, output);
+  if (!frames) return frames.errors();
+  int now = 0;  // the frame that the scene has come to
+  house::FilmJob job;
+  job.output = output;
+  job.width = width, job.height = height;
+  job.frames_per_second = arguments.frames_per_second, job.frames = *frames;
+  job.key = film_key(stage, arguments, width, height);
+  job.is_interrupted = &is_interrupted;
+  job.draw = [&](int frame) -> Result<Image8> {
+    for (; now < frame; ++now) stage.play().advance(1.0 / arguments.frames_per_second);
+    if (Status status = draw(stage, arguments, width, height); !status) return status.errors();
+    return reduced(stage.picture(), arguments.supersample);
+  };
+  if (Status status = house::make_divided_film(job, processes); !status) return status;
+  for (; now < *frames; ++now) stage.play().advance(1.0 / arguments.frames_per_second);
+  return Done{};
+}
+
+Status render_film(house::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
+                   int width, int height, const machines::Processes& processes) {
+  for (const int number : {SIGINT, SIGTERM})
+    std::signal(number, [](int) { is_interrupted = true; });  // half a film is taken away, not left
+  if (processes.are_several() || std::filesystem::exists(house::frames_folder(output)))
+    return render_divided_film(stage, arguments, output, width, height, processes);
+  Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
+  if (!film) return film.errors();
+  const Result<int> frames = frames_of(arguments, output);
+  if (!frames) return frames.errors();
   render::PictureReader reader;
-  Progress progress("rendering film", std::size_t(frames));
-  for (int frame = 0; frame < frames; ++frame) {
+  Progress progress("rendering film", std::size_t(*frames));
+  for (int frame = 0; frame < *frames; ++frame) {
     if (is_interrupted) return error("{}: interrupted; no film is written", output.string());
     if (Status status = draw(stage, arguments, width, height); !status) return status;
     if (const auto picture = reader.next(stage.renderer(), stage.scene().exposure)) {
@@ -106,33 +177,46 @@ Status print_probes(const house::Stage& stage, const Arguments& arguments, int w
 
 /// A picture, or a film: of --seconds, or as long as the tour.
 Status render_one(house::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
-                  int height) {
+                  int height, const machines::Processes& processes) {
   if (!arguments.tour.empty()) {
     const Result<double> length_s = stage.play().actions().start_tour(arguments.tour);
     if (!length_s) return length_s.errors();
     if (arguments.seconds == 0.0) arguments.seconds = *length_s;
   }
-  if (arguments.seconds > 0.0) return render_film(stage, arguments, output, width, height);
+  if (arguments.seconds > 0.0) return render_film(stage, arguments, output, width, height, processes);
+  if (!processes.is_first()) return Done{};  // one frame is not divided
   if (Status status = draw(stage, arguments, width, height); !status) return status;
   if (Status status = print_probes(stage, arguments, width, height); !status) return status;
   return write_image(output, reduced(stage.picture(), arguments.supersample));
+}
+
+/// The scene as it begins, or a picture or film of each scenario.
+Status render_states(house::Stage& stage, const Arguments& arguments, int width, int height,
+                     const machines::Processes& processes) {
+  if (arguments.scenarios.size() < 2)
+    return render_one(stage, arguments, arguments.output, width, height, processes);
+  std::set<std::filesystem::path> known;
+  for (const std::string& scenario : arguments.scenarios) {
+    if (Status status = stage.choose_scenario(scenario); !status) return status;
+    const std::filesystem::path output = named_after(arguments.output, scenario, known);
+    if (Status status = render_one(stage, arguments, output, width, height, processes); !status)
+      return status;
+  }
+  return Done{};
 }
 
 Status render_scene(const Arguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (const auto pixels = probed_pixels(arguments, width, height); !pixels) return pixels.errors();
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
-  if (arguments.scenarios.size() < 2) return render_one(**stage, arguments, arguments.output, width, height);
-  std::set<std::filesystem::path> known;
-  for (const std::string& scenario : arguments.scenarios) {
-    if (Status status = (*stage)->choose_scenario(scenario); !status) return status;
-    const std::filesystem::path output = named_after(arguments.output, scenario, known);
-    if (Status status = render_one(**stage, arguments, output, width, height); !status) return status;
-  }
+  if (Status status = render_states(**stage, arguments, width, height, *processes); !status) return status;
+  processes->leave();
   return Done{};
 }
 
@@ -159,7 +243,10 @@ void add_render(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   command->add_option("--probe", arguments->probes,
                       "Print what a pixel X,Y of a picture shows: metres, object, kind; may repeat");
-  command->footer("Example: parvis render out/paper/paper.xp --camera follow --seconds 10 -o out/drive.mp4");
+  command->footer(
+      "Example: parvis render out/paper/paper.xp --camera follow --seconds 10 -o out/drive.mp4\n"
+      "Started by mpirun, several processes or machines divide a film into frames: the same film, sooner. "
+      "Interrupted, its finished frames stay in FILM.frames, and the same command goes on.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return render_scene(*arguments); }; });
 }
 

@@ -239,6 +239,13 @@ class Usage(InAFolder):
 MIRROR = 'model(file="mirror.obj", position="{}", dynamic=1, reflective=1) {{ material(preset="chrome") }}\n'
 
 
+DRIVE = [
+    'road(path="-30 -3 0, 30 -3 0")',
+    'traffic(vehicles=2, seed=3) { model(file="mirror.obj", dynamic=1, reflective=1) }',
+    'camera(name="drive", follows="vehicle 1", offset="-6 -3 2")',
+]
+
+
 class BeforeAMirror(InAFolder):
     """A mirror in a place of ground and a wall."""
 
@@ -381,6 +388,55 @@ class SeveralProcesses(BeforeAMirror):
         told.append(self.expect_done("bake", scene, before=self.MPIRUN).stdout)
         self.assertEqual({path.name: path.read_bytes() for path in self.folder.glob("scene.baked/*/*.map")}, alone)
         self.assertEqual(told[0], told[1], "only the first process prints")
+
+    def test_a_film(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("skipped: no ffmpeg here")
+        film = self.folder / "out.mp4"
+        scene = self.write_place(*DRIVE)
+        command = ["render", scene, *SIZE, "--camera", "drive", "--seconds", "0.5", "--fps", "12", "-o", film]
+        self.expect_same(film, *command)
+        self.assertEqual([name for name in self.files() if "frames" in name], [])
+
+    def test_a_film_goes_on_with_the_frames_that_are_there(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("skipped: no ffmpeg here")
+        film, frames = self.folder / "out.mp4", self.folder / "out.mp4.frames"
+        scene = self.write_place(*DRIVE)
+        command = ["render", scene, *SIZE, "--camera", "drive", "--seconds", "1", "--fps", "12", "-o", film]
+        self.expect_done(*command)
+        alone = film.read_bytes()
+        film.unlink()
+        long = [*command[:-4], "--fps", "12", "-o", film]
+        long[long.index("--seconds") + 1] = "900"
+        process = subprocess.Popen(
+            [*self.MPIRUN, PARVIS, *map(str, long)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+        while process.poll() is None and not (frames.exists() and len(list(frames.glob("[!.]*.png"))) > 6):
+            time.sleep(0.02)
+        self.assertIsNone(process.poll(), "it ended too soon for this test")
+        os.kill(self.process_of_rank(1, process.pid), signal.SIGKILL)
+        process.communicate(timeout=60)
+        self.assertFalse(film.exists())
+        kept = {path.name: path.stat().st_mtime_ns for path in frames.glob("[!.]*.png")}
+        self.assertGreater(len(kept), 6)
+        whole = {path.name: path.read_bytes() for path in frames.glob("[!.]*.png")}
+        self.expect_done(*command, before=self.MPIRUN)
+        self.assertEqual(film.read_bytes(), alone)
+        self.assertFalse(frames.exists())
+        # A frame that is there is not drawn anew: another picture in its place is in the film.
+        frames.mkdir()
+        for name in whole:
+            (frames / name).write_bytes(whole[min(whole)])
+        film.unlink()
+        self.expect_done(*command, before=self.MPIRUN)
+        self.assertTrue(film.read_bytes() != alone)
+
+    def test_a_film_whose_frames_depend_on_each_other(self):
+        done = run("render", self.write_place(*DRIVE), *SIZE, "--seconds", "0.5", "--reflection", "time_sliced_cube_map",
+                   "-o", self.folder / "out.mp4", before=self.MPIRUN)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("without mpirun", done.stderr)
 
     def test_a_process_that_dies_ends_the_run_and_the_work_goes_on(self):
         scene, picture = self.write_place(), self.folder / "out.exr"

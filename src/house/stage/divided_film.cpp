@@ -1,0 +1,89 @@
+#include "house/stage/divided_film.h"
+
+#include <optional>
+
+#include "base/files.h"
+#include "base/image_io.h"
+#include "base/progress.h"
+#include "house/stage/film.h"
+#include "machines/divided_work.h"
+
+namespace parvis::house {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path frame_file(const FilmJob& job, std::uint32_t frame) {
+  return frames_folder(job.output) / fmt::format("{:016x}-{:06}.png", job.key, frame);
+}
+
+/// The frames that no earlier run has finished.
+machines::Tasks unfinished(const FilmJob& job) {
+  machines::Tasks frames;
+  for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame)
+    if (std::error_code ignored; !fs::is_regular_file(frame_file(job, frame), ignored))
+      frames.push_back(frame);
+  return frames;
+}
+
+std::string rgb_of(const Image8& picture) {
+  std::string bytes;
+  bytes.reserve(picture.pixels.size() / std::size_t(picture.channels) * 3);
+  for (std::size_t i = 0; i < picture.pixels.size(); i += std::size_t(picture.channels))
+    for (std::size_t c = 0; c < 3; ++c) bytes += char(picture.pixels[i + c]);
+  return bytes;
+}
+
+/// Writes the film out of the finished frames.
+Status encode(const FilmJob& job, Film& film) {
+  Progress progress("writing film", std::size_t(job.frames));
+  for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame) {
+    const Result<Image8> picture = read_image8(frame_file(job, frame));
+    if (!picture) return picture.errors();
+    if (Status status = film.add(*picture); !status) return status;
+    progress.advance();
+  }
+  return film.finish();
+}
+
+}  // namespace
+
+fs::path frames_folder(const fs::path& film) { return fs::path(film) += ".frames"; }
+
+Status make_divided_film(const FilmJob& job, const machines::Processes& processes) {
+  std::optional<Film> film;
+  if (processes.is_first()) {  // before hours of work: can it be written at all?
+    Result<Film> opened = Film::open(job.output, job.width, job.height, job.frames_per_second);
+    if (!opened) return opened.errors();
+    film.emplace(*std::move(opened));
+  }
+  const machines::Tasks to_do = processes.is_first() ? unfinished(job) : machines::Tasks();
+  Progress progress("rendering film", to_do.size());
+  machines::DividedWork work;
+  work.uses_threads = false;
+  work.is_interrupted = job.is_interrupted;
+  work.run = [&](std::uint32_t frame) -> Result<std::string> {
+    const Result<Image8> picture = job.draw(int(frame));
+    if (!picture) return picture.errors();
+    return rgb_of(*picture);
+  };
+  work.keep = [&](std::uint32_t frame, std::string_view bytes) -> Status {
+    Image8 picture(job.width, job.height, 3);
+    if (bytes.size() != picture.pixels.size())
+      return error("frame {} has {} bytes; expected {}", frame, bytes.size(), picture.pixels.size());
+    std::copy(bytes.begin(), bytes.end(), picture.pixels.begin());
+    progress.advance();
+    return write_image(frame_file(job, frame), picture);
+  };
+  const Result<std::size_t> kept = machines::divide(processes, to_do, work);
+  if (!kept) return kept.errors();
+  if (!processes.is_first()) return Done{};
+  if (*kept < to_do.size())
+    return error("{}: interrupted; its frames so far are kept in {}, and the same command goes on",
+                 job.output.string(), frames_folder(job.output).string());
+  if (Status status = encode(job, *film); !status) return status;
+  std::error_code ignored;
+  fs::remove_all(frames_folder(job.output), ignored);
+  return Done{};
+}
+
+}  // namespace parvis::house
