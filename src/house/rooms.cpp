@@ -20,6 +20,7 @@
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
+#include "machines/bench/processes_bench.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
 #include "places/paper_city/city_nodes.h"
@@ -37,6 +38,7 @@
 #include "scene/action/action_nodes.h"
 #include "scene/roads/road_nodes.h"
 #include "scene/script/script_nodes.h"
+#include "viewer/bench/window_bench.h"
 
 namespace parvis::house {
 namespace {
@@ -73,6 +75,8 @@ constexpr Furnish rooms[]{
     trees::furnish,
     view_dependent_objects::furnish,
     bench::furnish_frame,
+    bench::furnish_window,
+    bench::furnish_processes,
     bench::furnish_import_export,
     bench::furnish_multiple_environment_maps,
     bench::furnish_curved_reflectors,

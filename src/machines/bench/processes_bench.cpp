@@ -1,0 +1,91 @@
+#include "machines/bench/processes_bench.h"
+
+#include <tbb/task_arena.h>
+
+#include "base/files.h"
+#include "bench/benches.h"
+#include "bench/own_program.h"
+#include "bench/scratch_folder.h"
+#include "places/paper_city/paper_city.h"
+
+namespace parvis::bench {
+namespace {
+namespace fs = std::filesystem;
+
+// One core for each process is one thread for each; so it is for OpenGL in software.
+constexpr const char* alone = "env LP_NUM_THREADS=1 taskset -c 0";
+constexpr const char* two_cores =
+    "env LP_NUM_THREADS=1 mpirun --allow-run-as-root --bind-to core --map-by core -n 2";
+constexpr const char* one_core =  // the control
+    "env LP_NUM_THREADS=1 taskset -c 0 mpirun --allow-run-as-root --oversubscribe --bind-to none -n 2";
+
+/// Seconds that the tiles of a photograph take, without what each process does before them.
+Result<double> photograph_s(const std::string& before, const fs::path& folder, bool is_quick) {
+  const Result<OwnRun> run = run_own_program(
+      before, {"reference", (folder / "paper.xp").string(), "--path-traced", "--camera", "street", "--size",
+               is_quick ? "320x180" : "640x360", "--samples", "16", "-o", (folder / "photo.png").string()});
+  if (!run) return run.errors();
+  return number_after(run->output, "million rays in ");
+}
+
+/// Seconds of a bake, without those of one that finds all of it done.
+Result<double> bake_s(const std::string& before, const fs::path& folder) {
+  fs::remove_all(folder / "some.baked");
+  const std::vector<std::string> arguments{"bake", (folder / "some.xp").string()};
+  const Result<OwnRun> whole = run_own_program(before, arguments), again = run_own_program(before, arguments);
+  if (!whole) return whole.errors();
+  if (!again) return again.errors();
+  return whole->seconds - again->seconds;
+}
+
+/// The city with reference maps on a line along a road.
+std::string script_with_maps(int count) {
+  std::string script = "include(file=\"paper.xp\")\nreferenceMaps(";
+  for (int i = 0; i < count; ++i)
+    script += fmt::format("{}position=\"-74 {} 1.2\"", i == 0 ? "" : ", ", -400 + 800 * i / count);
+  return script + ")\n";
+}
+
+Status report_speedup(const char* key, const std::function<Result<double>(const char*)>& seconds_of,
+                      Report& report) {
+  const Result<double> by_one = seconds_of(alone), by_two = seconds_of(two_cores),
+                       shared = seconds_of(one_core);
+  for (const Result<double>* seconds : {&by_one, &by_two, &shared})
+    if (!*seconds) return seconds->errors();
+  constexpr double wanted = 1.7;
+  report.add(key, *by_one / *by_two, {wanted, true});
+  report.note(
+      fmt::format("{}: {:.1f} s alone, {:.1f} s by two; control, two on one core: {:.1f} s, {:.2f} times, "
+                  "which must be less than {}: {}",
+                  key, *by_one, *by_two, *shared, *by_one / *shared, wanted,
+                  *by_one / *shared < wanted ? "it is" : "IT IS NOT"));
+  return Done{};
+}
+
+Status measure(const BenchSetup& setup, Report& report) {
+  if (tbb::this_task_arena::max_concurrency() < 2 || !has_program("mpirun") || !has_program("taskset")) {
+    report.skip("speedup_2_processes", "needs two cores and the programs mpirun and taskset");
+    return Done{};
+  }
+  const ScratchFolder folder;
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
+  if (Status status = write_file(folder.path / "some.xp", script_with_maps(setup.is_quick ? 40 : 160));
+      !status)
+    return status;
+  if (Status status = report_speedup(
+          "speedup_2_processes_photograph",
+          [&](const char* before) { return photograph_s(before, folder.path, setup.is_quick); }, report);
+      !status)
+    return status;
+  return report_speedup(
+      "speedup_2_processes_bake", [&](const char* before) { return bake_s(before, folder.path); }, report);
+}
+
+}  // namespace
+
+void furnish_processes(House& house) {
+  house.get<Benches>().add(
+      {"processes", "how much sooner two processes bake and take a photograph than one", measure});
+}
+
+}  // namespace parvis::bench
