@@ -66,7 +66,8 @@ Status measure_quality(house::Stage& stage, const BenchSetup& setup, Report& rep
                                                                  {"rerendered", usual("rerendered_cube_map")},
                                                                  {"box", usual("box_projected_probe")},
                                                                  {"simple_blend", usual("simple_blend")},
-                                                                 {"local", usual("local_environment_maps")}});
+                                                                 {"local", usual("local_environment_maps")},
+                                                                 {"traced", usual("traced")}});
   if (!methods) return methods.errors();
   const Result<std::vector<ViewFlips>> views =
       setup.is_quick ? flips_of_methods(stage, *methods, 8, width / 2, height / 2)
@@ -83,6 +84,11 @@ Status measure_quality(house::Stage& stage, const BenchSetup& setup, Report& rep
   report.add("flip_ratio_mem_over_rerendered", mem / mean_flip(*views, 2));
   report.add("flip_ratio_mem_over_rerendered_worst", worst);
   report.add("local_flip_ratio", mean_flip(*views, 5) / mean_flip(*views, 2));
+  constexpr double max_traced_flip = 0.02;
+  report.add("traced_flip", mean_flip(*views, 6), up_to(max_traced_flip));
+  report.note(fmt::format("control, no reflections at all: FLIP {:.4f}, which must exceed {}: {}",
+                          mean_flip(*views, 1), max_traced_flip,
+                          mean_flip(*views, 1) > max_traced_flip ? "it does" : "IT DOES NOT"));
   report.add("flip_ratio_mem_over_simple_blend", mem / mean_flip(*views, 4));
   for (const bool is_at_crossing : {false, true}) {
     const std::vector<ViewFlips> some = those_at(*views, is_at_crossing);
@@ -93,28 +99,58 @@ Status measure_quality(house::Stage& stage, const BenchSetup& setup, Report& rep
   return Done{};
 }
 
-/// Faces of cube maps that could be drawn in the time that the shipped method takes in near views; one at
-/// least.
-Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
-  constexpr int views = 3;
-  const Result<std::vector<JudgedMethod>> methods = make(
-      stage, {{"none", usual("none")}, {"mem", shipped()}, {"rerendered", usual("rerendered_cube_map")}});
+/// What near views cost, those that FLIP is judged in: milliseconds of each view.
+struct NearCosts {
+  std::vector<double> mem_ms, traced_ms, rerendered_ms, face_ms;
+};
+
+Result<NearCosts> near_costs(house::Stage& stage, int views, int repeats) {
+  const Result<std::vector<JudgedMethod>> methods = make(stage, {{"none", usual("none")},
+                                                                 {"mem", shipped()},
+                                                                 {"rerendered", usual("rerendered_cube_map")},
+                                                                 {"traced", usual("traced")}});
   if (!methods) return methods.errors();
   NearViews near_views(stage, width, height);
-  std::vector<double> mem_ms, face_ms;
+  NearCosts near;
   for (int i = 0; i < views; ++i) {
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
     const Result<std::vector<ReflectionCost>> costs =
         reflection_costs(stage, *methods, view->camera, width, height, repeats, Frames::left_out);
     if (!costs) return costs.errors();
-    mem_ms.push_back(median((*costs)[1].ms).value);
-    face_ms.push_back(median((*costs)[2].ms).value / std::max((*methods)[2].reflections->faces_drawn(), 1));
+    near.mem_ms.push_back(median((*costs)[1].ms).value);
+    near.rerendered_ms.push_back(median((*costs)[2].ms).value);
+    near.traced_ms.push_back(median((*costs)[3].ms).value);
+    near.face_ms.push_back(near.rerendered_ms.back() / std::max((*methods)[2].reflections->faces_drawn(), 1));
   }
-  const int faces = std::max(int(std::lround(median(mem_ms).value / median(face_ms).value)), 1);
+  return near;
+}
+
+/// `near_cost_ratio_rerendered_over_mem` and `traced_cost_over_mem`.
+void report_near_costs(const NearCosts& near, Report& report) {
+  constexpr double min_rerendered = 10.0, max_traced = 2.0;
+  const Median rerendered = ratio_in_turn(near.rerendered_ms, near.mem_ms);
+  report.add("near_cost_ratio_rerendered_over_mem", rerendered.value, {min_rerendered, true});
+  report.add("traced_cost_over_mem", ratio_in_turn(near.traced_ms, near.mem_ms).value, up_to(max_traced));
+  report.note(fmt::format(
+      "control of both: re-rendered maps in place of rays, {:.2f} times mem, must exceed {}; "
+      "rays in place of re-rendered maps, {:.2f} times mem, must be less than {}",
+      rerendered.value, max_traced, ratio_in_turn(near.traced_ms, near.mem_ms).value, min_rerendered));
+}
+
+/// Faces of cube maps that could be drawn in the time that the shipped method takes in near views; one at
+/// least.
+Result<int> faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
+  constexpr int views = 3;
+  const Result<NearCosts> near = near_costs(stage, views, repeats);
+  if (!near) return near.errors();
+  report_near_costs(*near, report);
+  const double mem_ms = median(near->mem_ms).value, face_ms = median(near->face_ms).value;
+  const int faces = std::max(int(std::lround(mem_ms / face_ms)), 1);
   report.note(
-      fmt::format("near views: mem {:.2f} ms, a re-rendered face {:.2f} ms: {} time-sliced faces a frame",
-                  median(mem_ms).value, median(face_ms).value, faces));
+      fmt::format("near views: mem {:.2f} ms, traced {:.2f} ms, a re-rendered face {:.2f} ms: {} time-sliced "
+                  "faces a frame",
+                  mem_ms, median(near->traced_ms).value, face_ms, faces));
   return faces;
 }
 
