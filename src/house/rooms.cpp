@@ -20,6 +20,7 @@
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
+#include "life/vegetation/room.h"
 #include "machines/bench/processes_bench.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
@@ -73,6 +74,7 @@ constexpr Furnish rooms[]{
     lit_objects::furnish,  // after all processes that move things
     facades::furnish,
     trees::furnish,
+    vegetation::furnish,
     view_dependent_objects::furnish,
     bench::furnish_frame,
     bench::furnish_window,

@@ -1,0 +1,69 @@
+#include "life/vegetation/crown_openness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace parvis::vegetation {
+namespace {
+
+constexpr int cells_per_side = 24;
+constexpr float min_openness = 0.08f;
+
+/// Over the upper hemisphere, in rings.
+const std::array<glm::vec3, 13>& directions() {
+  static const std::array<glm::vec3, 13> all = [] {
+    std::array<glm::vec3, 13> result{};
+    result[0] = {0, 0, 1};
+    for (int i = 0; i < 12; ++i) {
+      const float up = i < 6 ? 0.7f : 0.3f, turn = 1.04719755f * (float(i) + (i < 6 ? 0.0f : 0.5f));
+      const float across = std::sqrt(1.0f - up * up);
+      result[std::size_t(i) + 1] = {across * std::cos(turn), across * std::sin(turn), up};
+    }
+    return result;
+  }();
+  return all;
+}
+
+}  // namespace
+
+CrownOpenness::CrownOpenness(const std::vector<Leaf>& leaves, float area_of_unit_leaf) {
+  for (const Leaf& leaf : leaves) box_.add(leaf.foot);
+  if (leaves.empty()) return;
+  const glm::vec3 size = box_.size();
+  cell_m_ = std::max(std::max({size.x, size.y, size.z}) / float(cells_per_side), 1e-3f);
+  cells_ = glm::ivec3(size / cell_m_) + 1;
+  density_.assign(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z), 0.0f);
+  const float per_volume = 1.0f / (cell_m_ * cell_m_ * cell_m_);
+  for (const Leaf& leaf : leaves) {
+    const glm::ivec3 cell = glm::min(glm::ivec3((leaf.foot - box_.min) / cell_m_), cells_ - 1);
+    density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)] +=
+        area_of_unit_leaf * leaf.length_m * leaf.length_m * per_volume;
+  }
+}
+
+float CrownOpenness::extinction_per_m(glm::vec3 place) const {
+  const glm::ivec3 cell(glm::floor((place - box_.min) / cell_m_));
+  if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, cells_)))
+    return 0.0f;
+  return 0.5f * density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)];
+}
+
+float CrownOpenness::at(glm::vec3 place) const {
+  if (density_.empty()) return 1.0f;
+  float seen = 0.0f, all = 0.0f;
+  for (const glm::vec3 direction : directions()) {
+    float depth = 0.0f;
+    const float steps = float(2 * cells_per_side);
+    for (float i = 0.5f; i < steps && depth < 4.0f; ++i) {
+      const glm::vec3 at = place + i * cell_m_ * direction;
+      if (at.z > box_.max.z) break;
+      depth += cell_m_ * extinction_per_m(at);
+    }
+    const float weight = 0.3f + direction.z;
+    seen += weight * std::exp(-depth), all += weight;
+  }
+  return std::max(seen / all, min_openness);
+}
+
+}  // namespace parvis::vegetation

@@ -1,0 +1,38 @@
+// What one draw command says of its plant: attributes of an instance (plant_drawable.cpp).
+#include "graphics/render/frame.glsl"
+#include "graphics/render/body_lookup.glsl"
+#include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/sun_lookup.glsl"
+#include "graphics/render/surface_outputs.glsl"
+
+layout(location = 4) in vec4 world_from_plant_row0;
+layout(location = 5) in vec4 world_from_plant_row1;
+layout(location = 6) in vec4 world_from_plant_row2;
+layout(location = 7) in vec4 shown_leaves;  // share shown, share over which the last fade, growth of lengths,
+                                            // scale of the plant
+layout(location = 8) in vec4 dark_colour;   // of leaves, or bark; w: veins per leaf length
+layout(location = 9) in vec4 light_colour;  // w: translucency and, behind the point, roughness
+layout(location = 10) in uint plant_thing;
+
+vec3 in_world(vec3 p) {
+  vec4 at = vec4(p, 1.0f);
+  return vec3(dot(world_from_plant_row0, at), dot(world_from_plant_row1, at), dot(world_from_plant_row2, at));
+}
+
+vec3 turned_to_world(vec3 v) {
+  return vec3(dot(world_from_plant_row0.xyz, v), dot(world_from_plant_row1.xyz, v),
+              dot(world_from_plant_row2.xyz, v));
+}
+
+// Size of a leaf of this rank (0..1, its place in prefix order), as a factor to its length.
+float grown_length(float rank) {
+  float weight = shown_leaves.y > 0.0f ? clamp((shown_leaves.x - rank) / shown_leaves.y, 0.0f, 1.0f) : 1.0f;
+  return shown_leaves.z * sqrt(weight);
+}
+
+// Light at the vertex (IS_LEAF); `normal` is unit, on the viewer's side.
+void light_vertex(vec3 normal) {
+  leaf_sun = visible_sun(position, normal);
+  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal),
+                              sky_share_beside_bodies(position, normal, int(plant_thing)));
+}

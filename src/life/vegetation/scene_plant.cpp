@@ -1,0 +1,48 @@
+#include "life/vegetation/scene_plant.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/memory_budget.h"
+
+namespace parvis::vegetation {
+namespace {
+
+constexpr std::size_t max_kept = 64;  // beyond it, plants that nobody shows are dropped from the shelf
+
+Status check(const PlantRecipe& recipe) {
+  const PlantKind& kind = *recipe.kind;
+  if (!(recipe.height_m >= kind.min_height_m && recipe.height_m <= kind.max_height_m))
+    return error("a plant of kind \"{}\" is between {} and {} m high, not {} m", kind.name, kind.min_height_m,
+                 kind.max_height_m, recipe.height_m);
+  if (kind.habit == Habit::tree) return Done{};
+  if (!(recipe.length_m > 0.0f && std::isfinite(recipe.length_m)))
+    return error("a plant of kind \"{}\" has a length above 0 m, not {} m", kind.name, recipe.length_m);
+  if (leaf_count(recipe) > max_leaves)
+    return error(
+        "{} m of \"{}\" have {} leaves; {} is the most for one plant. Set several shorter ones side by side",
+        recipe.length_m, kind.name, leaf_count(recipe), max_leaves);
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const PlantShape>> shared_plant(PlantShelf& shelf, const PlantRecipe& recipe) {
+  if (const Status status = check(recipe); !status) return status.errors();
+  const float length_m = recipe.kind->habit == Habit::tree ? 0.0f : recipe.length_m;
+  const std::string key =
+      fmt::format("{} {} {} {}", recipe.kind->name, recipe.height_m, length_m, recipe.seed);
+  if (const auto found = shelf.shapes.find(key); found != shelf.shapes.end()) return found->second;
+  const std::string what = fmt::format(
+      "another plant of kind \"{}\" (plants of the same kind, height and seed share their memory)",
+      recipe.kind->name);
+  if (const Status enough = check_memory(estimated_bytes(recipe), what); !enough) return enough.errors();
+  if (shelf.shapes.size() >= max_kept)
+    std::erase_if(shelf.shapes, [](const auto& kept) { return kept.second.use_count() == 1; });
+  auto grown = std::make_shared<const PlantShape>(grow_plant(recipe));
+  shelf.shapes.emplace(key, grown);
+  return std::shared_ptr<const PlantShape>(std::move(grown));
+}
+
+}  // namespace parvis::vegetation

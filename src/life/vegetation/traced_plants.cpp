@@ -1,0 +1,104 @@
+// What rays see of grown plants: every leaf and all wood, as geometry.
+#include <algorithm>
+#include <unordered_map>
+
+#include "graphics/reference/mip_texture.h"
+#include "graphics/shading/surface.h"
+#include "life/vegetation/bark.h"
+#include "life/vegetation/plant_drawable.h"
+#include "life/vegetation/scene_plant.h"
+#include "places/paper_city/leaf_texture.h"
+
+namespace parvis::vegetation {
+namespace {
+
+namespace shared {
+using namespace parvis::shading;
+#include "life/vegetation/leaf_surface.glsl"
+}  // namespace shared
+
+scene::TracedPoint traced_point(const shading::Surface& surface) {
+  scene::TracedPoint point;
+  point.normal = surface.normal, point.base_colour = surface.base_colour;
+  point.roughness = surface.roughness, point.translucency = surface.translucency;
+  point.occlusion = surface.occlusion;
+  return point;
+}
+
+/// Leaves count as cut out, though they have no holes: what is opaque occludes whole views and hides the sky
+/// from the ground, as walls do.
+class LeafSurface final : public scene::TracedSurface {
+ public:
+  explicit LeafSurface(std::shared_ptr<const PlantShape> shape) : shape_(std::move(shape)) {}
+
+  scene::TracedPoint point(const scene::TracedHit& hit) const override {
+    const PlantKind& kind = shape_->kind();
+    const Leaf& leaf = shape_->leaves[hit.triangle / full_leaf(kind.leaf).triangle_count()];
+    const float shade = shared::vein_shade(hit.uv, kind.veins, hit.width_m / leaf.length_m);
+    const glm::vec3 colour =
+        shared::leaf_side_colour(glm::mix(kind.dark, kind.light, leaf.tint), hit.is_back);
+    return traced_point(
+        shared::leaf_surface(hit.normal, shade * colour, kind.translucency, kind.roughness, leaf.openness));
+  }
+  scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
+
+ private:
+  std::shared_ptr<const PlantShape> shape_;
+};
+
+/// Bark. Cut out for the same reason.
+class WoodSurface final : public scene::TracedSurface {
+ public:
+  explicit WoodSurface(std::shared_ptr<const PlantShape> shape) : shape_(std::move(shape)) {}
+
+  scene::TracedPoint point(const scene::TracedHit& hit) const override {
+    static const reference::MipTexture bark(bark_texture(), false);
+    const glm::vec3 texel(
+        bark.sample(2.0f * hit.uv, 2.0f * hit.width_m / city::bark_sheet_m * bark.size().x));
+    const std::uint32_t* corner = shape_->wood.indices.data() + 3 * std::size_t(hit.triangle);
+    const auto& openness = shape_->wood_openness;
+    const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],
+                                         hit.barycentric.x / std::max(1.0f - hit.barycentric.y, 1e-6f)),
+                                openness[corner[2]], hit.barycentric.y);
+    return traced_point(shared::leaf_surface(
+        hit.normal, glm::min(2.0f * texel * shape_->kind().bark, glm::vec3(0.9f)), 0.0f, 0.9f, open));
+  }
+  scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
+
+ private:
+  std::shared_ptr<const PlantShape> shape_;
+};
+
+/// Meshes and surfaces that all plants of a shape share.
+struct TracedShape {
+  std::shared_ptr<const Mesh> leaves, wood;
+  std::shared_ptr<const scene::TracedSurface> leaf_surface, wood_surface;
+};
+
+TracedShape traced_shape(const std::shared_ptr<const PlantShape>& shape) {
+  return {std::make_shared<const Mesh>(leaf_mesh(*shape)), std::shared_ptr<const Mesh>(shape, &shape->wood),
+          std::make_shared<const LeafSurface>(shape), std::make_shared<const WoodSurface>(shape)};
+}
+
+}  // namespace
+
+scene::TracedKind traced_plants() {
+  scene::TracedKind kind;
+  kind.name = "grown plants";
+  kind.count = [](const scene::Scene& scene) { return int(scene_plants(scene).size()); };
+  kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
+    std::unordered_map<const PlantShape*, TracedShape> shapes;
+    int thing = 0;
+    for (const ScenePlant& plant : scene_plants(scene)) {
+      const scene::TracedPlacing placing{thing++, false, plant.is_visible, true};
+      TracedShape& shape = shapes[plant.shape.get()];
+      if (!shape.leaves) shape = traced_shape(plant.shape);
+      traced.add(shape.leaves, shape.leaf_surface, plant.world_from_plant, placing);
+      if (shape.wood->triangle_count() > 0)
+        traced.add(shape.wood, shape.wood_surface, plant.world_from_plant, placing);
+    }
+  };
+  return kind;
+}
+
+}  // namespace parvis::vegetation
