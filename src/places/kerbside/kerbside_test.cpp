@@ -6,6 +6,7 @@
 
 #include "base/test_folder.h"
 #include "house/rooms.h"
+#include "life/vegetation/scene_plant.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::kerbside {
@@ -54,6 +55,23 @@ float distance_to_lanes(const scene::Scene& scene, glm::vec2 p) {
       nearest = std::min(nearest, glm::distance(p, glm::mix(a, b, t)) - 0.5f * lane.width_m);
     }
   return nearest;
+}
+
+TEST_F(Kerbside, GrownPlantsStandWhereTreesWould) {
+  const scene::Scene trees = load("streetTrees(spacing=10, height=7)\n"),
+                     plants = load("streetTrees(spacing=10, height=7, kind=\"plane\")\n");
+  const std::vector<scene::Object> objects = called(trees, "street tree");
+  const std::vector<vegetation::ScenePlant>& grown = vegetation::scene_plants(plants);
+  ASSERT_GT(grown.size(), 10u);
+  ASSERT_EQ(grown.size(), objects.size());
+  EXPECT_TRUE(called(plants, "street tree").empty());
+  for (std::size_t i = 0; i < grown.size(); ++i) {
+    EXPECT_EQ(glm::vec2(grown[i].world_from_plant[3]), place_of(objects[i]));
+    EXPECT_EQ(grown[i].shape->recipe.height_m, 7.0f);
+  }
+  EXPECT_NE(errors_of("streetTrees(kind=\"palm\")\n").find("plane"), std::string::npos);
+  EXPECT_NE(errors_of("streetTrees(kind=\"orange\", height=20)\n").find("between 1 and 8 m"),
+            std::string::npos);
 }
 
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {

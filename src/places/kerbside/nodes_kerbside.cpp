@@ -7,6 +7,7 @@
 #include "base/content_hash.h"
 #include "base/memory_budget.h"
 #include "base/random.h"
+#include "life/vegetation/scene_plant.h"
 #include "places/kerbside/kerb_places.h"
 #include "places/kerbside/room.h"
 #include "places/kerbside/street_models.h"
@@ -31,8 +32,10 @@ struct PlannedSeries {
   std::string of;           ///< pattern of the objects that are repeated; empty: `models`
   FileLocation where_of;
   std::function<Models()> models;  ///< makes what is repeated where `of` is empty
-  bool turns_at_random = false;    ///< as trees do
-  bool is_car = false;             ///< takes reflections and is dynamic: reference maps leave it out
+  /// Grown plants in place of models; a null kind: none.
+  vegetation::PlantRecipe plant = {};
+  bool turns_at_random = false;  ///< as trees do
+  bool is_car = false;           ///< takes reflections and is dynamic: reference maps leave it out
 
   /// What follows from the script is in the objects.
   void hash(ContentHash& hash) const { hash.add_text(object_name); }
@@ -62,7 +65,11 @@ scene::NodeSchema street_trees_schema() {
       .type = "streetTrees",
       .help = "Trees along both kerbs of every street, where neither walls nor anything else is in the way.",
       .attributes =
-          {of_attribute("trees of `height`"), spacing_attribute("between trees", 2).by_default("10"),
+          {of_attribute("trees of `height`"),
+           choice("kind", "light trees of the paper's city, or grown plants (plant) with every leaf",
+                  {"paper_city", "orange", "oak", "plane"})
+               .by_default("paper_city"),
+           spacing_attribute("between trees", 2).by_default("10"),
            number("beside", "from the kerb to the trunk").in("m").between(0.3, 20).by_default("0.9"),
            number("clear", "from the trunk to walls and all else").in("m").between(0.2, 10).by_default("1.6"),
            number("height", "of the trees").in("m").between(2, 30).by_default("8"), seed_attribute()},
@@ -80,6 +87,7 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
   planned.object_name = "street tree";
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
   planned.models = [height_m, seed] { return street_trees(height_m, seed); };
+  if (planned.of.empty()) planned.plant = {vegetation::find_kind(node.text("kind")), height_m, 0.0f, seed};
   planned.series.seed = seed, planned.turns_at_random = true;
   builder.add(std::move(planned));
 }
@@ -165,6 +173,24 @@ std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, scene::Scen
   return repeated;
 }
 
+/// A grown plant at each place, of a few shapes.
+void plant_series(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
+  constexpr int shapes = 3;
+  Random random(planned.series.seed, 300);
+  for (const KerbPlace& place : take_kerb_places(builder.scene.roads, planned.series, ground)) {
+    vegetation::PlantRecipe recipe = planned.plant;
+    recipe.seed += std::uint64_t(random.index(shapes));
+    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
+    if (!shape) return builder.fail(shape.errors(), planned.where_of);
+    if (vegetation::scene_plants(builder.scene).size() >= max_objects)
+      return builder.fail(
+          error_at(planned.where_of, "more than {} plants: give a wider spacing", max_objects));
+    builder.add(vegetation::ScenePlant{*std::move(shape),
+                                       glm::rotate(glm::translate(glm::mat4(1.0f), place.foot),
+                                                   random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f})});
+  }
+}
+
 void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
   const std::vector<Repeated> repeated = what_is_repeated(planned, builder);
   if (repeated.empty()) return;
@@ -207,7 +233,8 @@ void finish(scene::SceneBuilder& builder) {
       !enough)
     return builder.fail(enough.errors(), all.front().where_of);
   FreeGround ground(builder.scene);
-  for (const PlannedSeries& planned : all) set_up(planned, ground, builder);
+  for (const PlannedSeries& planned : all)
+    planned.plant.kind ? plant_series(planned, ground, builder) : set_up(planned, ground, builder);
 }
 
 }  // namespace
