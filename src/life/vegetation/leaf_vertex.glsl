@@ -39,7 +39,7 @@ void surface_vertex() {
   float back = facing < 0.0f ? 1.0f : 0.0f;
   vertex_normal = facing < 0.0f ? -normal : normal;
   uv = vec2(0.0f, 0.5f);
-  light_vertex(vertex_normal);
+  light_small_vertex(vertex_normal);
   set_material(leaf_size.y, back);
   float w = transpose(clip_from_world)[3].x * position.x + transpose(clip_from_world)[3].y * position.y +
             transpose(clip_from_world)[3].z * position.z + transpose(clip_from_world)[3].w;
@@ -56,7 +56,7 @@ void surface_vertex() {
   vertex_normal = turned_to_world(leaf_normal_and_tint.xyz);
   uv = leaf_place.xy;
   vec3 normal = normalize(vertex_normal);
-  light_vertex(dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal);
+  light_small_vertex(dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal);
   set_material(leaf_offset.w, 0.0f);
 }
 #endif

@@ -158,12 +158,14 @@ class PlantDrawable final : public render::Drawable {
     if (begin(view, list, leaf_programs_, buffers_.leaves(), list.leaves.size()))
       glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, at(list.first_leaf),
                                   GLsizei(list.leaves.size()), 0);
-    if (begin(view, list, line_programs_, buffers_.lines(), list.lines.size()))
-      glMultiDrawArraysIndirect(GL_LINES, at(list.first_line), GLsizei(list.lines.size()), 0);
     glEnable(GL_PROGRAM_POINT_SIZE);
     if (begin(view, list, point_programs_, buffers_.points(), list.points.size()))
       glMultiDrawArraysIndirect(GL_POINTS, at(list.first_point), GLsizei(list.points.size()), 0);
     glDisable(GL_PROGRAM_POINT_SIZE);
+    glLineWidth(line_px);
+    if (begin(view, list, line_programs_, buffers_.lines(), list.lines.size()))
+      glMultiDrawArraysIndirect(GL_LINES, at(list.first_line), GLsizei(list.lines.size()), 0);
+    glLineWidth(1.0f);
   }
 
  private:

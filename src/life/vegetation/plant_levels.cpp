@@ -10,11 +10,10 @@ namespace parvis::vegetation {
 namespace {
 
 // Lengths of a leaf in the picture between which leaves change their form.
-constexpr float full_from_px = 14.0f, full_to_px = 22.0f;
-constexpr float simple_from_px = 3.5f, simple_to_px = 5.0f;
-constexpr float point_area_px = 1.7f;  // mean of a point
+constexpr float full_from_px = 16.0f, full_to_px = 24.0f;
+constexpr float simple_from_px = 5.0f, simple_to_px = 8.0f;
+constexpr float point_area_px = 4.5f;  // mean of a point
 constexpr float fading = 0.15f;        // of what is shown
-constexpr float min_wood_px = 1.0f;
 
 float share_between(float value, float from, float to) {
   return std::clamp((value - from) / (to - from), 0.0f, 1.0f);
@@ -39,10 +38,11 @@ float fading_share(float shown) { return std::min(fading * shown, 1.0f - shown);
 float area_growth(float shown) { return shown > 0.0f ? 1.0f / (shown - 0.5f * fading_share(shown)) : 1.0f; }
 
 WoodShares wood_shares(const PlantShape& shape, float pixels_per_metre) {
-  const float min_radius_m = 0.5f * min_wood_px / pixels_per_metre;
+  const float min_radius_m = 0.5f * line_px / pixels_per_metre;
   const auto piece =
       std::ranges::lower_bound(shape.pieces, min_radius_m, std::greater<>(), &WoodPiece::radius_m);
-  const auto twig = std::ranges::upper_bound(shape.twigs, pixels_per_metre, {}, &Twig::min_pixels_per_metre);
+  const auto twig =
+      std::ranges::upper_bound(shape.twigs, pixels_per_metre / line_px, {}, &Twig::min_pixels_per_metre);
   WoodShares shares;
   shares.pieces = std::uint32_t(piece - shape.pieces.begin());
   shares.twigs = shares.pieces == shape.pieces.size() ? 0 : std::uint32_t(twig - shape.twigs.begin());

@@ -22,12 +22,15 @@ float fading_share(float shown);
 /// By how much the area of the leaves that are shown grows, so that it stays that of all.
 float area_growth(float shown);
 
+/// Width of the lines that stand for twigs, pixels.
+inline constexpr float line_px = 2.0f;
+
 /// How many twigs are lines, and up to which of the shape's pieces wood is made of triangles.
 struct WoodShares {
   std::uint32_t pieces = 0;  ///< the thickest
   std::uint32_t twigs = 0;   ///< in prefix order
 };
-/// By the resolution, pixels per metre: wood of a pixel and more has triangles.
+/// By the resolution, pixels per metre: wood as wide as a line has triangles.
 WoodShares wood_shares(const PlantShape& shape, float pixels_per_metre);
 
 /// Index in PlantShape::clustered behind the last leaf of a cluster that is within a share of all leaves.

@@ -36,3 +36,17 @@ void light_vertex(vec3 normal) {
   leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal),
                               sky_share_beside_bodies(position, normal, int(plant_thing)));
 }
+
+// The same for leaves and lines, of which there are many: one comparison with the shadow map, and no shade of
+// moving bodies.
+void light_small_vertex(vec3 normal) {
+  ShadowMaps maps = frame_shadow_maps();
+  vec3 to_light = to_sun_at(position);
+  vec3 near_uvz = near_shadow_coordinates(maps, position, normal, to_light);
+  vec3 far_uvz = shadow_coordinates(maps, shadow_far_map, position, normal, to_light, maps.texel_m.x);
+  bool is_near = is_inside_map(near_uvz, maps.texel_uv);
+  bool is_known = is_near || is_inside_map(far_uvz, maps.texel_uv);
+  float lit = shadow_compare(is_near ? shadow_near_map : shadow_far_map, is_near ? near_uvz : far_uvz);
+  leaf_sun = (is_known ? lit : 1.0f) * sun_cone(to_light);
+  leaf_sky_cell = sky_visibility_cell(position, normal);
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace parvis::vegetation {
@@ -92,6 +93,8 @@ void PlantSelection::choose(std::span<const PlacedPlant> plants, const View& vie
                             const PlantDetail& detail) {
   plants_ = plants;
   gather(view, culling, detail);
+  // The nearest first: what they hide is not shaded.
+  std::ranges::sort(leaves_, std::greater<>(), &SelectedLeaves::pixels_per_metre);
   share_out(1.0f);
   const auto budget = std::size_t(std::max(budget_of(view, detail), 0));
   if (is_full_ || statistics_.all() <= budget) return;

@@ -20,6 +20,10 @@ void surface_vertex() {
   uv = 2.0f * wood_uv;  // finer than the trunks of the paper's city, as traced_plants.cpp
   wood_openness = wood_normal.w;
   bark_colour = dark_colour.rgb;
+#ifdef IS_LINE
+  light_small_vertex(normal);
+#else
   light_vertex(normal);
+#endif
   object_of_surface = int(plant_thing);
 }
