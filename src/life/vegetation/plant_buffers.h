@@ -37,11 +37,11 @@ class PlantBuffers {
   /// First index (of 16 bits) of the leaves of a cluster, full or simple: the same for all clusters.
   static std::uint32_t first_index(LeafForm form, bool is_full);
 
-  const Shapes& shapes() const { return shapes_; }      ///< as uploaded
-  GLuint leaves() const { return leaf_array_.name(); }  ///< indexed triangles
-  GLuint points() const { return point_array_.name(); }
-  GLuint wood() const { return wood_array_.name(); }  ///< indexed triangles, 32 bits
-  GLuint lines() const { return line_array_.name(); }
+  const Shapes& shapes() const { return shapes_; }       ///< as uploaded
+  GLuint leaves() const { return leaf_array_.name(); }   ///< indexed triangles
+  GLuint points() const { return point_array_.name(); }  ///< one corner each
+  GLuint wood() const { return wood_array_.name(); }     ///< indexed triangles, 32 bits
+  GLuint lines() const { return line_array_.name(); }    ///< two corners each
 
  private:
   Shapes shapes_;

@@ -41,7 +41,7 @@ struct SelectedWood {
 /// What is drawn, counted.
 struct PlantStatistics {
   std::size_t triangles = 0, points = 0, lines = 0;
-  std::size_t all() const { return triangles + points + lines; }
+  std::size_t all() const { return triangles + points + lines; }  ///< their sum
 };
 
 /// Chooses for one view; keeps its memory from view to view.
@@ -52,9 +52,9 @@ class PlantSelection {
   void choose(std::span<const PlacedPlant> plants, const render::View& view, const render::Culling& culling,
               const PlantDetail& detail);
 
-  const std::vector<SelectedLeaves>& leaves() const { return leaves_; }
-  const std::vector<SelectedWood>& wood() const { return wood_; }
-  const PlantStatistics& statistics() const { return statistics_; }
+  const std::vector<SelectedLeaves>& leaves() const { return leaves_; }  ///< nearest first
+  const std::vector<SelectedWood>& wood() const { return wood_; }        ///< by plant
+  const PlantStatistics& statistics() const { return statistics_; }      ///< of all of it
   /// Factor to the resolution, at most 1, by which the budget was kept.
   float scale() const { return scale_; }
 

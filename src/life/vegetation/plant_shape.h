@@ -71,6 +71,7 @@ struct PlantShape {
   float mean_leaf_area_m2 = 0.0f;    ///< of one side
   Bounds bounds;
 
+  /// What it was grown as.
   const PlantKind& kind() const { return *recipe.kind; }
   /// Of the real geometry: full leaves and all wood.
   std::size_t triangle_count() const;
