@@ -13,6 +13,7 @@
 #include "graphics/light/bench/bounced_bench.h"
 #include "graphics/light/bench/double_tracer.h"
 #include "graphics/light/bench/shadow_bench.h"
+#include "graphics/light/bench/vegetation_bench.h"
 #include "graphics/light/brute_force_sky.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/preetham.h"
@@ -310,9 +311,6 @@ Status measure_city(const BenchSetup& setup, Report& report) {
   }
   for (const auto& measure : {measure_bounced_light, measure_sun_hours, measure_shadows})
     if (Status status = measure(setup, loaded->scene, report); !status) return status;
-  for (const char* key :
-       {"vegetation_fps_200_trees_1m_triangles", "vegetation_flip", "vegetation_primitives"})
-    report.skip(key, "points and lines for vegetation are not built");
   return Done{};
 }
 
@@ -320,14 +318,25 @@ Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  for (const auto& measure : {measure_sun, measure_brute_force, count_negatives, measure_gpu, measure_city})
+  for (const auto& measure :
+       {measure_sun, measure_brute_force, count_negatives, measure_gpu, measure_vegetation, measure_city})
     if (Status status = measure(setup, report); !status) return status.errors();
   return Done{};
+}
+
+/// The keys vegetation_* by themselves.
+Status measure_vegetation_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  return measure_vegetation(setup, report);
 }
 
 }  // namespace
 
 void furnish_light(House& house) {
+  house.get<Benches>().add({"vegetation", "points and lines of grown plants against their real geometry",
+                            measure_vegetation_alone});
   house.get<Benches>().add(
       {"light", "sun, sky, shadows and hours of sun against their ground truths", measure});
 }
