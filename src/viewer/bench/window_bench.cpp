@@ -94,7 +94,7 @@ Status measure(const BenchSetup& setup, Report& report) {
   if (!city) return city.errors();
   if (Status kept = keep_maps(setup.house, city->scene, methods::settings(city->scene)); !kept) return kept;
   const int frames = setup.is_quick ? 120 : 400;
-  const Result<Walk> held = walked(script, "10", frames), free = walked(script, "off", frames / 4);
+  const Result<Walk> held = walked(script, "10", frames), free = walked(script, "off", 30 + frames / 6);
   if (!held) return held.errors();
   if (!free) return free.errors();
   report.add("view_fps_software", held->rate, {wanted_rate, true});
