@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/renderer.h"
@@ -43,7 +44,8 @@ class PlantDisplay : public gl::ContextTest {
                                    int(scene_plants(scene_).size()));
   }
   std::unique_ptr<render::Renderer> renderer() const {
-    Result<std::unique_ptr<render::Renderer>> made = render::Renderer::create(scene_, drawables_);
+    Result<std::unique_ptr<render::Renderer>> made =
+        render::Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(made) << to_string(made.errors());
     return *std::move(made);
   }

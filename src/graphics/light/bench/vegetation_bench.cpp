@@ -120,7 +120,7 @@ Status measure_vegetation(const BenchSetup& setup, Report& report) {
   render::Drawables drawables;
   drawables.add(vegetation::scene_plants_kind());
   drawables.furnish(scene);
-  auto made = render::Renderer::create(scene, drawables);
+  auto made = render::Renderer::create(scene, drawables, setup.house.get<render::Lights>().make);
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
 
