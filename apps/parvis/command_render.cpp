@@ -16,6 +16,7 @@
 #include "house/stage/film.h"
 #include "house/stage/probe.h"
 #include "machines/processes.h"
+#include "reflections/methods/registry.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -48,11 +49,22 @@ Result<int> frames_of(const Arguments& arguments, const std::filesystem::path& o
   return frames;
 }
 
+/// What the script says, and what was changed since.
+void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
+  for (const scene::Node& node : nodes) {
+    hash.add_text(node.schema->name);
+    for (const std::vector<scene::NodeAttribute>& attributes : {node.attributes, node.overrides})
+      for (const scene::NodeAttribute& attribute : attributes) hash.add_text(scene::written(attribute));
+    add(hash, node.children);
+  }
+}
+
 /// All that the frames of a film depend on.
 std::uint64_t film_key(const house::Stage& stage, const Arguments& arguments, int width, int height) {
   ContentHash hash;
   const scene::Scene& scene = stage.scene();
   hash.add(reference::scene_key(scene));
+  add(hash, stage.play().live().nodes());  // tours, paths and timers among them
   scene.room_data.hash(hash, [](scene::DataRole) { return true; });
   for (const scene::NamedCamera& named : scene.cameras) {
     hash.add_text(named.name + "/" + named.follows);
@@ -73,12 +85,14 @@ std::uint64_t film_key(const house::Stage& stage, const Arguments& arguments, in
 /// others.
 Status expect_single_frames(const house::Stage& stage) {
   const methods::Settings& reflection = methods::settings(stage.scene());
-  if (reflection.method == "time_sliced_cube_map" || reflection.budget_ms > 0.0f)
+  const Result<const methods::Method*> method =
+      stage.house().get<methods::Registry>().method_of(stage.scene());
+  if (!method) return method.errors();
+  if ((*method)->needs_earlier_frames || reflection.budget_ms > 0.0f)
     return error(
         "reflection(method={}, budget_ms={}): each frame depends on those before it, so that a film cannot "
-        "be "
-        "divided among processes; render it without mpirun, or take another --reflection",
-        reflection.method, reflection.budget_ms);
+        "be divided among processes; render it without mpirun, or take another --reflection",
+        (*method)->name, reflection.budget_ms);
   return Done{};
 }
 
@@ -110,7 +124,8 @@ Status render_film(house::Stage& stage, const Arguments& arguments, const std::f
                    int width, int height, const machines::Processes& processes) {
   for (const int number : {SIGINT, SIGTERM})
     std::signal(number, [](int) { is_interrupted = true; });  // half a film is taken away, not left
-  if (processes.are_several() || std::filesystem::exists(house::frames_folder(output)))
+  const bool is_begun = std::filesystem::exists(house::frames_folder(output)) && expect_single_frames(stage);
+  if (processes.are_several() || is_begun)
     return render_divided_film(stage, arguments, output, width, height, processes);
   Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/checked.h"
+#include "base/memory_budget.h"
 #include "capture/facades/placed_facade.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/bindings.h"
@@ -125,7 +127,10 @@ Status check_limits(const PackedFacade& facade) {
         "the captured facade needs {} pages of textures and tables of {} entries; this graphics hardware "
         "holds {} and {}. Divide the place, or pack fewer photographs",
         pages_of(facade), longest, max_layers, std::size_t(max_side) * list_width);
-  return Done{};
+  const std::uint64_t bytes_per_texel = gl::is_software() ? 4 : 1;  // decoded, or blocks
+  return check_memory(
+      checked_product({pages_of(facade), std::uint64_t(page_side) * page_side * 21 / 16, bytes_per_texel}),
+      "the textures of a captured facade");
 }
 
 }  // namespace
@@ -143,7 +148,6 @@ Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade) {
   made.tiles_ = list_texture(facade.tiles, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
   made.depths_ = list_texture(facade.depths, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
   made.atlas_ = atlas_texture(facade);
-  made.bytes_ = facade.texture_bytes() + facade.corners.size() * sizeof(Corner);
   return made;
 }
 

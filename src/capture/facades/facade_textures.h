@@ -39,14 +39,12 @@ class FacadeTextures {
   /// Draws a run of triangles with what is bound.
   void draw(std::size_t first_triangle, std::size_t triangles) const;
   /// Of graphics memory.
-  std::size_t bytes() const { return bytes_; }
 
  private:
   gl::Buffer corners_;
   gl::Texture photos_, layers_, tiles_, depths_, atlas_;
   std::vector<std::uint32_t> candidates_;
   std::size_t triangles_ = 0;
-  std::size_t bytes_ = 0;
 };
 
 }  // namespace parvis::facades

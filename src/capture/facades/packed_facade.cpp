@@ -9,7 +9,7 @@ namespace parvis::facades {
 namespace {
 
 constexpr SealedKind kind{"PVFACE_3", "packed facade"};
-constexpr std::size_t max_photos = 4096, max_name_bytes = 4096;
+constexpr std::size_t max_photos = 4096;
 constexpr int max_side = 65535;  // boxes are kept in 16 bits
 
 void append_text(std::string& bytes, const std::string& text) {
@@ -44,6 +44,9 @@ std::string problem_of(const PackedFacade& facade) {
     return "a triangle has no surface";
   for (const glm::uvec2& list : facade.lists)
     if (std::uint64_t(list.x) + list.y > facade.candidates.size()) return "a list of layers is cut off";
+  if (std::ranges::any_of(facade.lists,
+                          [&](const glm::uvec2& list) { return list.y > facade.photos.size(); }))
+    return "a triangle has more layers than there are photographs";
   if (!std::ranges::all_of(facade.candidates, [&](std::uint32_t l) { return l < facade.layers.size(); }))
     return "a triangle has a layer that is not there";
   for (const PackedLayer& layer : facade.layers) {

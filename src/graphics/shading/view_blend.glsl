@@ -26,9 +26,9 @@ GLSL_FUNCTION float blend_weight(float penalty, float max_penalty) {
 }
 
 // The share of the second photograph in a blend of two whose colours differ by `difference` (sRGB, by the
-// channel that differs most): where they contradict each other, because the surface is elsewhere or glossy,
-// the better one is shown nearly alone instead of a double image. 0 and 1 stay, and so does 1/2: nothing
-// jumps when the better one changes.
+// channel that differs most): the more they contradict each other from 0.6 on, because the surface is
+// elsewhere or glossy, the more the better one is shown alone instead of a double image. 0 and 1 stay, and so
+// does 1/2: nothing jumps when the better one changes.
 GLSL_FUNCTION float decided_share(float share, float difference) {
   float power = 1.0f + 7.0f * smoothstep(0.6f, 1.0f, difference);
   float of_second = pow(clamp(share, 0.0f, 1.0f), power),

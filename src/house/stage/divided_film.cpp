@@ -33,10 +33,31 @@ std::string rgb_of(const Image8& picture) {
   return bytes;
 }
 
+Error interrupted(const FilmJob& job) {
+  return error("{}: interrupted; its frames so far are kept in {}, and the same command goes on",
+               job.output.string(), frames_folder(job.output).string());
+}
+
+/// Removes the frames of this and of earlier commands, and the folder where nothing else is in it.
+void remove_frames(const FilmJob& job) {
+  const std::size_t name_length = frame_file(job, 0).filename().string().size();
+  std::error_code code;
+  std::vector<fs::path> frames;
+  for (const fs::directory_entry& entry : fs::directory_iterator(frames_folder(job.output), code)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() == name_length && name.ends_with(".png") &&
+        name.substr(0, 16).find_first_not_of("0123456789abcdef") == std::string::npos && name[16] == '-')
+      frames.push_back(entry.path());
+  }
+  for (const fs::path& frame : frames) fs::remove(frame, code);
+  fs::remove(frames_folder(job.output), code);
+}
+
 /// Writes the film out of the finished frames.
 Status encode(const FilmJob& job, Film& film) {
   Progress progress("writing film", std::size_t(job.frames));
   for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame) {
+    if (job.is_interrupted && *job.is_interrupted) return interrupted(job);
     const Result<Image8> picture = read_image8(frame_file(job, frame));
     if (!picture) return picture.errors();
     if (Status status = film.add(*picture); !status) return status;
@@ -77,12 +98,9 @@ Status make_divided_film(const FilmJob& job, const machines::Processes& processe
   const Result<std::size_t> kept = machines::divide(processes, to_do, work);
   if (!kept) return kept.errors();
   if (!processes.is_first()) return Done{};
-  if (*kept < to_do.size())
-    return error("{}: interrupted; its frames so far are kept in {}, and the same command goes on",
-                 job.output.string(), frames_folder(job.output).string());
+  if (*kept < to_do.size()) return interrupted(job);
   if (Status status = encode(job, *film); !status) return status;
-  std::error_code ignored;
-  fs::remove_all(frames_folder(job.output), ignored);
+  remove_frames(job);
   return Done{};
 }
 

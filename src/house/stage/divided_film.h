@@ -27,7 +27,8 @@ struct FilmJob {
 std::filesystem::path frames_folder(const std::filesystem::path& film);
 
 /// Draws the frames that are not there yet; all processes call it. The first one then makes the film, the
-/// same as if it had drawn all frames, and removes the folder. Errors: those of `draw`; the film or its
+/// same as if it had drawn all frames, and removes the frames, and the folder if nothing else is in
+/// it. Errors: those of `draw`; the film or its
 /// frames cannot be written; it was interrupted (the same call goes on).
 Status make_divided_film(const FilmJob& job, const machines::Processes& processes);
 

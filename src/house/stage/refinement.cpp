@@ -9,12 +9,11 @@ constexpr int samples_per_round = 16;  // spread evenly over each pixel, as thos
 
 }  // namespace
 
-Refinement::Refinement(const scene::Scene& scene, const shading::SkyLight& sky,
-                       const shading::DrawnLight& light, const Camera& camera, int width, int height,
-                       int bounces)
+Refinement::Refinement(const scene::Scene& scene, const shading::SkyLight& sky, shading::DrawnLight light,
+                       const Camera& camera, int width, int height, int bounces)
     : scene_(scene),
       sky_(sky),
-      light_(light),
+      light_(std::move(light)),
       camera_(camera),
       width_(width),
       height_(height),

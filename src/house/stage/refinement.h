@@ -19,10 +19,11 @@ class Refinement {
   static constexpr int max_samples = 256;  ///< per pixel; then the picture counts as finished
 
   /// Begins. `bounces`: after as many mirrors, mirrors show the sky.
-  Refinement(const scene::Scene& scene, const shading::SkyLight& sky, const shading::DrawnLight& light,
+  Refinement(const scene::Scene& scene, const shading::SkyLight& sky, shading::DrawnLight light,
              const Camera& camera, int width, int height, int bounces);
   Refinement(const Refinement&) = delete;
-  /// Ends within what a row of the picture takes.
+  /// Waits for the row of the picture that is traced, or for the hierarchy of the scene, which is built
+  /// first.
   ~Refinement();
 
   /// The picture so far, linear RGB: the mean of `samples()` samples of each pixel; nothing where it has no

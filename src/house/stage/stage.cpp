@@ -88,7 +88,13 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   return stage;
 }
 
+void Stage::end_refinement() {
+  refinement_.reset();
+  refined_samples_ = 0;
+}
+
 Status Stage::set_reflection(const methods::Settings& reflection) {
+  end_refinement();  // methods begin frames when they are made
   methods::settings(play_.scene) = shown_reflection_ = reflection;
   renderer_->set_budget(double(reflection.budget_ms));
   Result<std::unique_ptr<methods::Reflections>> made =
@@ -123,8 +129,7 @@ double Stage::drawn_share() const {
 }
 
 void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
-  refinement_.reset();
-  refined_samples_ = 0;
+  end_refinement();
   if (methods::settings(play_.scene) != shown_reflection_)
     if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
@@ -165,7 +170,7 @@ Image8 Stage::picture() {
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const machines::Processes& processes) {
-  refinement_.reset();  // tracing begins a frame
+  end_refinement();  // tracing begins a frame
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.processes = &processes;
@@ -174,7 +179,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
-  refinement_.reset();
+  end_refinement();
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;

@@ -124,6 +124,7 @@ class Stage {
                                  const machines::Processes& processes);
 
  private:
+  void end_refinement();
   Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn);
 

@@ -101,6 +101,7 @@ class PlantDrawable final : public render::Drawable {
 
   void update(const scene::Scene& scene) override {
     const std::vector<ScenePlant>& plants = scene_plants(scene);
+    const bool is_new_detail = !(detail_ == scene.data<PlantDetail>());  // kept shadow maps show another
     detail_ = scene.data<PlantDetail>();
     upload_shapes(plants);
     change_ = {};
@@ -113,8 +114,8 @@ class PlantDrawable final : public render::Drawable {
       const PlacedPlant now = placed(plants[i], first_thing_ + int(i));
       fixed_.add(now.is_visible ? now.bounds : transformed(now.world_from_plant, now.shape->bounds));
       PlacedPlant& kept = plants_[i];
-      const bool is_same = i < before && kept.shape == now.shape && kept.is_visible == now.is_visible &&
-                           kept.world_from_plant == now.world_from_plant;
+      const bool is_same = !is_new_detail && i < before && kept.shape == now.shape &&
+                           kept.is_visible == now.is_visible && kept.world_from_plant == now.world_from_plant;
       kept.is_newcomer = false;
       if (is_same) continue;
       if (i < before && !bounds_[i].empty()) change_.gone.push_back(bounds_[i]), change_.has_moved = true;

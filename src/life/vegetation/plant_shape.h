@@ -45,9 +45,9 @@ struct Twig {
   glm::vec3 from, to;
   float radius_m;
   float openness;
-  /// Pixels per metre from which on it is drawn as a line a pixel wide: u / (2 radius), u uniform in 0..1
-  /// (priority sampling). So the chance that it is among those drawn is its width in pixels, and the area of
-  /// all is kept.
+  /// u / (2 radius), u uniform in 0..1 (priority sampling): from so many pixels per line's width and metre on
+  /// it is drawn as a line. So the chance that it is among those drawn is its width over the line's, and the
+  /// area of all is kept.
   float min_pixels_per_metre;
 };
 

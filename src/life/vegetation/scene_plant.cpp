@@ -30,19 +30,23 @@ Status check(const PlantRecipe& recipe) {
 
 Result<std::shared_ptr<const PlantShape>> shared_plant(PlantShelf& shelf, const PlantRecipe& recipe) {
   if (const Status status = check(recipe); !status) return status.errors();
-  const float length_m = recipe.kind->habit == Habit::tree ? 0.0f : recipe.length_m;
+  PlantRecipe grown = recipe;
+  if (recipe.kind->habit == Habit::tree) grown.length_m = 0.0f;  // that trees have none of
   const std::string key =
-      fmt::format("{} {} {} {}", recipe.kind->name, recipe.height_m, length_m, recipe.seed);
+      fmt::format("{} {} {} {}", grown.kind->name, grown.height_m, grown.length_m, grown.seed);
   if (const auto found = shelf.shapes.find(key); found != shelf.shapes.end()) return found->second;
   const std::string what = fmt::format(
       "another plant of kind \"{}\" (plants of the same kind, height and seed share their memory)",
       recipe.kind->name);
-  if (const Status enough = check_memory(estimated_bytes(recipe), what); !enough) return enough.errors();
   if (shelf.shapes.size() >= max_kept)
     std::erase_if(shelf.shapes, [](const auto& kept) { return kept.second.use_count() == 1; });
-  auto grown = std::make_shared<const PlantShape>(grow_plant(recipe));
-  shelf.shapes.emplace(key, grown);
-  return std::shared_ptr<const PlantShape>(std::move(grown));
+  std::uint64_t bytes = estimated_bytes(grown);  // to be drawn and traced: later, and all together
+  for (const auto& [name, kept] : shelf.shapes)
+    if (kept.use_count() > 1) bytes += estimated_bytes(kept->recipe);
+  if (const Status enough = check_memory(bytes, what); !enough) return enough.errors();
+  auto shape = std::make_shared<const PlantShape>(grow_plant(grown));
+  shelf.shapes.emplace(key, shape);
+  return std::shared_ptr<const PlantShape>(std::move(shape));
 }
 
 }  // namespace parvis::vegetation

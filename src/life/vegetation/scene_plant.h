@@ -45,6 +45,7 @@ struct PlantDetail {
   bool is_full = false;    ///< the real geometry of all plants, whatever its size: what the rest is judged by
   bool keeps_area = true;  ///< false: leaves that are left out are missing; a control
 
+  bool operator==(const PlantDetail&) const = default;
   /// Adds the settings.
   void hash(ContentHash& hash) const { hash.add(max_primitives), hash.add(is_full), hash.add(keeps_area); }
 };

@@ -35,7 +35,8 @@ void furnish(House& house) {
        .help = "an environment map for each reflector, made of the two nearest reference maps",
        .make = make_local_environment_maps,
        .attributes = {maps_attribute(), show_attribute()},
-       .read = read_attributes});
+       .read = read_attributes,
+       .needs_earlier_frames = true});
 }
 
 }  // namespace parvis::local_maps

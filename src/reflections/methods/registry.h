@@ -34,6 +34,8 @@ struct Method {
   void (*prepare)(scene::Scene& scene) = nullptr;
   /// Names of bake steps (render::BakeSteps) whose results a scene of this method never reads.
   std::vector<std::string> unused_bake_steps = {};
+  /// A frame shows what earlier frames left: a process that draws some frames alone would draw others.
+  bool needs_earlier_frames = false;
 };
 
 /// All methods and overlays that rooms have added.

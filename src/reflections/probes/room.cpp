@@ -38,9 +38,11 @@ void furnish(House& house) {
                                    .between(0, 1000)
                                    .by_default("0")
                                    .live()},
-                .read = [](const scene::Node& node, methods::Settings& settings) {
-                  settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_per_frame"));
-                }});
+                .read =
+                    [](const scene::Node& node, methods::Settings& settings) {
+                      settings.own.get<TimeSlicing>().faces_per_frame = int(node.integer("faces_per_frame"));
+                    },
+                .needs_earlier_frames = true});
   registry.add({.name = "shared_cube_map",
                 .help = "one cube map for all reflectors, drawn about the largest on the screen",
                 .make = make<SharedCubeMap>});
