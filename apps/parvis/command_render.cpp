@@ -52,7 +52,7 @@ Result<int> frames_of(const Arguments& arguments, const std::filesystem::path& o
 /// What the script says, and what was changed since.
 void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
   for (const scene::Node& node : nodes) {
-    hash.add_text(node.schema->name);
+    hash.add_text(node.schema->type);
     for (const std::vector<scene::NodeAttribute>& attributes : {node.attributes, node.overrides})
       for (const scene::NodeAttribute& attribute : attributes) hash.add_text(scene::written(attribute));
     add(hash, node.children);
@@ -60,7 +60,7 @@ void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
 }
 
 /// All that the frames of a film depend on.
-std::uint64_t film_key(const house::Stage& stage, const Arguments& arguments, int width, int height) {
+std::uint64_t film_key(house::Stage& stage, const Arguments& arguments, int width, int height) {
   ContentHash hash;
   const scene::Scene& scene = stage.scene();
   hash.add(reference::scene_key(scene));

@@ -128,9 +128,9 @@ Status check_limits(const PackedFacade& facade) {
         "holds {} and {}. Divide the place, or pack fewer photographs",
         pages_of(facade), longest, max_layers, std::size_t(max_side) * list_width);
   const std::uint64_t bytes_per_texel = gl::is_software() ? 4 : 1;  // decoded, or blocks
-  return check_memory(
-      checked_product({pages_of(facade), std::uint64_t(page_side) * page_side * 21 / 16, bytes_per_texel}),
-      "the textures of a captured facade");
+  return check_memory(checked_product({std::uint64_t(pages_of(facade)),
+                                       std::uint64_t(page_side) * page_side * 21 / 16, bytes_per_texel}),
+                      "the textures of a captured facade");
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ class Registry {
   /// Takes over what the node says for any method.
   void read(const scene::Node& node, Settings& settings) const;
 
+  /// The method of a scene; an error that lists the names where it names none of these.
+  Result<const Method*> method_of(const scene::Scene& scene) const { return find(name_of(settings(scene))); }
   /// Whether pictures of the scene may read what the bake step of that name keeps.
   bool reads_baked(const scene::Scene& scene, const std::string& bake_step) const;
   /// Errors of a scene that names no method of these; the message lists those that there are.
@@ -64,7 +66,6 @@ class Registry {
 
  private:
   Result<const Method*> find(const std::string& name) const;
-  Result<const Method*> method_of(const scene::Scene& scene) const { return find(name_of(settings(scene))); }
   Result<std::unique_ptr<Reflections>> make_one(const Method& method, const scene::Scene& scene,
                                                 render::Renderer& renderer) const;
 
