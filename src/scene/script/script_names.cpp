@@ -20,6 +20,7 @@ class NameResolver {
   void resolve_reference(const AttributeSchema& schema, const std::string& name, const FileLocation& where);
   void resolve_event(const AttributeSchema& schema, const Event& event, const FileLocation& where);
   void resolve_override(Node& node);
+  bool is_known(const std::string& name, const AttributeSchema& schema) const;
   std::vector<std::string> known_names(const std::vector<std::string>& types) const;
   void fail(Error error) { tell_(std::move(error)); }
 
@@ -37,6 +38,15 @@ void NameResolver::know_nodes(const std::vector<Node>& nodes) {
     if (node.schema->find("name") && node.gives("name")) nodes_.emplace(node.text("name"), &node);
     know_nodes(node.children);
   }
+}
+
+/// Whether a reference may have the name; scripts have hundreds of thousands of references.
+bool NameResolver::is_known(const std::string& name, const AttributeSchema& schema) const {
+  const std::vector<std::string>& types = schema.refers_to;
+  if (std::ranges::find(schema.choices, name) != schema.choices.end()) return true;
+  const auto node = nodes_.find(name);
+  if (node == nodes_.end()) return types.empty() && names_.given.count(name) > 0;
+  return types.empty() || std::ranges::find(types, node->second->schema->type) != types.end();
 }
 
 /// Of nodes of these types, or, where none is named, of everything that has a name.
@@ -66,10 +76,10 @@ void NameResolver::resolve(std::vector<Node>& nodes) {
 
 void NameResolver::resolve_reference(const AttributeSchema& schema, const std::string& name,
                                      const FileLocation& where) {
+  if (is_known(name, schema)) return;
   std::vector<std::string> known = known_names(schema.refers_to);
   known.insert(known.end(), schema.choices.begin(),
                schema.choices.end());  // sources of events that are no nodes
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string shown = name.substr(0, 40);
   if (const auto other = nodes_.find(name); other != nodes_.end())
     return fail(error_at(where, "{}=\"{}\": this is a {}; expected {}{}", schema.name, shown,
