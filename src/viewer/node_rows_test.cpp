@@ -138,6 +138,7 @@ TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
       if (!schema.is_live) continue;
       scene::Node node;
       node.schema = &type.schema;
+      if (schema.is_required && !schema.choices.empty()) node.set(schema.name, schema.choices.front());
       for (const AttributeRow& each : attribute_rows(live(), node)) {
         if (each.schema != &schema) continue;
         const auto parsed = parse_message(type.schema, edit_message(each), {});

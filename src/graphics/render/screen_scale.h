@@ -21,6 +21,8 @@ class ScreenScale {
     const float min_w = glm::dot(w_row_, glm::vec4(bounds.centre(), 1.0f)) - w_per_metre_ * bounds.radius();
     return min_w > 0.0f ? pixels_at_w_1_ / min_w : std::numeric_limits<float>::infinity();
   }
+  /// At a distance along the view; in a parallel view everywhere, for 1.
+  float pixels_per_metre_at(float distance) const { return pixels_at_w_1_ / distance; }
 
  private:
   glm::vec4 w_row_;

@@ -152,6 +152,15 @@ TEST_F(PlantDisplay, TheBudgetHolds) {
   EXPECT_GT(selection().statistics().all(), 5'000'000u) << "control: the real geometry";
 }
 
+TEST_F(PlantDisplay, TheBudgetHoldsAmongCrowns) {
+  for (int i = 0; i < 12; ++i) plant("oak", {1.5f * float(i % 4 - 2), 1.5f * float(i / 4 - 1), -4.0f});
+  camera_.world_from_camera = look_at({0, 0, 0}, {1, 0, 0});
+  scene_.data<PlantDetail>().max_primitives = 40'000;
+  const PlantSelection chosen = selection();
+  EXPECT_LE(chosen.statistics().all(), 40'000u);
+  EXPECT_GT(chosen.statistics().all(), 10'000u) << "and is used";
+}
+
 TEST_F(PlantDisplay, ItCastsItsShadowFromFarAsFromNear) {
   plant("oak", {-9, 12, 0});  // beside the picture; its shadow falls into it
   const auto kept = renderer();

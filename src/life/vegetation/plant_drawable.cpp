@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "graphics/render/bindings.h"
+#include "graphics/render/screen_scale.h"
 #include "graphics/render/stream_buffer.h"
 #include "graphics/render/view_programs.h"
 #include "life/vegetation/bark.h"
@@ -131,8 +132,7 @@ class PlantDrawable final : public render::Drawable {
     list.records.clear(), list.leaves.clear(), list.wood.clear(), list.points.clear(), list.lines.clear();
     for (const SelectedLeaves& part : list.selection.leaves()) add(part, list);
     for (const SelectedWood& part : list.selection.wood()) add(part, list);
-    list.pixels_at_w_1 =
-        0.5f * float(view.height) * glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]));
+    list.pixels_at_w_1 = render::ScreenScale(view).pixels_per_metre_at(1.0f);
     list.first_record = list.record_store.append(std::span<const PlantRecord>(list.records), 64);
     // In one piece: a store that is full is replaced, with all that was appended to it.
     list.commands.clear();

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "graphics/render/screen_scale.h"
+
 namespace parvis::vegetation {
 namespace {
 
@@ -12,6 +14,9 @@ using render::Culling, render::View, render::ViewKind;
 
 constexpr float nowhere_smaller = 1.0f / 256.0f;  // of the resolution, at most, for the budget
 constexpr int bisections = 12;
+// Where the eye may be inside a plant, its parts are taken to be so far away: the budget can then make them
+// coarser.
+constexpr float nearest_m = 0.5f;
 // What a curved mirror shows has no size of its own: a sample, of which the mirror's few pixels have enough.
 constexpr float mirrored_leaves = 3000.0f, mirrored_pixels_per_metre = 50.0f;
 
@@ -37,12 +42,16 @@ PlacedPlant placed(const ScenePlant& plant, int thing) {
 void PlantSelection::gather(const View& view, const Culling& culling, const PlantDetail& detail) {
   leaves_.clear(), wood_.clear();
   is_full_ = detail.is_full, is_mirrored_ = view.kind == ViewKind::mirrored;
+  const float most = render::ScreenScale(view).pixels_per_metre_at(nearest_m);
+  const auto resolution = [&](const PlacedPlant& plant, const Bounds& bounds) {
+    return plant.scale * std::min(culling.pixels_per_metre(bounds), most);
+  };
   for (std::size_t i = 0; i < plants_.size(); ++i) {
     const PlacedPlant& plant = plants_[i];
     if (!plant.is_visible || !culling.shows(plant.thing, {false, plant.is_newcomer}) ||
         !culling.may_see(plant.bounds) || culling.is_hidden(plant.bounds))
       continue;
-    const float pixels = plant.scale * culling.pixels_per_metre(plant.bounds);
+    const float pixels = resolution(plant, plant.bounds);
     wood_.push_back({std::uint32_t(i), is_mirrored_ ? mirrored_pixels_per_metre : pixels, {}});
     if (!is_full_ && !is_mirrored_ && !leaf_shares(*plant.shape, pixels).has_triangles()) {
       leaves_.push_back({std::uint32_t(i), -1, pixels, {}});
@@ -51,8 +60,7 @@ void PlantSelection::gather(const View& view, const Culling& culling, const Plan
     for (std::size_t c = 0; c < plant.shape->clusters.size(); ++c) {
       const Bounds bounds = transformed(plant.world_from_plant, plant.shape->clusters[c].bounds);
       if (culling.may_see(bounds))
-        leaves_.push_back(
-            {std::uint32_t(i), std::int32_t(c), plant.scale * culling.pixels_per_metre(bounds), {}});
+        leaves_.push_back({std::uint32_t(i), std::int32_t(c), resolution(plant, bounds), {}});
     }
   }
 }

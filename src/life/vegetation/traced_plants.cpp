@@ -6,6 +6,7 @@
 #include "graphics/shading/surface.h"
 #include "life/vegetation/bark.h"
 #include "life/vegetation/plant_drawable.h"
+#include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/paper_city/leaf_texture.h"
 
@@ -29,12 +30,13 @@ scene::TracedPoint traced_point(const shading::Surface& surface) {
 /// from the ground, as walls do.
 class LeafSurface final : public scene::TracedSurface {
  public:
-  explicit LeafSurface(std::shared_ptr<const PlantShape> shape) : shape_(std::move(shape)) {}
+  LeafSurface(std::shared_ptr<const PlantShape> shape, float scale)
+      : shape_(std::move(shape)), scale_(scale) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     const PlantKind& kind = shape_->kind();
     const Leaf& leaf = shape_->leaves[hit.triangle / full_leaf(kind.leaf).triangle_count()];
-    const float shade = shared::vein_shade(hit.uv, kind.veins, hit.width_m / leaf.length_m);
+    const float shade = shared::vein_shade(hit.uv, kind.veins, hit.width_m / (scale_ * leaf.length_m));
     const glm::vec3 colour =
         shared::leaf_side_colour(glm::mix(kind.dark, kind.light, leaf.tint), hit.is_back);
     return traced_point(
@@ -44,17 +46,19 @@ class LeafSurface final : public scene::TracedSurface {
 
  private:
   std::shared_ptr<const PlantShape> shape_;
+  float scale_;  ///< of the plant in the world: its lengths are those of the shape times it
 };
 
 /// Bark. Cut out for the same reason.
 class WoodSurface final : public scene::TracedSurface {
  public:
-  explicit WoodSurface(std::shared_ptr<const PlantShape> shape) : shape_(std::move(shape)) {}
+  WoodSurface(std::shared_ptr<const PlantShape> shape, float scale)
+      : shape_(std::move(shape)), scale_(scale) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     static const reference::MipTexture bark(bark_texture(), false);
     const glm::vec3 texel(
-        bark.sample(2.0f * hit.uv, 2.0f * hit.width_m / city::bark_sheet_m * bark.size().x));
+        bark.sample(2.0f * hit.uv, 2.0f * hit.width_m / (scale_ * city::bark_sheet_m) * bark.size().x));
     const std::uint32_t* corner = shape_->wood.indices.data() + 3 * std::size_t(hit.triangle);
     const auto& openness = shape_->wood_openness;
     const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],
@@ -67,17 +71,16 @@ class WoodSurface final : public scene::TracedSurface {
 
  private:
   std::shared_ptr<const PlantShape> shape_;
+  float scale_;  ///< of the plant in the world: its lengths are those of the shape times it
 };
 
-/// Meshes and surfaces that all plants of a shape share.
+/// Meshes that all plants of a shape share.
 struct TracedShape {
   std::shared_ptr<const Mesh> leaves, wood;
-  std::shared_ptr<const scene::TracedSurface> leaf_surface, wood_surface;
 };
 
 TracedShape traced_shape(const std::shared_ptr<const PlantShape>& shape) {
-  return {std::make_shared<const Mesh>(leaf_mesh(*shape)), std::shared_ptr<const Mesh>(shape, &shape->wood),
-          std::make_shared<const LeafSurface>(shape), std::make_shared<const WoodSurface>(shape)};
+  return {std::make_shared<const Mesh>(leaf_mesh(*shape)), std::shared_ptr<const Mesh>(shape, &shape->wood)};
 }
 
 }  // namespace
@@ -93,9 +96,12 @@ scene::TracedKind traced_plants() {
       const scene::TracedPlacing placing{thing++, false, plant.is_visible, true};
       TracedShape& shape = shapes[plant.shape.get()];
       if (!shape.leaves) shape = traced_shape(plant.shape);
-      traced.add(shape.leaves, shape.leaf_surface, plant.world_from_plant, placing);
+      const float scale = placed(plant, 0).scale;
+      traced.add(shape.leaves, std::make_shared<const LeafSurface>(plant.shape, scale),
+                 plant.world_from_plant, placing);
       if (shape.wood->triangle_count() > 0)
-        traced.add(shape.wood, shape.wood_surface, plant.world_from_plant, placing);
+        traced.add(shape.wood, std::make_shared<const WoodSurface>(plant.shape, scale),
+                   plant.world_from_plant, placing);
     }
   };
   return kind;
