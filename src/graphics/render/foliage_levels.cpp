@@ -21,6 +21,7 @@ constexpr float error_of_leaf = 1.0f / 32.0f;
 /// A part of a mesh that shares no vertex with the rest.
 struct Piece {
   Bounds bounds;
+  double area_m2 = 0.0;
   std::uint32_t order = 0;  ///< those below a limit are kept
 };
 
@@ -51,6 +52,12 @@ Pieces pieces_of(const Mesh& mesh) {
     }
     pieces.of_vertex[vertex] = pieces.of_vertex[first];
     pieces.all[pieces.of_vertex[vertex]].bounds.add(mesh.positions[vertex]);
+  }
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const glm::vec3 a = mesh.positions[mesh.indices[i]];
+    const glm::vec3 sides =
+        glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+    pieces.all[pieces.of_vertex[mesh.indices[i]]].area_m2 += 0.5 * double(glm::length(sides));
   }
   return pieces;
 }
@@ -90,14 +97,11 @@ Mesh with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t limit, fl
   return kept;
 }
 
-float area_m2(const Mesh& mesh) {
-  double area = 0.0;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const glm::vec3 a = mesh.positions[mesh.indices[i]];
-    area += 0.5 * double(glm::length(glm::cross(mesh.positions[mesh.indices[i + 1]] - a,
-                                                mesh.positions[mesh.indices[i + 2]] - a)));
-  }
-  return float(area);
+/// Of the pieces whose order is below `limit`.
+double area_m2(const std::vector<Piece>& pieces, std::uint32_t limit) {
+  double sum = 0.0;
+  for (const Piece& piece : pieces) sum += piece.order < limit ? piece.area_m2 : 0.0;
+  return sum;
 }
 
 float mean_size_m(const std::vector<Piece>& pieces) {
@@ -108,19 +112,27 @@ float mean_size_m(const std::vector<Piece>& pieces) {
 
 }  // namespace
 
+std::uint64_t max_level_bytes(const Mesh& mesh) {
+  constexpr std::uint64_t vertex_bytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2);
+  const std::uint64_t mesh_bytes =
+      vertex_bytes * mesh.positions.size() + sizeof(std::uint32_t) * mesh.indices.size();
+  return std::uint64_t(double(mesh_bytes) * kept_share / (1.0 - kept_share));  // the geometric series
+}
+
 std::vector<FoliageLevel> foliage_levels(const Mesh& mesh) {
   Pieces pieces = pieces_of(mesh);
   if (pieces.all.size() < min_pieces) return {};
   const std::uint32_t end = order_evenly(pieces.all);
-  const float leaf_m = mean_size_m(pieces.all), whole_m2 = area_m2(mesh);
+  const float leaf_m = mean_size_m(pieces.all);
+  const double whole_m2 = area_m2(pieces.all, end);
   std::vector<FoliageLevel> levels;
   float share = 1.0f;
   for (int level = 0; level < max_foliage_levels; ++level) {
     share *= kept_share;
     const std::uint32_t limit = std::uint32_t(share * float(end));
-    const float kept_m2 = area_m2(with_pieces(mesh, pieces, limit, 1.0f));
-    if (!(kept_m2 > 0.0f)) break;
-    const float enlarged = std::sqrt(whole_m2 / kept_m2);
+    const double kept_m2 = area_m2(pieces.all, limit);
+    if (!(kept_m2 > 0.0)) break;
+    const float enlarged = float(std::sqrt(whole_m2 / kept_m2));
     levels.push_back({with_pieces(mesh, pieces, limit, enlarged), error_of_leaf * enlarged * leaf_m});
   }
   return levels;

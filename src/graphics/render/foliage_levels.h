@@ -3,6 +3,7 @@
 // together nowhere.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/mesh.h"
@@ -22,5 +23,8 @@ struct FoliageLevel {
 /// thirds of the pieces of the level before it, evenly over the order in which the mesh has them, enlarged
 /// about their middles so that all levels have the area of the mesh. Empty where the pieces are few.
 std::vector<FoliageLevel> foliage_levels(const Mesh& mesh);
+
+/// Bytes that the levels of a mesh take at most.
+std::uint64_t max_level_bytes(const Mesh& mesh);
 
 }  // namespace parvis::render

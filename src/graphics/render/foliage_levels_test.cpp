@@ -56,13 +56,17 @@ TEST(FoliageLevels, HaveEverFewerLeavesOverTheSameArea) {
   ASSERT_EQ(levels.size(), std::size_t(max_foliage_levels));
   std::size_t finer = whole.indices.size();
   float error_m = 0.0f;
+  std::uint64_t bytes = 0;
   for (const FoliageLevel& level : levels) {
+    bytes += level.mesh.positions.size() * 32 + level.mesh.indices.size() * 4;
     EXPECT_TRUE(check(level.mesh, "level"));
     EXPECT_NEAR(double(level.mesh.indices.size()) / double(finer), 2.0 / 3.0, 0.05);
     EXPECT_NEAR(area_m2(level.mesh) / area_m2(whole), 1.0, 1e-3);
     EXPECT_GT(level.error_m, error_m);
     finer = level.mesh.indices.size(), error_m = level.error_m;
   }
+  EXPECT_LE(bytes, max_level_bytes(whole));
+  EXPECT_GE(double(bytes), 0.9 * double(max_level_bytes(whole)));
 }
 
 /// Each eighth of the crown keeps its share of the leaves.

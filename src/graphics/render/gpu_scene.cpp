@@ -5,6 +5,7 @@
 #include <glm/gtc/type_precision.hpp>
 #include <utility>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/bindings.h"
@@ -165,6 +166,9 @@ void GpuScene::add_foliage_levels() {
       const bool is_leaf = (materials_[std::size_t(part.material)].features & surface_is_leaf) != 0;
       if (is_leaf && !model->parts[p].deformation) foliage.emplace_back(&model->parts[p].mesh, &part);
     }
+  std::uint64_t bytes = 0;
+  for (const auto& [mesh, part] : foliage) bytes += max_level_bytes(*mesh);
+  if (bytes > memory_left()) return;  // the picture needs none of them
   std::vector<std::vector<FoliageLevel>> levels(foliage.size());
   parallel_for(foliage.size(), [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].first); });
   for (std::size_t i = 0; i < foliage.size(); ++i) {
