@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/progress.h"
@@ -68,7 +69,15 @@ Status encode(const FilmJob& job, Film& film) {
 
 }  // namespace
 
-fs::path frames_folder(const fs::path& film) { return fs::path(film) += ".frames"; }
+fs::path frames_folder(const fs::path& film) {
+  constexpr std::size_t max_name = 255;
+  const std::string ending = ".frames", name = film.filename().string();
+  if (name.size() + ending.size() <= max_name) return fs::path(film) += ending;
+  ContentHash hash;
+  hash.add_text(name);
+  const std::string cut = fmt::format("-{:016x}{}", hash.value(), ending);
+  return fs::path(film).replace_filename(name.substr(0, max_name - cut.size()) + cut);
+}
 
 Status make_divided_film(const FilmJob& job, const machines::Processes& processes) {
   std::optional<Film> film;

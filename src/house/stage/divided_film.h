@@ -23,7 +23,8 @@ struct FilmJob {
   const std::atomic<bool>* is_interrupted = nullptr;  ///< when it turns true, no further frame is begun
 };
 
-/// The folder of the finished frames of a film: its name and ".frames".
+/// The folder of the finished frames of a film: its name and ".frames"; of a name that is too long for that,
+/// the beginning and a hash.
 std::filesystem::path frames_folder(const std::filesystem::path& film);
 
 /// Draws the frames that are not there yet; all processes call it. The first one then makes the film, the
