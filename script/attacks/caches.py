@@ -22,11 +22,16 @@ def content_hash(data):
     return state ^ (state >> 29)
 
 
-def changed(name, pattern, change):
+BOUNCED = 'dayLight(timeOfDay=13)\nbouncedLight(rays=16)\n'
+
+
+def changed(name, pattern, change, nodes=""):
     """Bakes, changes each file that is kept, and renders again."""
 
     def build(folder):
         script = place(folder)
+        with open(script, "a") as scene:
+            scene.write(nodes)
         render = ["render", script, "--size", "32x32", "-o", "out.png"]
         return [["bake", script], ("change", pattern, change), render, ["bake", script]]
 
@@ -55,11 +60,11 @@ def resealed(at, value):
 
 
 def cases():
-    for pattern in ("*.map", "*.reflector"):
+    for pattern, nodes in (("*.map", ""), ("*.reflector", ""), ("*.transfer", BOUNCED)):
         for share in (0, 0.01, 0.5, 0.99):
-            yield changed(f"{pattern} cut to {share}", pattern, cut(share))
+            yield changed(f"{pattern} cut to {share}", pattern, cut(share), nodes)
         for at in (0, 7, 8, 9, 16, 20, 24, 40, 100):
-            yield changed(f"{pattern} byte {at}", pattern, flipped(at))
+            yield changed(f"{pattern} byte {at}", pattern, flipped(at), nodes)
         for at in range(8, 72, 4):
             for value in (b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\0"):
-                yield changed(f"{pattern} {value[3]:02x} at {at}, sealed", pattern, resealed(at, value))
+                yield changed(f"{pattern} {value[3]:02x} at {at}, sealed", pattern, resealed(at, value), nodes)

@@ -73,6 +73,9 @@ def cases():
     for apart in (60, 5):
         yield checked(f"150 x 150 paved streets, {apart} m apart", lambda a=apart: "paving()\n" + crossing_roads(150, a), seconds=120)
     yield checked("a paved road of 200 km", 'paving()\nroad(path="0 0, 200000 0")\n' + CAMERA, "done", seconds=90)
+    for node in ("parkedCars()", "streetTrees(spacing=2)", 'streetTrees(kind="oak", spacing=2)', 'streetFurniture(kind="lamps", spacing=1)'):
+        yield checked(f"{node} along 200 km", f'road(path="0 0, 200000 0")\n{node}\n' + CAMERA, seconds=120)
+        yield checked(f"{node} along 1 km", f'road(path="0 0, 1000 0")\n{node}\n' + CAMERA, "done", seconds=120)
     yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
     yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
     yield checked("2,000 roads that meet", lambda: "".join(f'road(path="0 0, {900 - i} {i}")\n' for i in range(0, 900)) + CAMERA, "refused")

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -60,15 +62,38 @@ Status measure_cases(const BenchSetup& setup, const fs::path& folder, Report& re
   return Done{};
 }
 
-/// Milliseconds that reading a file in a child takes beyond reading it here.
-Median overhead_ms(const std::function<bool()>& isolated, const std::function<bool()>& here, int repeats,
-                   bool& is_read) {
+/// Processes and threads that this machine has begun since it started; 0 where /proc does not tell.
+long begun_processes() {
+  std::ifstream file("/proc/stat");
+  std::string word;
+  while (file >> word)
+    if (long count = 0; word == "processes" && file >> count) return count;
+  return 0;
+}
+
+/// What reading a file in a child takes beyond reading it here.
+struct Overhead {
+  Median ms;
+  bool is_read = true;
+  /// The fewest that one reading began: others work on this machine, too.
+  long processes_isolated = std::numeric_limits<long>::max(), processes_here = processes_isolated;
+};
+
+Overhead overhead(const std::function<bool()>& isolated, const std::function<bool()>& here, int repeats) {
+  Overhead measured;
+  const auto read_ms = [&](const std::function<bool()>& read, long& fewest_processes) {
+    const long before = begun_processes();
+    const double ms = milliseconds([&] { measured.is_read = read() && measured.is_read; });
+    fewest_processes = std::min(fewest_processes, begun_processes() - before);
+    return ms;
+  };
   std::vector<double> samples;
   for (int i = 0; i < repeats; ++i) {
-    const double there_ms = milliseconds([&] { is_read = isolated() && is_read; });
-    samples.push_back(there_ms - milliseconds([&] { is_read = here() && is_read; }));
+    const double there_ms = read_ms(isolated, measured.processes_isolated);
+    samples.push_back(there_ms - read_ms(here, measured.processes_here));
   }
-  return median(samples);
+  measured.ms = median(samples);
+  return measured;
 }
 
 Status measure_overhead(const BenchSetup& setup, const fs::path& folder, Report& report) {
@@ -88,13 +113,12 @@ Status measure_overhead(const BenchSetup& setup, const fs::path& folder, Report&
     return [&, file] { return readers.read(file, {}, warnings).ok(); };
   };
   const int repeats = setup.is_quick ? 5 : 21;
-  bool is_read = true;
-  const Median of_hague = overhead_ms(
-      isolated(*hague), [&] { return scene::read_city_model(*hague, warnings).ok(); }, repeats, is_read);
-  const Median of_car = overhead_ms(
+  const Overhead of_hague = overhead(
+      isolated(*hague), [&] { return scene::read_city_model(*hague, warnings).ok(); }, repeats);
+  const Overhead of_car = overhead(
       isolated(*car), [&] { return scene::read_with_assimp(*car, formats::UpAxis::file, warnings).ok(); },
-      repeats, is_read);
-  const Median of_picture = overhead_ms(
+      repeats);
+  const Overhead of_picture = overhead(
       [&] { return read_image8(picture).ok(); },
       [&] {
         const Result<std::string> bytes = read_file(picture);
@@ -102,14 +126,21 @@ Status measure_overhead(const BenchSetup& setup, const fs::path& folder, Report&
                                       "picture.jpg")
                             .ok();
       },
-      repeats, is_read);
-  if (!is_read) return error("a file of the overhead of child processes cannot be read");
-  report.add("isolated_reader_overhead_ms", median({of_hague.value, of_car.value, of_picture.value}).value);
+      repeats);
+  for (const Overhead& of : {of_hague, of_car, of_picture}) {
+    if (!of.is_read) return error("a file of the overhead of child processes cannot be read");
+    report.note(fmt::format("control: a reading begins {} processes, without isolation {}",
+                            of.processes_isolated, of.processes_here));
+    if (of.processes_isolated <= of.processes_here)
+      return error("the overhead of child processes is measured without any");
+  }
+  report.add("isolated_reader_overhead_ms",
+             median({of_hague.ms.value, of_car.ms.value, of_picture.ms.value}).value);
   report.note(
       fmt::format("isolated_reader_overhead_ms: the Hague {:.1f} ms, the p406 {:.1f} ms, a JPEG of 4096 x "
                   "2160 pixels {:.1f} ms "
                   "(medians of {} pairs; the one in the middle counts)",
-                  of_hague.value, of_car.value, of_picture.value, repeats));
+                  of_hague.ms.value, of_car.ms.value, of_picture.ms.value, repeats));
   return Done{};
 }
 
