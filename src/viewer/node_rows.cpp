@@ -125,9 +125,6 @@ std::array<double, 3> numbers_of(const Node& node, const AttributeSchema& schema
   }
 }
 
-/// What a float keeps, without its noise.
-std::string written(double number) { return fmt::format("{:.7g}", number); }
-
 }  // namespace
 
 std::vector<NodeRow> node_rows(const scene::LiveScene& live, const std::set<const Node*>& open,
@@ -155,11 +152,23 @@ DragStyle drag_style(const AttributeSchema& schema) {
   return {0.005f, schema.unit.empty() ? "%.3f" : "%.3f " + schema.unit};
 }
 
-std::string edit_message(const AttributeRow& row) {
-  if (row.editor == Editor::text || row.editor == Editor::choice) return row.schema->name + " " + row.text;
-  const bool is_three = row.editor == Editor::three_numbers || row.editor == Editor::colour;
-  const std::string first = row.schema->name + " " + written(row.numbers[0]);
-  return is_three ? fmt::format("{} {} {}", first, written(row.numbers[1]), written(row.numbers[2])) : first;
+Result<scene::AttributeValue> edited_value(const AttributeRow& row) {
+  const auto [x, y, z] = row.numbers;
+  switch (row.editor) {
+    case Editor::text:
+    case Editor::choice:
+      return parse_value(*row.schema, row.text, Roots(""), {});
+    case Editor::number:
+      return scene::AttributeValue(row.schema->type == AttributeType::angle ? glm::radians(x) : x);
+    case Editor::whole_number:
+      return scene::AttributeValue(std::lround(x));
+    case Editor::flag:
+      return scene::AttributeValue(x != 0.0);
+    case Editor::three_numbers:
+    case Editor::colour:
+      break;
+  }
+  return scene::AttributeValue(glm::vec3(x, y, z));
 }
 
 }  // namespace parvis::viewer

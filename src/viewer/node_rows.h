@@ -1,5 +1,5 @@
-// The panel's rows for a scene's nodes, as plain data derived from their schemas, and the message that an
-// edit sends. Independent of the window: panel_nodes.cpp draws the rows.
+// The panel's rows for a scene's nodes, as plain data derived from their schemas, and the value that an edit
+// gives. Independent of the window: panel_nodes.cpp draws the rows.
 #pragma once
 
 #include <array>
@@ -53,8 +53,8 @@ struct DragStyle {
 /// The style for an attribute's type and unit.
 DragStyle drag_style(const scene::AttributeSchema& schema);
 
-/// The message that sets the attribute to the row's content (its numbers, or its text where text is edited):
-/// "position 1 2 0".
-std::string edit_message(const AttributeRow& row);
+/// The row's content as the attribute's value: its numbers, or its text where text is edited. An error says
+/// what the attribute expects of a text.
+Result<scene::AttributeValue> edited_value(const AttributeRow& row);
 
 }  // namespace parvis::viewer

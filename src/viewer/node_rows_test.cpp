@@ -110,21 +110,21 @@ TEST_F(NodeRowsTest, FixedAttributesSayWhy) {
     EXPECT_NE(each.fixed_because.find("part of the node around it"), std::string::npos) << each.label;
 }
 
-TEST_F(NodeRowsTest, EditsAreMessagesThatTheNodeTakes) {
+TEST_F(NodeRowsTest, EditsAreValuesThatTheNodeTakes) {
   const auto edited = [this](const char* of, const char* attribute, std::array<double, 3> numbers) {
     AttributeRow edit = row(of, attribute);
     edit.numbers = numbers;
-    const Status status = play_->clock.send(node(of), edit_message(edit));
-    EXPECT_TRUE(status) << to_string(status.errors());
-    return edit_message(edit);
+    return play_->clock.send(node(of), *edit.schema, *edited_value(edit));
   };
-  EXPECT_EQ(edited("oak", "position", {double(0.1f), -2, 1e-3}), "position 0.1 -2 0.001");
-  EXPECT_EQ(edited("%sun", "elevation_deg", {12.5}), "elevation_deg 12.5");
-  EXPECT_EQ(edited("%sun", "irradiance", {1, 2, 3}), "irradiance 1 2 3");
-  EXPECT_EQ(edited("trees", "visible", {1}), "visible 1");
+  const double third = double(1.0f / 3.0f);
+  EXPECT_TRUE(edited("oak", "position", {third, -2, 1e-3}));
+  EXPECT_TRUE(edited("%sun", "elevation_deg", {12.5}));
+  EXPECT_TRUE(edited("%sun", "irradiance", {1, 2, 3}));
+  EXPECT_TRUE(edited("trees", "visible", {1}));
+  const Status refused = edited("%sun", "elevation_deg", {200});
+  EXPECT_NE(to_string(refused.errors()).find("from -90 to 90"), std::string::npos);
   play_->advance(0.1);
-  EXPECT_EQ(row("oak", "position").text, "0.1 -2 0.001");
-  EXPECT_NEAR(row("oak", "position").numbers[0], 0.1, 1e-7);
+  EXPECT_EQ(row("oak", "position").numbers[0], third) << "every bit of it";
   EXPECT_NEAR(row("%sun", "elevation_deg").numbers[0], 12.5, 1e-9);
   EXPECT_EQ(play_->scene.sun.irradiance, glm::vec3(1, 2, 3));
   EXPECT_EQ(row("trees", "visible").numbers[0], 1.0);
@@ -141,8 +141,10 @@ TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
       if (schema.is_required && !schema.choices.empty()) node.set(schema.name, schema.choices.front());
       for (const AttributeRow& each : attribute_rows(live(), node)) {
         if (each.schema != &schema) continue;
-        const auto parsed = parse_message(type.schema, edit_message(each), {});
-        EXPECT_TRUE(parsed) << type.schema.type << ": " << to_string(parsed.errors());
+        const Result<scene::AttributeValue> value = edited_value(each);
+        ASSERT_TRUE(value) << type.schema.type << ": " << to_string(value.errors());
+        const Status status = check_value(schema, *value);
+        EXPECT_TRUE(status) << type.schema.type << ": " << to_string(status.errors());
       }
     }
 }

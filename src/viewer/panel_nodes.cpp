@@ -158,7 +158,8 @@ void PanelNodes::draw_attribute(Visit& visit, PanelRows& rows, AttributeRow row)
   const bool changes = draw_editor(rows, row);
   if (!row.is_given) ImGui::PopStyleColor();
   if (changes) {
-    const Status status = visit.tell(*chosen_, edit_message(row));
+    Result<scene::AttributeValue> value = edited_value(row);
+    const Status status = value ? visit.tell(*chosen_, *row.schema, *std::move(value)) : value.errors();
     refusal_ = status ? Refusal{} : Refusal{row.schema, status.errors().front().message};
   }
   if (refusal_.attribute == row.schema) rows.remark(refusal_.message, error_text);

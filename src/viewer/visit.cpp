@@ -114,6 +114,11 @@ Status Visit::tell(const scene::Node& node, const std::string& message) {
   return stage_.play().clock.send(node, message);
 }
 
+Status Visit::tell(const scene::Node& node, const scene::AttributeSchema& attribute,
+                   scene::AttributeValue value) {
+  return stage_.play().clock.send(node, attribute, std::move(value));
+}
+
 void Visit::set(const char* type, const char* attribute, scene::AttributeValue value) {
   live().set(live().unique_node(type), attribute, std::move(value));
 }

@@ -64,6 +64,8 @@ class Visit {
   /// Sends a message to a node. An error says what the node expects; nothing changes then. If the changed
   /// node cannot be built, a notice says so one step later.
   Status tell(const scene::Node& node, const std::string& message);
+  /// The same with the value of an attribute that can change while the scene runs.
+  Status tell(const scene::Node& node, const scene::AttributeSchema& attribute, scene::AttributeValue value);
   // Light and reflections: attributes of their nodes; visible with the next step.
   /// Sets the sun's compass direction (0 north, 90 east) and elevation, degrees.
   void set_sun(float azimuth_deg, float elevation_deg);

@@ -75,6 +75,15 @@ Status SceneClock::send(const scene::Node& target, const std::string& text) {
   return Done{};
 }
 
+Status SceneClock::send(const scene::Node& target, const scene::AttributeSchema& attribute,
+                        scene::AttributeValue value) {
+  if (Status status = scene::check_value(attribute, value); !status) return status;
+  scene::Message message{target.schema->find_message(attribute.name), {}, attribute.name};
+  message.arguments.push_back(std::move(value));
+  shared_->queue.post({&target, std::move(message), {}, 0});
+  return Done{};
+}
+
 std::vector<Process*> SceneClock::processes() const {
   std::vector<Process*> all;
   for (const Entry& entry : entries_) all.push_back(entry.process.get());

@@ -29,6 +29,9 @@ class SceneClock {
   Status send(const std::string& target, const std::string& message);
   /// The same to a node of `live().nodes()`, which needs no name.
   Status send(const scene::Node& target, const std::string& message);
+  /// The message that gives a live attribute of the node a value. An error says what the attribute expects.
+  Status send(const scene::Node& target, const scene::AttributeSchema& attribute,
+              scene::AttributeValue value);
 
   /// The process of this type; null where no room brings one.
   template <class P>

@@ -325,4 +325,24 @@ std::string written_value(const AttributeSchema& schema, const AttributeValue& v
   return std::visit(Writer{schema}, value);
 }
 
+Status check_value(const AttributeSchema& schema, const AttributeValue& value) {
+  bool is_right = true;
+  const auto check_number = [&](double number) { is_right = is_right && is_within(schema, number); };
+  const auto check_point = [&](const glm::vec3& point) {
+    for (int axis = 0; axis < 3; ++axis) check_number(double(point[axis]));
+  };
+  if (const auto* number = std::get_if<double>(&value))
+    check_number(schema.type == AttributeType::angle ? glm::degrees(*number) : *number);
+  else if (const auto* whole = std::get_if<long>(&value))
+    check_number(double(*whole));
+  else if (const auto* point = std::get_if<glm::vec3>(&value))
+    check_point(*point);
+  else if (const auto* points = std::get_if<std::vector<glm::vec3>>(&value))
+    std::ranges::for_each(*points, check_point);
+  else if (const auto* text = std::get_if<std::string>(&value); text && schema.type == AttributeType::choice)
+    is_right = std::ranges::find(schema.choices, *text) != schema.choices.end();
+  if (!is_right) return mismatch(schema, written_value(schema, value), {});
+  return Done{};
+}
+
 }  // namespace parvis::scene

@@ -140,6 +140,9 @@ using AttributeValue = std::variant<std::string, double, long, bool, glm::vec3, 
 Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
                                    const FileLocation& where);
 
+/// Fails, and says what the attribute expects, where the value is out of its limits or not among its choices.
+Status check_value(const AttributeSchema& schema, const AttributeValue& value);
+
 /// The value as a script would spell it: `parse_value` reads it back with seven significant digits.
 std::string written_value(const AttributeSchema& schema, const AttributeValue& value);
 
