@@ -1,5 +1,6 @@
-// A second drawable beside the scene's: textured quads with holes, in every kind of view. (In curved mirrors,
-// in reference maps and against the ray tracer: reflections/curved_reflectors/drawables_test.cpp.)
+// A second drawable beside the scene's: textured quads with holes, in every kind of view. (In curved mirrors
+// and against the ray tracer: reflections/virtual_objects/drawables_test.cpp; in reference maps:
+// reflections/reference_maps/map_cache_test.cpp.)
 #include "graphics/render/drawable.h"
 
 #include <gtest/gtest.h>

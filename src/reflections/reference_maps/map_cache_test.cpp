@@ -6,6 +6,7 @@
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
+#include "graphics/render/test_quads.h"
 #include "graphics/render/test_room.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
@@ -69,9 +70,9 @@ class MapCacheTest : public gl::ContextTest {
     return bake();
   }
   /// Every byte of the scene's maps, read or drawn.
-  std::vector<std::vector<std::uint8_t>> bake() {
+  std::vector<std::vector<std::uint8_t>> bake(const render::Drawables& drawables = {}) {
     Result<std::unique_ptr<render::Renderer>> renderer =
-        render::Renderer::create(scene_, {}, light::sun_and_sky);
+        render::Renderer::create(scene_, drawables, light::sun_and_sky);
     EXPECT_TRUE(renderer);
     const Result<ReferenceMaps> maps = bake_maps(scene_, HeightPyramid(heights_of(scene_)), **renderer);
     EXPECT_TRUE(maps) << (maps ? "" : to_string(maps.errors()));
@@ -98,6 +99,28 @@ TEST_F(MapCacheTest, BakedMapsAreReadAndNotDrawn) {
   forged.textures[0].assign(forged.textures[0].size(), 0);
   ASSERT_TRUE(MapCache(scene_).write(forged));
   EXPECT_NE(bake(), drawn);
+}
+
+/// Another drawable than the scene's own (graphics/render/test_quads.h): colours and distances of what stands
+/// still are in the maps, what moves is not.
+TEST_F(MapCacheTest, DrawablesThatStandStillAreInTheMaps) {
+  map_plan(scene_).places = {{0, 0, 0}};
+  const auto bare = bake();
+  const auto with_quad = [&](bool is_dynamic, bool is_visible) {
+    const glm::mat4 before_the_eye(glm::vec4(2, 0, 0, 0), glm::vec4(0, 0, 2, 0), glm::vec4(0, -1, 0, 0),
+                                   glm::vec4(0, 4, 0, 1));
+    render::TestQuads quads{{before_the_eye, is_dynamic, is_visible}};
+    render::Drawables drawables;
+    drawables.add(test_quads_kind(quads));
+    drawables.furnish(scene_);
+    return bake(drawables);
+  };
+  EXPECT_EQ(with_quad(true, true), bare);
+  EXPECT_EQ(with_quad(false, false), bare) << "the control: hidden";
+  const auto shown = with_quad(false, true);
+  ASSERT_EQ(shown.size(), bare.size());
+  EXPECT_NE(shown.front(), bare.front()) << "colours";
+  EXPECT_NE(shown.back(), bare.back()) << "distances";
 }
 
 TEST_F(MapCacheTest, InterruptedBakingGoesOnWithTheMapsThatAreMissing) {
