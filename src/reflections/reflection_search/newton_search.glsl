@@ -161,6 +161,37 @@ GLSL_FUNCTION SearchEnd end_of_search(ReflectionTask task, PathState path, vec2 
                    SearchStart(path.plane, curvature));
 }
 
+// A step, shortened to the trust region.
+struct TrustedStep {
+  vec2 d;      // in the tangent plane, metres
+  float part;  // of the whole step
+  float size;  // of d, as step_size
+};
+
+GLSL_FUNCTION TrustedStep trusted_step(vec2 whole, vec3 from_centre, vec3 curvature, float region) {
+  float size = step_size(whole, from_centre, curvature);
+  float part = min(1.0f, region / max(size, 1e-12f));
+  return TrustedStep(part * whole, part, part * size);
+}
+
+// The path over the point to which a step leads.
+GLSL_FUNCTION PathState path_after(ReflectionTask task, PathState path, vec3 from_centre, vec2 d) {
+  vec3 direction = window_step(map_window(), from_centre, d.x * path.plane.u + d.y * path.plane.v);
+  return path_at(task, direction, path.plane.u);
+}
+
+// The trust region grows with steps that succeed, and shrinks below one that fails.
+GLSL_FUNCTION float region_after(float region, TrustedStep taken, bool is_better) {
+  return is_better ? max(region, 2.0f * taken.size) : 0.3f * taken.size;
+}
+
+// The curvature that both ends of a step, taken or not, show.
+GLSL_FUNCTION vec3 curvature_between(PathState path, PathState next, vec3 curvature) {
+  vec3 moved = next.plane.at.position - path.plane.at.position;
+  return curvature_after_step(curvature, in_tangent_plane(path.plane, moved),
+                              in_tangent_plane(path.plane, next.plane.at.normal));
+}
+
 // Newton's steps from a starting point, until the error is small, too many steps have failed, or no step is
 // left. Each round: the step, its length within the trust region, the path at its end, the curvature updated
 // from both ends, and the decision whether the search moves there.
@@ -186,25 +217,14 @@ GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, Sear
     }
 
     if (failures >= max_newton_failures) whole = gradient_step(path, curvature);
-    float size = step_size(whole, from_centre, curvature);
-    float part = min(1.0f, region / max(size, 1e-12f));
-    vec2 d = part * whole;
-    vec3 direction = window_step(map_window(), from_centre, d.x * path.plane.u + d.y * path.plane.v);
-    PathState next = path_at(task, direction, path.plane.u);
-
-    bool is_better = is_accepted(path, next, d, part, whole_m, curvature, bounds);
-    vec3 moved = next.plane.at.position - path.plane.at.position;
-    curvature = curvature_after_step(curvature, in_tangent_plane(path.plane, moved),
-                                     in_tangent_plane(path.plane, next.plane.at.normal));
-    if (is_better) {
-      region = max(region, 2.0f * part * size);
-      failures = 0;
-      path = next;
-    } else {
-      region = 0.3f * part * size;
-      failures += 1;
-      failures_left -= 1;
-    }
+    TrustedStep tried = trusted_step(whole, from_centre, curvature, region);
+    PathState next = path_after(task, path, from_centre, tried.d);
+    bool is_better = is_accepted(path, next, tried.d, tried.part, whole_m, curvature, bounds);
+    curvature = curvature_between(path, next, curvature);
+    region = region_after(region, tried, is_better);
+    failures = is_better ? 0 : failures + 1;
+    failures_left -= is_better ? 0 : 1;
+    if (is_better) path = next;
     for (int m = is_better ? 0 : measurements; m > 0; --m)
       curvature = surface_curvature(path.plane, task.centre, breadth);
   }
