@@ -48,9 +48,10 @@ MirroredBodies::MirroredBodies(const scene::Scene& scene)
     if (field >= int(boxes_.size()) || (field >= 0 && boxes_[std::size_t(field)].empty())) field = -1;
   fields_ = upload(fields);
   block_ = gl::Buffer::create();
-  glNamedBufferStorage(block_.name(), sizeof(Body) * most, nullptr, GL_DYNAMIC_STORAGE_BIT);
-  bodies_.reserve(most), middles_.reserve(most), objects_.reserve(most),
-      by_distance_.reserve(scene.objects.size()), reflector_of_body_.reserve(most);
+  glNamedBufferStorage(block_.name(), sizeof(mirrored_bodies_shared::MirroredBodies), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  bodies_.reserve(max_bodies), middles_.reserve(max_bodies), objects_.reserve(max_bodies),
+      by_distance_.reserve(scene.objects.size()), reflector_of_body_.reserve(max_bodies);
 }
 
 void MirroredBodies::update(const scene::Scene& scene,
@@ -63,7 +64,7 @@ void MirroredBodies::update(const scene::Scene& scene,
     const glm::vec3 at(scene.objects[o].world_from_model[3]);
     by_distance_.emplace_back(glm::distance(at, viewer), int(o));
   }
-  const std::size_t count = std::min(by_distance_.size(), std::size_t(most));
+  const std::size_t count = std::min(by_distance_.size(), std::size_t(max_bodies));
   std::ranges::partial_sort(by_distance_, by_distance_.begin() + std::ptrdiff_t(count));
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t o = std::size_t(by_distance_[i].second);

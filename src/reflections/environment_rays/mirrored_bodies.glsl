@@ -1,12 +1,5 @@
 // Dynamic objects that mirror rays may hit: block at binding 3, filled by mirrored_bodies.cpp.
-struct MirroredBody {
-  vec4 box_from_world[3];  // rows: metres from the box's middle along its edges
-  vec4 half_size_m;        // w: the field
-  uvec4 near;              // one byte per body near it: index plus 1, nearest first; 0 ends the list
-};
-const int max_mirrored_bodies = 200;
-
-layout(std140) uniform MirroredBodies { MirroredBody mirrored_bodies[max_mirrored_bodies]; };
+#include "reflections/environment_rays/mirrored_bodies_block.glsl"
 
 uniform highp sampler3D body_fields;  // stacked along z
 uniform int reflecting_body;          // index of the body that is drawn; negative: none

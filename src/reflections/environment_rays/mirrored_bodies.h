@@ -7,11 +7,17 @@
 
 #include "graphics/gl/objects.h"
 #include "graphics/gl/program.h"
+#include "graphics/shading/glsl.h"
 #include "reflections/environment_rays/body_field.h"
 #include "reflections/methods/reflections.h"
 #include "scene/data/scene.h"
 
 namespace parvis::environment_rays {
+
+namespace mirrored_bodies_shared {
+using namespace parvis::shading;
+#include "reflections/environment_rays/mirrored_bodies_block.glsl"
+}  // namespace mirrored_bodies_shared
 
 class MirroredBodies {
  public:
@@ -27,16 +33,11 @@ class MirroredBodies {
   /// Of an object; below 0: none.
   int body_of(int object) const { return body_of_object_[std::size_t(object)]; }
 
-  static constexpr int most = 200, max_nearby = 16;
+  static constexpr int max_bodies = mirrored_bodies_shared::max_mirrored_bodies, max_nearby = 16;
   static constexpr float reach_m = 25.0f;  ///< between bodies that mirror one another
 
  private:
-  /// As mirrored_bodies.glsl has it.
-  struct Body {
-    glm::vec4 box_from_world[3];
-    glm::vec4 half_size_m;
-    glm::uvec4 near;
-  };
+  using Body = mirrored_bodies_shared::MirroredBody;
   void find_neighbours(const std::vector<methods::VisibleReflector>& reflectors);
 
   std::vector<int> field_of_object_;  ///< below 0: none
