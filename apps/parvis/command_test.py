@@ -288,6 +288,21 @@ class Reflections(BeforeAMirror):
     def test_a_place_without_roads(self):
         self.expect_light(self.write_place())
 
+    def test_the_method_of_the_command_line_holds_in_a_scenario_with_another(self):
+        mirrored = 'scenario(name="plain") { override(of="%reflection", method="none") }\n'
+        scene = self.write_place('reflection(method="shared_cube_map")', mirrored)
+
+        def picture(*options):
+            out = self.folder / "out.png"
+            done = run("render", scene, *SIZE, *options, "-o", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return out.read_bytes()
+
+        plain, mirror = picture("--scenario", "plain"), picture()
+        self.assertNotEqual(plain, mirror, "the control: the scenario shows something else")
+        self.assertEqual(picture("--scenario", "plain", "--reflection", "shared_cube_map"), mirror)
+        self.assertEqual(picture("--reflection", "none"), plain)
+
     def test_a_place_without_geometry_mirrors_the_sky(self):
         self.expect_light(self.write_place(models=()))
 
