@@ -1,6 +1,7 @@
-// The sun's shadow maps of shading/shadow.glsl: the fixed place from far (drawn once) and what is near the
-// viewer, of which the fixed part is drawn when the viewer has gone some way, and kept: each frame only the
-// squares that moving things have left are put back, and the things drawn where they are now.
+// Two-cascade sun shadow map (shading/shadow.glsl). The far cascade covers the static scene and is rendered
+// once. The near cascade follows the viewer; its static depth is cached and rendered again only after the
+// viewer has moved far enough. Each frame restores the texels that dynamic casters have dirtied from that
+// cache, then draws the casters.
 #pragma once
 
 #include <array>

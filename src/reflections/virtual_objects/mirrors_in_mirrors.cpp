@@ -88,7 +88,7 @@ void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) 
   end_marks();
 }
 
-/// All pairs of layers of one first and one second, of which but one has several.
+/// All layer pairs of a first and a second patch; at most one of the two has several layers.
 void MirrorsInMirrors::draw_layers(render::Renderer& renderer, render::View view) {
   const Layers first = layers_of(*first_->patch), second = layers_of(*second_->patch);
   for (first_layer_ = first.first; first_layer_ < first.end; ++first_layer_)

@@ -1,4 +1,4 @@
-// How far straight edges, of which the ends are mirrored, are off from where each point of them is mirrored.
+// Image-space error of reflecting only the end points of straight edges, against reflecting every point.
 #pragma once
 
 #include "bench/benches.h"
