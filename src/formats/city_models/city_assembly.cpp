@@ -1,6 +1,7 @@
 #include "formats/city_models/city_assembly.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/colour.h"
@@ -19,6 +20,19 @@ constexpr double tile_m = 60.0;            // parts of this size are culled one 
 constexpr double smallest_area_m2 = 1e-9;  // below it a ring has no direction
 constexpr double farthest_m = 1e7;         // of a surface from the origin: no place on earth is as wide
 constexpr std::size_t max_warnings = 20;
+constexpr std::size_t max_named_pictures = 3;  // missing ones; the others are counted
+/// Beside the file, where towns put pictures that the file names without a folder.
+constexpr std::array<const char*, 2> picture_folders{"appearances", "textures"};
+
+/// Where a picture lies: where the file says, else in one of the usual folders beside it.
+Result<std::filesystem::path> picture_path(const Roots& roots, const std::string& name) {
+  Result<std::filesystem::path> path = roots.find(name, {});
+  for (const char* folder : picture_folders) {
+    if (path) break;
+    if (Result<std::filesystem::path> there = roots.find(std::string(folder) + "/" + name, {})) return there;
+  }
+  return path;
+}
 
 /// Newell's normal with the ring's first point as origin: far coordinates would cost it its digits.
 glm::dvec3 newell_about_first(std::vector<glm::dvec3> ring) {
@@ -160,13 +174,21 @@ void CityAssembly::read_pictures(Model& model) {
   const Roots roots(file_.parent_path());
   std::vector<Errors> problems(pictures_.size());
   parallel_for(pictures_.size(), [&](std::size_t i) {
-    const Result<std::filesystem::path> path = roots.find(pictures_[i].name, {});
+    const Result<std::filesystem::path> path = picture_path(roots, pictures_[i].name);
     Result<Image8> picture = path ? read_image8(*path) : Result<Image8>(path.errors());
     if (!picture) problems[i] = picture.errors();
     pictures_[i].image = picture ? *std::move(picture) : placeholder_picture();
   });
-  for (const Errors& list : problems)
+  std::size_t missing = 0;
+  for (const Errors& list : problems) {
+    if (!list.empty() && ++missing > max_named_pictures) continue;
     for (const Error& problem : list) warn(problem.message + "; a checker stands for it");
+  }
+  if (missing > max_named_pictures)
+    warn(
+        fmt::format("{} pictures more of {} are missing, too: put them beside the file, or into a folder "
+                    "\"{}\" beside it",
+                    missing - max_named_pictures, pictures_.size(), picture_folders.front()));
   model.textures = std::move(pictures_);
 }
 

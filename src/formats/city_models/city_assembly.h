@@ -52,7 +52,8 @@ class CityAssembly {
 
   /// Index of the material; equal materials get the same index.
   int add_material(const CityMaterial& material);
-  /// Index of a texture; `file` lies beside the city's file, or below its folder.
+  /// Index of a texture; `file` lies beside the city's file or below its folder, or in a folder "appearances"
+  /// or "textures" beside it.
   int add_picture(const std::string& file, bool repeats);
   /// Triangulates and adds a surface. Slivers are dropped; ground surfaces that belong to no solid are turned
   /// to face upward. A surface too far from the origin is left out with a warning.

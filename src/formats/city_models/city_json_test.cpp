@@ -349,5 +349,21 @@ TEST(CityJson, ASequenceOfFeaturesIsOneCity) {
   expect_error(one_line(head) + one_line(with(outside, "[0,1,2,3]", "[0,1,2,9]")), "vertex 9", 0);
 }
 
+TEST(CityJson, PicturesMayLieInTheUsualFolderBesideTheFile) {
+  const auto two =
+      shared_data("cities/rotterdam_two_buildings_textured/twobuildings_t.json", PARVIS_SOURCE_DIR);
+  if (!two) GTEST_SKIP() << "cities/rotterdam_two_buildings_textured/twobuildings_t.json";
+  Errors warnings;
+  const Result<Model> model = read_city_model(*two, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_EQ(to_string(warnings), "");
+  // Alone, without its folder of pictures, it names a few of those that are missing and counts the others.
+  const TestFolder folder;
+  std::filesystem::copy(*two, folder.path());
+  ASSERT_TRUE(read_city_model(folder.path() / two->filename(), warnings));
+  EXPECT_EQ(warnings.size(), 4u) << to_string(warnings);
+  EXPECT_NE(to_string(warnings).find("11 pictures more of 14"), std::string::npos) << to_string(warnings);
+}
+
 }  // namespace
 }  // namespace parvis::scene
