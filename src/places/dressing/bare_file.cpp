@@ -143,7 +143,7 @@ std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& s
   if (streets.empty() || length_m > furnished_m) return "";
   const bool has_trees = has_surface(model, "SolitaryVegetationObject");
   return std::string("streetFurniture(kind=\"lamps\")\nparkedCars(share=0.4)\n") +
-         (has_trees ? "" : "streetTrees(spacing=12, clear=2.5)\n");
+         (has_trees ? "" : "streetTrees(kind=\"plane\", spacing=12, clear=2.5)\n");
 }
 
 std::string number(float value) {

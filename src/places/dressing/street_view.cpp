@@ -195,9 +195,53 @@ std::size_t detail_toward(const scene::Scene& scene, glm::vec2 direction) {
 
 }  // namespace
 
+namespace {
+
+/// The directions of a box's corners from the eye: the widest to the side of its middle, and the lowest and
+/// highest elevation, radians.
+struct Extent {
+  float aside, low, high;
+};
+
+Extent extent_of(const Bounds& bounds, glm::vec3 eye) {
+  const glm::vec2 ahead = glm::normalize(glm::vec2(bounds.centre()) - glm::vec2(eye));
+  Extent extent{0.0f, 1.5f, -1.5f};
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+                           i & 4 ? bounds.max.z : bounds.min.z);
+    const glm::vec2 to(glm::vec2(corner) - glm::vec2(eye));
+    const float along = glm::dot(to, ahead), across = ahead.x * to.y - ahead.y * to.x;
+    const float elevation = std::atan2(corner.z - eye.z, glm::length(to));
+    extent.aside = std::max(extent.aside, std::abs(std::atan2(across, along)));
+    extent.low = std::min(extent.low, elevation), extent.high = std::max(extent.high, elevation);
+  }
+  return extent;
+}
+
+/// From so far away in this direction that the whole, from its foot to its top, is in the picture of a camera
+/// with the usual field of view.
+View facing_view(const Bounds& bounds, glm::vec2 toward, const scene::PlaceHeights& place) {
+  constexpr float half_width = 0.5f, half_height = 0.3f;  // radians: of 65 degrees at 16:9, less a margin
+  constexpr float step = 1.06f, max_radii = 12.0f;
+  const float radius_m = std::max(0.25f, bounds.radius());
+  View view;
+  for (float radii = 1.2f; radii < max_radii; radii *= step) {
+    const glm::vec2 spot = glm::vec2(bounds.centre()) + radii * radius_m * toward;
+    const float height_m = std::min(eye_m, std::max(1.5f * bounds.size().z, 0.3f));
+    view.eye = glm::vec3(spot, place.at(spot) + height_m);
+    const Extent extent = extent_of(bounds, view.eye);
+    const float middle = 0.5f * (extent.low + extent.high);
+    view.target = glm::vec3(glm::vec2(bounds.centre()),
+                            view.eye.z + radii * radius_m * std::tan(std::clamp(middle, -1.0f, 1.0f)));
+    if (extent.aside < half_width && extent.high - extent.low < 2.0f * half_height) break;
+  }
+  return view;
+}
+
+}  // namespace
+
 View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place) {
   constexpr int directions = 8;
-  constexpr float radii = 1.9f;  // of the eye's distance, so that the whole is seen
   Bounds bounds;
   for (const scene::Object& object : scene.objects)
     bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
@@ -210,9 +254,7 @@ View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place) {
     if (const float score = lit * (1.0f + float(detail_toward(scene, direction))); score > best)
       best = score, toward = direction;
   }
-  const glm::vec2 spot = glm::vec2(bounds.centre()) + std::max(0.5f, radii * bounds.radius()) * toward;
-  const float height_m = std::min(eye_m, std::max(1.5f * bounds.size().z, 0.3f));
-  return {glm::vec3(spot, place.at(spot) + height_m), bounds.centre()};
+  return facing_view(bounds, toward, place);
 }
 
 View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
