@@ -74,6 +74,15 @@ TEST_F(Kerbside, GrownPlantsStandWhereTreesWould) {
             std::string::npos);
 }
 
+TEST_F(Kerbside, ANameAndAKindContradictEachOther) {
+  folder_.write("post.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  const std::string post = "model(name=\"post\", file=\"post.obj\", visible=0)\n";
+  const std::string errors = errors_of(post + "streetTrees(of=\"post\", kind=\"plane\")\n");
+  EXPECT_NE(errors.find("scene.xp:7"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("one of the two"), std::string::npos) << errors;
+  EXPECT_EQ(errors_of(post + "streetTrees(of=\"post\")\n"), "");
+}
+
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
   const scene::Scene scene = load("streetTrees(spacing=10)\n");
   const std::vector<scene::Object> trees = called(scene, "street tree");

@@ -78,6 +78,12 @@ scene::NodeSchema street_trees_schema() {
 }
 
 void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
+  if (node.gives("of") && node.gives("kind"))
+    return builder.fail(
+        error_at(node.where_of("kind"),
+                 "of=\"{}\" names what stands here, kind=\"{}\" names something else: give one "
+                 "of the two",
+                 node.text("of"), node.text("kind")));
   const float height_m = float(node.number("height"));
   const auto seed = std::uint64_t(node.integer("seed"));
   PlannedSeries planned;
