@@ -29,7 +29,7 @@
 #define FILLED_LOG2 1.2f
 #define BORDER_FEATHER 0.05f    // of the picture's width
 #define FADING_CONFIDENCE 0.4f  // below it, of what is seen, a point takes on its neighbourhood's colour
-#define RESOLUTION_WEIGHT 0.1f  // see view_penalty
+#define RESOLUTION_WEIGHT 0.1f  // see penalty_of_angle
 
 // What one photograph says about a point.
 struct FacadeOpinion {
@@ -74,8 +74,8 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   float reach = 0.5f * exp2(ceil(found.level));
   found.at = clamp(in_box - TILE_INNER * cell + vec2(TILE_BORDER), vec2(reach),
                    vec2(TILE_INNER + 2.0f * TILE_BORDER - reach));
-  found.penalty = view_penalty(to_eye, to_photo, ratio, RESOLUTION_WEIGHT);
-  float angle = view_penalty(to_eye, to_photo, 1.0f, 0.0f);
+  float angle = angle_between(to_eye, to_photo);
+  found.penalty = penalty_of_angle(angle, ratio, RESOLUTION_WEIGHT);
   found.own = 1.0f - smoothstep(OWN_VIEWPOINT_ANGLE, 4.0f * OWN_VIEWPOINT_ANGLE, angle);
   float seen = 1.0f;
   if (tile.x == TILE_MIXED) {

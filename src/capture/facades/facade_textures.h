@@ -38,7 +38,6 @@ class FacadeTextures {
   void bind(const gl::Program& program, const ChosenLists& lists) const;
   /// Draws a run of triangles with what is bound.
   void draw(std::size_t first_triangle, std::size_t triangles) const;
-  /// Of graphics memory.
 
  private:
   gl::Buffer corners_;

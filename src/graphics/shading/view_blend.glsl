@@ -8,15 +8,22 @@
 // by far.
 #define MIN_PENALTY 1e-4f
 
-// Penalty of looking at a point through a photograph: the angle between the directions from the point to the
-// eye and to the photograph's camera (unit vectors), radians, and `resolution_weight` for each doubling of
-// the size of the photograph's pixels on the surface over the display's. A photograph that is finer than
-// needed is not penalised.
+// Angle between unit vectors, radians. Stable for small angles, where acos(dot) is not.
+GLSL_FUNCTION float angle_between(vec3 a, vec3 b) {
+  return 2.0f * atan(length(a - b) / max(length(a + b), 1e-20f));
+}
+
+// Penalty of a photograph that looks at a point from an angle to the eye, radians: the angle, and
+// `resolution_weight` for each doubling of the size of the photograph's pixels on the surface over the
+// display's. A photograph that is finer than needed is not penalised.
+GLSL_FUNCTION float penalty_of_angle(float angle, float pixel_size_ratio, float resolution_weight) {
+  return max(angle + resolution_weight * max(log2(max(pixel_size_ratio, 1e-6f)), 0.0f), MIN_PENALTY);
+}
+
+// The same from the directions from the point to the eye and to the photograph's camera (unit vectors).
 GLSL_FUNCTION float view_penalty(vec3 to_eye, vec3 to_photograph, float pixel_size_ratio,
                                  float resolution_weight) {
-  // Stable for small angles, where acos(dot) is not.
-  float angle = 2.0f * atan(length(to_eye - to_photograph), length(to_eye + to_photograph));
-  return max(angle + resolution_weight * max(log2(max(pixel_size_ratio, 1e-6f)), 0.0f), MIN_PENALTY);
+  return penalty_of_angle(angle_between(to_eye, to_photograph), pixel_size_ratio, resolution_weight);
 }
 
 // Weight of a photograph among the k best: zero where it stops being one of them (max_penalty is that of the

@@ -1,6 +1,7 @@
 #include "capture/facades/bench/drawing_bench.h"
 
 #include <algorithm>
+#include <ctime>
 
 #include "base/test_data.h"
 #include "capture/facades/bench/bench_places.h"
@@ -16,7 +17,13 @@ namespace {
 
 using facades::PackedFacade;
 
-/// Time of a main view of `scene`, milliseconds, and its picture.
+/// What a drawing takes, milliseconds: by the wall clock, and of all processors together. The latter does not
+/// change with what else a machine does; it counts a renderer in software alone.
+struct Time {
+  double wall_ms = 0.0, processor_ms = 0.0;
+};
+
+/// Time of a main view of `scene`, and its picture.
 class TimedScene {
  public:
   static Result<TimedScene> create(scene::Scene scene, const render::Drawables& drawables) {
@@ -26,15 +33,17 @@ class TimedScene {
     if (!renderer) return renderer.errors();
     return TimedScene(std::move(held), *std::move(renderer));
   }
-  double draw(const Camera& camera) {
+  Time draw(const Camera& camera) {
     constexpr int width = 640, height = 480;
     renderer_->begin_frame(*scene_, camera);
     renderer_->prepare_main_view(camera, width, height);
     glFinish();
-    return milliseconds([&] {
+    const std::clock_t before = std::clock();
+    const double wall_ms = milliseconds([&] {
       renderer_->draw_main_view();
       glFinish();
     });
+    return {wall_ms, 1000.0 * double(std::clock() - before) / CLOCKS_PER_SEC};
   }
   /// Of what was drawn last.
   ImageF picture() { return renderer_->read_radiance(); }
@@ -82,6 +91,19 @@ Result<TimedScene> facade_scene(const facades::PlacedFacade& placed, facades::Co
   return TimedScene::create(std::move(scene), drawables);
 }
 
+/// Times over those of the plain texture, drawn just before.
+struct Ratios {
+  std::vector<double> wall, processor;
+  void add(const Time& time, const Time& plain) {
+    wall.push_back(time.wall_ms / plain.wall_ms);
+    if (plain.processor_ms > 0.0) processor.push_back(time.processor_ms / plain.processor_ms);
+  }
+  void tell(const std::string& key, Report& report) const {
+    report.add(key, median(wall));
+    if (gl::is_software()) report.add(key + "_by_processor", median(processor));
+  }
+};
+
 /// Pixels in which a picture shows something else than that of nothing, percent.
 double shown_percent(const ImageF& picture, const ImageF& nothing) {
   std::size_t shown = 0;
@@ -117,29 +139,35 @@ Status measure_drawing(bool is_quick, Report& report) {
   if (!place) return place.errors();
   const Result<facades::PlacedFacade> placed = facade_of_few_triangles(*place);
   if (!placed) return placed.errors();
-  facades::PlacedFacade hidden = *placed;
+  facades::PlacedFacade hidden = *placed, without_photographs = *placed;
   hidden.is_visible = false;
+  auto bare = std::make_shared<PackedFacade>(*placed->facade);
+  for (glm::uvec2& list : bare->lists) list.y = 0;
+  without_photographs.facade = bare;
 
   Result<TimedScene> ours = facade_scene(*placed, facades::Compared::chosen),
                      all = facade_scene(*placed, facades::Compared::all),
                      nothing = facade_scene(hidden, facades::Compared::chosen),
+                     bare_colours = facade_scene(without_photographs, facades::Compared::all),
                      lit = TimedScene::create(lit_scene(*placed->facade), {}),
                      unlit = unlit_scene(placed->facade);
-  for (const auto* scene : {&ours, &all, &nothing, &lit, &unlit})
+  for (const auto* scene : {&ours, &all, &nothing, &bare_colours, &lit, &unlit})
     if (!*scene) return scene->errors();
   const Camera camera = photographs::camera_of(place->photographs[place->photographs.size() / 2]);
-  std::vector<double> over_unlit, over_lit, all_over_unlit, of_nothing, milliseconds_unlit;
+  Ratios ours_over, all_over, nothing_over, bare_over, lit_over;
+  std::vector<double> plain_ms;
   for (int i = 0; i < (is_quick ? 9 : 31); ++i) {
-    const double unlit_ms = unlit->draw(camera), ours_ms = ours->draw(camera);
-    over_unlit.push_back(ours_ms / unlit_ms), over_lit.push_back(ours_ms / lit->draw(camera));
-    all_over_unlit.push_back(all->draw(camera) / unlit_ms);
-    of_nothing.push_back(nothing->draw(camera) / unlit_ms), milliseconds_unlit.push_back(unlit_ms);
+    const Time plain = unlit->draw(camera);
+    plain_ms.push_back(plain.wall_ms);
+    ours_over.add(ours->draw(camera), plain), all_over.add(all->draw(camera), plain);
+    nothing_over.add(nothing->draw(camera), plain), lit_over.add(lit->draw(camera), plain);
+    bare_over.add(bare_colours->draw(camera), plain);
   }
-  report.add("draw_over_plain_texture_time", median(over_unlit));
-  report.add("draw_over_plain_texture_time_all_photographs", median(all_over_unlit));
-  report.add("draw_over_plain_texture_time_nothing", median(of_nothing));
-  report.add("draw_over_lit_texture_time", median(over_lit));
-  report.add("draw_plain_texture_ms", median(milliseconds_unlit));
+  const std::string key = "draw_over_plain_texture_time";
+  ours_over.tell(key, report), all_over.tell(key + "_all_photographs", report);
+  nothing_over.tell(key + "_nothing", report), lit_over.tell(key + "_lit_texture", report);
+  bare_over.tell(key + "_no_photographs", report);
+  report.add("draw_plain_texture_ms", median(plain_ms));
   // A place that is not drawn would be fast: what is timed has to cover what the plain texture covers.
   const ImageF empty = nothing->picture();
   report.add("draw_shown_percent", shown_percent(ours->picture(), empty));
