@@ -6,6 +6,7 @@
 #include "bench/benches.h"
 #include "capture/facades/bench/bench_places.h"
 #include "capture/facades/bench/drawing_bench.h"
+#include "capture/facades/bench/filling_bench.h"
 #include "capture/facades/measure_place.h"
 
 namespace parvis::bench {
@@ -60,8 +61,12 @@ Status measure_drawings(const BenchSetup& setup, Report& report) {
   return measure_drawing(setup.is_quick, report);
 }
 
+Status measure_fillings(const BenchSetup& setup, Report& report) {
+  return measure_filling(setup.is_quick, report);
+}
+
 Status measure_all(const BenchSetup& setup, Report& report) {
-  for (const auto part : {measure_sceaux, measure_courtyard, measure_drawings})
+  for (const auto part : {measure_sceaux, measure_courtyard, measure_fillings, measure_drawings})
     if (Status status = part(setup, report); !status) return status.errors();
   return Done{};
 }
@@ -74,6 +79,7 @@ void furnish_facades(House& house) {
                measure_all});
   benches.add({"facades_sceaux", "of `facades`: the castle alone", measure_sceaux});
   benches.add({"facades_courtyard", "of `facades`: the courtyard alone", measure_courtyard});
+  benches.add({"facades_filling", "of `facades`: filling of a texture that is known", measure_fillings});
   benches.add({"facades_drawing", "of `facades`: times of drawing alone", measure_drawings});
 }
 
