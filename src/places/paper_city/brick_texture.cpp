@@ -4,6 +4,7 @@
 
 #include "base/colour.h"
 #include "base/random.h"
+#include "places/paper_city/street_level_texture.h"
 #include "places/paper_city/wall_texture.h"
 #include "places/paper_city/window_texture.h"
 
@@ -34,19 +35,6 @@ void mark_bricks(Texel& t) {
   t.colour *= 1.0f - 0.45f * t.alpha;
 }
 
-/// Bricks on end over the opening.
-void paint_lintel(SurfaceCanvas& canvas, const WindowStyle& style, float x_m, float floor_m) {
-  const float foot_m = floor_m + style.foot_m + style.height_m, half_m = 0.5f * style.width_m + 0.08f;
-  canvas.paint({x_m - half_m, foot_m, x_m + half_m, foot_m + 0.22f}, [&](float x, float y, Texel& t) {
-    const float along = (x - x_m + half_m) / 0.0625f, place = along - std::floor(along);
-    const bool is_joint = place < 0.17f || y - foot_m > 0.21f;
-    const float tone = 0.82f + 0.3f * (0.5f + 0.5f * std::sin(12.9898f * std::floor(along)));
-    t.colour = is_joint ? glm::vec3(0.22f, 0.2f, 0.17f) : tone * painted_brick;
-    t.alpha = is_joint ? 1.0f : 0.0f;
-    t.height_m = is_joint ? -0.008f : 0.0f;
-  });
-}
-
 /// `tint` times the colour of bricks; what is not brick keeps its own.
 Image8 in_colour(const Image8& painted, glm::vec3 tint) {
   Image8 result = painted;
@@ -66,21 +54,43 @@ Image8 in_colour(const Image8& painted, glm::vec3 tint) {
   return result;
 }
 
-}  // namespace
-
-BrickWalls brick_wall_pictures(bool has_windows, std::uint32_t seed) {
-  Random random(seed);
-  SurfaceCanvas canvas(sheet_px, sheet_px, brick_bay_m * float(brick_bays),
-                       brick_storey_m * float(brick_storeys));
-  paint_wall(canvas, Wall::brick, painted_brick, random.next());
-  canvas.paint_all([](float, float, Texel& t) { mark_bricks(t); });
+void paint_storeys(SurfaceCanvas& canvas, Random& random) {
   const WindowStyle style = window_style();
-  for (int storey = 0; has_windows && storey < brick_storeys; ++storey)
+  for (int storey = 0; storey < brick_storeys; ++storey)
     for (int bay = 0; bay < brick_bays; ++bay) {
       const float x_m = brick_bay_m * (float(bay) + 0.5f), floor_m = brick_storey_m * float(storey);
-      paint_lintel(canvas, style, x_m, floor_m);
+      paint_brick_lintel(canvas, x_m, floor_m + style.foot_m + style.height_m, 0.5f * style.width_m + 0.08f);
       paint_window(canvas, style, x_m, floor_m, random);
     }
+}
+
+}  // namespace
+
+void paint_brick_lintel(SurfaceCanvas& canvas, float x_m, float top_m, float half_m) {
+  canvas.paint({x_m - half_m, top_m, x_m + half_m, top_m + 0.22f}, [&](float x, float y, Texel& t) {
+    const float along = (x - x_m + half_m) / 0.0625f, place = along - std::floor(along);
+    const bool is_joint = place < 0.17f || y - top_m > 0.21f;
+    const float tone = 0.82f + 0.3f * (0.5f + 0.5f * std::sin(12.9898f * std::floor(along)));
+    t.colour = is_joint ? glm::vec3(0.22f, 0.2f, 0.17f) : tone * painted_brick;
+    t.alpha = is_joint ? 1.0f : 0.0f;
+    t.height_m = is_joint ? -0.008f : 0.0f;
+  });
+}
+
+glm::vec2 brick_sheet_m(BrickSheet sheet) {
+  const glm::vec2 whole(brick_bay_m * float(brick_bays), brick_storey_m * float(brick_storeys));
+  return sheet == BrickSheet::plain ? 0.5f * whole : whole;
+}
+
+BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed) {
+  Random random(seed);
+  const glm::vec2 size_m = brick_sheet_m(sheet);
+  const int size_px = sheet == BrickSheet::plain ? sheet_px / 2 : sheet_px;
+  SurfaceCanvas canvas(size_px, size_px, size_m.x, size_m.y);
+  paint_wall(canvas, Wall::brick, painted_brick, random.next());
+  canvas.paint_all([](float, float, Texel& t) { mark_bricks(t); });
+  if (sheet == BrickSheet::storeys) paint_storeys(canvas, random);
+  if (sheet == BrickSheet::street) paint_street_level(canvas, random);
   SurfacePictures painted = canvas.pictures(1, 2);
   BrickWalls walls;
   for (std::size_t i = 0; i < walls.colours.size(); ++i)

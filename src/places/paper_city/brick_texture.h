@@ -18,7 +18,20 @@ struct BrickWalls {
   Image8 normal, surface;
 };
 
-/// With a window in each bay, every one a little different, or plain.
-BrickWalls brick_wall_pictures(bool has_windows, std::uint32_t seed);
+/// What a sheet shows.
+enum class BrickSheet : std::uint8_t {
+  storeys,  ///< a window in each bay, every one a little different
+  street,   ///< the bands of street_level_texture.h
+  plain     ///< no openings; half as wide and high as the others
+};
+
+/// Width and height of a sheet.
+glm::vec2 brick_sheet_m(BrickSheet sheet);
+
+/// The pictures of a sheet.
+BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed);
+
+/// Bricks on end over an opening whose top is at `top_m`, `half_m` to both sides of its middle `x_m`.
+void paint_brick_lintel(SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
 
 }  // namespace parvis::city

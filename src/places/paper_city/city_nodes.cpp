@@ -31,18 +31,22 @@ void warn(scene::SceneBuilder& builder, const scene::Node& node, const scene::Mo
 }
 
 scene::NodeSchema facades_schema() {
-  return {
-      .type = "facades",
-      .help =
-          "Brick walls with windows for a city model whose buildings are bare volumes. Materials that later "
-          "nodes can change: \"facade\" and \"brick wall\".",
-      .attributes = {target_attribute()},
-      .stands_in = {"model"},
-      .example = example_of("facades(target=\"WallSurface\")")};
+  return {.type = "facades",
+          .help =
+              "Brick walls with doors, shops and windows for a city model whose buildings are bare volumes; "
+              "party "
+              "walls stay blank, pictures and windows of the model itself are kept. Materials that later "
+              "nodes can "
+              "change: \"street level\", \"facade\" and \"brick wall\".",
+          .attributes = {target_attribute(),
+                         integer("seed", "another one, other houses").between(0, 1e9).by_default("1")},
+          .stands_in = {"model"},
+          .example = example_of("facades(target=\"WallSurface\")")};
 }
 
 void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_facades(model, node.text("target")) == 0) warn(builder, node, model, "walls");
+  if (add_facades(model, node.text("target"), std::uint64_t(node.integer("seed"))) == 0)
+    warn(builder, node, model, "walls");
 }
 
 scene::NodeSchema roofs_schema() {

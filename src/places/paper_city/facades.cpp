@@ -3,103 +3,203 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "places/paper_city/brick_texture.h"
-#include "places/paper_city/model_triangles.h"
+#include "places/paper_city/street_level_texture.h"
+#include "places/paper_city/wall_panels.h"
+#include "scene/data/name_pattern.h"
 
 namespace parvis::city {
 
 namespace {
 
-constexpr float steepest_roof_z = 0.34f;  // cosine of 70 degrees: above it a surface is roof
-constexpr float same_plane_m = 0.25f, same_heading = 0.035f;
-constexpr float narrowest_m = 1.6f, lowest_m = 2.3f;  // of a wall with windows
+constexpr float steepest_roof_z = 0.34f;              // cosine of 70 degrees: above it a surface is roof
+constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
+constexpr float shed_m = 2.9f;                        // lower: nobody lives there
+constexpr float narrowest_on_roof_m =
+    5.0f;                         // of a wall above a lower roof: else it is the side of the next house
+constexpr float garage_m = 2.7f;  // width of a shed with a door
+constexpr float max_ground_storey_m = 4.2f, cornice_m = 0.2f;  // no storey is higher; above the last one
+constexpr float shop_share = 0.2f, two_storeys_m = 5.4f;       // of houses from so high on
+constexpr float same_eaves_m = 0.9f;                           // houses of a row differ where their eaves do
+constexpr float before_wall_m = 0.6f;  // a window of the model so near belongs to the wall
+constexpr std::size_t sheet_count = 3;
 
-/// Walls of one building in one plane.
-using Panel = std::vector<std::size_t>;
+/// What the walls of one house have in common.
+struct HouseStyle {
+  int colour;
+  float storey_m, bay_m;
+  StreetBand band;
+  bool is_shop;
+};
 
-std::vector<Panel> panels_of(const std::vector<ModelTriangle>& walls) {
-  std::map<std::array<long, 3>, Panel> panels;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const float heading = std::atan2(walls[i].normal.y, walls[i].normal.x);
-    const float offset_m = glm::dot(walls[i].normal, walls[i].corners[0]);
-    panels[{long(walls[i].building), std::lround(heading / same_heading),
-            std::lround(offset_m / same_plane_m)}]
-        .push_back(i);
-  }
-  std::vector<Panel> result;
-  result.reserve(panels.size());
-  for (auto& [key, panel] : panels) result.push_back(std::move(panel));
-  return result;
+HouseStyle style_of(const WallPanel& panel, std::uint64_t seed) {
+  const auto height = std::uint64_t(std::lround(panel.eaves_m / same_eaves_m) + 100'000);
+  Random random(seed + 7919 * panel.building, height);
+  HouseStyle style;
+  style.colour = random.index(brick_colour_count);
+  style.storey_m = random.uniform(2.8f, 3.35f), style.bay_m = random.uniform(2.5f, 3.3f);
+  style.is_shop = random.chance(shop_share) && panel.eaves_m - panel.low.y > two_storeys_m;
+  style.band = random.chance(0.5f) ? StreetBand::houses : StreetBand::wide_panes;
+  return style;
 }
 
-/// Materials 2 i (with windows) and 2 i + 1 (plain) from the first index, of brick colour i.
+/// Material 3 i + sheet from the first index, of brick colour i.
 int add_wall_materials(scene::Model& model) {
   const int first = int(model.materials.size());
-  model.materials.resize(model.materials.size() + std::size_t(2 * brick_colour_count));
-  std::array<BrickWalls, 2> sheets;
-  parallel_for(sheets.size(), [&](std::size_t i) { sheets[i] = brick_wall_pictures(i == 0, 1); });
-  for (std::size_t plain = 0; plain < 2; ++plain) {
-    const char* name = plain ? "brick wall" : "facade";
-    const int normal = add_texture(model, name, std::move(sheets[plain].normal), false);
-    const int surface = add_texture(model, name, std::move(sheets[plain].surface), false);
+  model.materials.resize(model.materials.size() + sheet_count * brick_colour_count);
+  std::array<BrickWalls, sheet_count> sheets;
+  parallel_for(sheet_count, [&](std::size_t i) { sheets[i] = brick_wall_pictures(BrickSheet(i), 1); });
+  for (std::size_t sheet = 0; sheet < sheet_count; ++sheet) {
+    const bool is_plain = BrickSheet(sheet) == BrickSheet::plain;
+    const char* name = is_plain                                  ? "brick wall"
+                       : BrickSheet(sheet) == BrickSheet::street ? "street level"
+                                                                 : "facade";
+    const int normal = add_texture(model, name, std::move(sheets[sheet].normal), false);
+    const int surface = add_texture(model, name, std::move(sheets[sheet].surface), false);
     for (std::size_t i = 0; i < brick_colour_count; ++i) {
-      scene::Material& material = model.materials[std::size_t(first) + 2 * i + plain];
+      scene::Material& material = model.materials[std::size_t(first) + sheet_count * i + sheet];
       material.name = name;
       material.base_colour = glm::vec3(1.0f), material.roughness = 1.0f, material.metallic = 1.0f;
-      material.base_colour_texture = add_texture(model, name, std::move(sheets[plain].colours[i]), true);
+      material.base_colour_texture = add_texture(model, name, std::move(sheets[sheet].colours[i]), true);
       material.normal_texture = normal, material.surface_texture = surface;
-      material.relief_m = plain ? 0.0f : canvas_relief_m;
+      material.relief_m = is_plain ? 0.0f : canvas_relief_m;
       material.is_double_sided = true;
     }
   }
   return first;
 }
 
-void add_panel(DressedParts& parts, const std::vector<ModelTriangle>& walls, const Panel& panel,
-               int first_material) {
-  const glm::vec3 normal = walls[panel.front()].normal;
-  const glm::vec3 along = glm::normalize(glm::vec3(-normal.y, normal.x, 0.0f));
-  glm::vec2 low(1e30f), high(-1e30f);
-  for (const std::size_t i : panel)
-    for (const glm::vec3& corner : walls[i].corners) {
-      const glm::vec2 place(glm::dot(corner, along), corner.z);
-      low = glm::min(low, place), high = glm::max(high, place);
+/// The middles of the windows and doors that a model has itself.
+std::vector<glm::vec3> own_openings(const scene::Model& model) {
+  const std::vector<glm::mat4> pose = scene::rest_pose(model);
+  std::vector<glm::vec3> middles;
+  for (const scene::Part& part : model.parts) {
+    const std::string& name = model.materials[std::size_t(part.material)].name;
+    if (!scene::matches("*Window*", name) && !scene::matches("*Door*", name) &&
+        !scene::matches("*Window*", part.object) && !scene::matches("*Door*", part.object))
+      continue;
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      glm::vec3 sum(0.0f);
+      for (std::size_t k = 0; k < 3; ++k) sum += part.mesh.positions[part.mesh.indices[i + k]];
+      middles.emplace_back(pose[std::size_t(part.node)] * glm::vec4(sum / 3.0f, 1.0f));
     }
-  const glm::vec2 size = high - low;
-  const bool has_windows = size.x >= narrowest_m && size.y >= lowest_m;
-  const glm::vec2 fitting =
-      glm::max(glm::round(size / glm::vec2(brick_bay_m, brick_storey_m)), glm::vec2(1.0f));
-  const glm::vec2 bays = has_windows ? fitting : size / glm::vec2(brick_bay_m, brick_storey_m);
-
-  Random random(walls[panel.front()].building + 1);
-  const int colour = random.index(brick_colour_count);
-  const glm::vec2 start(float(random.index(brick_bays)),
-                        0.0f);  // so that not all begin with the same window
-  for (const std::size_t i : panel) {
-    const ModelTriangle& wall = walls[i];
-    std::array<glm::vec2, 3> uvs;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec2 place = (glm::vec2(glm::dot(wall.corners[k], along), wall.corners[k].z) - low) / size;
-      const glm::vec2 in_bays = start + place * bays;
-      uvs[k] = {in_bays.x / float(brick_bays), -in_bays.y / float(brick_storeys)};
-    }
-    parts.add(wall, first_material + 2 * colour + (has_windows ? 0 : 1), uvs);
   }
+  return middles;
 }
+
+bool has_own_openings(const WallPanel& panel, const std::vector<glm::vec3>& openings) {
+  return std::ranges::any_of(openings, [&](glm::vec3 point) {
+    const float place = glm::dot(point, panel.along);
+    return std::abs(glm::dot(point, panel.normal) - panel.offset_m) < before_wall_m && place > panel.low.x &&
+           place < panel.high.x && point.z > panel.low.y && point.z < panel.high.y;
+  });
+}
+
+/// Dresses one panel, strip by strip from its foot to its top.
+class Dresser {
+ public:
+  Dresser(DressedParts& parts, const std::vector<ModelTriangle>& walls, int first_material,
+          std::uint64_t seed)
+      : parts_(parts), walls_(walls), first_material_(first_material), seed_(seed) {}
+
+  void dress(const WallPanel& panel, bool is_blank) {
+    panel_ = &panel;
+    style_ = style_of(panel, seed_);
+    pieces_.clear();
+    for (const std::size_t i : panel.triangles) pieces_.push_back(walls_[i]);
+    pieces_ = clipped(pieces_, panel.along, panel.low.x, panel.high.x);
+    const float width_m = panel.high.x - panel.low.x, height_m = panel.eaves_m - panel.low.y;
+    Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
+    const bool is_side = !panel.stands_on_ground && width_m < narrowest_on_roof_m;
+    if (is_blank || panel.is_party_wall || is_side || width_m < narrowest_m || height_m < lowest_m)
+      return plain(panel.low.y, panel.high.y);
+    if (panel.stands_on_ground && height_m < shed_m)
+      add_shed(width_m, random);
+    else
+      add_house_front(width_m, height_m, random);
+    if (panel.high.y > panel.eaves_m) plain(panel.eaves_m, panel.high.y);
+  }
+
+ private:
+  void add_shed(float width_m, Random& random) {
+    const bool has_garage = width_m > garage_m && random.chance(0.5f);
+    const float bays = std::max(1.0f, std::round(width_m / brick_bay_m));
+    add(BrickSheet::street, panel_->low.y, panel_->eaves_m,
+        {has_garage ? garage_bay : small_window_bay, float(StreetBand::sheds)}, {bays, 1.0f});
+  }
+
+  /// The street's storey, those above it, and a plain rest where there is less than a storey.
+  void add_house_front(float width_m, float height_m, Random& random) {
+    const float bays = std::max(1.0f, std::round(width_m / style_.bay_m));
+    const float street_m =
+        !panel_->stands_on_ground ? 0.0f : style_.storey_m + (style_.is_shop ? 0.6f : 0.15f);
+    const float rest_m = height_m - street_m - cornice_m;
+    const float storeys = std::max(0.0f, std::round(rest_m / style_.storey_m));
+    const float foot = panel_->low.y;
+    const float street_top = foot + (storeys > 0.0f ? street_m : std::min(height_m, max_ground_storey_m));
+    if (panel_->stands_on_ground) {
+      const StreetBand band = style_.is_shop ? StreetBand::shops : style_.band;
+      const int span = std::min(int(bays), brick_bays);  // the first bays that hold a door
+      const int start = (brick_bays + door_bay - random.index(span)) % brick_bays;
+      add(BrickSheet::street, foot, street_top, {start, float(band)}, {bays, 1.0f});
+    }
+    if (storeys == 0.0f) return plain(street_top, panel_->eaves_m);
+    const float start = float(random.index(brick_bays)), row = float(random.index(brick_storeys));
+    add(BrickSheet::storeys, panel_->stands_on_ground ? street_top : foot, panel_->eaves_m, {start, row},
+        {bays, storeys});
+  }
+
+  /// Bricks without openings.
+  void plain(float low_m, float high_m) {
+    const glm::vec2 cell_m(brick_bay_m, brick_storey_m);
+    add(BrickSheet::plain, low_m, high_m, {0.0f, 0.0f},
+        glm::vec2(panel_->high.x - panel_->low.x, high_m - low_m) / cell_m);
+  }
+
+  /// A strip of the panel between two heights: `count` bays and storeys from the cell `first` of a sheet on.
+  void add(BrickSheet sheet, float low_m, float high_m, glm::vec2 first, glm::vec2 count) {
+    if (!(high_m > low_m)) return;
+    const glm::vec2 low(panel_->low.x, low_m), size(panel_->high.x - panel_->low.x, high_m - low_m);
+    const glm::vec2 cells =
+        brick_sheet_m(sheet) / glm::vec2(brick_bay_m, brick_storey_m);  // across and up the sheet
+    const int material = first_material_ + int(sheet_count) * style_.colour + int(sheet);
+    for (const ModelTriangle& piece : clipped(pieces_, {0.0f, 0.0f, 1.0f}, low_m, high_m)) {
+      std::array<glm::vec2, 3> uvs;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec2 place(glm::dot(piece.corners[k], panel_->along), piece.corners[k].z);
+        const glm::vec2 at = (first + (place - low) / size * count) / cells;
+        uvs[k] = {at.x, -at.y};
+      }
+      parts_.add(piece, material, uvs);
+    }
+  }
+
+  DressedParts& parts_;
+  const std::vector<ModelTriangle>& walls_;
+  int first_material_;
+  std::uint64_t seed_;
+  const WallPanel* panel_ = nullptr;
+  HouseStyle style_{};
+  std::vector<ModelTriangle> pieces_;  ///< of the panel
+};
 
 }  // namespace
 
-std::size_t add_facades(scene::Model& model, std::string_view target) {
+std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed) {
   const std::vector<ModelTriangle> walls =
-      take_triangles(model, target, [](glm::vec3 normal) { return std::abs(normal.z) < steepest_roof_z; });
+      take_triangles(model, target, [](const scene::Material& material, glm::vec3 normal) {
+        return std::abs(normal.z) < steepest_roof_z && material.base_colour_texture == scene::no_index;
+      });
   if (walls.empty()) return 0;
+  const std::vector<glm::vec3> openings = own_openings(model);
   const int first_material = add_wall_materials(model);
   DressedParts parts(model, "facade");
-  for (const Panel& panel : panels_of(walls)) add_panel(parts, walls, panel, first_material);
+  Dresser dresser(parts, walls, first_material, seed);
+  for (const WallPanel& panel : wall_panels(walls)) dresser.dress(panel, has_own_openings(panel, openings));
   return walls.size();
 }
 

@@ -1,16 +1,19 @@
 // Facades for buildings that are bare volumes, as most city models are.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "scene/data/model.h"
 
 namespace parvis::city {
 
-/// Gives brick and windows to the walls (triangles steeper than 70 degrees, once the model's z is up) of the
-/// parts that match the pattern `target`. Walls of one plane hold a whole number of bays and storeys; what is
-/// too small for a window is plain brick; buildings that touch are built of the same bricks. Returns the
-/// number of triangles changed.
-std::size_t add_facades(scene::Model& model, std::string_view target);
+/// Gives bricks, front doors, shops and windows to the walls (triangles steeper than 70 degrees, once the
+/// model's z is up) of the parts that match the pattern `target`. The polygons of the file and the heights of
+/// eaves distinguish the houses of a row; each has its bricks, storey height, rhythm of windows and street
+/// level, by `seed`. Whole storeys end at the eaves; gables, party walls, walls of less than 1.6 m and walls
+/// that have windows of the model are bricks alone; low ones are sheds. Walls with a picture are left as they
+/// are. Returns the number of triangles changed.
+std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed = 1);
 
 }  // namespace parvis::city

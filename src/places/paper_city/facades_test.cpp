@@ -3,9 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/mesh.h"
+#include "base/random.h"
+#include "base/test_data.h"
+#include "formats/readers/readers.h"
+#include "house/rooms.h"
 #include "places/paper_city/brick_texture.h"
+#include "scene/data/model_parts.h"
 
 namespace parvis::city {
 namespace {
@@ -34,15 +40,147 @@ scene::Model house(float width, float height) {
 TEST(Facades, HoldWholeBaysAndStoreys) {
   scene::Model model = house(12.2f, 9.0f);
   EXPECT_EQ(add_facades(model, "build*"), 4u);
-  ASSERT_EQ(model.parts.size(), 2u);  // the roof, and walls of one kind of brick
-  EXPECT_EQ(model.parts[0].mesh.triangle_count(), 2u);
-  const Mesh& walls = model.parts[1].mesh;
-  EXPECT_TRUE(check(walls, "walls").ok());
-  for (const glm::vec2& uv : walls.uvs) {
-    EXPECT_NEAR(uv.x * brick_bays, std::round(uv.x * brick_bays), 1e-3f);
-    EXPECT_NEAR(uv.y * brick_storeys, std::round(uv.y * brick_storeys), 1e-3f);
+  EXPECT_EQ(model.parts[0].mesh.triangle_count(), 2u);  // the roof
+  const auto is_whole = [](float value) { return std::abs(value - std::round(value)) < 2e-3f; };
+  int strips = 0;
+  for (std::size_t i = 1; i < model.parts.size(); ++i) {
+    const Mesh& walls = model.parts[i].mesh;
+    EXPECT_TRUE(check(walls, "walls").ok());
+    if (model.materials[std::size_t(model.parts[i].material)].name == "brick wall") continue;
+    ++strips;
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (const glm::vec2& uv : walls.uvs) {
+      low = glm::min(low, uv), high = glm::max(high, uv);
+      EXPECT_TRUE(is_whole(uv.y * brick_storeys)) << uv.y;
+    }
+    EXPECT_TRUE(is_whole(low.x * brick_bays) && is_whole(high.x * brick_bays)) << low.x << " " << high.x;
   }
-  EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].name, "facade");
+  EXPECT_EQ(strips, 2) << "street level and the storeys above";
+}
+
+double area_of(const scene::Model& model, std::string_view target) {
+  double area = 0.0;
+  for (const std::size_t index : scene::matching_parts(model, target)) {
+    const Mesh& mesh = model.parts[index].mesh;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const glm::vec3 a = mesh.positions[mesh.indices[i]];
+      area += 0.5 * double(glm::length(glm::cross(mesh.positions[mesh.indices[i + 1]] - a,
+                                                  mesh.positions[mesh.indices[i + 2]] - a)));
+    }
+  }
+  return area;
+}
+
+/// A wall that faces south, as a polygon of its own.
+void add_wall(scene::Model& model, float x0, float x1, float foot, float top, float y = 0.0f,
+              bool north = false) {
+  Mesh& mesh = model.parts.front().mesh;
+  if (north)
+    add_quad(mesh, {x1, y, foot}, {x0, y, foot}, {x0, y, top}, {x1, y, top});
+  else
+    add_quad(mesh, {x0, y, foot}, {x1, y, foot}, {x1, y, top}, {x0, y, top});
+  fill_normals(mesh);
+  mesh.uvs.resize(mesh.positions.size());
+}
+
+scene::Model no_walls() {
+  scene::Model model;
+  model.materials.emplace_back();
+  model.parts.emplace_back();
+  model.parts.front().object = "building";
+  return model;
+}
+
+double share_of(const scene::Model& model, const char* material) {
+  return area_of(model, material) / area_of(model, "facade*");
+}
+
+TEST(Facades, NoWallIsLostOrDoubled) {
+  scene::Model rows = no_walls();
+  Random random(3);
+  double area = 0.0;
+  for (float x = 0.0f; x < 300.0f;) {
+    const float width = random.uniform(0.3f, 14.0f), top = random.uniform(1.0f, 20.0f);
+    add_wall(rows, x, x + width, random.uniform(-0.5f, 0.5f), top);
+    x += width;
+  }
+  area = area_of(rows, "building");
+  add_facades(rows, "*");
+  EXPECT_NEAR(area_of(rows, "facade"), area, 1e-3 * area);
+  for (const char* name : {"cities/delft_context.city.json", "cities/DenHaag_01.city.json"}) {
+    const auto file = shared_data(name, PARVIS_SOURCE_DIR);
+    if (!file) GTEST_SKIP() << name;
+    Errors warnings;
+    Result<scene::Model> city = house::all_rooms().get<formats::Readers>().read(*file, {}, warnings);
+    ASSERT_TRUE(city) << to_string(city.errors());
+    const double walls = area_of(*city, "WallSurface");
+    add_facades(*city, "WallSurface");
+    EXPECT_NEAR(area_of(*city, "facade") + area_of(*city, "WallSurface"), walls, 1e-3 * walls) << name;
+  }
+}
+
+TEST(Facades, HousesHaveDoorsAtTheStreetAndPartyWallsAreBlank) {
+  scene::Model free_wall = no_walls();
+  add_wall(free_wall, 0.0f, 12.0f, 0.0f, 9.0f);
+  add_facades(free_wall, "*");
+  EXPECT_GT(area_of(free_wall, "street level"), 30.0);
+  EXPECT_GT(area_of(free_wall, "facade"), 60.0);
+  EXPECT_LT(share_of(free_wall, "brick wall"), 0.02);
+  scene::Model party = no_walls();
+  add_wall(party, 0.0f, 12.0f, 0.0f, 9.0f);
+  add_wall(party, 0.0f, 12.0f, 0.0f, 6.0f, -0.1f, true);  // of the next house
+  add_facades(party, "*");
+  EXPECT_NEAR(share_of(party, "brick wall"), 1.0, 1e-3);
+}
+
+TEST(Facades, GablesAboveTheEavesHaveNoWindows) {
+  scene::Model gable = no_walls();
+  Mesh& mesh = gable.parts.front().mesh;
+  mesh.positions = {{0, 0, 0}, {8, 0, 0}, {8, 0, 6}, {4, 0, 10}, {0, 0, 6}};
+  mesh.indices = {0, 1, 2, 0, 2, 4, 4, 2, 3};
+  fill_normals(mesh);
+  mesh.uvs.resize(mesh.positions.size());
+  add_facades(gable, "*");
+  for (const std::size_t index : scene::matching_parts(gable, "facade")) {
+    const scene::Part& part = gable.parts[index];
+    if (gable.materials[std::size_t(part.material)].name == "brick wall") continue;
+    for (const glm::vec3& p : part.mesh.positions) EXPECT_LE(p.z, 6.05f);
+  }
+  EXPECT_NEAR(area_of(gable, "brick wall"), 16.0, 0.6);
+}
+
+TEST(Facades, WindowsAndPicturesOfTheModelAreKept) {
+  scene::Model glazed = no_walls();
+  add_wall(glazed, 0.0f, 12.0f, 0.0f, 9.0f);
+  glazed.materials.emplace_back();
+  glazed.materials.back().name = "Window";
+  scene::Part window;
+  window.object = "Window", window.material = 1;
+  add_quad(window.mesh, {2, -0.05f, 3}, {3, -0.05f, 3}, {3, -0.05f, 5}, {2, -0.05f, 5});
+  glazed.parts.push_back(window);
+  add_facades(glazed, "building");
+  EXPECT_NEAR(share_of(glazed, "brick wall"), 1.0, 1e-3);
+  scene::Model pictured = no_walls();
+  add_wall(pictured, 0.0f, 12.0f, 0.0f, 9.0f);
+  pictured.textures.emplace_back();
+  pictured.materials.front().base_colour_texture = 0;
+  EXPECT_EQ(add_facades(pictured, "*"), 0u);
+}
+
+TEST(Facades, HousesOfARowDifferAndASeedChangesThem) {
+  const auto dressed = [](std::uint64_t seed) {
+    scene::Model row = no_walls();
+    for (int i = 0; i < 12; ++i)
+      add_wall(row, 6.0f * float(i), 6.0f * float(i) + 6.0f, 0.0f, 6.0f + float(i % 4) * 1.5f);
+    add_facades(row, "*", seed);
+    std::set<int> materials;
+    for (const scene::Part& part : row.parts) materials.insert(part.material);
+    return materials;
+  };
+  const std::set<int> houses = dressed(1);
+  EXPECT_GT(houses.size(), 4u);
+  EXPECT_EQ(houses, dressed(1));
+  EXPECT_NE(houses, dressed(2));
 }
 
 TEST(Facades, SmallWallsArePlain) {
@@ -60,7 +198,7 @@ TEST(Facades, WithoutWallsNothingChanges) {
 
 TEST(BrickWalls, RepeatWithoutASeam) {
   // Neighbours across the border differ no more than neighbours elsewhere do on average.
-  const Image8 image = brick_wall_pictures(true, 1).colours[0];
+  const Image8 image = brick_wall_pictures(BrickSheet::storeys, 1).colours[0];
   const auto difference = [&](int left, int right) {
     float sum = 0.0f;
     for (int y = 0; y < image.height; ++y)

@@ -10,32 +10,68 @@ namespace {
 
 constexpr float same_point_m = 0.02f;
 
+/// Representative of each element of a set that is joined pair by pair.
+class Joined {
+ public:
+  explicit Joined(std::size_t count) : parents_(count) {
+    std::iota(parents_.begin(), parents_.end(), std::size_t(0));
+  }
+  std::size_t root(std::size_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) { parents_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::size_t> parents_;
+};
+
 /// Triangles that share a corner belong together.
 void number_buildings(std::vector<ModelTriangle>& triangles) {
-  std::vector<std::size_t> parents(triangles.size());
-  std::iota(parents.begin(), parents.end(), std::size_t(0));
-  const auto root = [&](std::size_t i) {
-    while (parents[i] != i) i = parents[i] = parents[parents[i]];
-    return i;
-  };
+  Joined joined(triangles.size());
   std::map<std::array<int, 3>, std::size_t> triangle_at;
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (const glm::vec3& corner : triangles[i].corners) {
       const glm::ivec3 key(glm::round(corner / same_point_m));
       const auto [known, is_new] = triangle_at.try_emplace({key.x, key.y, key.z}, i);
-      if (!is_new) parents[root(i)] = root(known->second);
+      if (!is_new) joined.join(i, known->second);
     }
-  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i].building = root(i);
+  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i].building = joined.root(i);
+}
+
+/// A point of a polygon under the knife, in both frames.
+struct CutPoint {
+  glm::vec3 in_model, in_node;
+};
+
+/// What lies where side * (dot(axis, point) - at) >= 0 (Sutherland and Hodgman 1974).
+std::vector<CutPoint> cut(const std::vector<CutPoint>& polygon, glm::vec3 axis, float at, float side) {
+  std::vector<CutPoint> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const CutPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const float from = side * (glm::dot(axis, a.in_model) - at),
+                to = side * (glm::dot(axis, b.in_model) - at);
+    if (from >= 0.0f) kept.push_back(a);
+    if ((from >= 0.0f) == (to >= 0.0f)) continue;
+    const float share = from / (from - to);
+    kept.push_back({glm::mix(a.in_model, b.in_model, share), glm::mix(a.in_node, b.in_node, share)});
+  }
+  return kept;
 }
 
 }  // namespace
 
-std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view target,
-                                          const std::function<bool(glm::vec3 normal)>& is_wanted) {
+std::vector<ModelTriangle> take_triangles(
+    scene::Model& model, std::string_view target,
+    const std::function<bool(const scene::Material&, glm::vec3)>& is_wanted) {
   const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
   std::vector<ModelTriangle> taken;
+  std::size_t points_before = 0;
   for (const std::size_t index : scene::matching_parts(model, target)) {
     scene::Part& part = model.parts[index];
+    const scene::Material& material = model.materials[std::size_t(part.material)];
+    Joined points(part.mesh.positions.size());
+    const std::size_t first = taken.size();
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       ModelTriangle triangle;
@@ -48,8 +84,10 @@ std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view 
       const glm::vec3 area =
           glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
       const float length = glm::length(area);
-      if (length > 1e-8f && is_wanted(area / length)) {
+      if (length > 1e-8f && is_wanted(material, area / length)) {
         triangle.normal = area / length;
+        triangle.surface = part.mesh.indices[i];
+        for (std::size_t k = 1; k < 3; ++k) points.join(part.mesh.indices[i + k], part.mesh.indices[i]);
         taken.push_back(triangle);
       } else {
         kept.insert(kept.end(), part.mesh.indices.begin() + std::ptrdiff_t(i),
@@ -57,10 +95,34 @@ std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view 
       }
     }
     part.mesh.indices = std::move(kept);
+    for (std::size_t i = first; i < taken.size(); ++i)
+      taken[i].surface = points_before + points.root(taken[i].surface);
+    points_before += part.mesh.positions.size();
   }
   std::erase_if(model.parts, [](const scene::Part& part) { return part.mesh.indices.empty(); });
   number_buildings(taken);
   return taken;
+}
+
+std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, glm::vec3 axis, float low,
+                                   float high) {
+  constexpr float smallest_m2 = 1e-5f;
+  std::vector<ModelTriangle> result;
+  for (const ModelTriangle& triangle : triangles) {
+    std::vector<CutPoint> polygon;
+    for (std::size_t k = 0; k < 3; ++k) polygon.push_back({triangle.corners[k], triangle.corners_in_node[k]});
+    polygon = cut(cut(polygon, axis, low, 1.0f), axis, high, -1.0f);
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      ModelTriangle piece = triangle;
+      const std::array<CutPoint, 3> corners{polygon[0], polygon[i], polygon[i + 1]};
+      for (std::size_t k = 0; k < 3; ++k)
+        piece.corners[k] = corners[k].in_model, piece.corners_in_node[k] = corners[k].in_node;
+      const glm::vec3 area =
+          glm::cross(piece.corners[1] - piece.corners[0], piece.corners[2] - piece.corners[0]);
+      if (glm::length(area) > 2.0f * smallest_m2) result.push_back(piece);
+    }
+  }
+  return result;
 }
 
 void DressedParts::add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs) {

@@ -20,12 +20,20 @@ struct ModelTriangle {
   int node = 0;
   std::array<glm::vec3, 3> corners_in_node;
   std::size_t building = 0;  ///< number of its building: equal for connected triangles
+  std::size_t surface =
+      0;  ///< number of its surface in the file: equal where triangles share points of a mesh
 };
 
-/// Removes the triangles whose normals are wanted from the parts that match the pattern `target`, and numbers
-/// the buildings.
-std::vector<ModelTriangle> take_triangles(scene::Model& model, std::string_view target,
-                                          const std::function<bool(glm::vec3 normal)>& is_wanted);
+/// Removes the triangles that are wanted, by material and unit normal, from the parts that match the pattern
+/// `target`, and numbers buildings and surfaces.
+std::vector<ModelTriangle> take_triangles(
+    scene::Model& model, std::string_view target,
+    const std::function<bool(const scene::Material&, glm::vec3)>& is_wanted);
+
+/// The part of a triangle where low <= dot(axis, point) <= high, as triangles; unit axis in the model's
+/// frame.
+std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, glm::vec3 axis, float low,
+                                   float high);
 
 /// Adds triangles to a model as parts with one object name, one for each node and material.
 class DressedParts {

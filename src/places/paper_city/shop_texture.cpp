@@ -40,28 +40,6 @@ constexpr std::array<Shop, shop_modules * shop_strips> shops{{
 
 glm::vec3 linear8(glm::vec3 srgb) { return linear_from_srgb(srgb / 255.0f); }
 
-/// What stands in the window: rows of things on shelves, and light from lamps above.
-void paint_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Random& random) {
-  canvas.paint(glass, [&](float, float y, Texel& t) {
-    const float up = (y - glass.y0) / glass.height();
-    t = matt(glm::vec3(0.035f, 0.033f, 0.03f) * (0.6f + 1.4f * up * up), -0.12f, 0.05f);
-  });
-  for (int row = 0; row < 3; ++row) {
-    const float shelf = glass.y0 + 0.12f + 0.62f * float(row);
-    if (shelf + 0.4f > glass.y1) break;
-    for (float x = glass.x0 + 0.1f; x < glass.x1 - 0.25f;) {
-      const float width = random.uniform(0.12f, 0.4f), height = random.uniform(0.12f, 0.42f);
-      const float green = random.uniform(0.7f, 1.0f), blue = green * random.uniform(0.5f, 0.95f);
-      const glm::vec3 thing = glm::mix(glm::vec3(1.0f, green, blue), tint, random.uniform(0.0f, 0.6f));
-      if (random.chance(0.8f))
-        canvas.fill({x, shelf, std::min(x + width, glass.x1), shelf + height},
-                    matt(thing * random.uniform(0.06f, 0.28f), -0.12f, 0.05f));
-      x += width + random.uniform(0.02f, 0.2f);
-    }
-  }
-  canvas.shade_below({glass.x0, glass.y1 - 0.7f, glass.x1, glass.y1}, 0.75f);
-}
-
 struct ShopOpenings {
   Rect door, window;
 };
@@ -73,7 +51,7 @@ void paint_shop_openings(SurfaceCanvas& canvas, const ShopOpenings& openings, fl
   const Rect& window = openings.window;
   for (const Rect& opening : {door, window}) {
     canvas.fill(opening.inset(-0.05f), matt(wood * 1.25f, 0.06f, 0.4f));
-    paint_display(canvas, opening, wood, random);
+    paint_shop_display(canvas, opening, wood, random);
     canvas.shade_beside({opening.x0, opening.y0, opening.x0 + 0.12f, opening.y1}, 0.5f);
   }
   const Texel bar = matt(wood, -0.04f, 0.4f);
@@ -186,6 +164,27 @@ void paint_ledge(SurfaceCanvas& canvas, float top, glm::vec3 trim) {
 }
 
 }  // namespace
+
+void paint_shop_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Random& random) {
+  canvas.paint(glass, [&](float, float y, Texel& t) {
+    const float up = (y - glass.y0) / glass.height();
+    t = matt(glm::vec3(0.035f, 0.033f, 0.03f) * (0.6f + 1.4f * up * up), -0.12f, 0.05f);
+  });
+  for (int row = 0; row < 3; ++row) {
+    const float shelf = glass.y0 + 0.12f + 0.62f * float(row);
+    if (shelf + 0.4f > glass.y1) break;
+    for (float x = glass.x0 + 0.1f; x < glass.x1 - 0.25f;) {
+      const float width = random.uniform(0.12f, 0.4f), height = random.uniform(0.12f, 0.42f);
+      const float green = random.uniform(0.7f, 1.0f), blue = green * random.uniform(0.5f, 0.95f);
+      const glm::vec3 thing = glm::mix(glm::vec3(1.0f, green, blue), tint, random.uniform(0.0f, 0.6f));
+      if (random.chance(0.8f))
+        canvas.fill({x, shelf, std::min(x + width, glass.x1), shelf + height},
+                    matt(thing * random.uniform(0.06f, 0.28f), -0.12f, 0.05f));
+      x += width + random.uniform(0.02f, 0.2f);
+    }
+  }
+  canvas.shade_below({glass.x0, glass.y1 - 0.7f, glass.x1, glass.y1}, 0.75f);
+}
 
 glm::vec2 ground_floor_strip(int strip) {
   const float height = 1.0f / float(ground_floor_strips), half_pixel = 1.5f / float(sheet_px);

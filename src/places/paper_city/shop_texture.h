@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "base/random.h"
 #include "places/paper_city/surface_canvas.h"
 
 namespace parvis::city {
@@ -15,6 +16,10 @@ inline constexpr int shop_strips = 3, house_strip = shop_strips, ground_floor_st
 
 /// Texture coordinates v of a strip: (bottom, top).
 glm::vec2 ground_floor_strip(int strip);
+
+/// What stands in a shop's window: rows of things on shelves, of colours mixed with `tint`, and light from
+/// lamps above.
+void paint_shop_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Random& random);
 
 /// The painted sheet of all strips.
 SurfaceCanvas ground_floor_canvas(std::uint32_t seed);

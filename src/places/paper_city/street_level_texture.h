@@ -1,0 +1,25 @@
+// Street level of brick houses: four bands on one sheet, each as wide as four bays and one storey high.
+#pragma once
+
+#include <cstdint>
+
+#include "base/random.h"
+#include "places/paper_city/surface_canvas.h"
+
+namespace parvis::city {
+
+/// What a band shows, from the foot of the sheet up.
+enum class StreetBand : std::uint8_t {
+  houses,      ///< a front door and three windows
+  wide_panes,  ///< a door with a side light, wide windows
+  shops,       ///< fronts of glass under a fascia
+  sheds        ///< plain, a garage door, plain, a small window
+};
+inline constexpr int door_bay = 0;    ///< in the bands of houses
+inline constexpr int garage_bay = 1;  ///< in the band of sheds
+inline constexpr int small_window_bay = 3;
+
+/// Paints all bands over a wall that covers the canvas.
+void paint_street_level(SurfaceCanvas& canvas, Random& random);
+
+}  // namespace parvis::city

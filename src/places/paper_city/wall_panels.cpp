@@ -1,0 +1,254 @@
+#include "places/paper_city/wall_panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+
+namespace parvis::city {
+namespace {
+
+constexpr float same_plane_m = 0.25f, same_heading = 0.035f;
+constexpr float side_by_side_m = 0.3f;  // surfaces that overlap less are neighbours
+constexpr float narrow_m = 2.4f;        // a strip of wall that is no house: it belongs to its neighbour
+constexpr float step_m = 0.6f;          // of the top between two houses
+constexpr float foot_step_m = 1.0f;     // of the foot, where the wall stands on a lower roof
+constexpr float tiny_m = 0.02f;
+constexpr float party_gap_m = 1.2f, party_overlap_m = 0.3f;  // between walls of two houses
+constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others nearby stands on a roof
+constexpr float hash_cell_m = 6.0f;
+constexpr int max_break_points = 400;  // of one wall's outline
+
+/// A connected part of a wall in the file.
+struct Surface {
+  std::vector<std::size_t> triangles;
+  glm::vec3 normal{0.0f};
+  float low = 1e30f, high = -1e30f, top_m = -1e30f;  ///< along the wall, and its highest point
+};
+
+glm::vec3 along_of(glm::vec3 normal) { return glm::normalize(glm::vec3(-normal.y, normal.x, 0.0f)); }
+
+float doubled_area(const ModelTriangle& wall) {
+  return glm::length(glm::cross(wall.corners[1] - wall.corners[0], wall.corners[2] - wall.corners[0]));
+}
+
+void measure(Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along) {
+  for (const std::size_t i : surface.triangles)
+    for (const glm::vec3& corner : walls[i].corners) {
+      const float place = glm::dot(corner, along);
+      surface.low = std::min(surface.low, place), surface.high = std::max(surface.high, place);
+      surface.top_m = std::max(surface.top_m, corner.z);
+    }
+}
+
+/// Surfaces by building and plane.
+std::vector<std::vector<Surface>> planes_of(const std::vector<ModelTriangle>& walls) {
+  std::map<std::size_t, Surface> surfaces;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    Surface& surface = surfaces[walls[i].surface];
+    surface.triangles.push_back(i);
+    surface.normal += doubled_area(walls[i]) * walls[i].normal;
+  }
+  std::map<std::array<long, 3>, std::vector<Surface>> planes;
+  const auto file = [&](Surface surface, glm::vec3 normal) {
+    const ModelTriangle& first = walls[surface.triangles.front()];
+    const float heading = std::atan2(normal.y, normal.x);
+    surface.normal = normal;
+    planes[{long(first.building), std::lround(heading / same_heading),
+            std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)}]
+        .push_back(std::move(surface));
+  };
+  for (auto& [id, surface] : surfaces) {
+    const float length = glm::length(surface.normal);
+    const glm::vec3 mean = length > 0.0f ? surface.normal / length : glm::vec3(0.0f);
+    const bool is_plane = std::ranges::all_of(
+        surface.triangles, [&](std::size_t i) { return glm::dot(walls[i].normal, mean) > 0.995f; });
+    if (is_plane) {
+      file(std::move(surface), mean);
+    } else {  // several walls that share their corners
+      for (const std::size_t i : surface.triangles) file({{i}}, walls[i].normal);
+    }
+  }
+  std::vector<std::vector<Surface>> result;
+  result.reserve(planes.size());
+  for (auto& [key, plane] : planes) result.push_back(std::move(plane));
+  return result;
+}
+
+/// Surfaces one above the other, and narrow strips beside as high ones, are one wall.
+std::vector<Surface> joined(std::vector<Surface> plane, const std::vector<ModelTriangle>& walls) {
+  const glm::vec3 along = along_of(plane.front().normal);
+  for (Surface& surface : plane) measure(surface, walls, along);
+  std::ranges::sort(plane, {}, &Surface::low);
+  std::vector<Surface> result;
+  for (Surface& surface : plane) {
+    if (!result.empty()) {
+      Surface& last = result.back();
+      const float overlap_m = std::min(last.high, surface.high) - surface.low;
+      const bool is_strip = std::min(last.high - last.low, surface.high - surface.low) < narrow_m &&
+                            std::abs(last.top_m - surface.top_m) < 0.5f * step_m && overlap_m > -0.05f;
+      if (overlap_m > std::min(side_by_side_m, 0.5f * (surface.high - surface.low)) || is_strip) {
+        last.triangles.insert(last.triangles.end(), surface.triangles.begin(), surface.triangles.end());
+        last.high = std::max(last.high, surface.high), last.top_m = std::max(last.top_m, surface.top_m);
+        continue;
+      }
+    }
+    result.push_back(std::move(surface));
+  }
+  return result;
+}
+
+/// Foot and top of a wall at a place along it; low > high where there is none.
+struct Span {
+  float low = 1e30f, high = -1e30f;
+};
+
+Span span_at(const Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along, float place) {
+  Span span;
+  for (const std::size_t i : surface.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3 &a = walls[i].corners[k], &b = walls[i].corners[(k + 1) % 3];
+      const float from = glm::dot(a, along) - place, to = glm::dot(b, along) - place;
+      if ((from > 0.0f) == (to > 0.0f)) continue;
+      const float z = glm::mix(a.z, b.z, from / (from - to));
+      span.low = std::min(span.low, z), span.high = std::max(span.high, z);
+    }
+  return span;
+}
+
+/// Where the outline of a wall has corners.
+std::vector<float> break_points(const Surface& surface, const std::vector<ModelTriangle>& walls,
+                                glm::vec3 along) {
+  std::vector<float> places;
+  for (const std::size_t i : surface.triangles)
+    for (const glm::vec3& corner : walls[i].corners) places.push_back(glm::dot(corner, along));
+  std::ranges::sort(places);
+  std::vector<float> kept;
+  for (const float place : places)
+    if (kept.empty() || place - kept.back() > 2.5f * tiny_m) kept.push_back(place);
+  if (kept.size() > std::size_t(max_break_points)) kept = {kept.front(), kept.back()};
+  return kept;
+}
+
+/// The wall between two steps of its outline.
+void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::vector<WallPanel>& panels) {
+  const glm::vec3 along = along_of(surface.normal);
+  surface.low = 1e30f, surface.high = -1e30f;  // until now along the plane's first surface
+  measure(surface, walls, along);
+  const glm::vec3 outward = glm::normalize(glm::vec3(glm::vec2(surface.normal), 0.0f));
+  const std::vector<float> places = break_points(surface, walls, along);
+  WallPanel panel;
+  const auto begin = [&](float place) {
+    panel = WallPanel{.triangles = surface.triangles, .normal = outward, .along = along};
+    panel.building = walls[surface.triangles.front()].building;
+    panel.offset_m = glm::dot(panel.normal, walls[surface.triangles.front()].corners[0]);
+    panel.low = {place, 1e30f}, panel.high = {place, -1e30f}, panel.eaves_m = 1e30f;
+  };
+  const auto end = [&](float place) {
+    panel.high.x = place;
+    if (panel.high.x > panel.low.x && panel.high.y > panel.low.y) panels.push_back(panel);
+  };
+  begin(surface.low);
+  Span before;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const Span left = span_at(surface, walls, along, places[i] + tiny_m),
+               right = span_at(surface, walls, along, places[i + 1] - tiny_m);
+    const bool is_step = i > 0 && (std::abs(left.high - before.high) > step_m ||
+                                   std::abs(left.low - before.low) > foot_step_m);
+    if (is_step) end(places[i]), begin(places[i]);
+    for (const Span& span : {left, right}) {
+      panel.low.y = std::min(panel.low.y, span.low), panel.high.y = std::max(panel.high.y, span.high);
+      panel.eaves_m = std::min(panel.eaves_m, span.high);
+    }
+    before = right;
+  }
+  end(surface.high);
+}
+
+/// Panels by the cells of the plan that they cross.
+class PanelPlan {
+ public:
+  explicit PanelPlan(const std::vector<WallPanel>& panels) : panels_(panels) {
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const float length_m = panels[i].high.x - panels[i].low.x;
+      const int steps = 1 + int(std::min(length_m, 5000.0f) / (0.5f * hash_cell_m));
+      for (int step = 0; step <= steps; ++step) {
+        const glm::vec2 at =
+            spot(panels[i], glm::mix(panels[i].low.x, panels[i].high.x, float(step) / float(steps)));
+        std::vector<std::size_t>& cell = cells_[key(at)];
+        if (cell.empty() || cell.back() != i) cell.push_back(i);
+      }
+    }
+  }
+
+  /// In plan, a place on a panel.
+  static glm::vec2 spot(const WallPanel& panel, float place) {
+    return glm::vec2(panel.along) * place + glm::vec2(panel.normal) * panel.offset_m;
+  }
+
+  /// Calls see(panel) for those within a cell of a spot, some of them more than once.
+  template <class See>
+  void near(glm::vec2 at, See&& see) const {
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        if (const auto cell = cells_.find(key(at + hash_cell_m * glm::vec2(x, y))); cell != cells_.end())
+          for (const std::size_t i : cell->second) see(panels_[i]);
+  }
+
+ private:
+  static std::int64_t key(glm::vec2 at) {
+    const glm::ivec2 cell(glm::floor(at / hash_cell_m));
+    return std::int64_t(cell.x) * 4'000'037 + cell.y;
+  }
+
+  const std::vector<WallPanel>& panels_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
+};
+
+/// True if another house's wall stands before most of the panel's lowest storey.
+bool is_party_wall(const WallPanel& panel, const PanelPlan& plan) {
+  constexpr int samples = 5;
+  const float z = panel.low.y + std::min(1.5f, 0.5f * (panel.high.y - panel.low.y));
+  int covered = 0;
+  for (int i = 0; i < samples; ++i) {
+    const float place = glm::mix(panel.low.x, panel.high.x, (float(i) + 0.5f) / float(samples));
+    const glm::vec2 at = PanelPlan::spot(panel, place);
+    bool is_covered = false;
+    plan.near(at, [&](const WallPanel& other) {
+      if (glm::dot(other.normal, panel.normal) > -0.94f) return;
+      const float before_m = other.offset_m - glm::dot(glm::vec2(other.normal), at);
+      const float beside = glm::dot(at, glm::vec2(other.along));
+      is_covered =
+          is_covered || (before_m > -party_gap_m && before_m < party_overlap_m && beside > other.low.x &&
+                         beside < other.high.x && z > other.low.y - 1.5f && z < other.high.y);
+    });
+    covered += is_covered;
+  }
+  return 2 * covered > samples;
+}
+
+}  // namespace
+
+std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls) {
+  std::vector<WallPanel> panels;
+  for (std::vector<Surface>& plane : planes_of(walls))
+    for (const Surface& surface : joined(std::move(plane), walls)) add_panels(surface, walls, panels);
+  const PanelPlan plan(panels);
+  std::vector<float> feet_m;  // of what stands near each panel
+  for (const WallPanel& panel : panels) {
+    float lowest_m = panel.low.y;
+    plan.near(PanelPlan::spot(panel, 0.5f * (panel.low.x + panel.high.x)), [&](const WallPanel& other) {
+      if (other.building == panel.building) lowest_m = std::min(lowest_m, other.low.y);
+    });
+    feet_m.push_back(lowest_m);
+  }
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    panels[i].stands_on_ground = panels[i].low.y < feet_m[i] + roof_foot_m;
+    panels[i].is_party_wall = is_party_wall(panels[i], plan);
+  }
+  return panels;
+}
+
+}  // namespace parvis::city

@@ -1,0 +1,28 @@
+// Walls of a city model as panels: the parts of a house's front that share their storeys.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "places/paper_city/model_triangles.h"
+
+namespace parvis::city {
+
+/// A part of a wall in one plane, between two vertical lines, whose top has no step.
+struct WallPanel {
+  std::vector<std::size_t> triangles;  ///< into the walls; they may reach beyond the panel's sides
+  glm::vec3 normal{0.0f};              ///< unit, level, outward
+  float offset_m = 0.0f;               ///< of its plane from the origin, along the normal
+  glm::vec3 along{0.0f};               ///< unit, level
+  glm::vec2 low{0.0f}, high{0.0f};     ///< metres: places along `along`, and heights
+  float eaves_m = 0.0f;                ///< height up to which the panel has its full width
+  std::size_t building = 0;            ///< equal for connected walls
+  bool is_party_wall = false;          ///< another house stands right before it
+  bool stands_on_ground = true;        ///< false: on a roof
+};
+
+/// The panels of all walls. Walls of a row of houses in one plane are told apart by the polygons of the file
+/// and by steps of their tops.
+std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls);
+
+}  // namespace parvis::city
