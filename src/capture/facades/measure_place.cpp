@@ -44,21 +44,29 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Plac
                       const PackedFacade& facade, const std::vector<PreparedPhoto>& prepared,
                       bool with_baselines, PlaceFigures& figures) {
   const FacadeTexels texels(facade);
+  std::vector<Image8> truths;
+  for (const Photograph* photo : held_out) {
+    Result<Image8> truth = read_image8(photo->file);
+    if (!truth) return truth.errors();
+    truths.push_back(*std::move(truth));
+  }
   figures.methods.push_back({"layers"});
   if (with_baselines)
     for (const BaselineMethod method : baseline_methods) figures.methods.push_back({name_of(method)});
   const double share = 1.0 / double(held_out.size());
-  for (const Photograph* photo : held_out) {
-    const Result<Image8> truth = read_image8(photo->file);
-    if (!truth) return truth.errors();
-    const Result<View> view = view_of(*photo);
+  figures.exchanged.method = "control_exchanged";
+  for (std::size_t i = 0; i < held_out.size(); ++i) {
+    const Image8 &truth = truths[i], &another = truths[(i + 1) % truths.size()];
+    const Result<View> view = view_of(*held_out[i]);
     if (!view) return view.errors();
     const Image8 mask = model_mask(place.model, *view);
-    add(figures.methods[0], rephotography(bytes_of(view_of_facade(facade, texels, *view)), *truth, mask),
-        share);
+    const Image8 shown = bytes_of(view_of_facade(facade, texels, *view));
+    add(figures.methods[0], rephotography(shown, truth, mask), share);
+    if (held_out.size() > 1 && another.width == shown.width && another.height == shown.height)
+      add(figures.exchanged, rephotography(shown, another, mask), share);
     for (std::size_t m = 1; m < figures.methods.size(); ++m) {
       const ImageF picture = baseline_view(baseline_methods[m - 1], place.model, *view, prepared);
-      add(figures.methods[m], rephotography(srgb8_from_linear(picture), *truth, mask), share);
+      add(figures.methods[m], rephotography(srgb8_from_linear(picture), truth, mask), share);
     }
   }
   return Done{};
@@ -67,13 +75,20 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Plac
 Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLayers& place,
                             const PackedFacade& facade, PlaceFigures& figures) {
   const FacadeTexels texels(facade);
+  const double share = 1.0 / double(place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
     const auto photo = std::ranges::find(photos, place.names[i], &Photograph::name);
     const Result<Image8> truth = read_image8(photo->file);
     if (!truth) return truth.errors();
+    const Image8 mask = model_mask(place.model, place.views[i]);
     const Rephotography judged =
-        rephotography(bytes_of(view_of_facade(facade, texels, place.views[i])), *truth);
-    figures.own_viewpoint_psnr_db += judged.psnr_db / double(place.names.size());
+        rephotography(bytes_of(view_of_facade(facade, texels, place.views[i])), *truth, mask);
+    figures.own_viewpoint_psnr_db += share * judged.psnr_db;
+    figures.own_viewpoint_covered_percent += share * judged.covered_percent;
+    View aside = place.views[i];  // the control: where the photograph does not count as its own viewpoint
+    aside.centre = glm::mix(aside.centre, place.views[(i + 1) % place.views.size()].centre, 0.05);
+    figures.aside_viewpoint_psnr_db +=
+        share * rephotography(bytes_of(view_of_facade(facade, texels, aside)), *truth, mask).psnr_db;
   }
   return Done{};
 }
@@ -111,19 +126,32 @@ void judge_random_views(const PlaceLayers& place, const PackedFacade& facade, in
     }
   }
   if (of_model == 0) return;
-  figures.filled_percent = 100.0 * double(filled) / double(of_model);
-  figures.from_photographs_percent = 100.0 * double(differing) / double(of_model);
+  figures.coloured_percent = 100.0 * double(filled) / double(of_model);
+  figures.filled_percent = 100.0 * double(differing) / double(of_model);
 }
 
-/// Pixels of layers that differ once they were written as a layered picture and read again.
-Result<std::size_t> roundtrip_differences(const PlaceLayers& place) {
+/// One value of one pixel that has some alpha, changed.
+void change_a_pixel(LayerPixels& pixels) {
+  for (Image8& layer : pixels)
+    for (std::size_t p = 0; p < layer.pixels.size(); p += 4)
+      if (layer.pixels[p + 3] > 0) {
+        layer.pixels[p] ^= 1;
+        return;
+      }
+}
+
+/// Pixels of layers that differ once they were written as a layered picture and read again; `is_changed`: one
+/// pixel was changed before, as a control.
+Result<std::size_t> roundtrip_differences(const PlaceLayers& place, bool is_changed) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() /
       fmt::format("parvis_layers_{}.psd", std::chrono::steady_clock::now().time_since_epoch().count());
   Image8 picture(place.views[0].width, place.views[0].height, 4, 255);
   const LayerPixels pixels = chosen_pixels(place.filled[0], place.originals[0]);
-  const PsdPicture psd =
-      layered_picture(picture, place.layered[0], pixels, item_buffer(place.model, place.views[0]).depths);
+  LayerPixels written_pixels = pixels;
+  if (is_changed) change_a_pixel(written_pixels);
+  const PsdPicture psd = layered_picture(picture, place.layered[0], written_pixels,
+                                         item_buffer(place.model, place.views[0]).depths);
   const Status written = write_psd(file, psd);
   if (!written) return written.errors();
   const Result<PsdPicture> back = read_psd(file);
@@ -173,17 +201,19 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
   for (const Photograph& photo : used)
     if (Result<PreparedPhoto> one = prepared_photo(photo, place->model); one)
       prepared.push_back(*std::move(one));
-  figures.texture_over_extracted =
-      double(facade.texture_bytes()) /
-      double(std::max<std::size_t>(extracted_texture_bytes(place->model, prepared), 1));
+  const double extracted = double(std::max<std::size_t>(extracted_texture_bytes(place->model, prepared), 1));
+  figures.texture_over_extracted = double(facade.texture_bytes()) / extracted;
+  figures.extracted_share_percent = 100.0 * extracted / double(facade.photograph_bytes());
   if (Status status = judge_held_out(judges, *place, facade, prepared, options.with_baselines, figures);
       !status)
     return status.errors();
   if (Status status = judge_own_viewpoints(used, *place, facade, figures); !status) return status.errors();
   judge_random_views(*place, facade, options.random_views, figures);
-  const Result<std::size_t> differing = roundtrip_differences(*place);
+  const Result<std::size_t> differing = roundtrip_differences(*place, false),
+                            changed = roundtrip_differences(*place, true);
   if (!differing) return differing.errors();
-  figures.psd_roundtrip_differing_px = *differing;
+  if (!changed) return changed.errors();
+  figures.psd_roundtrip_differing_px = *differing, figures.psd_changed_px = *changed;
   return figures;
 }
 

@@ -16,14 +16,21 @@ struct MethodFigures {
 
 /// Figures of one place for the bench `facades`.
 struct PlaceFigures {
-  std::vector<MethodFigures> methods;     ///< the layers first
-  double filled_percent = 0.0;            ///< of the model's pixels in random views
-  double from_photographs_percent = 0.0;  ///< of these, those that some photograph's tile colours
-  double layers_s_per_photo = 0.0;        ///< wall clock, all stages but packing
-  double texture_share_percent = 0.0;     ///< of the photographs' RGBA
+  std::vector<MethodFigures> methods;  ///< the layers first
+  MethodFigures exchanged;  ///< a control: the layers judged by another photograph that was held out (0:
+                            ///< there is one alone)
+  double filled_percent =
+      0.0;  ///< of the model's pixels in random views, those that a photograph's tile colours
+  double coloured_percent = 0.0;  ///< of the same, those that have a colour at all: the fallback counts, too
+  double layers_s_per_photo = 0.0;     ///< wall clock, all stages but packing
+  double texture_share_percent = 0.0;  ///< of the photographs' RGBA
   double texture_over_extracted = 0.0;
-  double own_viewpoint_psnr_db = 0.0;  ///< mean over the photographs, pixels that show the model
+  double extracted_share_percent = 0.0;  ///< of the extracted texture over the photographs' RGBA
+  double own_viewpoint_psnr_db = 0.0;    ///< mean over the photographs, pixels that show the model
+  double own_viewpoint_covered_percent = 0.0;
+  double aside_viewpoint_psnr_db = 0.0;  ///< a control: the same from 5 % of the way to the next photograph
   std::size_t psd_roundtrip_differing_px = 0;
+  std::size_t psd_changed_px = 0;  ///< a control: one pixel was changed before it was written
   Errors warnings;
 };
 

@@ -75,8 +75,11 @@ TEST(MeasurePlace, EveryFigureIsThere) {
     EXPECT_GT(method.psnr_cc_db, 25.0) << method.method;
     EXPECT_GT(method.covered_percent, 90.0) << method.method;
   }
-  EXPECT_EQ(figures->filled_percent, 100.0);
-  EXPECT_GT(figures->from_photographs_percent, 90.0);
+  EXPECT_EQ(figures->coloured_percent, 100.0);
+  EXPECT_GT(figures->filled_percent, 90.0);
+  EXPECT_EQ(figures->psd_changed_px, 1u) << "the control: one pixel was changed";
+  EXPECT_LT(figures->aside_viewpoint_psnr_db, figures->own_viewpoint_psnr_db - 3.0) << "the control";
+  EXPECT_GT(figures->own_viewpoint_covered_percent, 99.0);
   EXPECT_GT(figures->own_viewpoint_psnr_db, 43.0);
   EXPECT_EQ(figures->psd_roundtrip_differing_px, 0u);
   EXPECT_FALSE(measured_place(input.photos, street(), {"nobody.png"}));

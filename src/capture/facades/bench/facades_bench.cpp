@@ -20,17 +20,23 @@ void tell(const facades::PlaceFigures& figures, const std::string& place, Report
     report.add(place + "_rephoto" + suffix, method.rephoto);
     report.add(place + "_covered_percent" + suffix, method.covered_percent);
   }
+  report.add(place + "_psnr_cc_db_control_exchanged", figures.exchanged.psnr_cc_db);
+  report.add(place + "_rephoto_control_exchanged", figures.exchanged.rephoto);
 }
 
 /// Figures that no key of a place belongs to: of the place with photographs of 1416 x 1064.
 void tell_costs(const facades::PlaceFigures& figures, Report& report) {
   report.add("filled_percent", figures.filled_percent);
-  report.add("filled_percent_by_photographs", figures.from_photographs_percent);
+  report.add("filled_percent_with_fallback_colours", figures.coloured_percent);
   report.add("layers_s_per_photo", figures.layers_s_per_photo);
   report.add("texture_share_percent", figures.texture_share_percent);
   report.add("texture_over_extracted", figures.texture_over_extracted);
+  report.add("texture_share_percent_extracted", figures.extracted_share_percent);
   report.add("psd_roundtrip_differing_px", double(figures.psd_roundtrip_differing_px));
+  report.add("psd_roundtrip_differing_px_control_changed", double(figures.psd_changed_px));
   report.add("own_viewpoint_psnr_db", figures.own_viewpoint_psnr_db);
+  report.add("own_viewpoint_covered_percent", figures.own_viewpoint_covered_percent);
+  report.add("own_viewpoint_psnr_db_control_aside", figures.aside_viewpoint_psnr_db);
 }
 
 Status measure_place(const std::string& name, const std::string& data,
