@@ -127,7 +127,8 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   std::vector<std::uint32_t> triangles = triangulated(rings, normal, points);
   if (turns_over && rings.size() == 1 && points.size() == 3) std::swap(triangles[1], triangles[2]);
   const bool is_pictured = surface.picture != no_index && surface.picture_uv.size() == points.size();
-  const std::string use = name == "Road" && !object.use.empty() ? name + " " + object.use : name;
+  const bool has_use = name == "Road" || name == "SolitaryVegetationObject";
+  const std::string use = has_use && !object.use.empty() ? name + " " + object.use : name;
   const PartKey key{name,
                     use,
                     surface.material,

@@ -20,7 +20,7 @@ namespace parvis::scene {
 struct CityObject {
   std::string name;
   std::string type;  ///< "Building", "Road", "+Extension"; CityJSON's names
-  std::string use;   ///< function of a road ("voetpad"), or empty
+  std::string use;   ///< function of a road ("voetpad"), species of a tree ("Quercus robur"), or empty
 };
 
 /// One polygon of a city object.
@@ -65,7 +65,8 @@ class CityAssembly {
   void warn(const std::string& message);
 
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
-  /// ("WallSurface"); roads' objects add their function. A missing texture is a warning and replaced by a
+  /// ("WallSurface"); roads' objects add their function,
+  /// trees' objects their species. A missing texture is a warning and replaced by a
   /// checkerboard. Errors: no polygon at all (in `object_count` objects), or a coordinate that is not finite.
   Result<Model> finish(std::size_t object_count);
 

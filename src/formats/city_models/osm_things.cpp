@@ -41,9 +41,16 @@ std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const Grou
   return line;
 }
 
+/// What the map says of a tree's kind, the most exact first.
+std::string species_of(const OsmTags& tags) {
+  for (const char* key : {"species", "genus", "leaf_type"})
+    if (const std::string& value = tag(tags, key); !value.empty()) return value;
+  return "";
+}
+
 /// Trunk and crown as two pyramids, foot to foot: 12 triangles.
-void add_tree(dvec3 foot, double height_m, CityAssembly& city) {
-  const LineLook look{{"tree", "SolitaryVegetationObject", ""}};
+void add_tree(dvec3 foot, double height_m, const OsmTags& tags, CityAssembly& city) {
+  const LineLook look{{"tree", "SolitaryVegetationObject", species_of(tags)}};
   const double radius_m = 0.25 * height_m, crown_m = std::max(0.35 * height_m, lowest_crown_m + 0.05);
   const auto around = [&](int i, double radius, double up_m) {
     const double angle = 2.0 * 3.14159265358979 * double(i) / 4.0;
@@ -72,7 +79,7 @@ void add_row(const OsmWay& row, const OsmPlaces& place, const GroundOnMap& groun
     for (; at_m <= length_m; at_m += row_step_m) {
       const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
       add_tree({foot, ground ? ground(foot) : 0.0},
-               metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), city);
+               metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), row.tags, city);
     }
     left_m = at_m - length_m;
   }
@@ -142,7 +149,7 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
     if (tag(node.tags, "natural") == "tree")
       if (const auto foot = place(node.id))
         add_tree({*foot, ground ? ground(*foot) : 0.0},
-                 metres_or(node.tags, "height", usual_tree_m(node.id), 60.0), city);
+                 metres_or(node.tags, "height", usual_tree_m(node.id), 60.0), node.tags, city);
   struct Barrier {
     const char* kind;
     double height_m, width_m;
