@@ -126,7 +126,6 @@ std::string dressing_of(const Model& model) {
     add(is_dense(model, "LandUse") ? "ground(target=\"LandUse\", surface=\"paving\")"
                                    : "ground(target=\"LandUse\", surface=\"lawn\")");
   if (is_bare(model, "TransportSquare")) add("ground(target=\"TransportSquare\", surface=\"paving\")");
-  if (has_surface(model, "SolitaryVegetationObject")) add("greenery(target=\"SolitaryVegetationObject\")");
   if (is_bare(model, "Road")) nodes += dressing_of_roads(model);
   if (is_bare(model, "PlantCover"))
     add(rises_to_treetops(model) ? "greenery(target=\"PlantCover\")"
@@ -198,6 +197,7 @@ std::string bare_scene(const Model& model, const std::string& file) {
   if (!surfaces.empty()) script += "streets(of=\"place\")\n";
   if (!model.roads.empty()) script += "paving()\n";
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
+  if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
   script += nodes_of_kerbs(model, surfaces);
   script +=
       "\n// A summer's afternoon.\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "life/vegetation/scene_plant.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::kerbside {
@@ -16,6 +17,7 @@ constexpr float reach_m = 12.0f;  // beside a lane, of what is looked at
 constexpr float cell_m = 0.4f;
 constexpr float step_m = 0.35f;  // between points of walls
 constexpr float low_m = 0.35f, high_m = 3.5f;
+constexpr float min_trunk_m = 0.15f;
 constexpr float steep = 0.8f;  // z of unit normals below which a triangle is a side of something
 
 scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
@@ -39,6 +41,7 @@ FreeGround::FreeGround(const scene::Scene& scene)
     : heights_(scene, reach_m), taken_(grid_of(scene.roads), 0) {
   take_lanes(scene.roads);
   take_things(scene);
+  take_plants(scene);
 }
 
 void FreeGround::mark(vec2 point, float radius_m, unsigned char with) {
@@ -95,6 +98,29 @@ void FreeGround::take_things(const scene::Scene& scene) {
       for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
         take_triangle(corner(i), corner(i + 1), corner(i + 2));
     }
+  }
+}
+
+/// Trunks of trees, and hedges and grass along their whole length. Crowns hang higher than what stands.
+void FreeGround::take_plants(const scene::Scene& scene) {
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
+    if (!plant.is_visible) continue;
+    const vegetation::PlantKind& kind = plant.shape->kind();
+    const float scale = glm::length(vec3(plant.world_from_plant[0]));
+    if (kind.habit == vegetation::Habit::tree) {
+      take(vec2(plant.world_from_plant[3]),
+           scale * std::max(min_trunk_m, kind.trunk_share * plant.shape->recipe.height_m));
+      continue;
+    }
+    const Bounds& bounds = plant.shape->bounds;
+    const vec2 size(bounds.size());
+    if (kind.habit == vegetation::Habit::sward && bounds.max.z * scale < low_m) continue;  // lawns are ground
+    const glm::ivec2 steps(glm::ceil(glm::max(scale * size / step_m, vec2(1.0f))));
+    for (int i = 0; i <= steps.x; ++i)
+      for (int j = 0; j <= steps.y; ++j) {
+        const vec2 local = vec2(bounds.min) + size * vec2(i, j) / vec2(steps);
+        take(vec2(plant.world_from_plant * glm::vec4(local, 0.0f, 1.0f)), 0.5f * cell_m);
+      }
   }
 }
 

@@ -15,7 +15,7 @@ class FreeGround {
   /// What the plan takes in memory: a byte for each cell between the outermost lanes.
   static std::uint64_t bytes(const scene::RoadGraph& roads);
   /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
-  /// what hangs higher does not.
+  /// what hangs higher does not. Of trees that are grown plants, the trunks do.
   explicit FreeGround(const scene::Scene& scene);
 
   /// No thing is within `radius_m` of a point in plan, and no carriageway within `from_lanes_m`; 0: that does
@@ -29,6 +29,7 @@ class FreeGround {
  private:
   void take_lanes(const scene::RoadGraph& roads);
   void take_things(const scene::Scene& scene);
+  void take_plants(const scene::Scene& scene);
   void take_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
   void mark(glm::vec2 point, float radius_m, unsigned char with);
 

@@ -83,6 +83,49 @@ TEST_F(Kerbside, ANameAndAKindContradictEachOther) {
   EXPECT_EQ(errors_of(post + "streetTrees(of=\"post\")\n"), "");
 }
 
+TEST_F(Kerbside, NothingStandsInGrownPlants) {
+  const std::string planted =
+      "plant(kind=\"oak\", position=\"40 4.6 0\")\nplant(kind=\"hedge\", length=30, height=1, position=\"-60 "
+      "4.4 0\")\n";
+  const auto close = [&](const scene::Scene& scene) {
+    return std::ranges::count_if(called(scene, "parked car"), [](const scene::Object& car) {
+      const glm::vec2 p = place_of(car);
+      return glm::distance(p, {40, 4.6f}) < 1.5f || (p.x > -74 && p.x < -46 && p.y > 3 && p.y < 6);
+    });
+  };
+  EXPECT_GT(close(load("parkedCars(share=1)\n")), 3);
+  EXPECT_EQ(close(load(planted + "parkedCars(share=1)\n")), 0);
+  EXPECT_EQ(close(load("parkedCars(share=1)\n" + planted)), 0) << "whatever the order";
+}
+
+TEST_F(Kerbside, TreesOfAMapGrow) {
+  folder_.write("map.osm",
+                R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
+    <node id="1" version="1" lat="48.0004" lon="11.0006"><tag k="natural" v="tree"/><tag k="species" v="Quercus robur"/>
+      <tag k="height" v="9"/></node>
+    <node id="2" version="1" lat="48.0006" lon="11.0006"><tag k="natural" v="tree"/></node></osm>)");
+  const std::string map = "model(name=\"map\", file=\"map.osm\")\n";
+  const scene::Scene scene = load(map + "grownTrees(of=\"map\")\n");
+  const std::vector<vegetation::ScenePlant>& grown = vegetation::scene_plants(scene);
+  ASSERT_EQ(grown.size(), 2u);
+  int oaks = 0;
+  for (const vegetation::ScenePlant& plant : grown) {
+    const bool is_oak = plant.shape->kind().name == "oak";
+    oaks += is_oak;
+    EXPECT_EQ(plant.shape->kind().name, is_oak ? "oak" : "plane");
+    if (is_oak) {
+      const float scale = glm::length(glm::vec3(plant.world_from_plant[2]));
+      EXPECT_NEAR(scale * plant.shape->recipe.height_m, 9.0f, 0.01f);
+    }
+  }
+  EXPECT_EQ(oaks, 1);
+  for (const scene::Object& object : called(scene, "map"))
+    for (const scene::Part& part : object.model->parts)
+      EXPECT_FALSE(part.object.starts_with("SolitaryVegetationObject")) << "none stands there twice";
+  EXPECT_NE(errors_of(map + "grownTrees(of=\"town\")\n").find("no object is called \"town\""),
+            std::string::npos);
+}
+
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
   const scene::Scene scene = load("streetTrees(spacing=10)\n");
   const std::vector<scene::Object> trees = called(scene, "street tree");

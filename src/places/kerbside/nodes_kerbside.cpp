@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/kerb_places.h"
+#include "places/kerbside/nodes_map_trees.h"
 #include "places/kerbside/room.h"
 #include "places/kerbside/street_models.h"
 #include "scene/data/name_pattern.h"
@@ -250,6 +251,8 @@ void furnish(House& house) {
   registry.add(street_trees_schema(), build_street_trees);
   registry.add(parked_cars_schema(), build_parked_cars);
   registry.add(street_furniture_schema(), build_street_furniture);
+  add_map_tree_nodes(registry);
+  registry.add_finish_step(plant_map_trees);  // first: what grows there takes its place
   registry.add_finish_step(finish);
 }
 

@@ -1,0 +1,96 @@
+#include "places/kerbside/map_trees.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "base/bounds.h"
+#include "scene/data/model_parts.h"
+
+namespace parvis::kerbside {
+namespace {
+
+constexpr float same_point_m = 0.01f;
+
+struct Genus {
+  std::string_view word;  ///< in lower case, of a name
+  std::string_view kind;
+};
+constexpr std::array<Genus, 6> genera{{{"quercus", "oak"},
+                                       {"oak", "oak"},
+                                       {"platanus", "plane"},
+                                       {"acer", "plane"},
+                                       {"citrus", "orange"},
+                                       {"orange", "orange"}}};
+
+/// Which triangle belongs to which tree: joined where they share a point.
+class Trees {
+ public:
+  std::size_t add(const std::array<glm::vec3, 3>& corners) {
+    const std::size_t triangle = parents_.size();
+    parents_.push_back(triangle);
+    for (const glm::vec3& corner : corners) {
+      const glm::ivec3 key(glm::round(corner / same_point_m));
+      const auto [known, is_new] = triangle_at_.try_emplace({key.x, key.y, key.z}, triangle);
+      if (!is_new) parents_[root(triangle)] = root(known->second);
+    }
+    return triangle;
+  }
+  std::size_t root(std::size_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+
+ private:
+  std::vector<std::size_t> parents_;
+  std::map<std::array<int, 3>, std::size_t> triangle_at_;
+};
+
+}  // namespace
+
+std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
+  const std::vector<glm::mat4> pose = scene::rest_pose(model);
+  struct Taken {
+    Bounds bounds;
+    std::size_t part;
+  };
+  Trees trees;
+  std::vector<Taken> taken;
+  for (const std::size_t index : scene::matching_parts(model, target)) {
+    Mesh& mesh = model.parts[index].mesh;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      std::array<glm::vec3, 3> corners;
+      Bounds bounds;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec4 corner(mesh.positions[mesh.indices[i + k]], 1.0f);
+        corners[k] = glm::vec3(pose[std::size_t(model.parts[index].node)] * corner);
+        bounds.add(corners[k]);
+      }
+      trees.add(corners);
+      taken.push_back({bounds, index});
+    }
+    mesh.indices.clear();
+  }
+  std::map<std::size_t, Taken> whole;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const auto [known, is_new] = whole.try_emplace(trees.root(i), taken[i]);
+    if (!is_new) known->second.bounds.add(taken[i].bounds);
+  }
+  std::vector<MapTree> result;
+  for (const auto& [root, tree] : whole)
+    result.push_back({glm::vec3(glm::vec2(tree.bounds.centre()), tree.bounds.min.z), tree.bounds.size().z,
+                      model.parts[tree.part].object});
+  std::erase_if(model.parts, [](const scene::Part& part) { return part.mesh.indices.empty(); });
+  return result;
+}
+
+std::string_view plant_kind_of(std::string_view name, std::string_view usual) {
+  std::string lower(name);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  for (const Genus& genus : genera)
+    if (lower.find(genus.word) != std::string::npos) return genus.kind;
+  return usual;
+}
+
+}  // namespace parvis::kerbside

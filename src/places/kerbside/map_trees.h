@@ -1,0 +1,27 @@
+// Trees of a map or city model, as places where plants can stand.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/data/model.h"
+
+namespace parvis::kerbside {
+
+/// A tree of a model.
+struct MapTree {
+  glm::vec3 foot{0.0f};  ///< in the model's frame
+  float height_m = 0.0f;
+  std::string name;  ///< of its object, with the species where the map knows it
+};
+
+/// Takes the trees out of the parts that match the pattern `target`: triangles that hang together are one.
+std::vector<MapTree> take_trees(scene::Model& model, std::string_view target);
+
+/// The kind of plant that is nearest to a tree of this name ("SolitaryVegetationObject Quercus robur"), or
+/// `usual` where the name tells nothing of a kind that can be grown.
+std::string_view plant_kind_of(std::string_view name, std::string_view usual);
+
+}  // namespace parvis::kerbside
