@@ -233,8 +233,9 @@ Status report(const FileArguments& arguments) {
     const ImageF picture = shown->picture(view.camera);
     const Result<trees::ViewErrors> errors = trees::judged(picture, view);
     if (!errors) return errors.errors();
-    fmt::print("{}: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}\n", view.name,
-               errors->psnr_db, errors->ssim, errors->flip, errors->alpha_rmse);
+    fmt::print("{}: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}, silhouette IoU {:.3f}\n",
+               view.name, errors->psnr_db, errors->ssim, errors->flip, errors->alpha_rmse,
+               errors->silhouette_iou);
     mean += *errors;
     if (!arguments.pictures.empty()) {
       std::error_code code;
@@ -245,8 +246,10 @@ Status report(const FileArguments& arguments) {
     }
   }
   mean /= double(views->size());
-  fmt::print("mean of {} views: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}\n", views->size(),
-             mean.psnr_db, mean.ssim, mean.flip, mean.alpha_rmse);
+  fmt::print(
+      "mean of {} views: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}, silhouette IoU "
+      "{:.3f}\n",
+      views->size(), mean.psnr_db, mean.ssim, mean.flip, mean.alpha_rmse, mean.silhouette_iou);
   return Done{};
 }
 

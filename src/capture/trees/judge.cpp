@@ -9,11 +9,13 @@ namespace parvis::trees {
 
 ViewErrors& ViewErrors::operator+=(const ViewErrors& other) {
   psnr_db += other.psnr_db, ssim += other.ssim, flip += other.flip, alpha_rmse += other.alpha_rmse;
+  silhouette_iou += other.silhouette_iou;
   return *this;
 }
 
 ViewErrors& ViewErrors::operator/=(double count) {
   psnr_db /= count, ssim /= count, flip /= count, alpha_rmse /= count;
+  silhouette_iou /= count;
   return *this;
 }
 
@@ -37,12 +39,16 @@ Result<ViewErrors> judged(const ImageF& premultiplied, const TreeView& view) {
       reference::compare(over_white(premultiplied), over_white(view.picture));
   if (!difference) return difference.errors();
   double sum = 0.0;
+  std::size_t both = 0, either = 0;
   for (std::size_t i = 3; i < premultiplied.pixels.size(); i += 4) {
     const double d = double(premultiplied.pixels[i]) - double(view.picture.pixels[i]) / 255.0;
     sum += d * d;
+    const bool is_shown = premultiplied.pixels[i] >= 0.5f, is_true = view.picture.pixels[i] > 127;
+    both += is_shown && is_true, either += is_shown || is_true;
   }
   return ViewErrors{difference->psnr, difference->ssim, difference->flip,
-                    std::sqrt(sum / (double(premultiplied.pixels.size()) / 4.0))};
+                    std::sqrt(sum / (double(premultiplied.pixels.size()) / 4.0)),
+                    either > 0 ? double(both) / double(either) : 1.0};
 }
 
 }  // namespace parvis::trees

@@ -12,6 +12,8 @@ struct ViewErrors {
   double ssim = 0.0;        ///< over white
   double flip = 0.0;        ///< over white, mean
   double alpha_rmse = 0.0;  ///< 0..1
+  /// Intersection over union of where the two have an alpha of half or more, 0..1; 1 where neither has.
+  double silhouette_iou = 0.0;
 
   ViewErrors& operator+=(const ViewErrors& other);
   ViewErrors& operator/=(double count);

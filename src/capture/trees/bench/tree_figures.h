@@ -33,6 +33,10 @@ Status measure_reconstruction(const FigureOptions& options, const FigureSink& si
 /// A thousand trees in a scene, and what levels of detail change there. Needs a current OpenGL context.
 Status measure_display(const FigureOptions& options, const FigureSink& sink);
 
+/// Silhouettes of a real maize plant that were left out, of the shared photographs; skipped where those are
+/// not beside the checkout. Needs a current OpenGL context.
+Status measure_maize(const FigureOptions& options, const FigureSink& sink);
+
 /// The reconstruction by two processes of MPI that run `program`, the parvis command, against one.
 Status measure_distribution(const FigureOptions& options, const std::filesystem::path& program,
                             const FigureSink& sink);

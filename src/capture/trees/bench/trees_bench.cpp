@@ -20,6 +20,7 @@ Status measure(const BenchSetup& setup, Report& report) {
   const trees::FigureOptions options{setup.is_quick};
   if (Status status = trees::measure_reconstruction(options, sink); !status) return status;
   if (Status status = trees::measure_display(options, sink); !status) return status;
+  if (Status status = trees::measure_maize(options, sink); !status) return status;
   return trees::measure_distribution(options, std::filesystem::read_symlink("/proc/self/exe"), sink);
 }
 
