@@ -131,7 +131,7 @@ void judge_random_views(const PlaceLayers& place, const PackedFacade& facade, in
 }
 
 /// One value of one pixel that has some alpha, changed.
-void change_a_pixel(LayerPixels& pixels) {
+void change_pixel(LayerPixels& pixels) {
   for (Image8& layer : pixels)
     for (std::size_t p = 0; p < layer.pixels.size(); p += 4)
       if (layer.pixels[p + 3] > 0) {
@@ -149,7 +149,7 @@ Result<std::size_t> roundtrip_differences(const PlaceLayers& place, bool is_chan
   Image8 picture(place.views[0].width, place.views[0].height, 4, 255);
   const LayerPixels pixels = chosen_pixels(place.filled[0], place.originals[0]);
   LayerPixels written_pixels = pixels;
-  if (is_changed) change_a_pixel(written_pixels);
+  if (is_changed) change_pixel(written_pixels);
   const PsdPicture psd = layered_picture(picture, place.layered[0], written_pixels,
                                          item_buffer(place.model, place.views[0]).depths);
   const Status written = write_psd(file, psd);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "capture/facades/bench/hidden_texture.h"
+#include "capture/facades/item_buffer.h"
 #include "capture/facades/place_layers.h"
 
 namespace parvis::bench {
@@ -35,11 +36,18 @@ struct HiddenErrors {
   double from_photographs = 0.0;
 };
 
-/// Calls `visit(layer, x, y)`, with the place in the layer's box, for pixels of the front that photograph `i`
-/// does not see.
+/// Calls `visit(layer, x, y)`, with the place in the layer's box, for pixels of the front that the board
+/// hides from photograph `i`. (Panes that reflect are filled as well, but were never hidden.)
 template <class Visit>
 void for_each_hidden(const PlaceLayers& place, std::size_t i, Visit&& visit) {
   const facades::LayeredView& layered = place.layered[i];
+  const facades::ItemBuffer seen = facades::item_buffer(place.model, place.views[i]);
+  const auto object_at = [&](int x, int y) {
+    const std::uint32_t triangle = seen.triangles[seen.index(x, y)];
+    return triangle == facades::no_triangle_seen
+               ? std::string()
+               : place.model.objects[place.model.triangles[triangle].object].name;
+  };
   for (std::size_t l = 0; l < layered.layers.size(); ++l) {
     const bool is_front = std::ranges::any_of(layered.layers[l].items, [&](std::uint32_t item) {
       return place.model.objects[place.visibility[i].items[item].object].name == hidden_surface;
@@ -47,7 +55,9 @@ void for_each_hidden(const PlaceLayers& place, std::size_t i, Visit&& visit) {
     const Image8& mask = layered.masks[l];
     for (int y = 0; is_front && y < mask.height; ++y)
       for (int x = 0; x < mask.width; ++x)
-        if (mask.at(x, y)[0] && !mask.at(x, y)[1]) visit(l, x, y);
+        if (mask.at(x, y)[0] &&
+            object_at(x + layered.layers[l].box.x, y + layered.layers[l].box.y) == "board")
+          visit(l, x, y);
   }
 }
 
