@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 
-#include "capture/facades/facade_textures.h"
 #include "capture/facades/placed_facade.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/scene.h"
@@ -82,7 +81,7 @@ struct DrawnRange {
 class FacadeDrawable final : public render::Drawable {
  public:
   static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing,
-                                                          Compared compared) {
+                                                          Compared compared, HeldTexels held) {
     const auto programs_of = [](gl::Defines defines) {
       defines.emplace_back("HAS_BACKS", "");
       defines.emplace_back("IS_RECORDED", "");
@@ -93,7 +92,7 @@ class FacadeDrawable final : public render::Drawable {
     if (!solid) return solid.errors();
     if (!cutout) return cutout.errors();
     std::unique_ptr<FacadeDrawable> made(
-        new FacadeDrawable(first_thing, compared, *std::move(solid), *std::move(cutout)));
+        new FacadeDrawable(first_thing, compared, held, *std::move(solid), *std::move(cutout)));
     if (Status status = made->load(scene); !status) return status.errors();
     made->update(scene);
     made->change_ = {};
@@ -164,9 +163,11 @@ class FacadeDrawable final : public render::Drawable {
   }
 
  private:
-  FacadeDrawable(int first_thing, Compared compared, render::ViewPrograms solid, render::ViewPrograms cutout)
+  FacadeDrawable(int first_thing, Compared compared, HeldTexels held, render::ViewPrograms solid,
+                 render::ViewPrograms cutout)
       : first_thing_(first_thing),
         compared_(compared),
+        held_(held),
         solid_(std::move(solid)),
         cutout_(std::move(cutout)) {}
 
@@ -180,7 +181,7 @@ class FacadeDrawable final : public render::Drawable {
         loaded_.erase(known);
         continue;
       }
-      Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade);
+      Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade, held_);
       if (!textures) return textures.errors();
       chosen_.clear();  // a new one may lie where one that is gone was chosen for
       kept.emplace(placed.facade,
@@ -230,6 +231,7 @@ class FacadeDrawable final : public render::Drawable {
 
   int first_thing_;
   Compared compared_;
+  HeldTexels held_;
   render::ViewPrograms solid_, cutout_;
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
@@ -243,9 +245,9 @@ class FacadeDrawable final : public render::Drawable {
 
 }  // namespace
 
-render::DrawableKind facades_kind(Compared compared) {
-  return {traced_facades(), [compared](const scene::Scene& scene, int first_thing) {
-            return FacadeDrawable::create(scene, first_thing, compared);
+render::DrawableKind facades_kind(Compared compared, HeldTexels held) {
+  return {traced_facades(), [compared, held](const scene::Scene& scene, int first_thing) {
+            return FacadeDrawable::create(scene, first_thing, compared, held);
           }};
 }
 

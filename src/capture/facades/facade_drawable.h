@@ -1,6 +1,7 @@
 // Draws facade(...) nodes: every photograph's tiles in one texture, every surface in one pass.
 #pragma once
 
+#include "capture/facades/facade_textures.h"
 #include "graphics/render/drawables.h"
 
 namespace parvis::facades {
@@ -12,6 +13,7 @@ enum class Compared : std::uint8_t {
 };
 
 /// The kind of all facades of a scene: its drawable, and its counterpart in the ray tracer.
-render::DrawableKind facades_kind(Compared compared = Compared::chosen);
+render::DrawableKind facades_kind(Compared compared = Compared::chosen,
+                                  HeldTexels held = HeldTexels::for_renderer);
 
 }  // namespace parvis::facades

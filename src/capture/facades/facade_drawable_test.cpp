@@ -5,6 +5,7 @@
 
 #include "capture/facades/placed_facade.h"
 #include "capture/facades/test_street.h"
+#include "graphics/gl/context.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
@@ -100,6 +101,29 @@ TEST_F(FacadeDrawableTest, ItMayStandAnywhereAndBeHidden) {
   placed.is_visible = false;
   draw();
   EXPECT_EQ(*picked_.at(width / 2, height / 2), 0u);
+}
+
+TEST_F(FacadeDrawableTest, BlocksAndDecodedTexelsShowTheSame) {
+  place(placed_);
+  Image8 pictures[2];
+  for (const HeldTexels held : {HeldTexels::blocks, HeldTexels::decoded}) {
+    const Result<FacadeTextures> textures = FacadeTextures::create(*placed_.facade, held);
+    ASSERT_TRUE(textures) << to_string(textures.errors());
+    EXPECT_EQ(textures->holds_blocks(), held == HeldTexels::blocks);
+    drawables_ = {};
+    drawables_.add(facades_kind(Compared::chosen, held));
+    pictures[held == HeldTexels::decoded ? 1 : 0] = display(draw());
+  }
+  EXPECT_GT(psnr(pictures[0], pictures[1]), 50.0) << "the hardware's decoder against our own";
+  const Result<FacadeTextures> chosen = FacadeTextures::create(*placed_.facade);
+  ASSERT_TRUE(chosen) << to_string(chosen.errors());
+  EXPECT_EQ(chosen->holds_blocks(), !gl::is_software());
+  // The control: with one bit of each block wrong the pictures must differ.
+  PackedFacade damaged = *placed_.facade;
+  for (Bc7Block& block : damaged.blocks) block[0] ^= 0x80;
+  scene_.data<scene::ItemsOf<PlacedFacade>>().items[0].facade =
+      std::make_shared<const PackedFacade>(std::move(damaged));
+  EXPECT_LT(psnr(display(draw()), pictures[1]), 45.0);
 }
 
 TEST_F(FacadeDrawableTest, ItsHashIsOfItsContent) {

@@ -82,13 +82,18 @@ int pages_of(const PackedFacade& facade) {
   return std::max(int((facade.slot_count() + slots_per_page - 1) / slots_per_page), 1);
 }
 
-/// Level `level` of slot `slot`, at its place of `atlas`. A renderer in software decodes each block anew for
-/// each texel that it reads, which takes ten times as long as all the rest: there blocks are decoded once.
-void upload_level(GLuint atlas, int slot, int level, const Bc7Block* blocks, bool is_software) {
+/// A renderer in software decodes each block anew for each texel that it reads, which takes ten times as long
+/// as all the rest: there blocks are decoded once.
+bool is_decoded(HeldTexels held) {
+  return held == HeldTexels::decoded || (held == HeldTexels::for_renderer && gl::is_software());
+}
+
+/// Level `level` of slot `slot`, at its place of `atlas`.
+void upload_level(GLuint atlas, int slot, int level, const Bc7Block* blocks, bool decodes) {
   const int side = tile_side >> level;
   const int left = side * (slot % slots_across), top = side * (slot % slots_per_page / slots_across),
             page = slot / slots_per_page;
-  if (is_software)
+  if (decodes)
     glTextureSubImage3D(atlas, level, left, top, page, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                         picture_of(blocks, side, side).pixels.data());
   else
@@ -96,11 +101,10 @@ void upload_level(GLuint atlas, int slot, int level, const Bc7Block* blocks, boo
                                   GLsizei(side * side / 16 * int(bc7_block_bytes)), blocks);
 }
 
-gl::Texture atlas_texture(const PackedFacade& facade) {
+gl::Texture atlas_texture(const PackedFacade& facade, bool decodes) {
   gl::Texture atlas = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
   const GLuint name = atlas.name();
-  const bool is_software = gl::is_software();
-  glTextureStorage3D(name, tile_levels, is_software ? GL_RGBA8 : GL_COMPRESSED_RGBA_BPTC_UNORM, page_side,
+  glTextureStorage3D(name, tile_levels, decodes ? GL_RGBA8 : GL_COMPRESSED_RGBA_BPTC_UNORM, page_side,
                      page_side, pages_of(facade));
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -109,13 +113,13 @@ gl::Texture atlas_texture(const PackedFacade& facade) {
   const Bc7Block* blocks = facade.blocks.data();
   for (int slot = 0; slot < int(facade.slot_count()); ++slot)
     for (int level = 0; level < tile_levels; ++level) {
-      upload_level(name, slot, level, blocks, is_software);
+      upload_level(name, slot, level, blocks, decodes);
       blocks += (tile_side >> level) * (tile_side >> level) / 16;
     }
   return atlas;
 }
 
-Status check_limits(const PackedFacade& facade) {
+Status check_limits(const PackedFacade& facade, bool decodes) {
   GLint max_layers = 0, max_side = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_side);
@@ -127,7 +131,7 @@ Status check_limits(const PackedFacade& facade) {
         "the captured facade needs {} pages of textures and tables of {} entries; this graphics hardware "
         "holds {} and {}. Divide the place, or pack fewer photographs",
         pages_of(facade), longest, max_layers, std::size_t(max_side) * list_width);
-  const std::uint64_t bytes_per_texel = gl::is_software() ? 4 : 1;  // decoded, or blocks
+  const std::uint64_t bytes_per_texel = decodes ? 4 : 1;
   return check_memory(checked_product({std::uint64_t(pages_of(facade)),
                                        std::uint64_t(page_side) * page_side * 21 / 16, bytes_per_texel}),
                       "the textures of a captured facade");
@@ -135,8 +139,9 @@ Status check_limits(const PackedFacade& facade) {
 
 }  // namespace
 
-Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade) {
-  if (Status status = check_limits(facade); !status) return status.errors();
+Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade, HeldTexels held) {
+  const bool decodes = is_decoded(held);
+  if (Status status = check_limits(facade, decodes); !status) return status.errors();
   std::vector<glm::uvec4> layers;
   for (const PackedLayer& layer : facade.layers) layers.push_back(layer_row(layer));
   FacadeTextures made;
@@ -147,8 +152,14 @@ Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade) {
   made.triangles_ = facade.triangle_count();
   made.tiles_ = list_texture(facade.tiles, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
   made.depths_ = list_texture(facade.depths, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
-  made.atlas_ = atlas_texture(facade);
+  made.atlas_ = atlas_texture(facade, decodes);
   return made;
+}
+
+bool FacadeTextures::holds_blocks() const {
+  GLint is_compressed = GL_FALSE;
+  glGetTextureLevelParameteriv(atlas_.name(), 0, GL_TEXTURE_COMPRESSED, &is_compressed);
+  return is_compressed == GL_TRUE;
 }
 
 ChosenLists FacadeTextures::chosen_lists() const {

@@ -11,6 +11,13 @@
 
 namespace parvis::facades {
 
+/// How tiles are held in graphics memory.
+enum class HeldTexels : std::uint8_t {
+  for_renderer,  ///< as suits the renderer: decoded where it draws in software, else as blocks
+  blocks,        ///< as they are packed, BC7
+  decoded  ///< four bytes per texel: a renderer in software decodes a block for each texel that it reads
+};
+
 /// The lists of candidates of one viewpoint, with the vertex array that reads them. Belongs to the
 /// FacadeTextures that it was made of.
 class ChosenLists {
@@ -30,7 +37,10 @@ class ChosenLists {
 class FacadeTextures {
  public:
   /// Fails where the facade has more textures or longer tables than the graphics hardware holds.
-  static Result<FacadeTextures> create(const PackedFacade& facade);
+  static Result<FacadeTextures> create(const PackedFacade& facade,
+                                       HeldTexels held = HeldTexels::for_renderer);
+  /// Whether graphics memory holds tiles as blocks, as OpenGL says.
+  bool holds_blocks() const;
 
   /// Room for the choice of one viewpoint.
   ChosenLists chosen_lists() const;
