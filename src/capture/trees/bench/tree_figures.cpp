@@ -84,23 +84,29 @@ Status measure_opacity(const SampleCapture& capture, const BenchCaptureSize& siz
   return Done{};
 }
 
-/// The control measures the same tree at a wrong scale, as from cameras that are too far apart.
-void measure_sizes(const TreeVolume& volume, const scene::Model& model, Means& means) {
+/// The volume as from cameras whose distances are wrong by a factor.
+TreeVolume scaled(const TreeVolume& volume, float scale) {
   TreeVolume wrong = volume;
   const Bounds box = volume.grid.box();
-  wrong.grid = CellGrid({wrong_scale * box.min, wrong_scale * box.max}, volume.grid.branching(),
-                        volume.grid.side(), volume.grid.cells());
+  wrong.grid = CellGrid({scale * box.min, scale * box.max}, volume.grid.branching(), volume.grid.side(),
+                        volume.grid.cells());
+  return wrong;
+}
+
+/// The control measures the same tree too large and too small, and has the greater error of the two: one
+/// alone could make up for an error that is there.
+void measure_sizes(const TreeVolume& volume, const scene::Model& model, Means& means) {
   const TreeMeasures truth = measured(model);
-  const auto percent = [](float value, float expected) {
-    return 100.0 * std::abs(double(value / expected) - 1.0);
+  const auto add = [&](const std::string& key, float TreeMeasures::*value) {
+    const auto percent = [&](const TreeVolume& of) {
+      return 100.0 * std::abs(double((measured(of).*value) / (truth.*value)) - 1.0);
+    };
+    means.add(key, percent(volume));
+    means.add(key + "_at_a_wrong_scale",
+              std::max(percent(scaled(volume, wrong_scale)), percent(scaled(volume, 1.0f / wrong_scale))));
   };
-  for (const bool is_control : {false, true}) {
-    const TreeMeasures found = measured(is_control ? wrong : volume);
-    const std::string end = is_control ? "_at_a_wrong_scale" : "";
-    means.add("measure_height_error_percent" + end, percent(found.height_m, truth.height_m));
-    means.add("measure_crown_volume_error_percent" + end,
-              percent(found.crown_volume_m3, truth.crown_volume_m3));
-  }
+  add("measure_height_error_percent", &TreeMeasures::height_m);
+  add("measure_crown_volume_error_percent", &TreeMeasures::crown_volume_m3);
 }
 
 /// The scene's sun moves by 60 degrees: FLIP of what the house draws against photographs under that sun, over
