@@ -21,7 +21,7 @@ struct MapTree {
 std::vector<MapTree> take_trees(scene::Model& model, std::string_view target);
 
 /// The kind of plant that is nearest to a tree of this name ("SolitaryVegetationObject Quercus robur"), or
-/// `usual` where the name tells nothing of a kind that can be grown.
+/// `usual` where the name holds no genus of a kind that can be grown.
 std::string_view plant_kind_of(std::string_view name, std::string_view usual);
 
 }  // namespace parvis::kerbside

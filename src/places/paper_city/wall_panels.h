@@ -21,8 +21,8 @@ struct WallPanel {
   bool stands_on_ground = true;        ///< false: on a roof
 };
 
-/// The panels of all walls. Walls of a row of houses in one plane are told apart by the polygons of the file
-/// and by steps of their tops.
+/// The panels of all walls. The polygons of the file, and steps of their tops, separate the walls of a row of
+/// houses in one plane.
 std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls);
 
 }  // namespace parvis::city
