@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <osmium/io/pbf_output.hpp>
 #include <osmium/io/reader.hpp>
 #include <osmium/io/writer.hpp>
@@ -86,6 +87,18 @@ Status measure_pbf(const BenchSetup& setup, const fs::path& folder, Report& repo
   return Done{};
 }
 
+/// Where somebody stands on a lane of the place, or near its first view where it has none.
+glm::vec3 eye_on_street(const scene::Scene& scene, const Camera& first, Random& random) {
+  constexpr float eye_m = 1.7f;
+  const std::vector<scene::Lane>& lanes = scene.roads.lanes;
+  if (lanes.empty())
+    return first.position_in_world() +
+           glm::vec3(random.uniform(-3.0f, 3.0f), random.uniform(-3.0f, 3.0f), 0.0f);
+  const scene::Lane& lane = lanes[std::size_t(random.index(int(lanes.size())))];
+  const auto at = std::size_t(random.index(int(lane.points.size())));
+  return lane.points[at] + glm::vec3(0.0f, 0.0f, eye_m);
+}
+
 /// Pixels of the lower halves of street views that show no ground within a camera's far plane, per cent.
 double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) {
   constexpr int width = 64, height = 36;
@@ -94,10 +107,7 @@ double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) 
   Random random(15);
   std::size_t open = 0, all = 0;
   for (int view = 0; view < views; ++view) {
-    const glm::vec3 eye =
-        first.position_in_world() +
-        (view == 0 ? glm::vec3(0.0f)
-                   : glm::vec3(random.uniform(-3.0f, 3.0f), random.uniform(-3.0f, 3.0f), 0.0f));
+    const glm::vec3 eye = view == 0 ? first.position_in_world() : eye_on_street(scene, first, random);
     const float heading = 2.0f * 3.14159265f * float(view) / float(views);
     Camera camera = first;
     camera.world_from_camera = look_at(eye, eye + glm::vec3(std::sin(heading), std::cos(heading), 0.0f));
@@ -140,8 +150,34 @@ Counts counts_of(const scene::Scene& scene) {
 }
 
 struct Totals {
+  std::map<std::string, double> minutes_of;  ///< by kind of file
   double minutes = 0.0, warnings = 0.0, gap = 0.0, gap_without = 100.0, osm_ratio = 0.0;
 };
+
+/// Kind of a model file: "cityjson", "citygml", "osm", "ifc".
+std::string kind_of(const fs::path& file) {
+  if (file.extension() == ".json") return "cityjson";
+  if (file.extension() == ".gml") return "citygml";
+  return file.extension().string().substr(1);
+}
+
+/// A warning is explained if it says where and what to do: those of the file's own defects name an object.
+bool is_unexplained(const Error& warning) {
+  return warning.where.file.empty() || warning.message.find("nothing that matches") != std::string::npos;
+}
+
+/// Unexplained warnings of a made-up script that is wrong: it dresses what the file does not have. A control.
+Result<double> unexplained_of_wrong_script(const House& house, const fs::path& folder, const fs::path& town) {
+  const fs::path script = folder / "wrong.xp";
+  const Status written = write_file(
+      script, fmt::format("model(name=\"place\", file=\"{}\") {{ facades(target=\"TINRelief\") }}\n"
+                          "camera(name=\"street\", position=\"0 0 2\", target=\"9 0 2\")\n",
+                          town.filename().string()));
+  if (!written) return written.errors();
+  const Result<scene::LoadedScene> loaded = scene::load_scene(script, house.get<scene::NodeRegistry>(), {});
+  if (!loaded) return loaded.errors();
+  return double(std::ranges::count_if(loaded->warnings, is_unexplained));
+}
 
 Status measure_place(const House& house, const fs::path& file, const fs::path& folder, Totals& totals) {
   Status done = Done{};
@@ -162,13 +198,12 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
   });
   if (!done) return done;
   totals.minutes = std::max(totals.minutes, ms / 60'000.0);
+  double& of_kind = totals.minutes_of[kind_of(file)];
+  of_kind = std::max(of_kind, ms / 60'000.0);
   const Result<scene::LoadedScene> loaded =
       scene::load_scene(written->script, house.get<scene::NodeRegistry>(), {&written->data_folder, 1});
   if (!loaded) return loaded.errors();
-  // A warning is explained if it says where and what to do: those of the file's own defects name an object.
-  for (const Error& warning : loaded->warnings)
-    totals.warnings +=
-        warning.where.file.empty() || warning.message.find("nothing that matches") != std::string::npos;
+  for (const Error& warning : loaded->warnings) totals.warnings += is_unexplained(warning);
   const scene::NamedCamera* street = loaded->scene.find_camera("street");
   totals.gap = std::max(totals.gap, gap_percent(loaded->scene, *street));
   totals.gap_without = std::min(totals.gap_without, gap_percent(without_plane(loaded->scene), *street));
@@ -176,6 +211,22 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
     const Counts counts = counts_of(loaded->scene);
     totals.osm_ratio = std::max(totals.osm_ratio, counts.all / std::max(counts.buildings, 1.0));
   }
+  return Done{};
+}
+
+/// Time to read an IFC file, in a child process as always.
+Status measure_ifc(const BenchSetup& setup, const fs::path& file, Report& report) {
+  const formats::Readers& readers = setup.house.get<formats::Readers>();
+  std::vector<double> ms;
+  for (int i = 0; i < (setup.is_quick ? 3 : 9); ++i) {
+    Status read = Done{};
+    ms.push_back(milliseconds([&] {
+      Errors warnings;
+      if (const auto model = readers.read(file, {}, warnings); !model) read = model.errors();
+    }));
+    if (!read) return read;
+  }
+  report.add("ifc_load_ms", median(ms));
   return Done{};
 }
 
@@ -255,7 +306,7 @@ Status measure_places(const BenchSetup& setup, Report& report) {
   const fs::path town = folder.path / "town.osm";
   if (Status status = write_file(town, town_xml(16)); !status) return status;
   files.push_back(town);
-  for (const char* name : {"scenes/crossroads.osm", "scenes/canal.osm"})
+  for (const char* name : {"scenes/crossroads.osm", "scenes/canal.osm", "scenes/pavilion.ifc"})
     if (const fs::path map = fs::current_path() / name; fs::exists(map)) files.push_back(map);
   for (const char* name : {"cities/delft_context.city.json", "cities/citygml/lod3_building_v2.gml"})
     if (const auto file = shared_data(name, fs::current_path())) files.push_back(*file);
@@ -263,14 +314,23 @@ Status measure_places(const BenchSetup& setup, Report& report) {
   for (const fs::path& file : files)
     if (Status status = measure_place(setup.house, file, folder.path, totals); !status) return status;
   report.add("minutes_to_first_street", totals.minutes);
+  for (const auto& [kind, minutes] : totals.minutes_of)
+    report.add("minutes_to_first_street_" + kind, minutes);
   report.add("warnings_unexplained", totals.warnings);
+  const Result<double> unexplained = unexplained_of_wrong_script(setup.house, folder.path, town);
+  if (!unexplained) return unexplained.errors();
+  report.add("warnings_unexplained_of_a_wrong_script", *unexplained);
   report.add("osm_triangles_over_buildings", totals.osm_ratio);
   report.add("ground_gap_percent", totals.gap);
   report.add("ground_gap_percent_without_plane", totals.gap_without);
   const scene::Scene bare = street_with_things(false, false);
   report.add("paving_height_error_m", paving_error_m(bare, street_with_things(false, true)));
   report.add("paving_height_error_m_on_a_slab", paving_error_m(bare, street_with_things(true, true)));
-  report.skip("ifc_load_ms", "there is no reader of IFC files");
+  if (const fs::path pavilion = fs::current_path() / "scenes/pavilion.ifc"; fs::exists(pavilion)) {
+    if (Status status = measure_ifc(setup, pavilion, report); !status) return status;
+  } else {
+    report.skip("ifc_load_ms", "scenes/pavilion.ifc is not in the working folder");
+  }
   return measure_pbf(setup, folder.path, report);
 }
 
