@@ -19,6 +19,7 @@ using namespace parvis::shading;
 #include "reflections/environment_rays/mirrored_bodies_block.glsl"
 }  // namespace mirrored_bodies_shared
 
+/// The bodies of a scene that mirror rays may hit.
 class MirroredBodies {
  public:
   /// Makes the fields of all models that move in the scene, which takes tenths of a second each.

@@ -101,9 +101,9 @@ TEST_F(MapCacheTest, BakedMapsAreReadAndNotDrawn) {
   EXPECT_NE(bake(), drawn);
 }
 
-/// Another drawable than the scene's own (graphics/render/test_quads.h): colours and distances of what stands
-/// still are in the maps, what moves is not.
-TEST_F(MapCacheTest, DrawablesThatStandStillAreInTheMaps) {
+/// Another drawable than the scene's own (graphics/render/test_quads.h): the maps have the colours and
+/// distances of static quads, and none of dynamic ones.
+TEST_F(MapCacheTest, StaticDrawablesAreInTheMaps) {
   map_plan(scene_).places = {{0, 0, 0}};
   const auto bare = bake();
   const auto with_quad = [&](bool is_dynamic, bool is_visible) {
