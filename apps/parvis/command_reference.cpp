@@ -142,7 +142,7 @@ void Arguments::add_photograph(CLI::App& command) {
   photograph_option("--seed", job.options.seed, "Another seed, another noise")->capture_default_str();
   command
       .add_flag("--restart", job.options.replaces_checkpoint,
-                "Begin anew, even where tiles of another photograph lie beside the output")
+                "Start over, even where tiles of another photograph lie beside the output")
       ->needs(on)
       ->group("Photographs");
   photograph_option("--depth", job.depth,

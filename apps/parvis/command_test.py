@@ -339,7 +339,7 @@ class Reflections(BeforeAMirror):
             told, middle = self.render(scene)
             self.assertIn(maps[0].name, told)
             self.assertIn(word, told)
-            self.assertIn("drawn anew", told)
+            self.assertIn("rendered again", told)
             self.assertEqual(middle, right)
 
     def test_the_papers_figures_stand_in_its_city(self):
@@ -438,7 +438,7 @@ class SeveralProcesses(BeforeAMirror):
         self.expect_done(*command, before=self.MPIRUN)
         self.assertEqual(film.read_bytes(), alone)
         self.assertFalse(frames.exists())
-        # A frame that is there is not drawn anew: another picture in its place is in the film.
+        # A frame that is there is not rendered again: another picture in its place is in the film.
         frames.mkdir()
         for name in whole:
             (frames / name).write_bytes(whole[min(whole)])

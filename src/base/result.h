@@ -25,7 +25,7 @@ struct Error {
   FileLocation where;
 };
 
-/// One problem or more, in the order in which they were met.
+/// One problem or more, in the order in which they were found.
 using Errors = std::vector<Error>;
 
 /// "file:line:column: message", leaving out the parts that are unknown.

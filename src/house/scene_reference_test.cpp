@@ -20,7 +20,7 @@ TEST(SceneReference, TheCommittedFileIsUpToDate) {
   const std::filesystem::path file = std::filesystem::path(PARVIS_SOURCE_DIR) / "docs/scene-reference.md";
   const auto committed = read_file(file);
   ASSERT_TRUE(committed) << to_string(committed.errors());
-  EXPECT_TRUE(*committed == expected) << "docs/scene-reference.md is out of date: write it anew with\n"
+  EXPECT_TRUE(*committed == expected) << "docs/scene-reference.md is out of date: write it again with\n"
                                          "  parvis check --reference > docs/scene-reference.md";
 }
 

@@ -34,7 +34,7 @@ TEST(FrameStatistics, SmoothPasses) {
   EXPECT_NEAR(statistics.passes()[0].seconds, 0.002, 1e-5);
   const std::vector<gl::PassTime> other{{"panel", 0.001}};
   statistics.add(0.01, other);
-  ASSERT_EQ(statistics.passes().size(), 1u) << "other passes begin anew";
+  ASSERT_EQ(statistics.passes().size(), 1u) << "other passes start over";
   EXPECT_EQ(statistics.passes()[0].seconds, 0.001);
 }
 

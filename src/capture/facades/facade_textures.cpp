@@ -82,8 +82,8 @@ int pages_of(const PackedFacade& facade) {
   return std::max(int((facade.slot_count() + slots_per_page - 1) / slots_per_page), 1);
 }
 
-/// A renderer in software decodes each block anew for each texel that it reads, which takes ten times as long
-/// as all the rest: there blocks are decoded once.
+/// A renderer in software decodes each block again for each texel that it reads, which takes ten times as
+/// long as all the rest: there blocks are decoded once.
 bool is_decoded(HeldTexels held) {
   return held == HeldTexels::decoded || (held == HeldTexels::for_renderer && gl::is_software());
 }

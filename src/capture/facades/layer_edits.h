@@ -14,7 +14,7 @@
 namespace parvis::facades {
 
 /// A pixel of the photograph on a surface, as it was painted. Pixels of the photograph stay where they are
-/// when its camera is calibrated anew; which layer they are in is decided by the surface.
+/// when its camera is calibrated again; which layer they are in is decided by the surface.
 struct EditedPixel {
   std::int32_t x = 0, y = 0;
   float depth = 0.0f;  ///< of the surface when it was painted

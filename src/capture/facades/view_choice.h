@@ -31,7 +31,7 @@ class ViewChooser {
   ViewChoice choice(glm::vec3 eye, float pixel_angle) const;
   /// All photographs that hold each triangle.
   ViewChoice all() const { return {facade_.lists, {}}; }
-  /// How far the eye may move until photographs have to be chosen anew.
+  /// How far the eye may move until photographs have to be chosen again.
   float step() const { return step_; }
 
  private:

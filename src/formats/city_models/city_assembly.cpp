@@ -100,7 +100,7 @@ void CityAssembly::warn(const std::string& message) {
   const FileLocation where{file_.string(), 0, 0};
   if (++warning_count_ <= max_warnings) warnings_.push_back({message, where});
   if (warning_count_ == max_warnings + 1)
-    warnings_.push_back({"more warnings of this kind are not told", where});
+    warnings_.push_back({"more warnings of this kind are not shown", where});
 }
 
 void CityAssembly::add(const CityObject& object, const CitySurface& surface) {

@@ -84,7 +84,7 @@ std::string packed_by_draco(Json& json) {
   return {packed.data(), packed.size()};
 }
 
-/// The corners of all triangles, one after the other: compression may number them anew.
+/// The corners of all triangles, one after the other: compression may number them again.
 std::vector<std::vector<float>> triangles(const Mesh& mesh) {
   std::vector<std::vector<float>> all;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -116,7 +116,7 @@ TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
   std::filesystem::resize_file(TransferCache(scene_).file(), 100);
   testing::internal::CaptureStderr();
   EXPECT_FALSE(TransferCache(scene_).read());
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("traced anew"), std::string::npos);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("traced again"), std::string::npos);
 }
 
 TEST_F(KeptTransfer, BytesWhoseIndicesLieAreNone) {

@@ -20,7 +20,8 @@ scene::NodeSchema bounced_light_schema() {
   return {
       .type = "bouncedLight",
       .help =
-          "Light that streets and facades throw at each other, under sun and sky of any hour: without this "
+          "Light that streets and facades reflect onto each other, under sun and sky of any hour: without "
+          "this "
           "node a constant stands for it.",
       .attributes = {number("spacing",
                             "of the places where light is kept, from side to side; more than "
@@ -66,7 +67,7 @@ void furnish(House& house) {
   render::MakeLight& make = house.get<render::Lights>().make;
   make = with_bounced_light(std::move(make));
   house.get<render::BakeSteps>().add(
-      {.name = "what bounced light meets", .run = bake, .forget_others = forget_others});
+      {.name = "what bounced light hits", .run = bake, .forget_others = forget_others});
 }
 
 }  // namespace parvis::bounced_light

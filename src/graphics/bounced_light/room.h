@@ -1,4 +1,4 @@
-// What this room brings to the house: light that surfaces throw at each other.
+// What this room brings to the house: light that surfaces reflect onto each other.
 #pragma once
 
 #include "base/house.h"

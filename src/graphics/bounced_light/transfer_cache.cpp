@@ -37,7 +37,7 @@ std::optional<Transfer> TransferCache::read() const {
   std::error_code code;
   if (file_.empty() || !fs::exists(file_, code)) return std::nullopt;
   const auto refuse = [](const Error& reason) {
-    fmt::print(stderr, "warning: {}; bounced light is traced anew\n", reason.message);
+    fmt::print(stderr, "warning: {}; bounced light is traced again\n", reason.message);
     return std::nullopt;
   };
   const Result<std::string> content = read_sealed(file_, kind);

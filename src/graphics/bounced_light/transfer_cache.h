@@ -32,7 +32,7 @@ class TransferCache {
   std::uint64_t key_ = 0;
 };
 
-/// Traces what light of any hour meets in the scene as it stands.
+/// Traces what light of any hour hits in the scene as it stands.
 Transfer trace_transfer(const scene::Scene& scene);
 
 }  // namespace parvis::bounced_light

@@ -209,7 +209,7 @@ bool SunShadowMaps::near_map_serves(const Bounds& box) const {
   return uv.min.x > 0.0f && uv.min.y > 0.0f && uv.max.x < 1.0f && uv.max.y < 1.0f;
 }
 
-/// Draws anew the squares of a map where the boxes fall, with all of the `subjects` there.
+/// Renders again the squares of a map where the boxes fall, with all of the `subjects` there.
 void SunShadowMaps::redraw(render::View view, int map, std::span<const Bounds> boxes,
                            render::Subjects subjects, const render::DrawView& draw) const {
   std::vector<Bounds> squares;  // in texels, flat

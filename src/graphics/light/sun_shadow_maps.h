@@ -44,7 +44,8 @@ class SunShadowMaps final : public render::ShadowMethod {
   SunShadowMaps(const scene::SunLight& sun, const Bounds& fixed, FitNearMap fit = {});
 
   /// Fixed things appeared, vanished or moved: the next update, which must be of the same frame, draws what
-  /// came into the maps, and those parts anew that something left. `fixed` bounds all that does not move now.
+  /// came into the maps, and those parts again that something left. `fixed` bounds all that does not move
+  /// now.
   void renew(const render::FixedChange& change, const Bounds& fixed) override;
 
   /// Calls `draw` for each map that must be drawn for a viewer; for all of them when the sun has moved.

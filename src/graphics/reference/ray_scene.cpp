@@ -88,7 +88,7 @@ bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunct
   return place.casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments, is_shadow);
 }
 
-/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass throw no
+/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass cast no
 /// shadow.
 bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
   const scene::Material& material = *place.material;

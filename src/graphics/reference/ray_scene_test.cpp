@@ -27,12 +27,12 @@ std::vector<float> distances(const RayScene& rays) {
 }
 
 void expect_same(const RayScene& updated, const scene::Scene& scene, const char* what) {
-  const std::vector<float> ours = distances(updated), anew = distances(RayScene(scene));
+  const std::vector<float> ours = distances(updated), fresh = distances(RayScene(scene));
   std::size_t hits = 0;
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    hits += std::isfinite(anew[i]);
-    if (std::isfinite(ours[i]) || std::isfinite(anew[i])) {
-      EXPECT_NEAR(ours[i], anew[i], 1e-4f) << what;
+    hits += std::isfinite(fresh[i]);
+    if (std::isfinite(ours[i]) || std::isfinite(fresh[i])) {
+      EXPECT_NEAR(ours[i], fresh[i], 1e-4f) << what;
     }
   }
   EXPECT_GT(hits, 100u) << what;

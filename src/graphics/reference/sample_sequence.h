@@ -1,5 +1,5 @@
 // Well spread random numbers for the samples of a pixel: Sobol's first two dimensions, scrambled and shuffled
-// anew for each use by hashes (Burley 2020, Practical Hash-based Owen Scrambling). Each number by itself is
+// again for each use by hashes (Burley 2020, Practical Hash-based Owen Scrambling). Each number by itself is
 // uniform, so that means stay unbiased.
 #pragma once
 

@@ -14,7 +14,7 @@ std::uint64_t scene_key(const scene::Scene& scene);
 /// The same without dynamic and hidden objects: what a picture of the static surroundings depends on.
 std::uint64_t fixed_scene_key(const scene::Scene& scene);
 
-/// The same without sun, sky and air: what light of any hour meets.
+/// The same without sun, sky and air: what light of any hour hits.
 std::uint64_t fixed_shape_key(const scene::Scene& scene);
 
 }  // namespace parvis::reference

@@ -91,7 +91,7 @@ TEST(Tracer, TheShadowOfAWallEndsWhereTrigonometrySays) {
   const scene::Scene wall = scene_of(quad({-50, 0, 0}, {50, 0, 0}, {50, 0, 3}, {-50, 0, 3}), white);
   scene.objects.push_back(wall.objects[0]);
   scene.sun.direction_to_sun =
-      glm::normalize(glm::vec3(0, -1, 1));  // 45 degrees: 3 m of wall throw 3 m of shadow
+      glm::normalize(glm::vec3(0, -1, 1));  // 45 degrees: 3 m of wall cast 3 m of shadow
   scene.sun.irradiance = glm::vec3(3.0f);
   const RayScene rays(scene);
   EXPECT_TRUE(rays.is_blocked({{0, 2.9f, 0.001f}, scene.sun.direction_to_sun}));

@@ -1,5 +1,5 @@
-// Light that surfaces throw at each other, at texture unit 10: a grid whose lower half holds lobes and whose
-// upper half colours (graphics/shading/bounced_light.glsl).
+// Light that surfaces reflect onto each other, at texture unit 10: a grid whose lower half holds lobes and
+// whose upper half colours (graphics/shading/bounced_light.glsl).
 #include "graphics/render/frame.glsl"
 #include "graphics/shading/bounced_light.glsl"
 

@@ -1,5 +1,5 @@
 // Golden pictures: what a test draws must equal a picture that somebody has looked at, docs/goldens/NAME.png.
-// script/update-goldens writes them anew (PARVIS_UPDATE_GOLDENS=1), and nothing else does.
+// script/update-goldens writes them again (PARVIS_UPDATE_GOLDENS=1), and nothing else does.
 #pragma once
 
 #include <filesystem>

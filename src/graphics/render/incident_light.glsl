@@ -1,4 +1,4 @@
-// The light that meets a surface: sun, sky and bounced light of the frame, and how much of sun and sky
+// The light that hits a surface: sun, sky and bounced light of the frame, and how much of sun and sky
 // reaches the point.
 SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
   SceneLight light;

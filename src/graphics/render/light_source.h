@@ -85,7 +85,7 @@ class LightSource {
   virtual const shading::SkyVisibility& sky_visibility() const = 0;
   /// The lamps that are lit; null where there are none.
   virtual const shading::LampTable* lamps() const { return nullptr; }
-  /// Light that surfaces throw at each other; null where there is none.
+  /// Light that surfaces reflect onto each other; null where there is none.
   virtual const shading::BouncedLight* bounced() const { return nullptr; }
   /// Waits for the GPU. Points to the source's own, and to `body_shade`: good until the next frame begins.
   virtual shading::DrawnLight drawn_light(const shading::BodyShade& body_shade) const = 0;

@@ -1,4 +1,4 @@
-// The shade that moving bodies throw around them under the sky: the C++ face of body_shade.glsl.
+// The shade that moving bodies cast around them under the sky: the C++ face of body_shade.glsl.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// Light that surfaces throw at each other: irradiance in a grid of cells over a place, as its mean and the
-// part that follows the normal (two bands of spherical harmonics convolved with the cosine, Ramamoorthi and
-// Hanrahan 2001), with one colour per cell.
+// Light that surfaces reflect onto each other: irradiance in a grid of cells over a place, as its mean and
+// the part that follows the normal (two bands of spherical harmonics convolved with the cosine, Ramamoorthi
+// and Hanrahan 2001), with one colour per cell.
 
 struct BouncedGrid {
   vec3 origin;  // corner of least coordinates, in the world

@@ -16,7 +16,7 @@ constexpr std::array<float, 10> distances_m{1.5f,  3.0f,  5.0f,  7.5f,  11.0f,
                                             16.0f, 23.0f, 33.0f, 48.0f, sky_visibility_reach_m};
 constexpr float pi_f = 3.14159265f;
 
-/// Walls throw some of the light back that they keep off: an albedo of city walls, themselves lit by the open
+/// Walls reflect some of the light that they keep off: an albedo of city walls, themselves lit by the open
 /// share.
 constexpr float wall_albedo = 0.35f;
 

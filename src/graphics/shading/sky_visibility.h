@@ -22,7 +22,7 @@ struct SkyVisibility {
   glm::vec4 at(glm::vec3 coordinates) const;
 };
 
-/// What stands for light that surfaces throw at each other.
+/// What stands for light that surfaces reflect onto each other.
 enum class WallLight : std::uint8_t {
   constant,  ///< walls and ground give back a share of the sky that they see
   none       ///< it is added elsewhere: shading/bounced_light.h

@@ -17,7 +17,7 @@ namespace parvis::house {
 struct FilmJob {
   std::filesystem::path output;  ///< .mp4
   int width = 0, height = 0, frames_per_second = 24, frames = 0;
-  std::uint64_t key = 0;  ///< of all that the frames depend on: frames of another key are drawn anew
+  std::uint64_t key = 0;  ///< of all that the frames depend on: frames of another key are rendered again
   /// Draws a frame; called in each process with ever later numbers, not all of them.
   std::function<Result<Image8>(int frame)> draw;
   const std::atomic<bool>* is_interrupted = nullptr;  ///< when it turns true, no further frame is begun

@@ -23,7 +23,7 @@ std::string light() {
       kitchen_sun_azimuth_deg, kitchen_sun_elevation_deg);
 }
 
-/// The paper's figure 6 shows its method beside environment maps drawn anew.
+/// The paper's figure 6 shows its method beside environment maps rendered again.
 std::string comparison() {
   return "\nscenario(name=\"cube maps\") {\n"
          "  override(of=\"%reflection\", method=\"rerendered_cube_map\", resolution=512, "

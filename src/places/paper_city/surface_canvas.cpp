@@ -141,7 +141,7 @@ SurfacePictures SurfaceCanvas::pictures(int normal_shrink, int surface_shrink) c
     for (int x = 0; x < width_px_; ++x) {
       const Texel& t = texel(x, y);
       std::uint8_t* colour = result.colour.at(x, height_px_ - 1 - y);
-      // Part of the occlusion goes into the colour: crevices also lose the light that walls throw at each
+      // Part of the occlusion goes into the colour: crevices also lose the light that walls reflect onto each
       // other.
       for (int c = 0; c < 3; ++c) colour[c] = srgb_byte(t.colour[c] * (0.4f + 0.6f * t.openness));
       colour[3] = byte(t.alpha);

@@ -55,9 +55,9 @@ TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
   EXPECT_FALSE(renewal->is_done());
   EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 0u);
   EXPECT_TRUE(renewal->is_done());
-  const Result<ReferenceMaps> anew = ReferenceMaps::bake(**renderer, places, face_resolution);
-  ASSERT_TRUE(anew);
-  for (std::size_t map = 0; map < places.size(); ++map) EXPECT_EQ(maps->read(map), anew->read(map));
+  const Result<ReferenceMaps> fresh = ReferenceMaps::bake(**renderer, places, face_resolution);
+  ASSERT_TRUE(fresh);
+  for (std::size_t map = 0; map < places.size(); ++map) EXPECT_EQ(maps->read(map), fresh->read(map));
   EXPECT_NE(maps->read(0), with_lamp);
 }
 

@@ -46,7 +46,7 @@ struct LocalMapVertex {
   std::uint32_t map_pair;
 };
 
-/// Kept from frame to frame, so that none of its arrays need be allocated anew.
+/// Kept from frame to frame, so that none of its arrays need be allocated again.
 struct FaceMesh {
   std::vector<LocalMapVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< triangles

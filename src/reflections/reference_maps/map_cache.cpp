@@ -60,7 +60,7 @@ std::optional<MapFile> MapCache::read(std::size_t number) const {
   if (map && map->key == key_ && map->number == number && number < map->places.size() &&
       map->places.size() <= max_places_ && std::ranges::all_of(map->places, is_finite))
     return *std::move(map);
-  fmt::print(stderr, "warning: {}; the map is drawn anew\n",
+  fmt::print(stderr, "warning: {}; the map is rendered again\n",
              map ? fmt::format("{}: is of another scene", path.string()) : map.errors().front().message);
   return std::nullopt;
 }
@@ -71,7 +71,7 @@ void MapCache::report_other_states() const {
   fmt::print(
       stderr,
       "warning: {}: has maps of another state of the scene (models, light, roads or options are others "
-      "now) or of another version of Parvis; they are drawn anew, and `parvis bake` keeps them\n",
+      "now) or of another version of Parvis; they are rendered again, and `parvis bake` keeps them\n",
       folder_.parent_path().string());
 }
 

@@ -140,7 +140,7 @@ TEST_F(MapCacheTest, DamagedMapsAreDrawnAnewAndToldNeverShown) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(bake(), drawn);
     const std::string told = testing::internal::GetCapturedStderr();
-    EXPECT_NE(told.find("cut short or damaged; the map is drawn anew"), std::string::npos) << told;
+    EXPECT_NE(told.find("cut short or damaged; the map is rendered again"), std::string::npos) << told;
     EXPECT_EQ(keep(), drawn) << "and kept again";
   }
 }

@@ -19,7 +19,7 @@ uniform int shown_share;
 in vec3 at_reflector;
 out vec4 radiance;
 
-const int behind_glass = 0;  // the light that meets the glass where the ray leaves it first
+const int behind_glass = 0;  // the light that hits the glass where the ray leaves it first
 const int let_through = 1;   // the share of it that gets to the viewer
 const int from_inside = 2;   // what gets there after reflections inside
 const int all_light = 3;

@@ -95,7 +95,7 @@ NodeSchema timer_schema() {
       .help = "Messages sent at times.",
       .attributes =
           {name, running("1"),
-           number("period_s", "after which it begins anew; 0: never").in("s").between(0, 1e6).by_default("0"),
+           number("period_s", "after which it starts over; 0: never").in("s").between(0, 1e6).by_default("0"),
            event("onTime", "sent so many seconds after the timer began", AttributeType::number)},
       .example =
           "group(name=\"lamps\", visible=0) { }\n"
@@ -127,7 +127,7 @@ NodeSchema path_schema() {
            reference("of", "the node that moves; its position and heading are those of the path",
                      {"model", "group", "camera"})
                .required(),
-           running("1"), flag("loop", "begins anew after the last key").by_default("0"),
+           running("1"), flag("loop", "starts over after the last key").by_default("0"),
            flag("smooth", "runs in curves through the keys; else straight").by_default("1"),
            flag("along",
                 "looks where it goes: an object's x axis, a camera's view; an object's own heading_deg "
@@ -166,7 +166,7 @@ NodeSchema tour_schema() {
   return {.type = "tour",
           .help = "The view glides through cameras: what parvis render --tour and parvis view --tour show.",
           .attributes = {text("name", "what --tour takes").required(), running("0"),
-                         flag("loop", "begins anew after the last stop").by_default("0"),
+                         flag("loop", "starts over after the last stop").by_default("0"),
                          flag("smooth", "runs in curves through the stops; else straight").by_default("1")},
           .example =
               "camera(name=\"street\", position=\"0 -20 1.6\")\n"

@@ -1,4 +1,4 @@
-// The time of one thing that runs: a timer, a path, a tour. It starts, halts, goes on, and may begin anew.
+// The time of one thing that runs: a timer, a path, a tour. It starts, halts, goes on, and may start over.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@ namespace parvis::action {
 
 class Clock {
  public:
-  /// Begins anew after `period_s`; 0: never.
+  /// Starts over after `period_s`; 0: never.
   explicit Clock(double period_s = 0.0) : period_s_(period_s) {}
 
   double time_s() const { return time_s_; }
@@ -26,7 +26,7 @@ class Clock {
   bool passed(double mark_s) const {
     if (time_s_ == before_s_) return mark_s == time_s_;
     if (time_s_ > before_s_) return mark_s > before_s_ && mark_s <= time_s_;
-    return mark_s > before_s_ || mark_s <= time_s_;  // it began anew
+    return mark_s > before_s_ || mark_s <= time_s_;  // it started over
   }
 
  private:

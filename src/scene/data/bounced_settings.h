@@ -1,4 +1,4 @@
-// Whether a scene has light that its surfaces throw at each other.
+// Whether a scene has light that its surfaces reflect onto each other.
 #pragma once
 
 #include <string_view>

@@ -69,10 +69,10 @@ Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const met
   if (!cheapest) return cheapest.errors();
   if (!best) return best.errors();
   const glm::ivec2 least = min_size(size);
-  std::vector<double> cheap_ms, dear_ms;
+  std::vector<double> cheap_ms, expensive_ms;
   for (int frame = 0; frame < tried_frames; ++frame)
     for (const auto& [method, drawn, samples] :
-         {std::tuple{&*cheapest, least, &cheap_ms}, {&*best, size, &dear_ms}}) {
+         {std::tuple{&*cheapest, least, &cheap_ms}, {&*best, size, &expensive_ms}}) {
       if (Status status = stage.renderer().set_reflection(method->reflections.get()); !status)
         return status.errors();
       for (int turn = 0; turn < 2; ++turn) {  // the first makes what is made once
@@ -82,7 +82,7 @@ Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const met
         stage.play().advance(1.0 / frames_per_second);
       }
     }
-  return std::pair{median(cheap_ms).value, median(dear_ms).value};
+  return std::pair{median(cheap_ms).value, median(expensive_ms).value};
 }
 
 /// By how many percent of their median frames differ that show the same, but for one in twenty.

@@ -1,5 +1,5 @@
-// What a scene's own method makes of its mirrors and its glass, beside cube maps that are drawn anew every
-// frame.
+// What a scene's own method makes of its mirrors and its glass, beside cube maps that are rendered again
+// every frame.
 #pragma once
 
 #include <span>

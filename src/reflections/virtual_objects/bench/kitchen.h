@@ -1,5 +1,5 @@
 // The kitchen of curved mirrors, in the bench "curved": where its mirrors show what stands in it, and how
-// near their pictures come to ray tracing beside cube maps drawn anew.
+// near their pictures come to ray tracing beside cube maps rendered again.
 #pragma once
 
 #include "bench/benches.h"

@@ -1,5 +1,5 @@
 // Solid glass on the kitchen's worktop, in the bench "curved": how near its pictures by virtual objects come
-// to ray tracing beside cube maps drawn anew.
+// to ray tracing beside cube maps rendered again.
 #pragma once
 
 #include "bench/benches.h"
