@@ -24,8 +24,8 @@ Status format(const Arguments& arguments) {
     if (arguments.only_checks)
       errors.push_back(
           error_at({script.string()}, "is not formatted; run parvis format {}", script.string()));
-    else if (Status status = write_file(script, formatted); !status)
-      return status;
+    else if (Status status = write_file(std::filesystem::weakly_canonical(script), formatted); !status)
+      return status;  // the user named a link: it is the script that it points to
   }
   if (!errors.empty()) return errors;
   return Done{};

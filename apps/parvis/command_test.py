@@ -427,24 +427,36 @@ class SeveralProcesses(BeforeAMirror):
         process = subprocess.Popen(
             [*self.MPIRUN, PARVIS, *map(str, long)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         )
-        while process.poll() is None and not (frames.exists() and len(list(frames.glob("[!.]*.png"))) > 6):
+        while process.poll() is None and not (frames.exists() and len(list(frames.glob("[!.]*.frame"))) > 6):
             time.sleep(0.02)
         self.assertIsNone(process.poll(), "it ended too soon for this test")
         os.kill(self.process_of_rank(1, process.pid), signal.SIGKILL)
         process.communicate(timeout=60)
         self.assertFalse(film.exists())
-        whole = {path.name: path.read_bytes() for path in frames.glob("[!.]*.png")}
+        whole = {path.name: path.read_bytes() for path in frames.glob("[!.]*.frame")}
         self.assertGreater(len(whole), 6)
         self.expect_done(*command, before=self.MPIRUN)
         self.assertEqual(film.read_bytes(), alone)
         self.assertFalse(frames.exists())
-        # A frame that is there is not rendered again: another picture in its place is in the film.
+        # Another frame in the place of one is rendered again; and so is one that is no frame at all.
         frames.mkdir()
         for name in whole:
             (frames / name).write_bytes(whole[min(whole)])
+        (frames / max(whole)).write_bytes(b"none")
         film.unlink()
-        self.expect_done(*command, before=self.MPIRUN)
-        self.assertTrue(film.read_bytes() != alone)
+        told = self.expect_done(*command, before=self.MPIRUN).stderr
+        self.assertEqual(told.count("is another frame"), len(whole) - 2, told[:2000])
+        self.assertIn(max(whole), told)
+        self.assertEqual(film.read_bytes(), alone)
+
+    def test_frames_of_a_film_behind_a_link_are_left_alone(self):
+        elsewhere = self.folder / "elsewhere"
+        elsewhere.mkdir()
+        (self.folder / "out.mp4.frames").symlink_to(elsewhere)
+        done = run("render", self.write_place(*DRIVE), *SIZE, "--seconds", "0.2", "--reflection", "none", "-o", self.folder / "out.mp4")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("is a link", done.stderr)
+        self.assertEqual(list(elsewhere.iterdir()), [])
 
     def test_a_film_whose_frames_depend_on_each_other(self):
         done = run("render", self.write_place(*DRIVE), *SIZE, "--seconds", "0.5", "--reflection", "time_sliced_cube_map",

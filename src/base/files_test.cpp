@@ -101,6 +101,22 @@ TEST(Files, ReplacingKeepsPermissionsAndLinks) {
             fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST(Files, WritingFollowsNoLinkOutOfItsFolder) {
+  const TestFolder folder;
+  folder.write("mine.txt", "mine");
+  fs::create_directory(folder.path() / "place");
+  for (const char* target : {"../mine.txt", "../absent.txt"}) {
+    const fs::path link = folder.path() / "place/s.xp";
+    fs::remove(link);
+    fs::create_symlink(target, link);
+    const Status status = write_file(link, "new");
+    ASSERT_FALSE(status);
+    EXPECT_NE(to_string(status.errors()).find("leads out of its folder"), std::string::npos);
+  }
+  EXPECT_EQ(*read_file(folder.path() / "mine.txt"), "mine");
+  EXPECT_FALSE(fs::exists(folder.path() / "absent.txt"));
+}
+
 TEST(Files, AFileOfTheWorkingFolderIsWritten) {
   const TestFolder folder;
   const fs::path before = fs::current_path();

@@ -138,12 +138,28 @@ fs::path make_partial(const fs::path& file, int& lock) {
   return {};
 }
 
+/// The file that is replaced: what a link points to, if that lies below the link's folder.
+Result<fs::path> target_of(const fs::path& named) {
+  std::error_code code;
+  if (!fs::is_symlink(named, code)) return named;
+  const fs::path target = fs::weakly_canonical(named, code);
+  const fs::path folder = fs::weakly_canonical(fs::absolute(named, code).parent_path(), code);
+  const fs::path inside = target.lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..")
+    return error(
+        "{}: is a link that leads out of its folder, and is not written through; remove it, or name "
+        "the file that it points to",
+        named.string());
+  return target;
+}
+
 }  // namespace
 
 Result<PartialFile> PartialFile::create(const fs::path& named) {
   std::error_code code;
-  const fs::path file = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
-  code.clear();  // that nothing of this name is there yet is no error
+  const Result<fs::path> target = target_of(named);
+  if (!target) return target.errors();
+  const fs::path& file = *target;
   if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
   if (code)
     return error("{}: the folder cannot be made ({}); choose one that can be written",

@@ -15,7 +15,8 @@ namespace parvis {
 class PartialFile {
  public:
   /// Makes the folders above `file`. A link at `file` keeps its place: what it points to is replaced. Errors:
-  /// a folder that cannot be made or written to; something at `file` that is no regular file.
+  /// a folder that cannot be made or written to; something at `file` that is no regular file; a link that
+  /// leads out of its folder.
   static Result<PartialFile> create(const std::filesystem::path& file);
   PartialFile(PartialFile&& other) noexcept;
   PartialFile& operator=(PartialFile&&) = delete;

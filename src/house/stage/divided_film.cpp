@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/progress.h"
+#include "base/sealed_file.h"
 #include "house/stage/film.h"
 #include "machines/divided_work.h"
 
@@ -13,16 +14,44 @@ namespace parvis::house {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr SealedKind frame_kind{"PARVISF1", "frame of a film"};
+
 fs::path frame_file(const FilmJob& job, std::uint32_t frame) {
-  return frames_folder(job.output) / fmt::format("{:016x}-{:06}.png", job.key, frame);
+  return frames_folder(job.output) / fmt::format("{:016x}-{:06}.frame", job.key, frame);
+}
+
+/// Keeps a finished frame, as it is compressed, with what it is of.
+Status keep_frame(const FilmJob& job, std::uint32_t frame, const Image8& picture) {
+  const Result<std::string> bytes = encode_image(picture, frame_file(job, frame).string() + ".png");
+  if (!bytes) return bytes.errors();
+  std::string content;
+  append_value(content, job.key);
+  append_value(content, frame);
+  return write_sealed(frame_file(job, frame), frame_kind, content + *bytes);
+}
+
+/// The compressed picture of a finished frame.
+Result<std::string> kept_frame(const FilmJob& job, std::uint32_t frame) {
+  const fs::path file = frame_file(job, frame);
+  const Result<std::string> content = read_sealed(file, frame_kind);
+  if (!content) return content.errors();
+  Taker taker(*content);
+  if (taker.take<std::uint64_t>() != job.key || taker.take<std::uint32_t>() != frame)
+    return error("{}: is another frame", file.string());
+  return std::string(taker.rest());
 }
 
 /// The frames that no earlier run has finished.
 machines::Tasks unfinished(const FilmJob& job) {
   machines::Tasks frames;
-  for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame)
-    if (std::error_code ignored; !fs::is_regular_file(frame_file(job, frame), ignored))
-      frames.push_back(frame);
+  for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame) {
+    if (std::error_code ignored; fs::exists(frame_file(job, frame), ignored)) {
+      const Result<std::string> kept = kept_frame(job, frame);
+      if (kept) continue;
+      fmt::print(stderr, "warning: {}; it is rendered again\n", kept.errors().front().message);
+    }
+    frames.push_back(frame);
+  }
   return frames;
 }
 
@@ -46,7 +75,7 @@ void remove_frames(const FilmJob& job) {
   std::vector<fs::path> frames;
   for (const fs::directory_entry& entry : fs::directory_iterator(frames_folder(job.output), code)) {
     const std::string name = entry.path().filename().string();
-    if (name.size() == name_length && name.ends_with(".png") &&
+    if (name.size() == name_length && name.ends_with(".frame") &&
         name.substr(0, 16).find_first_not_of("0123456789abcdef") == std::string::npos && name[16] == '-')
       frames.push_back(entry.path());
   }
@@ -59,7 +88,11 @@ Status encode(const FilmJob& job, Film& film) {
   Progress progress("writing film", std::size_t(job.frames));
   for (std::uint32_t frame = 0; frame < std::uint32_t(job.frames); ++frame) {
     if (job.is_interrupted && *job.is_interrupted) return interrupted(job);
-    const Result<Image8> picture = read_image8(frame_file(job, frame));
+    const Result<std::string> bytes = kept_frame(job, frame);
+    if (!bytes) return bytes.errors();
+    const Result<Image8> picture =
+        read_image8({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()},
+                    frame_file(job, frame).string());
     if (!picture) return picture.errors();
     if (Status status = film.add(*picture); !status) return status;
     progress.advance();
@@ -81,6 +114,8 @@ fs::path frames_folder(const fs::path& film) {
 
 Status make_divided_film(const FilmJob& job, const machines::Processes& processes) {
   std::optional<Film> film;
+  if (std::error_code code; fs::is_symlink(frames_folder(job.output), code))
+    return error("{}: is a link; no frames are kept there. Remove it", frames_folder(job.output).string());
   if (processes.is_first()) {  // before hours of work: can it be written at all?
     Result<Film> opened = Film::open(job.output, job.width, job.height, job.frames_per_second);
     if (!opened) return opened.errors();
@@ -102,7 +137,7 @@ Status make_divided_film(const FilmJob& job, const machines::Processes& processe
       return error("frame {} has {} bytes; expected {}", frame, bytes.size(), picture.pixels.size());
     std::copy(bytes.begin(), bytes.end(), picture.pixels.begin());
     progress.advance();
-    return write_image(frame_file(job, frame), picture);
+    return keep_frame(job, frame, picture);
   };
   const Result<std::size_t> kept = machines::divide(processes, to_do, work);
   if (!kept) return kept.errors();
