@@ -256,7 +256,8 @@ class BeforeAMirror(InAFolder):
         self.write_quad("wall.obj", (40, -20, 0), (-40, -20, 0), (-40, -20, 9), (40, -20, 9))
 
     def write_quad(self, name, *corners):
-        self.write(name, "".join("v {} {} {}\n".format(*corner) for corner in corners) + "f 1 2 3 4\n")
+        """The corners are in world coordinates, z up; Wavefront files have y up."""
+        self.write(name, "".join(f"v {x} {z} {-y}\n" for x, y, z in corners) + "f 1 2 3 4\n")
 
     def write_place(self, *nodes, at="0 0 0", models=("ground", "wall")):
         """A mirror before a wall, looked at from the wall's side."""
@@ -290,7 +291,7 @@ class Reflections(BeforeAMirror):
 
     def test_the_method_of_the_command_line_holds_in_a_scenario_with_another(self):
         mirrored = 'scenario(name="plain") { override(of="%reflection", method="none") }\n'
-        scene = self.write_place('reflection(method="shared_cube_map")', mirrored)
+        scene = self.write_place('reflection(method="rerendered_cube_map")', mirrored)
 
         def picture(*options):
             out = self.folder / "out.png"
@@ -299,9 +300,9 @@ class Reflections(BeforeAMirror):
             return out.read_bytes()
 
         plain, mirror = picture("--scenario", "plain"), picture()
-        self.assertNotEqual(plain, mirror, "the control: the scenario shows something else")
-        self.assertEqual(picture("--scenario", "plain", "--reflection", "shared_cube_map"), mirror)
-        self.assertEqual(picture("--reflection", "none"), plain)
+        self.assertTrue(plain != mirror, "the control: the scenario shows something else")
+        self.assertTrue(picture("--scenario", "plain", "--reflection", "rerendered_cube_map") == mirror)
+        self.assertTrue(picture("--reflection", "none") == plain)
 
     def test_a_place_without_geometry_mirrors_the_sky(self):
         self.expect_light(self.write_place(models=()))
@@ -315,7 +316,7 @@ class Reflections(BeforeAMirror):
         far = 'model(file="ground.obj", position="90000 60000 0")'
         told, middle = self.render(self.write_place(far))
         self.assertGreater(min(map(sum, middle)), 30)
-        for word in ["90.1 x 60.0 km", "would take 34360 MB", "referenceMaps(cell="]:
+        for word in ["90.1 x 60.1 km", "would take 34360 MB", "referenceMaps(cell="]:
             self.assertIn(word, told)
 
     def test_cars_without_area(self):
@@ -440,13 +441,15 @@ class SeveralProcesses(BeforeAMirror):
         self.assertFalse(frames.exists())
         # Another frame in the place of one is rendered again; and so is one that is no frame at all.
         frames.mkdir()
-        for name in whole:
-            (frames / name).write_bytes(whole[min(whole)])
-        (frames / max(whole)).write_bytes(b"none")
+        names = sorted(name for name in whole if int(name[-12:-6]) < 12)
+        self.assertGreater(len(names), 2, "frames of the short film")
+        for name in names:
+            (frames / name).write_bytes(whole[names[0]])
+        (frames / names[-1]).write_bytes(b"none")
         film.unlink()
         told = self.expect_done(*command, before=self.MPIRUN).stderr
-        self.assertEqual(told.count("is another frame"), len(whole) - 2, told[:2000])
-        self.assertIn(max(whole), told)
+        self.assertEqual(told.count("is another frame"), len(names) - 2, told[:2000])
+        self.assertIn(names[-1], told)
         self.assertEqual(film.read_bytes(), alone)
 
     def test_frames_of_a_film_behind_a_link_are_left_alone(self):
