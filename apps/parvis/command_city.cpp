@@ -1,6 +1,6 @@
 // parvis city: procedural places.
 #include "commands.h"
-#include "places/paper_city/kitchen.h"
+#include "places/kitchen/kitchen.h"
 #include "places/paper_city/paper_city.h"
 
 namespace parvis {
@@ -13,7 +13,7 @@ struct Arguments {
 };
 
 Status write_city(const Arguments& arguments) {
-  const auto write = arguments.name == "kitchen" ? city::write_kitchen : city::write_paper_city;
+  const auto write = arguments.name == "kitchen" ? kitchen::write_kitchen : city::write_paper_city;
   if (Status status = write(arguments.folder, arguments.seed); !status) return status;
   fmt::print("{} is written; see it with: parvis view {}\n", arguments.name,
              (arguments.folder / (arguments.name + ".xp")).string());

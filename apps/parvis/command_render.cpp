@@ -10,13 +10,13 @@
 #include "base/progress.h"
 #include "base/reduction.h"
 #include "commands.h"
-#include "graphics/reference/scene_key.h"
 #include "graphics/render/picture_reader.h"
 #include "house/stage/divided_film.h"
 #include "house/stage/film.h"
 #include "house/stage/probe.h"
 #include "machines/processes.h"
 #include "reflections/methods/registry.h"
+#include "scene/data/scene_key.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -63,7 +63,7 @@ void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
 std::uint64_t film_key(house::Stage& stage, const Arguments& arguments, int width, int height) {
   ContentHash hash;
   const scene::Scene& scene = stage.scene();
-  hash.add(reference::scene_key(scene));
+  hash.add(scene::scene_key(scene));
   add(hash, stage.play().live().nodes());  // tours, paths and timers among them
   scene.room_data.hash(hash, [](scene::DataRole) { return true; });
   for (const scene::NamedCamera& named : scene.cameras) {

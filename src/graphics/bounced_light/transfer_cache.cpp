@@ -2,8 +2,8 @@
 
 #include "base/content_hash.h"
 #include "base/sealed_file.h"
-#include "graphics/reference/scene_key.h"
 #include "scene/data/baked_folder.h"
+#include "scene/data/scene_key.h"
 
 namespace parvis::bounced_light {
 namespace {
@@ -15,7 +15,7 @@ constexpr int version = 1;  // of how transfers are traced: raise it when old on
 std::uint64_t key_of(const scene::Scene& scene) {
   ContentHash hash;
   hash.add(version);
-  hash.add(reference::fixed_shape_key(scene));
+  hash.add(scene::fixed_shape_key(scene));
   scene.data<scene::BouncedSettings>().hash(hash);
   return hash.value();
 }

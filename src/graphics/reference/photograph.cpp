@@ -10,8 +10,8 @@
 #include "base/sealed_file.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/photograph_checkpoint.h"
-#include "graphics/reference/scene_key.h"
 #include "machines/divided_work.h"
+#include "scene/data/scene_key.h"
 
 namespace parvis::reference {
 namespace {
@@ -36,7 +36,7 @@ std::uint64_t work_key(const scene::Scene& scene, const Camera& camera, int widt
                        const PhotographOptions& options) {
   ContentHash hash;
   hash.add(method_version);
-  hash.add(scene_key(scene));
+  hash.add(scene::scene_key(scene));
   hash.add(camera.world_from_camera);
   for (const float value : {camera.vertical_fov, camera.near_m, options.paths.clamp.value_or(-1.0f)})
     hash.add(value);

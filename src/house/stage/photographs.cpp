@@ -7,10 +7,10 @@
 
 #include "base/camera_check.h"
 #include "base/image_io.h"
+#include "capture/photographs/colmap_writer.h"
 #include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/stage/colmap_writer.h"
 
 namespace parvis::house {
 namespace {
@@ -122,7 +122,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
   if (!job.options.processes.is_first()) return Done{};
   if (!job.colmap_folder.empty()) {
     const auto points = reference::seen_points(rays, taken, displays, std::max(job.width / points_across, 1));
-    if (Status status = write_colmap(job.colmap_folder, taken, points); !status) return status;
+    if (Status status = photographs::write_colmap(job.colmap_folder, taken, points); !status) return status;
   }
   if (!job.gltf_cameras.empty())
     if (Status status = scene::write_gltf_cameras(job.gltf_cameras, taken); !status) return status;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/content_hash.h"
-#include "graphics/reference/scene_key.h"
 #include "reflections/reference_maps/settings.h"
 #include "scene/data/baked_folder.h"
+#include "scene/data/scene_key.h"
 
 namespace parvis::reference_maps {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t name_length = 16;  // of a state's folder
 std::uint64_t maps_key(const scene::Scene& scene) {
   ContentHash hash;
   hash.add(version);
-  hash.add(reference::fixed_scene_key(scene));
+  hash.add(scene::fixed_scene_key(scene));
   const ReferenceMapPlan& plan = map_plan(scene);
   hash.add(plan.places);
   hash.add(plan.cell_m);

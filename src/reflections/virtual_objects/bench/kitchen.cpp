@@ -5,7 +5,7 @@
 
 #include "bench/scratch_folder.h"
 #include "graphics/gl/context.h"
-#include "places/paper_city/kitchen.h"
+#include "places/kitchen/kitchen.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 #include "reflections/virtual_objects/bench/beside_rerendered.h"
 #include "reflections/virtual_objects/bench/frames.h"
@@ -45,7 +45,7 @@ Status measure_points(const house::Stage& stage, const BenchSetup& setup, Report
 
 Result<std::unique_ptr<house::Stage>> open_kitchen(const House& house, const std::filesystem::path& folder,
                                                    const std::string& script) {
-  if (Status status = city::write_kitchen(folder, 1); !status) return status.errors();
+  if (Status status = kitchen::write_kitchen(folder, 1); !status) return status.errors();
   Result<house::Play> play = house::open_play(house, folder / script, {});
   if (!play) return play.errors();
   // Once for all: the points, the stage and the method that is judged each need them.

@@ -1,14 +1,14 @@
-#include "places/paper_city/kitchen.h"
+#include "places/kitchen/kitchen.h"
 
 #include <gtest/gtest.h>
 
-#include "places/paper_city/kitchen_glass.h"
-#include "places/paper_city/kitchen_light.h"
-#include "places/paper_city/kitchen_mirrors.h"
-#include "places/paper_city/kitchen_room.h"
-#include "places/paper_city/kitchen_script.h"
+#include "places/kitchen/kitchen_glass.h"
+#include "places/kitchen/kitchen_light.h"
+#include "places/kitchen/kitchen_mirrors.h"
+#include "places/kitchen/kitchen_room.h"
+#include "places/kitchen/kitchen_script.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
 
 TEST(Kitchen, IsWholeAndOnTheWorktop) {
@@ -78,4 +78,4 @@ TEST(Kitchen, ItsLightIsBrightestAtTheWindow) {
 }
 
 }  // namespace
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,10 +1,10 @@
-#include "places/paper_city/kitchen_script.h"
+#include "places/kitchen/kitchen_script.h"
 
 #include <fmt/format.h>
 
-#include "places/paper_city/kitchen_light.h"
+#include "places/kitchen/kitchen_light.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
 
 std::string camera(const char* name, glm::vec3 eye, glm::vec3 target, int fov_deg) {
@@ -89,4 +89,4 @@ std::string kitchen_glass_script(std::span<const KitchenMirror> mirrors,
          camera("egg", {-0.33f, -0.92f, 1.08f}, {-0.3f, -0.53f, 0.945f}, 24) + comparison();
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

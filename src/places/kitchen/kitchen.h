@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// Everything that does not mirror, with its materials.
 scene::Model make_kitchen(std::uint64_t seed);
@@ -17,4 +17,4 @@ scene::Model make_kitchen(std::uint64_t seed);
 /// light into `folder`, as write_paper_city does.
 Status write_kitchen(const std::filesystem::path& folder, std::uint64_t seed);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -3,7 +3,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// Height of the worktop, on which things stand.
 inline constexpr float worktop_height_m = 0.9f;
@@ -15,4 +15,4 @@ inline constexpr float hob_x_m = 0.62f, hob_height_m = worktop_height_m + 0.006f
 /// Adds the room to a model that has the kitchen's materials.
 void add_room(scene::Model& model);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,13 +1,13 @@
-#include "graphics/reference/scene_key.h"
+#include "scene/data/scene_key.h"
 
 #include <unordered_map>
 
 #include "base/content_hash.h"
 
-namespace parvis::reference {
+namespace parvis::scene {
 namespace {
 
-void add_material(ContentHash& hash, const scene::Material& m) {
+void add_material(ContentHash& hash, const Material& m) {
   for (const glm::vec3 colour : {m.base_colour, m.emission, m.absorption_per_m}) hash.add(colour);
   for (const float value : {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness,
                             m.translucency, m.normal_scale, m.relief_m, m.ior})
@@ -19,16 +19,16 @@ void add_material(ContentHash& hash, const scene::Material& m) {
   for (const bool choice : {m.is_double_sided, m.is_mirror_like}) hash.add(choice);
 }
 
-std::uint64_t model_key(const scene::Model& model) {
+std::uint64_t model_key(const Model& model) {
   ContentHash hash;
-  for (const scene::Texture& texture : model.textures) {
+  for (const Texture& texture : model.textures) {
     hash.add(texture.image.width);
     hash.add(texture.image.pixels);
     for (const bool choice : {texture.is_srgb, texture.repeats}) hash.add(choice);
   }
-  for (const scene::Material& material : model.materials) add_material(hash, material);
-  for (const glm::mat4& pose : scene::rest_pose(model)) hash.add(pose);
-  for (const scene::Part& part : model.parts) {
+  for (const Material& material : model.materials) add_material(hash, material);
+  for (const glm::mat4& pose : rest_pose(model)) hash.add(pose);
+  for (const Part& part : model.parts) {
     hash.add(part.mesh.positions);
     hash.add(part.mesh.normals);
     hash.add(part.mesh.uvs);
@@ -40,9 +40,9 @@ std::uint64_t model_key(const scene::Model& model) {
 
 /// `counts`: the objects, `counts_data`: the roles of rooms' data, on which the key depends.
 template <class Counts, class CountsData>
-void add_things(ContentHash& hash, const scene::Scene& scene, Counts&& counts, CountsData&& counts_data) {
-  std::unordered_map<const scene::Model*, std::uint64_t> models;
-  for (const scene::Object& object : scene.objects) {
+void add_things(ContentHash& hash, const Scene& scene, Counts&& counts, CountsData&& counts_data) {
+  std::unordered_map<const Model*, std::uint64_t> models;
+  for (const Object& object : scene.objects) {
     if (!counts(object)) continue;
     const auto [entry, is_new] = models.try_emplace(object.model.get(), 0);
     if (is_new) entry->second = model_key(*object.model);
@@ -58,41 +58,41 @@ void add_things(ContentHash& hash, const scene::Scene& scene, Counts&& counts, C
   scene.room_data.hash(hash, counts_data);
 }
 
-void add_light(ContentHash& hash, const scene::Scene& scene) {
+void add_light(ContentHash& hash, const Scene& scene) {
   for (const glm::vec3 v : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(v);
   hash.add(scene.sky.picture.width);
   hash.add(scene.sky.picture.pixels);
   for (const float value : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m}) hash.add(value);
 }
 
-void add_fixed_things(ContentHash& hash, const scene::Scene& scene) {
+void add_fixed_things(ContentHash& hash, const Scene& scene) {
   add_things(
-      hash, scene, [](const scene::Object& object) { return !object.is_dynamic && object.is_visible; },
-      [](scene::DataRole role) { return role == scene::DataRole::static_content; });
+      hash, scene, [](const Object& object) { return !object.is_dynamic && object.is_visible; },
+      [](DataRole role) { return role == DataRole::static_content; });
 }
 
 }  // namespace
 
-std::uint64_t scene_key(const scene::Scene& scene) {
+std::uint64_t scene_key(const Scene& scene) {
   ContentHash hash;
   add_things(
-      hash, scene, [](const scene::Object&) { return true; },
-      [](scene::DataRole role) { return role != scene::DataRole::settings; });
+      hash, scene, [](const Object&) { return true; },
+      [](DataRole role) { return role != DataRole::settings; });
   add_light(hash, scene);
   return hash.value();
 }
 
-std::uint64_t fixed_scene_key(const scene::Scene& scene) {
+std::uint64_t fixed_scene_key(const Scene& scene) {
   ContentHash hash;
   add_fixed_things(hash, scene);
   add_light(hash, scene);
   return hash.value();
 }
 
-std::uint64_t fixed_shape_key(const scene::Scene& scene) {
+std::uint64_t fixed_shape_key(const Scene& scene) {
   ContentHash hash;
   add_fixed_things(hash, scene);
   return hash.value();
 }
 
-}  // namespace parvis::reference
+}  // namespace parvis::scene

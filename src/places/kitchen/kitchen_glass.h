@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "places/paper_city/kitchen_mirrors.h"
+#include "places/kitchen/kitchen_mirrors.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// A ball, and an egg that lies on its side; each a model of its own.
 std::vector<KitchenMirror> kitchen_glass();
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

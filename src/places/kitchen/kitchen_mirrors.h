@@ -5,7 +5,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// A mirror and where it stands.
 struct KitchenMirror {
@@ -18,4 +18,4 @@ struct KitchenMirror {
 /// Each a model of its own: its mirror-like parts take the scene's reflection method.
 std::vector<KitchenMirror> kitchen_mirrors();
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,18 +1,18 @@
-#include "places/paper_city/kitchen.h"
+#include "places/kitchen/kitchen.h"
 
 #include "base/files.h"
 #include "base/image_io.h"
 #include "formats/gltf/gltf_writer.h"
-#include "places/paper_city/kitchen_glass.h"
-#include "places/paper_city/kitchen_light.h"
-#include "places/paper_city/kitchen_materials.h"
-#include "places/paper_city/kitchen_mirrors.h"
-#include "places/paper_city/kitchen_room.h"
-#include "places/paper_city/kitchen_script.h"
-#include "places/paper_city/kitchen_things.h"
+#include "places/kitchen/kitchen_glass.h"
+#include "places/kitchen/kitchen_light.h"
+#include "places/kitchen/kitchen_materials.h"
+#include "places/kitchen/kitchen_mirrors.h"
+#include "places/kitchen/kitchen_room.h"
+#include "places/kitchen/kitchen_script.h"
+#include "places/kitchen/kitchen_things.h"
 #include "places/paper_city/writing_jobs.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
 namespace fs = std::filesystem;
 
@@ -33,7 +33,7 @@ scene::Model make_kitchen(std::uint64_t seed) {
 }
 
 Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
-  std::vector<WritingJob> jobs;
+  std::vector<city::WritingJob> jobs;
   jobs.push_back(
       [=](const fs::path& to) { return scene::write_gltf(to / "kitchen.glb", make_kitchen(seed)); });
   jobs.push_back(
@@ -51,7 +51,7 @@ Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
     jobs.push_back([model = std::move(mirror.model)](const fs::path& to) {
       return scene::write_gltf(to / (model.name + ".glb"), model);
     });
-  return write_together(jobs, folder);
+  return city::write_together(jobs, folder);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,14 +1,16 @@
-#include "places/paper_city/kitchen_room.h"
+#include "places/kitchen/kitchen_room.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "places/paper_city/kitchen_light.h"
-#include "places/paper_city/kitchen_materials.h"
+#include "places/kitchen/kitchen_light.h"
+#include "places/kitchen/kitchen_materials.h"
 #include "places/paper_city/round_mesh.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
+
+using city::smooth, city::turned, city::panel, city::panelled_box;
 
 using enum KitchenMaterial;
 
@@ -173,4 +175,4 @@ void add_room(scene::Model& model) {
       add_box(model, "leg", {x, y, 0}, {x + 0.06f, y + 0.06f, 0.71f}, wood, 0.2f);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

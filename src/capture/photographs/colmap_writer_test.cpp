@@ -1,4 +1,4 @@
-#include "house/stage/colmap_writer.h"
+#include "capture/photographs/colmap_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_cameras.h"
 
-namespace parvis::house {
+namespace parvis::photographs {
 namespace {
 
 using scene::SeenPoint, scene::TakenPicture, scene::write_gltf_cameras;
@@ -114,4 +114,4 @@ TEST(GltfCameras, StandWhereTheyStoodWithYUp) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::photographs

@@ -1,12 +1,14 @@
-#include "places/paper_city/kitchen_glass.h"
+#include "places/kitchen/kitchen_glass.h"
 
 #include <cmath>
 
-#include "places/paper_city/kitchen_room.h"
+#include "places/kitchen/kitchen_room.h"
 #include "places/paper_city/round_mesh.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
+
+using city::Outline, city::turned;
 
 constexpr int rings = 48, sides = 96;  // the ray tracer follows the facets
 
@@ -47,4 +49,4 @@ std::vector<KitchenMirror> kitchen_glass() {
   return bodies;
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,14 +1,17 @@
-#include "places/paper_city/kitchen_textures.h"
+#include "places/kitchen/kitchen_textures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/colour.h"
-#include "places/paper_city/kitchen_materials.h"
+#include "places/kitchen/kitchen_materials.h"
 #include "places/paper_city/noise.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
+
+using city::fractal_noise, city::lattice_value, city::nearest_cell, city::Cell, city::Texel,
+    city::SurfacePictures, city::SurfaceCanvas;
 
 constexpr float pi = 3.14159265f;
 constexpr float tile_m = 0.1f, joint_m = 0.0022f;
@@ -184,4 +187,4 @@ Image8 shade_picture() {
   return image;
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

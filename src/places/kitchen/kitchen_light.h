@@ -7,7 +7,7 @@
 
 #include "base/image.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// Dimensions of the room: x east, y north to the tiled wall, z up; the window is in the west wall.
 inline constexpr float room_east_m = 1.8f, room_south_m = -3.0f, room_height_m = 2.6f;
@@ -25,4 +25,4 @@ inline constexpr float window_view_radiance = 2.2f;
 /// The view through the window (sky above a hillside), sRGB and RGBA.
 Image8 window_view_picture(std::uint64_t seed);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

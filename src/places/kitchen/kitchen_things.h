@@ -3,7 +3,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 /// Adds the fruit to a model that has the kitchen's materials, at its place.
 void add_fruit(scene::Model& model);
@@ -13,4 +13,4 @@ void add_crockery(scene::Model& model);
 /// Adds a contact shadow below a round object.
 void add_shade(scene::Model& model, glm::vec3 foot, float radius_m);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
-#include "places/paper_city/kitchen_mirrors.h"
+#include "places/kitchen/kitchen_mirrors.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 std::string kitchen_script(std::span<const KitchenMirror> mirrors);
 
@@ -15,4 +15,4 @@ std::string kitchen_script(std::span<const KitchenMirror> mirrors);
 std::string kitchen_glass_script(std::span<const KitchenMirror> mirrors,
                                  std::span<const KitchenMirror> glass);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

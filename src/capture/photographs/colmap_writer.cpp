@@ -1,11 +1,11 @@
-#include "house/stage/colmap_writer.h"
+#include "capture/photographs/colmap_writer.h"
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 
 #include "capture/photographs/colmap_model.h"
 
-namespace parvis::house {
+namespace parvis::photographs {
 namespace {
 
 /// Pictures of one size and field of view share the camera of the first of them.
@@ -29,16 +29,15 @@ glm::dmat4 opencv_from_world(const Camera& camera) {
 
 Status write_colmap(const std::filesystem::path& folder, const std::vector<scene::TakenPicture>& pictures,
                     const std::vector<scene::SeenPoint>& points) {
-  photographs::ColmapModel model;
+  ColmapModel model;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const scene::TakenPicture& picture = pictures[i];
     const glm::dmat4 pose = opencv_from_world(picture.camera);
     const glm::dquat turn = glm::normalize(glm::quat_cast(glm::dmat3(pose)));
     const std::uint32_t camera = camera_id(pictures, picture);
     const double focal_px = scene::focal_length_px(picture);
-    model.cameras.try_emplace(camera,
-                              photographs::pinhole_lens(picture.width, picture.height, focal_px, focal_px,
-                                                        0.5 * picture.width, 0.5 * picture.height));
+    model.cameras.try_emplace(camera, pinhole_lens(picture.width, picture.height, focal_px, focal_px,
+                                                   0.5 * picture.width, 0.5 * picture.height));
     model.images.push_back({std::uint32_t(i) + 1,
                             camera,
                             {turn.w, turn.x, turn.y, turn.z},
@@ -47,17 +46,16 @@ Status write_colmap(const std::filesystem::path& folder, const std::vector<scene
                             {}});
   }
   for (std::size_t p = 0; p < points.size(); ++p) {
-    photographs::ColmapPoint point{
-        std::int64_t(p) + 1, glm::dvec3(points[p].position), points[p].colour, 0.0, {}};
+    ColmapPoint point{std::int64_t(p) + 1, glm::dvec3(points[p].position), points[p].colour, 0.0, {}};
     for (const int i : points[p].pictures) {
-      photographs::ColmapImage& image = model.images[std::size_t(i)];
+      ColmapImage& image = model.images[std::size_t(i)];
       point.track.push_back({image.id, std::uint32_t(image.keypoints.size())});
       image.keypoints.push_back(
           {glm::dvec2(scene::projected(pictures[std::size_t(i)], points[p].position)), point.id});
     }
     model.points.push_back(std::move(point));
   }
-  return photographs::write_colmap_model(folder, model, photographs::ColmapFormat::text);
+  return write_colmap_model(folder, model, ColmapFormat::text);
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::photographs

@@ -5,7 +5,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 
 enum class KitchenMaterial : std::uint8_t {
   tiles,    ///< glazed, 10 cm, some with a flower
@@ -43,4 +43,4 @@ void add_kitchen_materials(scene::Model& model, std::uint64_t seed);
 /// Adds a part, named as errors and scripts call it.
 void add_part(scene::Model& model, const char* name, Mesh mesh, KitchenMaterial material);
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

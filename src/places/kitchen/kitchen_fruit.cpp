@@ -1,13 +1,15 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "places/paper_city/kitchen_materials.h"
-#include "places/paper_city/kitchen_room.h"
-#include "places/paper_city/kitchen_things.h"
+#include "places/kitchen/kitchen_materials.h"
+#include "places/kitchen/kitchen_room.h"
+#include "places/kitchen/kitchen_things.h"
 #include "places/paper_city/round_mesh.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
+
+using city::Outline, city::smooth, city::turned, city::tube;
 
 using enum KitchenMaterial;
 
@@ -50,7 +52,7 @@ const Outline lemon_outline{{0.0f, -0.046f}, {0.006f, -0.042f}, {0.017f, -0.03f}
                             {0.02f, 0.027f}, {0.008f, 0.038f},  {0.0f, 0.042f}};
 
 void add_banana(scene::Model& model, glm::vec3 foot, float heading, float lean) {
-  std::vector<TubeRing> rings;
+  std::vector<city::TubeRing> rings;
   constexpr int count = 16;
   constexpr float bend_m = 0.11f;
   for (int i = 0; i <= count; ++i) {
@@ -93,4 +95,4 @@ void add_fruit(scene::Model& model) {
   add_shade(model, {0.4f, -0.5f, worktop_height_m}, 0.035f);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

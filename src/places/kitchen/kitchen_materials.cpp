@@ -1,4 +1,4 @@
-#include "places/paper_city/kitchen_materials.h"
+#include "places/kitchen/kitchen_materials.h"
 
 #include <array>
 #include <functional>
@@ -7,17 +7,17 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
-#include "places/paper_city/kitchen_light.h"
-#include "places/paper_city/kitchen_textures.h"
+#include "places/kitchen/kitchen_light.h"
+#include "places/kitchen/kitchen_textures.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
 
 struct Sheet {
   KitchenMaterial material;
   const char* name;
   glm::vec2 size_m;  ///< that the picture covers; 0: it covers the part's own coordinates once
-  std::function<SurfacePictures(std::uint32_t seed)> paint;
+  std::function<city::SurfacePictures(std::uint32_t seed)> paint;
 };
 
 std::vector<Sheet> sheets() {
@@ -94,7 +94,7 @@ int add_texture(scene::Model& model, std::string name, Image8 image, bool is_srg
 void add_kitchen_materials(scene::Model& model, std::uint64_t seed) {
   model.materials = all_materials();
   const std::vector<Sheet> all = sheets();
-  std::vector<SurfacePictures> painted(all.size());
+  std::vector<city::SurfacePictures> painted(all.size());
   parallel_for(all.size(), [&](std::size_t i) { painted[i] = all[i].paint(std::uint32_t(seed * 97 + i)); });
   for (std::size_t i = 0; i < all.size(); ++i) {
     scene::Material& m = model.materials[std::size_t(all[i].material)];
@@ -120,4 +120,4 @@ void add_part(scene::Model& model, const char* name, Mesh mesh, KitchenMaterial 
   model.parts.push_back(std::move(part));
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen

@@ -1,13 +1,15 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "places/paper_city/kitchen_materials.h"
-#include "places/paper_city/kitchen_room.h"
-#include "places/paper_city/kitchen_things.h"
+#include "places/kitchen/kitchen_materials.h"
+#include "places/kitchen/kitchen_room.h"
+#include "places/kitchen/kitchen_things.h"
 #include "places/paper_city/round_mesh.h"
 
-namespace parvis::city {
+namespace parvis::kitchen {
 namespace {
+
+using city::Outline, city::smooth, city::turned, city::tube, city::panel, city::panelled_box;
 
 using enum KitchenMaterial;
 
@@ -22,7 +24,7 @@ void add_turned(scene::Model& model, const char* name, const Outline& outline, K
 
 void add_handle(scene::Model& model, glm::vec3 foot, float radius, float low, float high, float heading,
                 KitchenMaterial material) {
-  std::vector<TubeRing> rings;
+  std::vector<city::TubeRing> rings;
   for (int i = 0; i <= 12; ++i) {
     const float angle = 3.14159265f * float(i) / 12.0f;
     const float z = 0.5f * (low + high) - 0.5f * (high - low) * std::cos(angle);
@@ -93,7 +95,7 @@ void add_pot(scene::Model& model, glm::vec3 foot) {
   for (int i = 0; i < 4; ++i) {
     const float heading = 1.7f * float(i) + 0.4f, lean = 0.05f + 0.02f * float(i % 2);
     const glm::vec3 out(std::cos(heading), std::sin(heading), 0.0f);
-    std::vector<TubeRing> rings;
+    std::vector<city::TubeRing> rings;
     for (int k = 0; k <= 14; ++k) {
       const float share = float(k) / 14.0f;
       const float radius =
@@ -155,4 +157,4 @@ void add_crockery(scene::Model& model) {
   add_jar(model, on_shelf(0.1f), 0.15f, lemon), add_jar(model, on_shelf(0.21f), 0.13f, honey);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::kitchen
