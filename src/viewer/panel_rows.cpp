@@ -99,12 +99,12 @@ bool PanelRows::hold(const std::string& name, const double* numbers, int count, 
   return changes || ImGui::IsItemDeactivatedAfterEdit();
 }
 
-bool PanelRows::drag(const std::string& name, double* numbers, int count, const DragStyle& style,
-                     double least, double most, const std::string& help) {
+bool PanelRows::drag(const std::string& name, double* numbers, int count, const DragStyle& style, double min,
+                     double max, const std::string& help) {
   begin(name, help);
   take_up(name, numbers, count);
   const bool changes = ImGui::DragScalarN(("##" + name).c_str(), ImGuiDataType_Double, numbers, count,
-                                          style.speed, &least, &most, style.format.c_str());
+                                          style.speed, &min, &max, style.format.c_str());
   note_place(name);
   return hold(name, numbers, count, changes);
 }
@@ -124,9 +124,9 @@ bool PanelRows::colour(const std::string& name, std::array<double, 3>& linear, c
   note_place(name + "/hue");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const double least = 0.0, most = 1e9;
+  const double min = 0.0, max = 1e9;
   const bool changes_strength = ImGui::DragScalar(("##" + name).c_str(), ImGuiDataType_Double, &strength,
-                                                  style.speed, &least, &most, style.format.c_str());
+                                                  style.speed, &min, &max, style.format.c_str());
   note_place(name);
   if (changes_hue || changes_strength) {
     const glm::vec3 hue = linear_from_srgb(srgb);

@@ -43,8 +43,8 @@ class PanelRows {
   /// A check box. Returns true when the user changes it.
   bool flag(const std::string& name, bool& is_on, const std::string& help = "");
   /// One number or three, edited by dragging, or by typing after a double click. Returns true when changed.
-  bool drag(const std::string& name, double* numbers, int count, const DragStyle& style, double least,
-            double most, const std::string& help = "");
+  bool drag(const std::string& name, double* numbers, int count, const DragStyle& style, double min,
+            double max, const std::string& help = "");
   /// A linear colour of any intensity: hue and intensity are edited separately. Returns true when changed.
   bool colour(const std::string& name, std::array<double, 3>& linear, const DragStyle& style,
               const std::string& help = "");

@@ -28,11 +28,11 @@ scene::Model full_model() {
   part.mesh.uvs.assign(3, {0.5f, 0.25f});
   part.mesh.indices = {0, 1, 2};
   part.node = 1;
-  auto bends = std::make_shared<scene::Deformation>();
-  bends->positions = part.mesh.positions, bends->normals = part.mesh.normals;
-  bends->targets.push_back({part.mesh.positions, {}});
-  bends->weights = {0.5f};
-  part.deformation = bends;
+  auto deformation = std::make_shared<scene::Deformation>();
+  deformation->positions = part.mesh.positions, deformation->normals = part.mesh.normals;
+  deformation->targets.push_back({part.mesh.positions, {}});
+  deformation->weights = {0.5f};
+  part.deformation = deformation;
   model.parts.push_back(part);
   scene::Animation animation{"wave", {}, {}, 2.0f};
   animation.channels.push_back({1,

@@ -136,9 +136,9 @@ void transfer_part(Io& io, T& part) {
   io.array(part.mesh.positions), io.array(part.mesh.normals), io.array(part.mesh.uvs);
   io.array(part.mesh.indices);
   io.value(part.material), io.value(part.node), io.value(part.casts_shadow);
-  bool bends = part.deformation != nullptr;
-  io.value(bends);
-  if (!bends) return;
+  bool is_deformed = part.deformation != nullptr;
+  io.value(is_deformed);
+  if (!is_deformed) return;
   if constexpr (std::is_const_v<T>) {
     transfer_deformation(io, *part.deformation);
   } else {

@@ -12,16 +12,11 @@ shading::WallLight wall_light(const scene::Scene& scene) {
   return scene.data<scene::BouncedSettings>().is_on ? shading::WallLight::none : shading::WallLight::constant;
 }
 
-/// Of what is seen; the bounds hold hidden things, too, so that the grid stays when they appear.
-shading::Heightfield heights_of(const scene::Scene& scene) {
-  Bounds bounds;
-  render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
-    bounds.add(transformed(part.world_from_mesh, part.mesh.bounds()));
-  });
-  shading::Heightfield heights(bounds);
-  render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
-    if (part.is_visible) heights.add(part.mesh, part.world_from_mesh);
-  });
+/// Heights of the visible static geometry. The bounds hold hidden objects, too: the grid stays when they
+/// appear.
+shading::Heightfield visible_heights(const scene::Scene& scene) {
+  shading::Heightfield heights(render::bounds_of_fixed_parts(scene, true));
+  render::add_fixed_parts(scene, heights);
   return heights;
 }
 
@@ -77,7 +72,7 @@ Result<SkyTextures> SkyTextures::create(const scene::Scene& scene) {
 SkyTextures::SkyTextures(const scene::Scene& scene, gl::Program program)
     : source_(source_of(scene.sky)),
       light_(shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading)),
-      heights_(heights_of(scene)),
+      heights_(visible_heights(scene)),
       visibility_(shading::make_sky_visibility(heights_, wall_light(scene))),
       program_(std::move(program)),
       picture_(upload(light_)),
@@ -97,7 +92,7 @@ bool SkyTextures::renew_light(const scene::Sky& sky) {
 void SkyTextures::renew_visibility(const scene::Scene& scene, const render::GpuScene& gpu,
                                    const render::FixedChange& change) {
   if (change.has_moved)
-    heights_ = heights_of(scene);  // its bounds may be others, too
+    heights_ = visible_heights(scene);  // its bounds may be others, too
   else
     renew_heights(scene, gpu, heights_);
   std::vector<Bounds> changed = change.gone;

@@ -42,4 +42,18 @@ void for_each_fixed_traced_part(const scene::Scene& scene,
   });
 }
 
+Bounds bounds_of_fixed_parts(const scene::Scene& scene, bool with_hidden) {
+  Bounds bounds;
+  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+    if (with_hidden || part.is_visible) bounds.add(transformed(part.world_from_mesh, part.mesh.bounds()));
+  });
+  return bounds;
+}
+
+void add_fixed_parts(const scene::Scene& scene, shading::Heightfield& heights) {
+  for_each_fixed_opaque_part(scene, [&](const FixedPart& part) {
+    if (part.is_visible) heights.add(part.mesh, part.world_from_mesh);
+  });
+}
+
 }  // namespace parvis::render

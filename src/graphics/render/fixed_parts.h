@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "graphics/shading/heightfield.h"
 #include "scene/data/scene.h"
 #include "scene/data/surroundings.h"
 
@@ -44,5 +45,11 @@ void for_each_fixed_opaque_part(const scene::Scene& scene, Visit&& visit) {
   for_each_fixed_object_part(scene, visit);
   if (!scene.traced_kinds.empty()) for_each_fixed_traced_part(scene, visit);
 }
+
+/// World bounds of all static opaque meshes, or of those that are visible.
+Bounds bounds_of_fixed_parts(const scene::Scene& scene, bool with_hidden);
+
+/// Raises the heights to the visible static opaque meshes.
+void add_fixed_parts(const scene::Scene& scene, shading::Heightfield& heights);
 
 }  // namespace parvis::render

@@ -28,8 +28,8 @@ void QualityBudget::choose(std::span<QualityWish> wishes) {
   }
   for (QualityWish& wish : wishes) wish.level = 0;
   std::ranges::sort(steps_, [](const Step& a, const Step& b) {
-    return a.worth_a_ms != b.worth_a_ms ? a.worth_a_ms > b.worth_a_ms
-                                        : std::pair(a.wish, a.level) < std::pair(b.wish, b.level);
+    return a.worth_per_ms != b.worth_per_ms ? a.worth_per_ms > b.worth_per_ms
+                                            : std::pair(a.wish, a.level) < std::pair(b.wish, b.level);
   });
   const double affordable_ms = (budget_ms_ - rest_ms_) / scale_;
   for (const Step& step : steps_) {

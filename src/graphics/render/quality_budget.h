@@ -43,7 +43,7 @@ class QualityBudget {
 
  private:
   struct Step {
-    double worth_a_ms;
+    double worth_per_ms;
     int wish, level;
   };
 

@@ -16,7 +16,7 @@ constexpr float sweep_margin_m = 0.12f;  // on each side of the largest vehicle
 constexpr float entry_margin_m = 1.4f;   // less than Vehicle remembers of the way behind its tail
 constexpr float exit_margin_m = 1.8f;    // less than Driver's standing gap
 constexpr float street_end_m = 8.0f;     // as far as a turning bus swings into it
-constexpr float slowest = 1.5f;          // m/s: however tight the bend
+constexpr float slowest = 1.5f;          // m/s: however tight the curve
 constexpr float bridge_clearance_m = 3.0f;
 
 /// The places of a vehicle that passes along a lane.
@@ -48,8 +48,8 @@ std::vector<float> safe_speeds(const scene::MeasuredPath& path, float limit, flo
     const glm::vec3 before = path.direction_at(std::max(along - reach_m, 0.0f));
     const glm::vec3 after = path.direction_at(std::min(along + reach_m, path.length()));
     const float turn = std::acos(std::clamp(glm::dot(before, after), -1.0f, 1.0f));
-    const float bend = std::sqrt(lateral_acceleration * 2.0f * reach_m / std::max(turn, 1e-3f));
-    speeds[i] = std::clamp(bend, std::min(slowest, limit), limit);
+    const float curve_speed = std::sqrt(lateral_acceleration * 2.0f * reach_m / std::max(turn, 1e-3f));
+    speeds[i] = std::clamp(curve_speed, std::min(slowest, limit), limit);
   }
   for (std::size_t i = count - 1; i-- > 0;)
     speeds[i] = std::min(speeds[i], std::sqrt(speeds[i + 1] * speeds[i + 1] + 2.0f * braking));

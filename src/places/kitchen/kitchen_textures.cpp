@@ -110,8 +110,8 @@ SurfacePictures front_pictures(std::uint32_t seed) {
 SurfacePictures wood_pictures(std::uint32_t seed) {
   SurfaceCanvas canvas(1024, 1024, wood_sheet_m, wood_sheet_m);
   canvas.paint_all([&](float x, float y, Texel& t) {
-    const float bend = grain(canvas, x, y, {0.3f, 0.06f}, 3, seed);
-    const float ring = 0.5f + 0.5f * std::sin(2.0f * pi * (10.0f * y / wood_sheet_m + 3.0f * bend));
+    const float wave = grain(canvas, x, y, {0.3f, 0.06f}, 3, seed);
+    const float ring = 0.5f + 0.5f * std::sin(2.0f * pi * (10.0f * y / wood_sheet_m + 3.0f * wave));
     const float pore = grain(canvas, x, y, {0.04f, 0.002f}, 3, seed + 1);
     t.colour = glm::mix(linear_from_srgb8(0xA8, 0x76, 0x48), linear_from_srgb8(0xC8, 0x9A, 0x66), ring) *
                (1.0f + 0.45f * pore);

@@ -20,8 +20,8 @@ city::SurfacePictures cloth_pictures(std::uint32_t seed);    ///< white with red
 /// Skin of an orange: u once around, v from the top down.
 city::SurfacePictures orange_pictures(std::uint32_t seed);
 city::SurfacePictures apple_pictures(std::uint32_t seed);  ///< red and yellow; layout of orange_pictures
-city::SurfacePictures banana_pictures(
-    std::uint32_t seed);  ///< yellow with brown spots, green toward the ends
+/// Yellow with brown spots, green toward the ends.
+city::SurfacePictures banana_pictures(std::uint32_t seed);
 
 /// A contact shadow: black, with alpha fading from the centre outward; for objects that stand on a surface.
 Image8 shade_picture();

@@ -95,7 +95,7 @@ std::vector<glm::vec3> picked(const std::vector<glm::vec3>& candidates,
 
 Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
                             const PlacementGoal& goal) {
-  const std::size_t most = std::size_t(std::max(goal.most, 0));
+  const std::size_t most = std::size_t(std::max(goal.max_maps, 0));
   const std::vector<glm::vec3> candidates = candidate_places(scene, heights, most);
   const std::size_t count = std::clamp(points_per_map * most, min_points, max_points);
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, count, goal.seed);

@@ -13,7 +13,7 @@ namespace parvis::reference_maps {
 
 /// When placement stops.
 struct PlacementGoal {
-  int most = 54;              ///< maximum number of maps
+  int max_maps = 54;
   float share_shown = 0.99f;  ///< of the points that vehicles mirror; above 1: all maps that add anything
   /// Thresholds for `shows`. With several, a point counts once for each; `share_shown` refers to the last.
   std::vector<float> sharpness{any_sharpness};

@@ -56,20 +56,12 @@ float fitting_cell_m(glm::vec2 size_m, float wanted_m) {
 }
 
 shading::Heightfield heights_of(const scene::Scene& scene) {
-  Bounds bounds;
-  const auto each_part = [&](auto&& visit) {
-    render::for_each_fixed_opaque_part(scene, [&](const render::FixedPart& part) {
-      if (part.is_visible) visit(part.mesh, part.world_from_mesh);
-    });
-  };
-  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
-    bounds.add(transformed(world_from_mesh, mesh.bounds()));
-  });
+  const Bounds bounds = render::bounds_of_fixed_parts(scene, false);
   const glm::vec2 size_m = bounds.empty() ? glm::vec2(0.0f) : glm::vec2(bounds.size());
   const float wanted_m = map_plan(scene).cell_m, cell_m = fitting_cell_m(size_m, wanted_m);
   tell_if_coarse(size_m, cell_m, wanted_m);
   shading::Heightfield heights(bounds, cell_m, int(max_heights_per_side));
-  each_part([&](const Mesh& mesh, const glm::mat4& world_from_mesh) { heights.add(mesh, world_from_mesh); });
+  render::add_fixed_parts(scene, heights);
   return heights;
 }
 

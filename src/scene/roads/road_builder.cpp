@@ -11,8 +11,8 @@ namespace parvis::scene {
 
 namespace {
 
-constexpr float kerb_radius_m = 5.0f;  // of the corners between streets: a car turns right on 6.5 m
-constexpr float bend_radius_m = 7.0f;  // of the innermost lane's edge where a street bends
+constexpr float kerb_radius_m = 5.0f;    // of the corners between streets: a car turns right on 6.5 m
+constexpr float corner_radius_m = 7.0f;  // of the innermost lane's edge where a street bends
 constexpr float widest_loop_m = 4.5f,
                 tightest_loop_m = 3.5f;    // radius on which a car turns round at a dead end
 constexpr float longest_cut_m = 60.0f;     // back from a crossing, however acute the angle
@@ -107,7 +107,7 @@ void add_street_lanes(RoadGraph& graph, const Street& street, const Road& road, 
   const Path part = street.path.part(start.cut_m, length - end.cut_m);
   const int lanes = road.lanes_each_way;
   const float outermost_m = half_width_m(road) - 0.5f * road.lane_width_m;
-  const Path centre = rounded(part, outermost_m + bend_radius_m);
+  const Path centre = rounded(part, outermost_m + corner_radius_m);
   const Path reversed(centre.rbegin(), centre.rend());
 
   start.end = centre.front(), start.inward_at_end = glm::normalize(centre[0] - centre[1]);

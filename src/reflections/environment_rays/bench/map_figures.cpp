@@ -36,7 +36,7 @@ void measure_placement(const scene::Scene& scene, Report& report) {
   const std::vector<glm::vec3> even = spread_places(scene, heights, max_maps);
   const auto enough = [&](float sharpness) {  // as the points that judge have it, not those that place
     PlacementGoal goal;
-    goal.most = max_maps;
+    goal.max_maps = max_maps;
     goal.share_shown = 0.5f * (1.0f + wanted_share);
     goal.sharpness = {sharpness};
     std::vector<glm::vec3> places = place_by_coverage(scene, heights, goal).places;
