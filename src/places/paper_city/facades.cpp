@@ -26,6 +26,7 @@ constexpr float max_ground_storey_m = 4.2f, cornice_m = 0.2f;  // no storey is h
 constexpr float shop_share = 0.2f, two_storeys_m = 5.4f;       // of houses from so high on
 constexpr float same_eaves_m = 0.9f;                           // houses of a row differ where their eaves do
 constexpr float before_wall_m = 0.6f;  // a window of the model so near belongs to the wall
+constexpr float seam_m = 1e-3f;        // no strip is lower
 constexpr std::size_t sheet_count = 3;
 
 /// What the walls of one house have in common.
@@ -99,6 +100,15 @@ bool has_own_openings(const WallPanel& panel, const std::vector<glm::vec3>& open
   });
 }
 
+/// Of the lowest and of the highest point.
+std::pair<float, float> bottom_and_top(const std::vector<ModelTriangle>& pieces) {
+  float bottom_m = 1e30f, top_m = -1e30f;
+  for (const ModelTriangle& piece : pieces)
+    for (const glm::vec3& corner : piece.corners)
+      bottom_m = std::min(bottom_m, corner.z), top_m = std::max(top_m, corner.z);
+  return {bottom_m, top_m};
+}
+
 /// Dresses one panel, strip by strip from its foot to its top.
 class Dresser {
  public:
@@ -112,23 +122,27 @@ class Dresser {
     pieces_.clear();
     for (const std::size_t i : panel.triangles) pieces_.push_back(walls_[i]);
     pieces_ = clipped(pieces_, panel.along, panel.low.x, panel.high.x);
-    const float width_m = panel.high.x - panel.low.x, height_m = panel.eaves_m - panel.low.y;
+    const auto [bottom_m, top_m] = bottom_and_top(pieces_);
+    foot_m_ = panel.low.y - bottom_m > seam_m ? panel.low.y : bottom_m;
+    eaves_m_ = top_m - panel.eaves_m > seam_m ? panel.eaves_m : top_m;
+    const float width_m = panel.high.x - panel.low.x, height_m = eaves_m_ - foot_m_;
     Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
     const bool is_side = !panel.stands_on_ground && width_m < narrowest_on_roof_m;
     if (is_blank || panel.is_party_wall || is_side || width_m < narrowest_m || height_m < lowest_m)
-      return plain(panel.low.y, panel.high.y);
+      return plain(bottom_m, top_m);
+    plain(bottom_m, foot_m_);
     if (panel.stands_on_ground && height_m < shed_m)
       add_shed(width_m, random);
     else
       add_house_front(width_m, height_m, random);
-    if (panel.high.y > panel.eaves_m) plain(panel.eaves_m, panel.high.y);
+    plain(eaves_m_, top_m);
   }
 
  private:
   void add_shed(float width_m, Random& random) {
     const bool has_garage = width_m > garage_m && random.chance(0.5f);
     const float bays = std::max(1.0f, std::round(width_m / brick_bay_m));
-    add(BrickSheet::street, panel_->low.y, panel_->eaves_m,
+    add(BrickSheet::street, foot_m_, eaves_m_,
         {has_garage ? garage_bay : small_window_bay, float(StreetBand::sheds)}, {bays, 1.0f});
   }
 
@@ -139,17 +153,16 @@ class Dresser {
         !panel_->stands_on_ground ? 0.0f : style_.storey_m + (style_.is_shop ? 0.6f : 0.15f);
     const float rest_m = height_m - street_m - cornice_m;
     const float storeys = std::max(0.0f, std::round(rest_m / style_.storey_m));
-    const float foot = panel_->low.y;
-    const float street_top = foot + (storeys > 0.0f ? street_m : std::min(height_m, max_ground_storey_m));
+    const float street_top = foot_m_ + (storeys > 0.0f ? street_m : std::min(height_m, max_ground_storey_m));
     if (panel_->stands_on_ground) {
       const StreetBand band = style_.is_shop ? StreetBand::shops : style_.band;
       const int span = std::min(int(bays), brick_bays);  // the first bays that hold a door
       const int start = (brick_bays + door_bay - random.index(span)) % brick_bays;
-      add(BrickSheet::street, foot, street_top, {start, float(band)}, {bays, 1.0f});
+      add(BrickSheet::street, foot_m_, street_top, {start, float(band)}, {bays, 1.0f});
     }
-    if (storeys == 0.0f) return plain(street_top, panel_->eaves_m);
+    if (storeys == 0.0f) return plain(street_top, eaves_m_);
     const float start = float(random.index(brick_bays)), row = float(random.index(brick_storeys));
-    add(BrickSheet::storeys, panel_->stands_on_ground ? street_top : foot, panel_->eaves_m, {start, row},
+    add(BrickSheet::storeys, panel_->stands_on_ground ? street_top : foot_m_, eaves_m_, {start, row},
         {bays, storeys});
   }
 
@@ -184,7 +197,8 @@ class Dresser {
   std::uint64_t seed_;
   const WallPanel* panel_ = nullptr;
   HouseStyle style_{};
-  std::vector<ModelTriangle> pieces_;  ///< of the panel
+  std::vector<ModelTriangle> pieces_;     ///< of the panel
+  float foot_m_ = 0.0f, eaves_m_ = 0.0f;  ///< of the panel: below and above are bricks without openings
 };
 
 }  // namespace

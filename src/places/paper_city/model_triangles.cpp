@@ -1,5 +1,6 @@
 #include "places/paper_city/model_triangles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -109,6 +110,13 @@ std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, 
   constexpr float smallest_m2 = 1e-5f;
   std::vector<ModelTriangle> result;
   for (const ModelTriangle& triangle : triangles) {
+    const bool is_inside = std::ranges::all_of(triangle.corners, [&](const glm::vec3& corner) {
+      return glm::dot(axis, corner) >= low && glm::dot(axis, corner) <= high;
+    });
+    if (is_inside) {
+      result.push_back(triangle);
+      continue;
+    }
     std::vector<CutPoint> polygon;
     for (std::size_t k = 0; k < 3; ++k) polygon.push_back({triangle.corners[k], triangle.corners_in_node[k]});
     polygon = cut(cut(polygon, axis, low, 1.0f), axis, high, -1.0f);

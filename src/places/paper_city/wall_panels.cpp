@@ -4,13 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/constants.hpp>
 #include <map>
+#include <span>
 #include <unordered_map>
 
 namespace parvis::city {
 namespace {
 
-constexpr float same_plane_m = 0.25f, same_heading = 0.035f;
+constexpr float same_plane_m = 0.25f;
+constexpr long headings = 180;          // that count as different, around the circle
 constexpr float side_by_side_m = 0.3f;  // surfaces that overlap less are neighbours
 constexpr float narrow_m = 2.4f;        // a strip of wall that is no house: it belongs to its neighbour
 constexpr float step_m = 0.6f;          // of the top between two houses
@@ -19,13 +22,13 @@ constexpr float tiny_m = 0.02f;
 constexpr float party_gap_m = 1.2f, party_overlap_m = 0.3f;  // between walls of two houses
 constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others nearby stands on a roof
 constexpr float hash_cell_m = 6.0f;
-constexpr int max_break_points = 400;  // of one wall's outline
 
 /// A connected part of a wall in the file.
 struct Surface {
   std::vector<std::size_t> triangles;
   glm::vec3 normal{0.0f};
-  float low = 1e30f, high = -1e30f, top_m = -1e30f;  ///< along the wall, and its highest point
+  float low = 1e30f, high = -1e30f;        ///< along the wall
+  float bottom_m = 1e30f, top_m = -1e30f;  ///< its lowest and its highest point
 };
 
 glm::vec3 along_of(glm::vec3 normal) { return glm::normalize(glm::vec3(-normal.y, normal.x, 0.0f)); }
@@ -39,6 +42,7 @@ void measure(Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec
     for (const glm::vec3& corner : walls[i].corners) {
       const float place = glm::dot(corner, along);
       surface.low = std::min(surface.low, place), surface.high = std::max(surface.high, place);
+      surface.bottom_m = std::min(surface.bottom_m, corner.z);
       surface.top_m = std::max(surface.top_m, corner.z);
     }
 }
@@ -54,9 +58,9 @@ std::vector<std::vector<Surface>> planes_of(const std::vector<ModelTriangle>& wa
   std::map<std::array<long, 3>, std::vector<Surface>> planes;
   const auto file = [&](Surface surface, glm::vec3 normal) {
     const ModelTriangle& first = walls[surface.triangles.front()];
-    const float heading = std::atan2(normal.y, normal.x);
+    const float turn = std::atan2(normal.y, normal.x) / glm::two_pi<float>();  // -0.5 and 0.5 both face west
     surface.normal = normal;
-    planes[{long(first.building), std::lround(heading / same_heading),
+    planes[{long(first.building), (std::lround(turn * float(headings)) + headings) % headings,
             std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)}]
         .push_back(std::move(surface));
   };
@@ -100,22 +104,30 @@ std::vector<Surface> joined(std::vector<Surface> plane, const std::vector<ModelT
   return result;
 }
 
-/// Foot and top of a wall at a place along it; low > high where there is none.
+/// Foot and top of a wall at a place along it.
 struct Span {
   float low = 1e30f, high = -1e30f;
+
+  bool is_empty() const { return low > high; }
 };
 
-Span span_at(const Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along, float place) {
-  Span span;
+/// One span for each place, which ascend.
+std::vector<Span> spans_at(const std::vector<float>& places, const Surface& surface,
+                           const std::vector<ModelTriangle>& walls, glm::vec3 along) {
+  std::vector<Span> spans(places.size());
   for (const std::size_t i : surface.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::vec3 &a = walls[i].corners[k], &b = walls[i].corners[(k + 1) % 3];
-      const float from = glm::dot(a, along) - place, to = glm::dot(b, along) - place;
-      if ((from > 0.0f) == (to > 0.0f)) continue;
-      const float z = glm::mix(a.z, b.z, from / (from - to));
-      span.low = std::min(span.low, z), span.high = std::max(span.high, z);
+      const float from = glm::dot(a, along), to = glm::dot(b, along);
+      const auto first = std::ranges::lower_bound(places, std::min(from, to)),
+                 end = std::ranges::lower_bound(places, std::max(from, to));
+      for (auto place = first; place != end; ++place) {
+        const float z = glm::mix(a.z, b.z, (*place - from) / (to - from));
+        Span& span = spans[std::size_t(place - places.begin())];
+        span.low = std::min(span.low, z), span.high = std::max(span.high, z);
+      }
     }
-  return span;
+  return spans;
 }
 
 /// Where the outline of a wall has corners.
@@ -128,8 +140,29 @@ std::vector<float> break_points(const Surface& surface, const std::vector<ModelT
   std::vector<float> kept;
   for (const float place : places)
     if (kept.empty() || place - kept.back() > 2.5f * tiny_m) kept.push_back(place);
-  if (kept.size() > std::size_t(max_break_points)) kept = {kept.front(), kept.back()};
   return kept;
+}
+
+/// Just after and just before each two neighbours of break points.
+std::vector<float> beside(const std::vector<float>& break_points) {
+  std::vector<float> places;
+  for (std::size_t i = 0; i + 1 < break_points.size(); ++i)
+    places.insert(places.end(), {break_points[i] + tiny_m, break_points[i + 1] - tiny_m});
+  return places;
+}
+
+/// Gives each panel of a wall, from its low end on, the triangles that it crosses.
+void share_out(const Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along,
+               std::span<WallPanel> panels) {
+  for (const std::size_t i : surface.triangles) {
+    const auto [low, high] =
+        std::minmax({glm::dot(walls[i].corners[0], along), glm::dot(walls[i].corners[1], along),
+                     glm::dot(walls[i].corners[2], along)});
+    auto panel =
+        std::ranges::upper_bound(panels.subspan(1), low, {}, [](const WallPanel& p) { return p.low.x; }) - 1;
+    do panel->triangles.push_back(i);
+    while (++panel != panels.end() && panel->low.x < high);
+  }
 }
 
 /// The wall between two steps of its outline.
@@ -137,34 +170,38 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
   const glm::vec3 along = along_of(surface.normal);
   surface.low = 1e30f, surface.high = -1e30f;  // until now along the plane's first surface
   measure(surface, walls, along);
-  const glm::vec3 outward = glm::normalize(glm::vec3(glm::vec2(surface.normal), 0.0f));
   const std::vector<float> places = break_points(surface, walls, along);
-  WallPanel panel;
+  const std::vector<Span> spans = spans_at(beside(places), surface, walls, along);
+  const std::size_t first_panel = panels.size();
   const auto begin = [&](float place) {
-    panel = WallPanel{.triangles = surface.triangles, .normal = outward, .along = along};
+    WallPanel& panel = panels.emplace_back();
+    panel.normal = glm::normalize(glm::vec3(glm::vec2(surface.normal), 0.0f)), panel.along = along;
     panel.building = walls[surface.triangles.front()].building;
     panel.offset_m = glm::dot(panel.normal, walls[surface.triangles.front()].corners[0]);
-    panel.low = {place, 1e30f}, panel.high = {place, -1e30f}, panel.eaves_m = 1e30f;
-  };
-  const auto end = [&](float place) {
-    panel.high.x = place;
-    if (panel.high.x > panel.low.x && panel.high.y > panel.low.y) panels.push_back(panel);
+    panel.low = {place, 1e30f}, panel.high = {surface.high, -1e30f}, panel.eaves_m = 1e30f;
   };
   begin(surface.low);
   Span before;
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const Span left = span_at(surface, walls, along, places[i] + tiny_m),
-               right = span_at(surface, walls, along, places[i + 1] - tiny_m);
-    const bool is_step = i > 0 && (std::abs(left.high - before.high) > step_m ||
-                                   std::abs(left.low - before.low) > foot_step_m);
-    if (is_step) end(places[i]), begin(places[i]);
+    Span left = spans[2 * i], right = spans[2 * i + 1];
+    if (left.is_empty()) left = right;  // a gap between surfaces
+    if (right.is_empty()) right = left;
+    if (left.is_empty()) continue;
+    const bool is_step = !before.is_empty() && (std::abs(left.high - before.high) > step_m ||
+                                                std::abs(left.low - before.low) > foot_step_m);
+    if (is_step) panels.back().high.x = places[i], begin(places[i]);
+    WallPanel& panel = panels.back();
     for (const Span& span : {left, right}) {
       panel.low.y = std::min(panel.low.y, span.low), panel.high.y = std::max(panel.high.y, span.high);
       panel.eaves_m = std::min(panel.eaves_m, span.high);
     }
     before = right;
   }
-  end(surface.high);
+  if (before.is_empty()) {  // narrower than what steps are sought with
+    WallPanel& panel = panels.back();
+    panel.low.y = surface.bottom_m, panel.high.y = panel.eaves_m = surface.top_m;
+  }
+  share_out(surface, walls, along, std::span(panels).subspan(first_panel));
 }
 
 /// Panels by the cells of the plan that they cross.

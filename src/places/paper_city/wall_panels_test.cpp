@@ -1,0 +1,69 @@
+#include "places/paper_city/wall_panels.h"
+
+#include <gtest/gtest.h>
+
+#include "base/mesh.h"
+
+namespace parvis::city {
+namespace {
+
+void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+  const std::uint32_t first = std::uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
+  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+}
+
+std::vector<ModelTriangle> triangles_of(const Mesh& mesh) {
+  scene::Model model;
+  model.materials.emplace_back();
+  model.parts.emplace_back();
+  model.parts.front().mesh = mesh;
+  return take_triangles(model, "*", [](const scene::Material&, glm::vec3) { return true; });
+}
+
+TEST(WallPanels, AWallNarrowerThanItsStepsAreSoughtWithIsAPanel) {
+  Mesh post;
+  add_quad(post, {0, 0, 1}, {0.03f, 0, 1}, {0.03f, 0, 4}, {0, 0, 4});
+  const std::vector<WallPanel> panels = wall_panels(triangles_of(post));
+  ASSERT_EQ(panels.size(), 1u);
+  EXPECT_EQ(panels[0].triangles.size(), 2u);
+  EXPECT_NEAR(panels[0].high.x - panels[0].low.x, 0.03f, 1e-6f);
+  EXPECT_EQ(panels[0].low.y, 1.0f);
+  EXPECT_EQ(panels[0].high.y, 4.0f);
+}
+
+/// A wall in one piece whose top goes up and down by a metre every two metres.
+Mesh battlements(int teeth) {
+  Mesh mesh;
+  for (int i = 0; i < 2 * teeth; ++i) {
+    const float x = 2.0f * float(i), top = i % 2 == 0 ? 6.0f : 5.0f;
+    add_quad(mesh, {x, 0, 0}, {x + 2, 0, 0}, {x + 2, 0, top}, {x, 0, top});
+    const std::uint32_t shared = mesh.indices[mesh.indices.size() - 6];  // the foot of the tooth before
+    if (i > 0) mesh.indices[mesh.indices.size() - 6] = mesh.indices[mesh.indices.size() - 3] = shared - 3;
+  }
+  return mesh;
+}
+
+TEST(WallPanels, AnyNumberOfStepsGivesPanelsWithTheirOwnTriangles) {
+  constexpr int teeth = 300;
+  const std::vector<WallPanel> panels = wall_panels(triangles_of(battlements(teeth)));
+  ASSERT_EQ(panels.size(), std::size_t(2 * teeth));
+  for (const WallPanel& panel : panels) {
+    EXPECT_NEAR(panel.high.x - panel.low.x, 2.0f, 1e-3f);
+    EXPECT_EQ(panel.triangles.size(), 2u);
+  }
+}
+
+TEST(WallPanels, WestIsOneHeading) {
+  // Two polygons of one wall, one above the other: atan2 returns 180 degrees for one and -180 for the other.
+  Mesh wall;
+  add_quad(wall, {0, 10, 0}, {0.0001f, 0, 0}, {0.0001f, 0, 3}, {0, 10, 3});
+  add_quad(wall, {0.0001f, 10, 3}, {0, 0, 3}, {0, 0, 9}, {0.0001f, 10, 9});
+  const std::vector<WallPanel> panels = wall_panels(triangles_of(wall));
+  ASSERT_EQ(panels.size(), 1u);
+  EXPECT_LT(panels[0].normal.x, -0.99f);
+  EXPECT_NEAR(panels[0].high.y - panels[0].low.y, 9.0f, 1e-3f);
+}
+
+}  // namespace
+}  // namespace parvis::city
