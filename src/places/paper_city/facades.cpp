@@ -74,15 +74,20 @@ int add_wall_materials(scene::Model& model) {
   return first;
 }
 
-/// The middles of the windows and doors that a model has itself.
+/// A window or a door that a model has itself.
+bool is_opening(const scene::Model& model, const scene::Part& part) {
+  const std::string& material = model.materials[std::size_t(part.material)].name;
+  return std::ranges::any_of(std::array{"*Window*", "*Door*"}, [&](const char* pattern) {
+    return scene::matches(pattern, material) || scene::matches(pattern, part.object);
+  });
+}
+
+/// The middles of their triangles.
 std::vector<glm::vec3> own_openings(const scene::Model& model) {
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   std::vector<glm::vec3> middles;
   for (const scene::Part& part : model.parts) {
-    const std::string& name = model.materials[std::size_t(part.material)].name;
-    if (!scene::matches("*Window*", name) && !scene::matches("*Door*", name) &&
-        !scene::matches("*Window*", part.object) && !scene::matches("*Door*", part.object))
-      continue;
+    if (!is_opening(model, part)) continue;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       glm::vec3 sum(0.0f);
       for (std::size_t k = 0; k < 3; ++k) sum += part.mesh.positions[part.mesh.indices[i + k]];
@@ -205,8 +210,9 @@ class Dresser {
 
 std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed) {
   const std::vector<ModelTriangle> walls =
-      take_triangles(model, target, [](const scene::Material& material, glm::vec3 normal) {
-        return std::abs(normal.z) < steepest_roof_z && material.base_colour_texture == scene::no_index;
+      take_triangles(model, target, [&](const scene::Part& part, glm::vec3 normal) {
+        return std::abs(normal.z) < steepest_roof_z && !is_opening(model, part) &&
+               model.materials[std::size_t(part.material)].base_colour_texture == scene::no_index;
       });
   if (walls.empty()) return 0;
   const std::vector<glm::vec3> openings = own_openings(model);

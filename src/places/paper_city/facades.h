@@ -12,7 +12,8 @@ namespace parvis::city {
 /// model's z is up) of the parts that match the pattern `target`. The polygons of the file and the heights of
 /// eaves distinguish the houses of a row; each has its bricks, storey height, rhythm of windows and street
 /// level, by `seed`. Whole storeys end at the eaves; gables, party walls, walls of less than 1.6 m and walls
-/// that have windows of the model are bricks alone; low ones are sheds. Walls with a picture are left as they
+/// that have windows of the model are bricks alone; low ones are sheds. Walls with a picture, and the model's
+/// own windows and doors ("Window" or "Door" is in the name of the object or the material), are left as they
 /// are. Returns the number of triangles changed.
 std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed = 1);
 

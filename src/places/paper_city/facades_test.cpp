@@ -189,8 +189,19 @@ TEST(Facades, WindowsAndPicturesOfTheModelAreKept) {
   window.object = "Window", window.material = 1;
   add_quad(window.mesh, {2, -0.05f, 3}, {3, -0.05f, 3}, {3, -0.05f, 5}, {2, -0.05f, 5});
   glazed.parts.push_back(window);
-  add_facades(glazed, "building");
-  EXPECT_NEAR(share_of(glazed, "brick wall"), 1.0, 1e-3);
+  glazed.materials.emplace_back();
+  glazed.materials.back().name = "oak Door";
+  scene::Part door;
+  door.object = "leaf", door.material = 2;
+  add_quad(door.mesh, {5, -0.05f, 0}, {6, -0.05f, 0}, {6, -0.05f, 2}, {5, -0.05f, 2});
+  glazed.parts.push_back(door);
+  for (const char* target : {"building", "*"}) {
+    scene::Model dressed = glazed;
+    EXPECT_EQ(add_facades(dressed, target), 2u) << target;
+    EXPECT_NEAR(share_of(dressed, "brick wall"), 1.0, 1e-3) << target;
+    EXPECT_NEAR(area_of(dressed, "Window"), 2.0, 1e-6) << target;
+    EXPECT_NEAR(area_of(dressed, "leaf"), 2.0, 1e-6) << target;
+  }
   scene::Model pictured = no_walls();
   add_wall(pictured, 0.0f, 12.0f, 0.0f, 9.0f);
   pictured.textures.emplace_back();

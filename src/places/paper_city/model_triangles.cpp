@@ -64,13 +64,12 @@ std::vector<CutPoint> cut(const std::vector<CutPoint>& polygon, glm::vec3 axis, 
 
 std::vector<ModelTriangle> take_triangles(
     scene::Model& model, std::string_view target,
-    const std::function<bool(const scene::Material&, glm::vec3)>& is_wanted) {
+    const std::function<bool(const scene::Part&, glm::vec3)>& is_wanted) {
   const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
   std::vector<ModelTriangle> taken;
   std::size_t points_before = 0;
   for (const std::size_t index : scene::matching_parts(model, target)) {
     scene::Part& part = model.parts[index];
-    const scene::Material& material = model.materials[std::size_t(part.material)];
     Joined points(part.mesh.positions.size());
     const std::size_t first = taken.size();
     std::vector<std::uint32_t> kept;
@@ -85,7 +84,7 @@ std::vector<ModelTriangle> take_triangles(
       const glm::vec3 area =
           glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
       const float length = glm::length(area);
-      if (length > 1e-8f && is_wanted(material, area / length)) {
+      if (length > 1e-8f && is_wanted(part, area / length)) {
         triangle.normal = area / length;
         triangle.surface = part.mesh.indices[i];
         for (std::size_t k = 1; k < 3; ++k) points.join(part.mesh.indices[i + k], part.mesh.indices[i]);

@@ -24,11 +24,11 @@ struct ModelTriangle {
       0;  ///< number of its surface in the file: equal where triangles share points of a mesh
 };
 
-/// Removes the triangles that are wanted, by material and unit normal, from the parts that match the pattern
-/// `target`, and numbers buildings and surfaces.
+/// Removes the triangles that are wanted, by their part of the model and unit normal, from the parts that
+/// match the pattern `target`, and numbers buildings and surfaces.
 std::vector<ModelTriangle> take_triangles(
     scene::Model& model, std::string_view target,
-    const std::function<bool(const scene::Material&, glm::vec3)>& is_wanted);
+    const std::function<bool(const scene::Part&, glm::vec3)>& is_wanted);
 
 /// The part of a triangle where low <= dot(axis, point) <= high, as triangles; unit axis in the model's
 /// frame.

@@ -65,7 +65,7 @@ std::array<glm::vec2, 3> roof_uvs(const ModelTriangle& triangle, bool is_flat, f
 
 std::size_t add_roofs(scene::Model& model, std::string_view target) {
   const std::vector<ModelTriangle> roofs =
-      take_triangles(model, target, [](const scene::Material&, glm::vec3) { return true; });
+      take_triangles(model, target, [](const scene::Part&, glm::vec3) { return true; });
   if (roofs.empty()) return 0;
   const std::array<int, 3> tiles = add_pictures(model, "roof tiles", roof_tile_pictures(1));
   const std::array<int, 3> gravel = add_pictures(model, "flat roof", gravel_pictures(2));

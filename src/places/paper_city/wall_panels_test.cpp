@@ -18,7 +18,7 @@ std::vector<ModelTriangle> triangles_of(const Mesh& mesh) {
   model.materials.emplace_back();
   model.parts.emplace_back();
   model.parts.front().mesh = mesh;
-  return take_triangles(model, "*", [](const scene::Material&, glm::vec3) { return true; });
+  return take_triangles(model, "*", [](const scene::Part&, glm::vec3) { return true; });
 }
 
 TEST(WallPanels, AWallNarrowerThanItsStepsAreSoughtWithIsAPanel) {
