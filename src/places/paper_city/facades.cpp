@@ -16,17 +16,15 @@ namespace parvis::city {
 
 namespace {
 
-constexpr float steepest_roof_z = 0.34f;              // cosine of 70 degrees: above it a surface is roof
-constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
-constexpr float shed_m = 2.9f;                        // lower: nobody lives there
+constexpr float steepest_roof_z = 0.34f;  // cosine of 70 degrees: above it a surface is roof
+constexpr float shed_m = 2.9f;            // lower: nobody lives there
 constexpr float narrowest_on_roof_m =
     5.0f;                         // of a wall above a lower roof: else it is the side of the next house
 constexpr float garage_m = 2.7f;  // width of a shed with a door
 constexpr float max_ground_storey_m = 4.2f, cornice_m = 0.2f;  // no storey is higher; above the last one
 constexpr float shop_share = 0.2f, two_storeys_m = 5.4f;       // of houses from so high on
 constexpr float same_eaves_m = 0.9f;                           // houses of a row differ where their eaves do
-constexpr float before_wall_m = 0.6f;  // a window of the model so near belongs to the wall
-constexpr float seam_m = 1e-3f;        // no strip is lower
+constexpr float seam_m = 1e-3f;                                // no strip is lower
 constexpr std::size_t sheet_count = 3;
 
 /// What the walls of one house have in common.
@@ -97,14 +95,6 @@ std::vector<glm::vec3> own_openings(const scene::Model& model) {
   return middles;
 }
 
-bool has_own_openings(const WallPanel& panel, const std::vector<glm::vec3>& openings) {
-  return std::ranges::any_of(openings, [&](glm::vec3 point) {
-    const float place = glm::dot(point, panel.along);
-    return std::abs(glm::dot(point, panel.normal) - panel.offset_m) < before_wall_m && place > panel.low.x &&
-           place < panel.high.x && point.z > panel.low.y && point.z < panel.high.y;
-  });
-}
-
 /// Of the lowest and of the highest point.
 std::pair<float, float> bottom_and_top(const std::vector<ModelTriangle>& pieces) {
   float bottom_m = 1e30f, top_m = -1e30f;
@@ -121,7 +111,7 @@ class Dresser {
           std::uint64_t seed)
       : parts_(parts), walls_(walls), first_material_(first_material), seed_(seed) {}
 
-  void dress(const WallPanel& panel, bool is_blank) {
+  void dress(const WallPanel& panel) {
     panel_ = &panel;
     style_ = style_of(panel, seed_);
     pieces_.clear();
@@ -133,7 +123,7 @@ class Dresser {
     const float width_m = panel.high.x - panel.low.x, height_m = eaves_m_ - foot_m_;
     Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
     const bool is_side = !panel.stands_on_ground && width_m < narrowest_on_roof_m;
-    if (is_blank || panel.is_party_wall || is_side || width_m < narrowest_m || height_m < lowest_m)
+    if (panel.has_openings || panel.is_party_wall || is_side || !is_large(panel))
       return plain(bottom_m, top_m);
     plain(bottom_m, foot_m_);
     if (panel.stands_on_ground && height_m < shed_m)
@@ -219,7 +209,7 @@ std::size_t add_facades(scene::Model& model, std::string_view target, std::uint6
   const int first_material = add_wall_materials(model);
   DressedParts parts(model, "facade");
   Dresser dresser(parts, walls, first_material, seed);
-  for (const WallPanel& panel : wall_panels(walls)) dresser.dress(panel, has_own_openings(panel, openings));
+  for (const WallPanel& panel : wall_panels(walls, openings)) dresser.dress(panel);
   return walls.size();
 }
 

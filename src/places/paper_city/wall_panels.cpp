@@ -21,6 +21,8 @@ constexpr float foot_step_m = 1.0f;     // of the foot, where the wall stands on
 constexpr float tiny_m = 0.02f;
 constexpr float party_gap_m = 1.2f, party_overlap_m = 0.3f;  // between walls of two houses
 constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others nearby stands on a roof
+constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
+constexpr float before_wall_m = 0.6f;                 // an opening so near belongs to the wall
 constexpr float hash_cell_m = 6.0f;
 
 /// A connected part of a wall in the file.
@@ -204,87 +206,132 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
   share_out(surface, walls, along, std::span(panels).subspan(first_panel));
 }
 
-/// Panels by the cells of the plan that they cross.
+/// In plan, a place on a panel.
+glm::vec2 spot(const WallPanel& panel, float place) {
+  return glm::vec2(panel.along) * place + glm::vec2(panel.normal) * panel.offset_m;
+}
+
+/// Number of the cell of the plan that a spot lies in.
+std::int64_t cell_at(glm::vec2 at) {
+  const glm::ivec2 cell(glm::floor(at / hash_cell_m));
+  return std::int64_t(cell.x) * 4'000'037 + cell.y;
+}
+
+/// Calls see(cell) for the cells that a panel crosses, for some of them more than once.
+template <class See>
+void for_cells_along(const WallPanel& panel, See&& see) {
+  const float length_m = panel.high.x - panel.low.x;
+  const int steps = 1 + int(std::min(length_m, 5000.0f) / (0.5f * hash_cell_m));
+  for (int step = 0; step <= steps; ++step)
+    see(cell_at(spot(panel, glm::mix(panel.low.x, panel.high.x, float(step) / float(steps)))));
+}
+
+/// Calls see(cell) for a spot's cell and those around it.
+template <class See>
+void for_cells_around(glm::vec2 at, See&& see) {
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) see(cell_at(at + hash_cell_m * glm::vec2(x, y)));
+}
+
+/// Panels by the cells that they cross.
 class PanelPlan {
  public:
-  explicit PanelPlan(const std::vector<WallPanel>& panels) : panels_(panels) {
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-      const float length_m = panels[i].high.x - panels[i].low.x;
-      const int steps = 1 + int(std::min(length_m, 5000.0f) / (0.5f * hash_cell_m));
-      for (int step = 0; step <= steps; ++step) {
-        const glm::vec2 at =
-            spot(panels[i], glm::mix(panels[i].low.x, panels[i].high.x, float(step) / float(steps)));
-        std::vector<std::size_t>& cell = cells_[key(at)];
-        if (cell.empty() || cell.back() != i) cell.push_back(i);
-      }
-    }
+  void add(const WallPanel& panel, std::size_t index) {
+    for_cells_along(panel, [&](std::int64_t at) {
+      std::vector<std::size_t>& cell = cells_[at];
+      if (cell.empty() || cell.back() != index) cell.push_back(index);
+    });
   }
 
-  /// In plan, a place on a panel.
-  static glm::vec2 spot(const WallPanel& panel, float place) {
-    return glm::vec2(panel.along) * place + glm::vec2(panel.normal) * panel.offset_m;
-  }
-
-  /// Calls see(panel) for those within a cell of a spot, some of them more than once.
+  /// Calls see(index) for the panels within a cell of a spot, for some of them more than once.
   template <class See>
   void near(glm::vec2 at, See&& see) const {
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (const auto cell = cells_.find(key(at + hash_cell_m * glm::vec2(x, y))); cell != cells_.end())
-          for (const std::size_t i : cell->second) see(panels_[i]);
+    for_cells_around(at, [&](std::int64_t around) {
+      if (const auto cell = cells_.find(around); cell != cells_.end())
+        for (const std::size_t i : cell->second) see(i);
+    });
   }
 
  private:
-  static std::int64_t key(glm::vec2 at) {
-    const glm::ivec2 cell(glm::floor(at / hash_cell_m));
-    return std::int64_t(cell.x) * 4'000'037 + cell.y;
-  }
-
-  const std::vector<WallPanel>& panels_;
   std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
 };
 
+/// A panel stands on the ground if nothing of its building near it stands much lower.
+void find_ground(std::vector<WallPanel>& panels) {
+  std::map<std::pair<std::int64_t, std::size_t>, float> feet_m;  // the lowest by cell and building
+  for (const WallPanel& panel : panels)
+    for_cells_along(panel, [&](std::int64_t cell) {
+      float& foot_m = feet_m.try_emplace({cell, panel.building}, panel.low.y).first->second;
+      foot_m = std::min(foot_m, panel.low.y);
+    });
+  for (WallPanel& panel : panels) {
+    float nearby_m = panel.low.y;
+    for_cells_around(spot(panel, 0.5f * (panel.low.x + panel.high.x)), [&](std::int64_t cell) {
+      if (const auto foot_m = feet_m.find({cell, panel.building}); foot_m != feet_m.end())
+        nearby_m = std::min(nearby_m, foot_m->second);
+    });
+    panel.stands_on_ground = panel.low.y < nearby_m + roof_foot_m;
+  }
+}
+
+bool is_on(glm::vec3 opening, const WallPanel& panel) {
+  const float place = glm::dot(opening, panel.along);
+  return std::abs(glm::dot(opening, panel.normal) - panel.offset_m) < before_wall_m && place > panel.low.x &&
+         place < panel.high.x && opening.z > panel.low.y && opening.z < panel.high.y;
+}
+
+void find_openings(std::vector<WallPanel>& panels, const std::vector<glm::vec3>& openings) {
+  PanelPlan plan;
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    if (is_large(panels[i])) plan.add(panels[i], i);
+  for (const glm::vec3 opening : openings)
+    plan.near(glm::vec2(opening), [&](std::size_t i) {
+      panels[i].has_openings = panels[i].has_openings || is_on(opening, panels[i]);
+    });
+}
+
 /// True if another house's wall stands before most of the panel's lowest storey.
-bool is_party_wall(const WallPanel& panel, const PanelPlan& plan) {
+bool is_party_wall(const WallPanel& panel, const std::vector<WallPanel>& panels, const PanelPlan& plan) {
   constexpr int samples = 5;
   const float z = panel.low.y + std::min(1.5f, 0.5f * (panel.high.y - panel.low.y));
   int covered = 0;
   for (int i = 0; i < samples; ++i) {
     const float place = glm::mix(panel.low.x, panel.high.x, (float(i) + 0.5f) / float(samples));
-    const glm::vec2 at = PanelPlan::spot(panel, place);
+    const glm::vec2 at = spot(panel, place);
     bool is_covered = false;
-    plan.near(at, [&](const WallPanel& other) {
-      if (glm::dot(other.normal, panel.normal) > -0.94f) return;
+    plan.near(at, [&](std::size_t k) {
+      const WallPanel& other = panels[k];
+      if (is_covered || glm::dot(other.normal, panel.normal) > -0.94f) return;
       const float before_m = other.offset_m - glm::dot(glm::vec2(other.normal), at);
       const float beside = glm::dot(at, glm::vec2(other.along));
-      is_covered =
-          is_covered || (before_m > -party_gap_m && before_m < party_overlap_m && beside > other.low.x &&
-                         beside < other.high.x && z > other.low.y - 1.5f && z < other.high.y);
+      is_covered = before_m > -party_gap_m && before_m < party_overlap_m && beside > other.low.x &&
+                   beside < other.high.x && z > other.low.y - 1.5f && z < other.high.y;
     });
     covered += is_covered;
   }
   return 2 * covered > samples;
 }
 
+void find_party_walls(std::vector<WallPanel>& panels) {
+  PanelPlan plan;
+  for (std::size_t i = 0; i < panels.size(); ++i) plan.add(panels[i], i);
+  for (WallPanel& panel : panels) panel.is_party_wall = is_large(panel) && is_party_wall(panel, panels, plan);
+}
+
 }  // namespace
 
-std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls) {
+bool is_large(const WallPanel& panel) {
+  return panel.high.x - panel.low.x >= narrowest_m && panel.eaves_m - panel.low.y >= lowest_m;
+}
+
+std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
+                                   const std::vector<glm::vec3>& openings) {
   std::vector<WallPanel> panels;
   for (std::vector<Surface>& plane : planes_of(walls))
     for (const Surface& surface : joined(std::move(plane), walls)) add_panels(surface, walls, panels);
-  const PanelPlan plan(panels);
-  std::vector<float> feet_m;  // of what stands near each panel
-  for (const WallPanel& panel : panels) {
-    float lowest_m = panel.low.y;
-    plan.near(PanelPlan::spot(panel, 0.5f * (panel.low.x + panel.high.x)), [&](const WallPanel& other) {
-      if (other.building == panel.building) lowest_m = std::min(lowest_m, other.low.y);
-    });
-    feet_m.push_back(lowest_m);
-  }
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    panels[i].stands_on_ground = panels[i].low.y < feet_m[i] + roof_foot_m;
-    panels[i].is_party_wall = is_party_wall(panels[i], plan);
-  }
+  find_ground(panels);
+  find_openings(panels, openings);
+  find_party_walls(panels);
   return panels;
 }
 

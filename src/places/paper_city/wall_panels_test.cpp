@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "base/mesh.h"
 
 namespace parvis::city {
@@ -63,6 +65,44 @@ TEST(WallPanels, WestIsOneHeading) {
   ASSERT_EQ(panels.size(), 1u);
   EXPECT_LT(panels[0].normal.x, -0.99f);
   EXPECT_NEAR(panels[0].high.y - panels[0].low.y, 9.0f, 1e-3f);
+}
+
+/// Rows of houses whose fronts and backs have three windows each.
+struct Town {
+  std::vector<ModelTriangle> walls;
+  std::vector<glm::vec3> windows;
+
+  explicit Town(int houses) {
+    Mesh mesh;
+    const int per_row = int(std::sqrt(float(houses)));
+    for (int i = 0; i < houses; ++i) {
+      const glm::vec3 corner(7.0f * float(i % per_row), 25.0f * float(i / per_row), 0.0f);
+      const std::array<glm::vec3, 4> plan{corner, corner + glm::vec3(7, 0, 0), corner + glm::vec3(7, 9, 0),
+                                          corner + glm::vec3(0, 9, 0)};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const glm::vec3 a = plan[k], b = plan[(k + 1) % 4], top(0, 0, 4 + i % 7);
+        add_quad(mesh, a, b, b + top, a + top);
+        for (const float place : {0.2f, 0.5f, 0.8f})
+          if (k % 2 == 0) windows.push_back(glm::mix(a, b, place) + glm::vec3(0, 0, 2));
+      }
+    }
+    walls = triangles_of(mesh);
+  }
+};
+
+TEST(WallPanels, OpeningsOfATownAreFoundInATimeThatGrowsWithIt) {
+  const auto min_s = [](const Town& town) {
+    double least = 1e9;
+    for (int i = 0; i < 3; ++i) {
+      const std::clock_t before = std::clock();
+      for (const WallPanel& panel : wall_panels(town.walls, town.windows))
+        EXPECT_EQ(panel.has_openings, std::abs(panel.normal.y) > 0.5f);
+      least = std::min(least, double(std::clock() - before) / CLOCKS_PER_SEC);
+    }
+    return least;
+  };
+  // Eight times as much; 64 times if each wall is compared with each window.
+  EXPECT_LT(min_s(Town(10000)), 20.0 * min_s(Town(1250)));
 }
 
 }  // namespace
