@@ -125,6 +125,12 @@ std::array<double, 3> numbers_of(const Node& node, const AttributeSchema& schema
   }
 }
 
+/// An empty text stands for none where the attribute may be left out; it is no name of a node.
+bool may_be_empty(const AttributeSchema& schema) {
+  return !schema.is_required && schema.type != AttributeType::reference &&
+         schema.type != AttributeType::child;
+}
+
 }  // namespace
 
 std::vector<NodeRow> node_rows(const scene::LiveScene& live, const std::set<const Node*>& open,
@@ -157,6 +163,8 @@ Result<scene::AttributeValue> edited_value(const AttributeRow& row) {
   switch (row.editor) {
     case Editor::text:
     case Editor::choice:
+      if (row.text.find_first_not_of(" \t\r\n") == std::string::npos && !may_be_empty(*row.schema))
+        return error("{} is empty; expected {}", row.schema->name, expectation(*row.schema));
       return parse_value(*row.schema, row.text, Roots(""), {});
     case Editor::number:
       return scene::AttributeValue(row.schema->type == AttributeType::angle ? glm::radians(x) : x);

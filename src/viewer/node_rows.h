@@ -54,7 +54,7 @@ struct DragStyle {
 DragStyle drag_style(const scene::AttributeSchema& schema);
 
 /// The row's content as the attribute's value: its numbers, or its text where text is edited. An error says
-/// what the attribute expects of a text.
+/// what the attribute expects of a text, also of an empty one where it is required or the name of a node.
 Result<scene::AttributeValue> edited_value(const AttributeRow& row);
 
 }  // namespace parvis::viewer

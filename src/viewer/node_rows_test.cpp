@@ -10,6 +10,7 @@
 #include "house/stage/stage.h"
 #include "scene/action/actions.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/attribute.h"
 
 namespace parvis::viewer {
 namespace {
@@ -128,6 +129,24 @@ TEST_F(NodeRowsTest, EditsAreValuesThatTheNodeTakes) {
   EXPECT_NEAR(row("%sun", "elevation_deg").numbers[0], 12.5, 1e-9);
   EXPECT_EQ(play_->scene.sun.irradiance, glm::vec3(1, 2, 3));
   EXPECT_EQ(row("trees", "visible").numbers[0], 1.0);
+}
+
+TEST_F(NodeRowsTest, AnEmptyTextIsRefusedWhereAValueIsNeeded) {
+  const auto edited = [](scene::AttributeSchema schema, const char* text) {
+    AttributeRow row;
+    row.schema = &schema, row.text = text;
+    const Result<scene::AttributeValue> value = edited_value(row);
+    return value ? "" : value.errors().front().message;
+  };
+  using scene::attribute::reference, scene::attribute::text, scene::attribute::choice;
+  for (const char* empty : {"", " \t\n"}) {
+    EXPECT_EQ(edited(text("title", "").required(), empty), "title is empty; expected a text");
+    EXPECT_EQ(edited(reference("target", "", {"model"}), empty),
+              "target is empty; expected the name of a model");
+    EXPECT_EQ(edited(choice("kind", "", {"oak", "beech"}).required(), empty).find("kind is empty"), 0u);
+    EXPECT_EQ(edited(text("title", ""), empty), "") << "it may be left out";
+  }
+  EXPECT_EQ(edited(text("title", "").required(), "oaks"), "");
 }
 
 /// The panel can edit whatever is live in any node type there is.
