@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
+#include "bench/scratch_folder.h"
 #include "capture/facades/bench/hidden_texture.h"
 #include "capture/facades/item_buffer.h"
 #include "capture/facades/place_layers.h"
@@ -86,24 +86,13 @@ Status add_house(const PhotographedHouse& house, HiddenErrors& errors) {
   return Done{};
 }
 
-/// A folder for the photographs, removed with them.
-struct PictureFolder {
-  fs::path path =
-      fs::temp_directory_path() /
-      fmt::format("parvis_houses_{}", std::chrono::steady_clock::now().time_since_epoch().count());
-  PictureFolder() { fs::create_directories(path); }
-  ~PictureFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  PictureFolder(const PictureFolder&) = delete;
-  PictureFolder& operator=(const PictureFolder&) = delete;
-};
-
 }  // namespace
 
 Status measure_filling(bool is_quick, Report& report) {
-  const PictureFolder folder;
+  const ScratchFolder folder;
+  std::error_code code;
+  fs::create_directories(folder.path, code);
+  if (code) return error("{}: {}", folder.path.string(), code.message());
   const Result<std::vector<PhotographedHouse>> houses = photographed_houses(is_quick ? 2 : 6, folder.path);
   if (!houses) return houses.errors();
   HiddenErrors errors;
