@@ -54,7 +54,7 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Plac
   if (with_baselines)
     for (const BaselineMethod method : baseline_methods) figures.methods.push_back({name_of(method)});
   const double share = 1.0 / double(held_out.size());
-  figures.exchanged.method = "control_exchanged";
+  if (held_out.size() > 1) figures.exchanged.method = "control_exchanged";
   for (std::size_t i = 0; i < held_out.size(); ++i) {
     const Image8 &truth = truths[i], &another = truths[(i + 1) % truths.size()];
     const Result<View> view = view_of(*held_out[i]);

@@ -17,8 +17,8 @@ struct MethodFigures {
 /// Figures of one place for the bench `facades`.
 struct PlaceFigures {
   std::vector<MethodFigures> methods;  ///< the layers first
-  MethodFigures exchanged;  ///< a control: the layers judged by another photograph that was held out (0:
-                            ///< there is one alone)
+  MethodFigures exchanged;  ///< a control: the layers judged by another photograph that was held out (no
+                            ///< name: there is one alone)
   double filled_percent =
       0.0;  ///< of the model's pixels in random views, those that a photograph's tile colours
   double coloured_percent = 0.0;  ///< of the same, those that have a colour at all: the fallback counts, too

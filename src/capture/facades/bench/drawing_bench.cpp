@@ -170,8 +170,9 @@ Status measure_drawing(bool is_quick, Report& report) {
   report.add("draw_plain_texture_ms", median(plain_ms));
   // A place that is not drawn would be fast: what is timed has to cover what the plain texture covers.
   const ImageF empty = nothing->picture();
-  report.add("draw_shown_percent", shown_percent(ours->picture(), empty));
-  report.add("draw_shown_percent_plain_texture", shown_percent(unlit->picture(), empty));
+  const double plain_percent = shown_percent(unlit->picture(), empty);
+  report.add("draw_shown_percent", shown_percent(ours->picture(), empty), {plain_percent, true});
+  report.add("draw_shown_percent_plain_texture", plain_percent);
   return Done{};
 }
 

@@ -20,8 +20,10 @@ void tell(const facades::PlaceFigures& figures, const std::string& place, Report
     report.add(place + "_rephoto" + suffix, method.rephoto);
     report.add(place + "_covered_percent" + suffix, method.covered_percent);
   }
-  report.add(place + "_psnr_cc_db_control_exchanged", figures.exchanged.psnr_cc_db);
-  report.add(place + "_rephoto_control_exchanged", figures.exchanged.rephoto);
+  if (figures.exchanged.method.empty()) return;  // one photograph alone was held out
+  const facades::MethodFigures& layers = figures.methods.front();
+  report.add(place + "_psnr_cc_db_control_exchanged", figures.exchanged.psnr_cc_db, up_to(layers.psnr_cc_db));
+  report.add(place + "_rephoto_control_exchanged", figures.exchanged.rephoto, {layers.rephoto, true});
 }
 
 /// Figures that no key of a place belongs to: of the place with photographs of 1416 x 1064.
