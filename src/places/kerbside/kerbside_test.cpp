@@ -7,6 +7,7 @@
 #include "base/test_folder.h"
 #include "house/rooms.h"
 #include "life/vegetation/scene_plant.h"
+#include "scene/script/live_scene.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::kerbside {
@@ -124,6 +125,68 @@ TEST_F(Kerbside, TreesOfAMapGrow) {
       EXPECT_FALSE(part.object.starts_with("SolitaryVegetationObject")) << "none stands there twice";
   EXPECT_NE(errors_of(map + "grownTrees(of=\"town\")\n").find("no object is called \"town\""),
             std::string::npos);
+}
+
+/// How many parts of the object are trees of a map.
+std::ptrdiff_t map_trees_in(const scene::Object& object) {
+  return std::ranges::count_if(object.model->parts, [](const scene::Part& part) {
+    return part.object.starts_with("SolitaryVegetationObject");
+  });
+}
+
+constexpr const char* map_of_a_tree =
+    R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
+    <node id="1" version="1" lat="48.0004" lon="11.0006"><tag k="natural" v="tree"/></node></osm>)";
+
+TEST_F(Kerbside, TreesOfAMapStayTakenWhenTheMapIsBuiltAgain) {
+  folder_.write("map.osm", map_of_a_tree);
+  folder_.write("scene.xp", std::string(streets) +
+                                "model(name=\"map\", file=\"map.osm\", positions=\"0 0 0, 300 0 0\")\n"
+                                "model(name=\"as it was\", file=\"map.osm\")\n"
+                                "grownTrees(of=\"map*\")\n");
+  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene scene = std::move(loaded->scene);
+  scene::LiveScene live(std::move(loaded->script));
+  const std::vector<scene::Object> before = scene.objects;
+  ASSERT_EQ(called(scene, "map").size(), 2u);
+  EXPECT_EQ(called(scene, "map")[0].model, called(scene, "map")[1].model) << "one copy for both";
+  for (const char* name : {"map", "as it was"})
+    for (const bool is_visible : {false, true}) {
+      live.set(*live.find(name), "visible", is_visible);
+      ASSERT_TRUE(live.refresh(scene).empty());
+      ASSERT_EQ(scene.objects.size(), before.size());
+      for (const scene::Object& object : called(scene, name)) EXPECT_EQ(object.is_visible, is_visible);
+    }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(scene.objects[i].model, before[i].model) << before[i].name;
+    EXPECT_EQ(scene.objects[i].is_visible, before[i].is_visible) << before[i].name;
+  }
+  for (const scene::Object& object : called(scene, "map")) EXPECT_EQ(map_trees_in(object), 0);
+  EXPECT_GT(map_trees_in(called(scene, "as it was").at(0)), 0) << "grownTrees does not name it";
+  EXPECT_EQ(vegetation::scene_plants(scene).size(), 2u);
+}
+
+TEST_F(Kerbside, TreesOfAMapStayTakenWhereAScenarioPaintsTheMap) {
+  folder_.write("map.osm", map_of_a_tree);
+  folder_.write("scene.xp", std::string(streets) +
+                                "model(name=\"map\", file=\"map.osm\") { material(name=\"paint\", "
+                                "roughness=0.5) }\n"
+                                "grownTrees(of=\"map\")\n"
+                                "scenario(name=\"wet\") { override(of=\"paint\", roughness=0.1) }\n");
+  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene scene = std::move(loaded->scene);
+  scene::LiveScene live(std::move(loaded->script));
+  ASSERT_TRUE(live.prepare_scenarios(scene));
+  ASSERT_TRUE(live.choose(scene, "wet"));
+  for (const scene::Object& object : called(scene, "map")) {
+    EXPECT_EQ(map_trees_in(object), 0);
+    if (object.is_visible) {
+      EXPECT_EQ(object.model->materials.back().roughness, 0.1f);
+    }
+  }
+  EXPECT_EQ(vegetation::scene_plants(scene).size(), 1u);
 }
 
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
+#include <memory>
 
 #include "base/content_hash.h"
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/map_trees.h"
+#include "scene/data/model_change.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 #include "scene/script/attribute.h"
@@ -77,23 +80,48 @@ bool plant_tree(const PlannedTrees& planned, const MapTree& tree, const glm::mat
   return true;
 }
 
-/// Takes the trees of one object and plants them.
-bool replace(const PlannedTrees& planned, scene::Object& object, std::size_t& count,
-             scene::SceneBuilder& builder) {
-  scene::Model model = *object.model;
-  const std::vector<MapTree> trees = take_trees(model, planned.target);
-  count += trees.size();
-  if (count > max_trees)
-    return builder.fail(error_at(planned.where_target, "more than {} trees match \"{}\"; name fewer of them",
-                                 max_trees, planned.target)),
-           false;
-  Random random(planned.seed, 301);
-  const glm::mat4 world_from_model = object.world_from_model;
-  const bool is_visible = object.is_visible;
-  if (!trees.empty()) object.model = std::make_shared<const scene::Model>(std::move(model));
-  return std::ranges::all_of(trees, [&](const MapTree& tree) {
-    return plant_tree(planned, tree, world_from_model, is_visible, random, builder);
-  });
+/// A model without its trees, and these; the model itself where it has none.
+struct TakenTrees {
+  std::shared_ptr<const scene::Model> model;
+  std::vector<MapTree> trees;
+};
+
+TakenTrees taken_from(const std::shared_ptr<const scene::Model>& original, const std::string& target) {
+  if (scene::matching_parts(*original, target).empty()) return {original, {}};
+  scene::Model model = *original;
+  std::vector<MapTree> trees = take_trees(model, target);
+  return {std::make_shared<const scene::Model>(std::move(model)), std::move(trees)};
+}
+
+/// Takes the trees of all objects that are named and plants them. Returns how many there were.
+std::size_t replace(const PlannedTrees& planned, scene::SceneBuilder& builder) {
+  scene::ModelChange change{.of = planned.of, .change = [target = planned.target](const auto& original) {
+                              return taken_from(original, target).model;
+                            }};
+  std::map<std::shared_ptr<const scene::Model>, std::vector<MapTree>> trees_of;
+  std::size_t count = 0;
+  for (scene::Object& object : builder.scene.objects) {
+    if (!scene::matches(planned.of, object.name)) continue;
+    const auto [known, is_new] = trees_of.try_emplace(object.model);
+    if (is_new) {
+      TakenTrees taken = taken_from(object.model, planned.target);
+      change.changed[object.model] = std::move(taken.model), known->second = std::move(taken.trees);
+    }
+    const std::vector<MapTree>& trees = known->second;
+    count += trees.size();
+    if (count > max_trees) {
+      builder.fail(error_at(planned.where_target, "more than {} trees match \"{}\"; name fewer of them",
+                            max_trees, planned.target));
+      return count;
+    }
+    scene::apply(change, object);
+    Random random(planned.seed, 301);
+    for (const MapTree& tree : trees)
+      if (!plant_tree(planned, tree, object.world_from_model, object.is_visible, random, builder))
+        return count;
+  }
+  builder.add(std::move(change));
+  return count;
 }
 
 }  // namespace
@@ -105,19 +133,15 @@ void add_map_tree_nodes(scene::NodeRegistry& registry) {
 void plant_map_trees(scene::SceneBuilder& builder) {
   for (const PlannedTrees& planned : std::vector<PlannedTrees>(builder.scene.items<PlannedTrees>())) {
     if (!builder.errors().empty()) return;
-    std::size_t count = 0;
-    const scene::Model* first = nullptr;
-    for (scene::Object& object : builder.scene.objects) {
-      if (!scene::matches(planned.of, object.name)) continue;
-      if (first == nullptr) first = object.model.get();
-      if (!replace(planned, object, count, builder)) return;
-    }
-    if (first == nullptr)
+    const auto first = std::ranges::find_if(builder.scene.objects, [&](const scene::Object& object) {
+      return scene::matches(planned.of, object.name);
+    });
+    if (first == builder.scene.objects.end())
       return builder.fail(
           error_at(planned.where_of, "no object is called \"{}\"; give the model that name", planned.of));
-    if (count == 0)
+    if (replace(planned, builder) == 0)
       builder.warn(error_at(planned.where_target, "nothing that matches \"{}\" is a tree; the model has {}",
-                            planned.target, scene::part_names(*first)));
+                            planned.target, scene::part_names(*first->model)));
   }
 }
 
