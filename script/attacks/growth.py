@@ -76,6 +76,12 @@ def cases():
     for node in ("parkedCars()", "streetTrees(spacing=2)", 'streetTrees(kind="oak", spacing=2)', 'streetFurniture(kind="lamps", spacing=1)'):
         yield checked(f"{node} along 200 km", f'road(path="0 0, 200000 0")\n{node}\n' + CAMERA, seconds=120)
         yield checked(f"{node} along 1 km", f'road(path="0 0, 1000 0")\n{node}\n' + CAMERA, "done", seconds=120)
+    for plant in ("hedge", "grass", "oak"):
+        for groups in (1, 3, 10):
+            text = "group(scale=1e6) {" * groups + f'plant(kind="{plant}")' + "}" * groups + '\nroad(path="0 0, 1000 0")\nparkedCars()\n'
+            yield checked(f"cars beside a {plant} in {groups} groups of scale 1e6", text + CAMERA)
+    wall = "v -1e6 0 -5\nv 1e6 0 -5\nv 0 1e6 -5\n" + "f 1 2 3\n" * 100
+    yield checked("cars beside 100 triangles of 2,000 km", 'model(file="wall.obj")\nroad(path="0 0, 1000 0")\nparkedCars()\n' + CAMERA, files={"wall.obj": wall})
     yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
     yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
     yield checked("2,000 roads that meet", lambda: "".join(f'road(path="0 0, {900 - i} {i}")\n' for i in range(0, 900)) + CAMERA, "refused")

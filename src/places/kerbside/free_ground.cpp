@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/bounds.h"
 #include "life/vegetation/scene_plant.h"
+#include "places/kerbside/cells_under.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::kerbside {
@@ -15,7 +17,6 @@ using glm::vec2, glm::vec3;
 constexpr unsigned char lane_bit = 1, thing_bit = 2;
 constexpr float reach_m = 12.0f;  // beside a lane, of what is looked at
 constexpr float cell_m = 0.4f;
-constexpr float step_m = 0.35f;  // between points of walls
 constexpr float low_m = 0.35f, high_m = 3.5f;
 constexpr float min_trunk_m = 0.15f;
 constexpr float steep = 0.8f;  // z of unit normals below which a triangle is a side of something
@@ -45,11 +46,16 @@ FreeGround::FreeGround(const scene::Scene& scene)
 }
 
 void FreeGround::mark(vec2 point, float radius_m, unsigned char with) {
-  const glm::ivec2 first = taken_.cell_at(point - radius_m), last = taken_.cell_at(point + radius_m);
-  for (int y = std::max(first.y, 0); y <= std::min(last.y, taken_.height - 1); ++y)
-    for (int x = std::max(first.x, 0); x <= std::min(last.x, taken_.width - 1); ++x)
-      if (glm::ivec2(x, y) == taken_.cell_at(point) ||
-          glm::distance(taken_.centre_of({x, y}), point) < radius_m)
+  const vec2 size(taken_.width, taken_.height), middle = (point - taken_.origin) / taken_.cell_m;
+  const float radius = radius_m / taken_.cell_m;
+  if (!(glm::all(glm::greaterThanEqual(middle + radius, vec2(0.0f))) &&
+        glm::all(glm::lessThan(middle - radius, size))))
+    return;  // off the plan, or numbers that are not finite
+  const glm::ivec2 first(glm::max(glm::floor(middle - radius), vec2(0.0f))),
+      last(glm::min(glm::floor(middle + radius), size - 1.0f));
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      if (vec2(x, y) == glm::floor(middle) || glm::distance(taken_.centre_of({x, y}), point) < radius_m)
         taken_.at(x, y) |= with;
 }
 
@@ -113,14 +119,13 @@ void FreeGround::take_plants(const scene::Scene& scene) {
       continue;
     }
     const Bounds& bounds = plant.shape->bounds;
-    const vec2 size(bounds.size());
     if (kind.habit == vegetation::Habit::sward && bounds.max.z * scale < low_m) continue;  // lawns are ground
-    const glm::ivec2 steps(glm::ceil(glm::max(scale * size / step_m, vec2(1.0f))));
-    for (int i = 0; i <= steps.x; ++i)
-      for (int j = 0; j <= steps.y; ++j) {
-        const vec2 local = vec2(bounds.min) + size * vec2(i, j) / vec2(steps);
-        take(vec2(plant.world_from_plant * glm::vec4(local, 0.0f, 1.0f)), 0.5f * cell_m);
-      }
+    Corners outline;
+    for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)})
+      outline.emplace_back(plant.world_from_plant *
+                           glm::vec4(vec2(bounds.min) + corner * vec2(bounds.size()), 0.0f, 1.0f));
+    each_cell_under(taken_, std::move(outline),
+                    [&](glm::ivec2 cell, const Corners&) { taken_.at(cell.x, cell.y) |= thing_bit; });
   }
 }
 
@@ -133,16 +138,15 @@ void FreeGround::take_triangle(vec3 a, vec3 b, vec3 c) {
   const vec3 across = glm::cross(b - a, c - a);
   const float area = glm::length(across);
   if (!(area > 0.0f) || std::abs(across.z) > steep * area) return;
-  const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  const int steps = std::clamp(int(std::ceil(longest / step_m)), 1, 2000);
-  for (int i = 0; i <= steps; ++i)
-    for (int j = 0; i + j <= steps; ++j) {
-      const vec3 p = a + (float(i) * (b - a) + float(j) * (c - a)) / float(steps);
-      const glm::ivec2 cell = taken_.cell_at(vec2(p));
-      if (!taken_.contains(cell.x, cell.y)) continue;
-      const float above = p.z - heights_.at(vec2(p), p.z);
-      if (above > low_m && above < high_m) taken_.at(cell.x, cell.y) |= thing_bit;
-    }
+  each_cell_under(taken_, {a, b, c}, [&](glm::ivec2 cell, const Corners& part) {
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    const auto [lowest, highest] = std::ranges::minmax_element(part, {}, &glm::dvec3::z);
+    const auto above_ground_m = [&](const glm::dvec3& p) {
+      return float(p.z) - heights_.at(vec2(p), unknown);
+    };
+    if (above_ground_m(*highest) > low_m && above_ground_m(*lowest) < high_m)
+      taken_.at(cell.x, cell.y) |= thing_bit;
+  });
 }
 
 }  // namespace parvis::kerbside

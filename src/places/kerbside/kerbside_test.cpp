@@ -234,6 +234,31 @@ TEST_F(Kerbside, NothingStandsInWalls) {
   EXPECT_EQ(std::ranges::count_if(called(walled, "street tree"), in_wall), 0);
 }
 
+TEST_F(Kerbside, LargeTrianglesLeaveNoHoles) {
+  const std::string trees = "streetTrees(spacing=2, clear=0.3)\n";
+  const auto north = [](const scene::Object& tree) {
+    return std::abs(place_of(tree).x) > 10.0f && place_of(tree).y > 0.0f && place_of(tree).y < 8.0f;
+  };
+  const std::vector<scene::Object> free = called(load(trees), "street tree");
+  ASSERT_GT(std::ranges::count_if(free, north), 20);
+  const float y = place_of(*std::ranges::find_if(free, north)).y;
+  folder_.write("wall.obj",
+                fmt::format("v -4000 0 {0}\nv 4000 0 {0}\nv 0 4000 {0}\nf 1 2 3\n", -y));  // y is up
+  const scene::Scene walled = load("model(file=\"wall.obj\")\n" + trees);
+  EXPECT_EQ(std::ranges::count_if(called(walled, "street tree"), north), 0);
+}
+
+TEST_F(Kerbside, PlantsOfAnySizeTakeNoMoreThanThePlan) {
+  const auto cars = [&](const std::string& text) {
+    return called(load(text + "parkedCars(share=1)\n"), "parked car").size();
+  };
+  const std::size_t alone = cars("");
+  EXPECT_EQ(cars("plant(kind=\"hedge\", scale=1e6)\n"), 0u);
+  EXPECT_EQ(cars("plant(kind=\"oak\", scale=1e6)\n"), 0u);
+  EXPECT_EQ(cars("plant(kind=\"hedge\", scale=1e6, position=\"9e8 9e8 0\")\n"), alone);
+  EXPECT_EQ(cars("plant(kind=\"oak\", position=\"9e8 9e8 0\")\n"), alone);
+}
+
 TEST_F(Kerbside, CarsLookAlongTheirLanesAndTakeTheirShareOfPlaces) {
   const scene::Scene all = load("parkedCars(share=1)\n");
   const std::vector<scene::Object> cars = called(all, "parked car");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/cut_polygon.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::city {
@@ -45,19 +46,8 @@ struct CutPoint {
   glm::vec3 in_model, in_node;
 };
 
-/// What lies where side * (dot(axis, point) - at) >= 0 (Sutherland and Hodgman 1974).
-std::vector<CutPoint> cut(const std::vector<CutPoint>& polygon, glm::vec3 axis, float at, float side) {
-  std::vector<CutPoint> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const CutPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const float from = side * (glm::dot(axis, a.in_model) - at),
-                to = side * (glm::dot(axis, b.in_model) - at);
-    if (from >= 0.0f) kept.push_back(a);
-    if ((from >= 0.0f) == (to >= 0.0f)) continue;
-    const float share = from / (from - to);
-    kept.push_back({glm::mix(a.in_model, b.in_model, share), glm::mix(a.in_node, b.in_node, share)});
-  }
-  return kept;
+CutPoint mix(const CutPoint& a, const CutPoint& b, float share) {
+  return {glm::mix(a.in_model, b.in_model, share), glm::mix(a.in_node, b.in_node, share)};
 }
 
 }  // namespace
@@ -118,7 +108,8 @@ std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, 
     }
     std::vector<CutPoint> polygon;
     for (std::size_t k = 0; k < 3; ++k) polygon.push_back({triangle.corners[k], triangle.corners_in_node[k]});
-    polygon = cut(cut(polygon, axis, low, 1.0f), axis, high, -1.0f);
+    polygon = cut(polygon, [&](const CutPoint& point) { return glm::dot(axis, point.in_model) - low; });
+    polygon = cut(polygon, [&](const CutPoint& point) { return high - glm::dot(axis, point.in_model); });
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       ModelTriangle piece = triangle;
       const std::array<CutPoint, 3> corners{polygon[0], polygon[i], polygon[i + 1]};
