@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 
 #include "base/bounds.h"
+#include "base/disjoint_sets.h"
 #include "base/joined_triangles.h"
 
 namespace parvis::facades {
@@ -47,16 +48,6 @@ bool bounds_a_body(const Mesh& mesh) {
   });
 }
 
-struct DisjointSets {
-  std::vector<std::uint32_t> parents;
-  explicit DisjointSets(std::size_t count) : parents(count) { std::iota(parents.begin(), parents.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parents[i] != i) i = parents[i] = parents[parents[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parents[root(a)] = root(b); }
-};
-
 /// Gives the triangles [first, end) of one object their faces: coplanar neighbours over an edge.
 void assign_faces(LayerModel& model, std::size_t first, double size) {
   using Edge = std::array<double, 6>;
@@ -84,9 +75,9 @@ void assign_faces(LayerModel& model, std::size_t first, double size) {
                              });
     if (is_coplanar) sets.join(around[1], around[0]);
   }
-  std::unordered_map<std::uint32_t, std::uint32_t> faces;
+  std::unordered_map<std::size_t, std::uint32_t> faces;
   for (std::size_t t = first; t < model.triangles.size(); ++t) {
-    const auto [found, is_new] = faces.try_emplace(sets.root(std::uint32_t(t - first)), model.face_count);
+    const auto [found, is_new] = faces.try_emplace(sets.root(t - first), model.face_count);
     if (is_new) ++model.face_count;
     model.triangles[t].face = found->second;
   }

@@ -169,10 +169,6 @@ View view_of(const Stand& stand, const scene::PlaceHeights& place) {
   return {eye, glm::vec3(ahead, target_z)};
 }
 
-}  // namespace
-
-namespace {
-
 /// How much detail a house or a thing shows to those who stand in this direction from it: triangles that face
 /// them.
 std::size_t detail_toward(const scene::Scene& scene, glm::vec2 direction) {
@@ -192,10 +188,6 @@ std::size_t detail_toward(const scene::Scene& scene, glm::vec2 direction) {
   }
   return facing;
 }
-
-}  // namespace
-
-namespace {
 
 /// The directions of a box's corners from the eye: the widest to the side of its middle, and the lowest and
 /// highest elevation, radians.

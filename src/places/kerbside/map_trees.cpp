@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
 #include "base/bounds.h"
+#include "base/disjoint_sets.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::kerbside {
@@ -24,29 +24,6 @@ constexpr std::array<Genus, 6> genera{{{"quercus", "oak"},
                                        {"citrus", "orange"},
                                        {"orange", "orange"}}};
 
-/// Which triangle belongs to which tree: joined where they share a point.
-class Trees {
- public:
-  std::size_t add(const std::array<glm::vec3, 3>& corners) {
-    const std::size_t triangle = parents_.size();
-    parents_.push_back(triangle);
-    for (const glm::vec3& corner : corners) {
-      const glm::ivec3 key(glm::round(corner / same_point_m));
-      const auto [known, is_new] = triangle_at_.try_emplace({key.x, key.y, key.z}, triangle);
-      if (!is_new) parents_[root(triangle)] = root(known->second);
-    }
-    return triangle;
-  }
-  std::size_t root(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-
- private:
-  std::vector<std::size_t> parents_;
-  std::map<std::array<int, 3>, std::size_t> triangle_at_;
-};
-
 }  // namespace
 
 std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
@@ -55,7 +32,7 @@ std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
     Bounds bounds;
     std::size_t part;
   };
-  Trees trees;
+  TrianglesAtCorners trees(same_point_m);
   std::vector<Taken> taken;
   for (const std::size_t index : scene::matching_parts(model, target)) {
     Mesh& mesh = model.parts[index].mesh;

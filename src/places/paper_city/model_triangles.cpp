@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/cut_polygon.h"
+#include "base/disjoint_sets.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::city {
@@ -12,32 +12,10 @@ namespace {
 
 constexpr float same_point_m = 0.02f;
 
-/// Representative of each element of a set that is joined pair by pair.
-class Joined {
- public:
-  explicit Joined(std::size_t count) : parents_(count) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t(0));
-  }
-  std::size_t root(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parents_[root(a)] = root(b); }
-
- private:
-  std::vector<std::size_t> parents_;
-};
-
 /// Triangles that share a corner belong together.
 void number_buildings(std::vector<ModelTriangle>& triangles) {
-  Joined joined(triangles.size());
-  std::map<std::array<int, 3>, std::size_t> triangle_at;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (const glm::vec3& corner : triangles[i].corners) {
-      const glm::ivec3 key(glm::round(corner / same_point_m));
-      const auto [known, is_new] = triangle_at.try_emplace({key.x, key.y, key.z}, i);
-      if (!is_new) joined.join(i, known->second);
-    }
+  TrianglesAtCorners joined(same_point_m);
+  for (const ModelTriangle& triangle : triangles) joined.add(triangle.corners);
   for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i].building = joined.root(i);
 }
 
@@ -60,7 +38,7 @@ std::vector<ModelTriangle> take_triangles(
   std::size_t points_before = 0;
   for (const std::size_t index : scene::matching_parts(model, target)) {
     scene::Part& part = model.parts[index];
-    Joined points(part.mesh.positions.size());
+    DisjointSets points(part.mesh.positions.size());
     const std::size_t first = taken.size();
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
