@@ -189,6 +189,47 @@ TEST_F(Kerbside, TreesOfAMapStayTakenWhereAScenarioPaintsTheMap) {
   EXPECT_EQ(vegetation::scene_plants(scene).size(), 1u);
 }
 
+TEST_F(Kerbside, FlatTreesOfAMapGrowToTheLeastHeight) {
+  folder_.write("flat.obj", "o tree\nv 20 0 20\nv 21 0 20\nv 20 0 21\nf 1 2 3\n");
+  const scene::Scene scene =
+      load("model(name=\"map\", file=\"flat.obj\")\ngrownTrees(of=\"map\", target=\"*\")\n");
+  ASSERT_EQ(vegetation::scene_plants(scene).size(), 1u);
+  const vegetation::ScenePlant& plant = vegetation::scene_plants(scene).front();
+  EXPECT_NEAR(plant.world_from_plant[2].z * plant.shape->recipe.height_m, 3.0f, 1e-4f);
+}
+
+/// Triangles with these lowest and highest corners, which stand about a place; y is up.
+std::string spindle(glm::vec2 at, float radius, float low, float high, int& points) {
+  const std::string text =
+      fmt::format("v {} {} {}\nv {} {} {}\nv {} {} {}\nv {} {} {}\n", at.x - radius, low, at.y, at.x + radius,
+                  low, at.y, at.x, high, at.y - radius, at.x, high, at.y + radius);
+  points += 4;
+  return text + fmt::format("f {0} {1} {2}\nf {0} {1} {3}\n", points - 3, points - 2, points - 1, points);
+}
+
+TEST_F(Kerbside, PiecesOfATreeOfAMapAreOneTree) {
+  int points = 0;
+  std::string map = "o tree\n";
+  for (const float x :
+       {20.0f, 28.0f}) {  // two whose crowns overlap, each a trunk and a crown that hangs apart
+    map += spindle({x, 20}, 0.2f, 0.0f, 2.9f, points);
+    map += spindle({x + 0.3f, 20}, 5.0f, 3.0f, 10.0f, points);
+  }
+  map += spindle({48.5f, 20}, 0.5f, 0.0f, 5.0f, points);  // a crown in two halves
+  for (const float x : {46.5f, 50.5f}) map += spindle({x, 20}, 2.0f, 4.0f, 9.0f, points);
+  folder_.write("map.obj", map);
+  const scene::Scene scene =
+      load("model(name=\"map\", file=\"map.obj\")\ngrownTrees(of=\"map\", target=\"*\")\n");
+  std::vector<float> heights;
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
+    EXPECT_NEAR(plant.world_from_plant[3].z, 0.0f, 1e-4f);
+    heights.push_back(plant.world_from_plant[2].z * plant.shape->recipe.height_m);
+  }
+  ASSERT_EQ(heights.size(), 3u);
+  EXPECT_EQ(std::ranges::count_if(heights, [](float height_m) { return std::abs(height_m - 10) < 0.01f; }),
+            2);
+}
+
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
   const scene::Scene scene = load("streetTrees(spacing=10)\n");
   const std::vector<scene::Object> trees = called(scene, "street tree");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 #include "base/bounds.h"
 #include "base/disjoint_sets.h"
@@ -24,16 +25,73 @@ constexpr std::array<Genus, 6> genera{{{"quercus", "oak"},
                                        {"citrus", "orange"},
                                        {"orange", "orange"}}};
 
+/// Triangles that share corners.
+struct Piece {
+  Bounds bounds;
+  std::size_t part;  ///< of the model
+
+  glm::vec2 middle() const { return glm::vec2(bounds.centre()); }
+};
+
+bool overlap_in_plan(const Bounds& a, const Bounds& b) {
+  return glm::all(glm::lessThanEqual(glm::vec2(a.min), glm::vec2(b.max))) &&
+         glm::all(glm::lessThanEqual(glm::vec2(b.min), glm::vec2(a.max)));
+}
+
+/// Crowns of neighbours overlap, too, but the middles of trees are farther apart.
+bool share_an_axis(const Piece& a, const Piece& b) {
+  const glm::vec2 wider = glm::max(glm::vec2(a.bounds.size()), glm::vec2(b.bounds.size()));
+  return glm::all(glm::lessThanEqual(glm::abs(a.middle() - b.middle()), 0.25f * wider));
+}
+
+/// Calls use(i, j) for pieces of one name that overlap in plan; i stands lower. `pieces` begin ever farther
+/// along x.
+template <class Use>
+void each_overlap(const scene::Model& model, const std::vector<Piece>& pieces, const Use& use) {
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t j = i + 1; j < pieces.size() && pieces[j].bounds.min.x <= pieces[i].bounds.max.x; ++j) {
+      if (!overlap_in_plan(pieces[i].bounds, pieces[j].bounds)) continue;
+      if (model.parts[pieces[i].part].object != model.parts[pieces[j].part].object) continue;
+      pieces[i].bounds.min.z <= pieces[j].bounds.min.z ? use(i, j) : use(j, i);
+    }
+}
+
+/// One piece for each set of them, in the order of their roots.
+template <class Root>
+std::vector<Piece> merged(const std::vector<Piece>& pieces, const Root& root) {
+  std::map<std::size_t, Piece> whole;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto [known, is_new] = whole.try_emplace(root(i), pieces[i]);
+    if (!is_new) known->second.bounds.add(pieces[i].bounds);
+  }
+  std::vector<Piece> result;
+  for (const auto& [number, piece] : whole) result.push_back(piece);
+  return result;
+}
+
+/// Which pieces are one tree.
+DisjointSets trees_of(const scene::Model& model, const std::vector<Piece>& pieces) {
+  DisjointSets trees(pieces.size());
+  std::vector<std::size_t> below(pieces.size());  // of what hangs: the nearest that it hangs above
+  std::iota(below.begin(), below.end(), std::size_t(0));
+  std::vector<bool> stands(pieces.size(), false);  // about the axis of something lower
+  each_overlap(model, pieces, [&](std::size_t low, std::size_t high) {
+    if (share_an_axis(pieces[low], pieces[high])) trees.join(high, low), stands[high] = true;
+    if (pieces[high].bounds.min.z < pieces[low].bounds.centre().z) return;
+    const auto away = [&](std::size_t i) { return glm::distance(pieces[i].middle(), pieces[high].middle()); };
+    if (below[high] == high || away(low) < away(below[high])) below[high] = low;
+  });
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (!stands[i]) trees.join(i, below[i]);
+  return trees;
+}
+
 }  // namespace
 
 std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  struct Taken {
-    Bounds bounds;
-    std::size_t part;
-  };
-  TrianglesAtCorners trees(same_point_m);
-  std::vector<Taken> taken;
+  TrianglesAtCorners joined(same_point_m);
+  std::vector<Piece> triangles;
   for (const std::size_t index : scene::matching_parts(model, target)) {
     Mesh& mesh = model.parts[index].mesh;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -44,20 +102,21 @@ std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
         corners[k] = glm::vec3(pose[std::size_t(model.parts[index].node)] * corner);
         bounds.add(corners[k]);
       }
-      trees.add(corners);
-      taken.push_back({bounds, index});
+      joined.add(corners);
+      triangles.push_back({bounds, index});
     }
     mesh.indices.clear();
   }
-  std::map<std::size_t, Taken> whole;
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    const auto [known, is_new] = whole.try_emplace(trees.root(i), taken[i]);
-    if (!is_new) known->second.bounds.add(taken[i].bounds);
+  std::vector<Piece> pieces = merged(triangles, [&](std::size_t triangle) { return joined.root(triangle); });
+  if (pieces.size() <= max_map_trees) {
+    std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.bounds.min.x; });
+    DisjointSets trees = trees_of(model, pieces);
+    pieces = merged(pieces, [&](std::size_t piece) { return trees.root(piece); });
   }
   std::vector<MapTree> result;
-  for (const auto& [root, tree] : whole)
-    result.push_back({glm::vec3(glm::vec2(tree.bounds.centre()), tree.bounds.min.z), tree.bounds.size().z,
-                      model.parts[tree.part].object});
+  for (const auto& [bounds, part] : pieces)
+    result.push_back(
+        {glm::vec3(glm::vec2(bounds.centre()), bounds.min.z), bounds.size().z, model.parts[part].object});
   std::erase_if(model.parts, [](const scene::Part& part) { return part.mesh.indices.empty(); });
   return result;
 }

@@ -17,7 +17,13 @@ struct MapTree {
   std::string name;  ///< of its object, with the species where the map knows it
 };
 
-/// Takes the trees out of the parts that match the pattern `target`: triangles that hang together are one.
+/// Trees of all models that one pattern names, at most.
+inline constexpr std::size_t max_map_trees = 50'000;
+
+/// Takes the trees out of the parts that match the pattern `target`. Triangles that share corners are one
+/// piece. Pieces of one name are one tree where they stand about one axis, as a trunk and its crown or
+/// crossed pictures do, or where one hangs above the other: it belongs to the nearest below it. More pieces
+/// than `max_map_trees` are not joined: each is returned as a tree.
 std::vector<MapTree> take_trees(scene::Model& model, std::string_view target);
 
 /// The kind of plant that is nearest to a tree of this name ("SolitaryVegetationObject Quercus robur"), or

@@ -23,7 +23,6 @@ namespace {
 
 using namespace scene::attribute;
 
-constexpr std::size_t max_trees = 50'000;
 constexpr float height_step_m = 2.0f;  // plants within one step share their shape, scaled
 constexpr int shapes = 2;              // of each kind and height
 
@@ -40,18 +39,20 @@ struct PlannedTrees {
 };
 
 scene::NodeSchema grown_trees_schema() {
-  return {.type = "grownTrees",
-          .help =
-              "Grown plants (plant) in place of the trees of a map or city model: oaks and planes where the "
-              "map names the species, else of `kind`.",
-          .attributes =
-              {text("of", "names of models of the scene, with * and ?").required(),
-               text("target", "names of the trees in the model, with * and ?")
-                   .by_default("SolitaryVegetationObject*"),
-               choice("kind", "of trees without a species", {"orange", "oak", "plane"}).by_default("plane"),
-               integer("seed", "another one, other shapes").between(0, 1e9).by_default("1")},
-          .example = "model(name=\"town\", file=\"town.osm\")\ngrownTrees(of=\"town\")",
-          .is_laid_out_once = true};
+  return {
+      .type = "grownTrees",
+      .help =
+          "Grown plants (plant) in place of the trees of a map or city model: oaks and planes where the "
+          "map names the species, else of `kind`. Each is as high as the map's, and no lower than the lowest "
+          "of its kind: 3 m for planes, 2 m for oaks, 1 m for orange trees.",
+      .attributes =
+          {text("of", "names of models of the scene, with * and ?").required(),
+           text("target", "names of the trees in the model, with * and ?")
+               .by_default("SolitaryVegetationObject*"),
+           choice("kind", "of trees without a species", {"orange", "oak", "plane"}).by_default("plane"),
+           integer("seed", "another one, other shapes").between(0, 1e9).by_default("1")},
+      .example = "model(name=\"town\", file=\"town.osm\")\ngrownTrees(of=\"town\")",
+      .is_laid_out_once = true};
 }
 
 void build_grown_trees(const scene::Node& node, scene::SceneBuilder& builder) {
@@ -68,15 +69,16 @@ bool plant_tree(const PlannedTrees& planned, const MapTree& tree, const glm::mat
                 bool is_visible, Random& random, scene::SceneBuilder& builder) {
   vegetation::PlantRecipe recipe;
   recipe.kind = vegetation::find_kind(plant_kind_of(tree.name, planned.kind));
-  recipe.height_m = std::clamp(height_step_m * std::round(tree.height_m / height_step_m),
+  const float height_m = std::max(tree.height_m, recipe.kind->min_height_m);  // flat trees have none
+  recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
                                recipe.kind->min_height_m, recipe.kind->max_height_m);
   recipe.seed = planned.seed + std::uint64_t(random.index(shapes));
   auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
   if (!shape) return builder.fail(shape.errors(), planned.where_of), false;
   const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),
                                        random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f});
-  builder.add(vegetation::ScenePlant{
-      *std::move(shape), glm::scale(placed, glm::vec3(tree.height_m / recipe.height_m)), is_visible});
+  builder.add(vegetation::ScenePlant{*std::move(shape),
+                                     glm::scale(placed, glm::vec3(height_m / recipe.height_m)), is_visible});
   return true;
 }
 
@@ -109,9 +111,9 @@ std::size_t replace(const PlannedTrees& planned, scene::SceneBuilder& builder) {
     }
     const std::vector<MapTree>& trees = known->second;
     count += trees.size();
-    if (count > max_trees) {
+    if (count > max_map_trees) {
       builder.fail(error_at(planned.where_target, "more than {} trees match \"{}\"; name fewer of them",
-                            max_trees, planned.target));
+                            max_map_trees, planned.target));
       return count;
     }
     scene::apply(change, object);
