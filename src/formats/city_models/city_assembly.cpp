@@ -204,8 +204,8 @@ void CityAssembly::warn_of_implausible_counts() {
   const auto expect = [&](const char* there, const char* missing) {
     if (count(there) >= enough && count(missing) == 0)
       warn(fmt::format(
-          "{} polygons are a {}, none is a {}: choose another level of detail with lod, or give surfaces "
-          "their kinds in the file",
+          "{} polygons are a {}, none is a {}; expected both, as houses have roofs and walls: choose another "
+          "level of detail with lod, or name the surfaces' kinds in the file",
           count(there), there, missing));
   };
   expect("RoofSurface", "WallSurface");

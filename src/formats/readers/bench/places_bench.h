@@ -10,8 +10,9 @@ namespace parvis::bench {
 /// without its trees, by those of its buildings); pbf_mb_s; ground_gap_percent (of the lower halves of 50
 /// street views of each place) with its control ground_gap_percent_without_plane, which must not be 0;
 /// paving_height_error_m (99th percentile against the bare ground, with things on it) with its control
-/// paving_height_error_m_on_a_slab, which must be large. ifc_load_ms is skipped: there is no reader. Needs a
-/// current OpenGL context.
+/// paving_height_error_m_on_a_slab, which must be large; ifc_load_ms (skipped without scenes/pavilion.ifc);
+/// minutes_to_first_street_KIND by kind of file; warnings_unexplained_of_a_wrong_script, a control that must
+/// not be 0. Needs a current OpenGL context.
 Status measure_places(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench
