@@ -138,11 +138,22 @@ fs::path make_partial(const fs::path& file, int& lock) {
   return {};
 }
 
+/// The path that a chain of links ends at; what it names may be absent.
+fs::path end_of_links(fs::path path) {
+  constexpr int max_links = 40;  // as the kernel's
+  std::error_code code;
+  for (int i = 0; i < max_links && fs::is_symlink(path, code); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, code);
+    path = fs::weakly_canonical(fs::absolute(path, code).parent_path(), code) / path.filename();
+  }
+  return path;
+}
+
 /// The file that is replaced: what a link points to, if that lies below the link's folder.
 Result<fs::path> target_of(const fs::path& named) {
   std::error_code code;
   if (!fs::is_symlink(named, code)) return named;
-  const fs::path target = fs::weakly_canonical(named, code);
+  const fs::path target = end_of_links(named);
   const fs::path folder = fs::weakly_canonical(fs::absolute(named, code).parent_path(), code);
   const fs::path inside = target.lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..")
