@@ -24,7 +24,6 @@
 #include "machines/bench/processes_bench.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
-#include "places/paper_city/city_nodes.h"
 #include "reflections/environment_rays/bench/multiple_environment_maps_bench.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
@@ -57,7 +56,6 @@ constexpr Furnish rooms[]{
     scene::furnish_roads,
     traffic::furnish,
     scene::furnish_light,
-    city::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
     shadows::furnish,        // after light, whose shadows it replaces

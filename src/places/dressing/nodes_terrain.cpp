@@ -1,11 +1,11 @@
 // terrain_plane: ground for a place that brings none.
+#include "places/dressing/nodes_terrain.h"
+
 #include "base/content_hash.h"
-#include "places/dressing/room.h"
+#include "places/dressing/ground_cover.h"
 #include "places/dressing/terrain_plane.h"
-#include "places/paper_city/ground_cover.h"
 #include "scene/data/surroundings.h"
 #include "scene/roads/road_nodes.h"
-#include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::dressing {
@@ -30,12 +30,12 @@ scene::NodeSchema terrain_plane_schema() {
                           .type = scene::AttributeType::choice,
                           .help = "what lies near buildings",
                           .fallback = "paving",
-                          .choices = city::ground_covers()},
+                          .choices = ground_covers()},
                          {.name = "beyond",
                           .type = scene::AttributeType::choice,
                           .help = "what lies elsewhere",
                           .fallback = "lawn",
-                          .choices = city::ground_covers()},
+                          .choices = ground_covers()},
                          {.name = "reach",
                           .type = scene::AttributeType::number,
                           .help = "how far it goes from the middle of the place",
@@ -74,8 +74,7 @@ void finish_terrain(scene::SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void add_terrain_nodes(scene::NodeRegistry& registry) {
   registry.add(terrain_plane_schema(), build_terrain_plane);
   registry.add_finish_step(finish_terrain);
 }

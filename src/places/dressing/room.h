@@ -1,4 +1,4 @@
-// What this room brings to the house: the node terrain_plane.
+// What this room brings to the house: the nodes terrain_plane, facades, roofs, ground and greenery.
 #pragma once
 
 #include "base/house.h"

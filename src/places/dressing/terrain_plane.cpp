@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/mesh.h"
-#include "places/paper_city/ground_cover.h"
+#include "places/dressing/ground_cover.h"
 
 namespace parvis::dressing {
 namespace {
@@ -67,7 +67,7 @@ void add_part(scene::Model& model, const std::string& object, const std::string&
   scene::Part part;
   part.object = object;
   part.mesh = std::move(mesh);
-  part.material = city::add_cover_material(model, cover);
+  part.material = add_cover_material(model, cover);
   part.casts_shadow = false;
   model.parts.push_back(std::move(part));
 }
@@ -98,7 +98,7 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
     const float lowered_m = place.own_ground().at(x, y) ? below_own_m : 0.0f;
     return Corner{glm::vec3(p, heights.at(x, y) - lowered_m), to_built.at(x, y) - paved_m + wander};
   };
-  Layer paved{{}, city::cover_sheet_m(look.surface)}, beyond{{}, city::cover_sheet_m(look.beyond)};
+  Layer paved{{}, cover_sheet_m(look.surface)}, beyond{{}, cover_sheet_m(look.beyond)};
   const auto is_covered = [&](int x, int y) { return to_foreign.at(x, y) > overlap_cells * heights.cell_m; };
   /// Corners of a block of cells: an even one, of one surface, takes two triangles.
   const auto is_even = [&](int x, int y, int size) {
@@ -161,7 +161,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   const float level_m = edge_heights[edge.size() / 2];
 
   Mesh mesh;
-  const float sheet_m = far_sheets * city::cover_sheet_m(look.beyond);
+  const float sheet_m = far_sheets * cover_sheet_m(look.beyond);
   const std::uint32_t row = std::uint32_t(edge.size());
   std::uint32_t rings = 0;
   for (const float factor : ring_factors) {

@@ -1,4 +1,4 @@
-#include "places/paper_city/facades.h"
+#include "places/dressing/facades.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include "base/test_data.h"
 #include "formats/readers/readers.h"
 #include "house/rooms.h"
-#include "places/paper_city/brick_texture.h"
+#include "places/dressing/brick_texture.h"
 #include "scene/data/model_parts.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
@@ -253,4 +253,4 @@ TEST(BrickWalls, RepeatWithoutASeam) {
 }
 
 }  // namespace
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -11,7 +11,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// A triangle taken out of a model.
 struct ModelTriangle {
@@ -53,4 +53,4 @@ class DressedParts {
 /// Adds a texture and returns its index.
 int add_texture(scene::Model& model, const std::string& name, Image8 image, bool is_srgb);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

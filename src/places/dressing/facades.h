@@ -6,7 +6,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// Gives bricks, front doors, shops and windows to the walls (triangles steeper than 70 degrees, once the
 /// model's z is up) of the parts that match the pattern `target`. The polygons of the file and the heights of
@@ -17,4 +17,4 @@ namespace parvis::city {
 /// are. Returns the number of triangles changed.
 std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed = 1);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

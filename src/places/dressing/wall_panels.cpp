@@ -1,4 +1,4 @@
-#include "places/paper_city/wall_panels.h"
+#include "places/dressing/wall_panels.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <span>
 #include <unordered_map>
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 constexpr float same_plane_m = 0.25f;
@@ -335,4 +335,4 @@ std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
   return panels;
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

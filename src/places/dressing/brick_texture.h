@@ -6,7 +6,7 @@
 
 #include "places/paper_city/surface_canvas.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 inline constexpr int brick_bays = 4, brick_storeys = 4;  // on one sheet
 inline constexpr float brick_bay_m = 2.9f, brick_storey_m = 3.1f;
@@ -32,6 +32,6 @@ glm::vec2 brick_sheet_m(BrickSheet sheet);
 BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed);
 
 /// Bricks on end over an opening whose top is at `top_m`, `half_m` to both sides of its middle `x_m`.
-void paint_brick_lintel(SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
+void paint_brick_lintel(city::SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

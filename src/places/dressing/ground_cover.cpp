@@ -1,4 +1,4 @@
-#include "places/paper_city/ground_cover.h"
+#include "places/dressing/ground_cover.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,13 +8,17 @@
 #include <tuple>
 #include <utility>
 
+#include "places/dressing/model_triangles.h"
 #include "places/paper_city/ground_texture.h"
-#include "places/paper_city/model_triangles.h"
 #include "places/paper_city/tree.h"
 #include "scene/data/model_parts.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
+
+using city::SurfacePictures, city::TreeSpot, city::asphalt_pictures, city::asphalt_sheet_m,
+    city::gravel_pictures, city::gravel_sheet_m, city::lawn_pictures, city::lawn_sheet_m,
+    city::paving_pictures, city::paving_sheet_m, city::plant_small_trees;
 
 struct Cover {
   std::string name;
@@ -163,4 +167,4 @@ std::size_t add_greenery(scene::Model& model, std::string_view target, std::uint
   return trees.size();
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,15 +1,18 @@
-#include "places/paper_city/brick_texture.h"
+#include "places/dressing/brick_texture.h"
 
 #include <cmath>
 
 #include "base/colour.h"
 #include "base/random.h"
-#include "places/paper_city/street_level_texture.h"
+#include "places/dressing/street_level_texture.h"
 #include "places/paper_city/wall_texture.h"
 #include "places/paper_city/window_texture.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
+
+using city::SurfaceCanvas, city::SurfacePictures, city::Texel, city::Wall, city::WindowStyle,
+    city::paint_wall, city::paint_window;
 
 constexpr int sheet_px = 1024;
 const glm::vec3 painted_brick(0.30f, 0.16f, 0.105f);
@@ -99,4 +102,4 @@ BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed) {
   return walls;
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,4 +1,4 @@
-#include "places/paper_city/ground_cover.h"
+#include "places/dressing/ground_cover.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "base/mesh.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 /// A grid of 21 x 21 points, a metre apart, with one pulled up to the top of a tree.
@@ -71,4 +71,4 @@ TEST(GroundCover, LiesInMetres) {
 }
 
 }  // namespace
-}  // namespace parvis::city
+}  // namespace parvis::dressing

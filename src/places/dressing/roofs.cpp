@@ -1,4 +1,4 @@
-#include "places/paper_city/roofs.h"
+#include "places/dressing/roofs.h"
 
 #include <algorithm>
 #include <array>
@@ -6,12 +6,15 @@
 #include <span>
 
 #include "base/random.h"
+#include "places/dressing/model_triangles.h"
 #include "places/paper_city/ground_texture.h"
-#include "places/paper_city/model_triangles.h"
 #include "places/paper_city/trim_texture.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
+
+using city::SurfacePictures, city::gravel_pictures, city::gravel_sheet_m, city::roof_sheet_m,
+    city::roof_tile_pictures;
 
 constexpr float flattest_tiles_z = 0.985f;  // cosine of 10 degrees: tiles on less would leak
 
@@ -85,4 +88,4 @@ std::size_t add_roofs(scene::Model& model, std::string_view target) {
   return roofs.size();
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,4 +1,4 @@
-#include "places/paper_city/model_triangles.h"
+#include "places/dressing/model_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/disjoint_sets.h"
 #include "scene/data/model_parts.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 constexpr float same_point_m = 0.02f;
@@ -124,4 +124,4 @@ int add_texture(scene::Model& model, const std::string& name, Image8 image, bool
   return int(model.textures.size()) - 1;
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -5,11 +5,11 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// Covers the parts that match the pattern `target`. Courses of tiles run level; roofs that touch have one
 /// colour. Materials that later nodes can change: "roof tiles" and "flat roof". Returns the number of
 /// triangles changed.
 std::size_t add_roofs(scene::Model& model, std::string_view target);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "places/paper_city/model_triangles.h"
+#include "places/dressing/model_triangles.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// A part of a wall in one plane, between two vertical lines, whose top has no step.
 struct WallPanel {
@@ -31,4 +31,4 @@ bool is_large(const WallPanel& panel);
 std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
                                    const std::vector<glm::vec3>& openings = {});
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

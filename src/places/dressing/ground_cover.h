@@ -8,7 +8,7 @@
 
 #include "scene/data/model.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// Names of what `add_ground_cover` lays.
 const std::vector<std::string>& ground_covers();
@@ -27,4 +27,4 @@ std::size_t add_ground_cover(scene::Model& model, std::string_view target, std::
 /// height at each top. Returns the number of trees.
 std::size_t add_greenery(scene::Model& model, std::string_view target, std::uint64_t seed);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,4 +1,4 @@
-#include "places/paper_city/facades.h"
+#include "places/dressing/facades.h"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "places/paper_city/brick_texture.h"
-#include "places/paper_city/street_level_texture.h"
-#include "places/paper_city/wall_panels.h"
+#include "places/dressing/brick_texture.h"
+#include "places/dressing/street_level_texture.h"
+#include "places/dressing/wall_panels.h"
 #include "scene/data/name_pattern.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 namespace {
 
@@ -65,7 +65,7 @@ int add_wall_materials(scene::Model& model) {
       material.base_colour = glm::vec3(1.0f), material.roughness = 1.0f, material.metallic = 1.0f;
       material.base_colour_texture = add_texture(model, name, std::move(sheets[sheet].colours[i]), true);
       material.normal_texture = normal, material.surface_texture = surface;
-      material.relief_m = is_plain ? 0.0f : canvas_relief_m;
+      material.relief_m = is_plain ? 0.0f : city::canvas_relief_m;
       material.is_double_sided = true;
     }
   }
@@ -213,4 +213,4 @@ std::size_t add_facades(scene::Model& model, std::string_view target, std::uint6
   return walls.size();
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,4 +1,4 @@
-#include "places/paper_city/wall_panels.h"
+#include "places/dressing/wall_panels.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "base/mesh.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
@@ -106,4 +106,4 @@ TEST(WallPanels, OpeningsOfATownAreFoundInATimeThatGrowsWithIt) {
 }
 
 }  // namespace
-}  // namespace parvis::city
+}  // namespace parvis::dressing

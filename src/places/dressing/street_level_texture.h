@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "places/paper_city/surface_canvas.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 
 /// What a band shows, from the foot of the sheet up.
 enum class StreetBand : std::uint8_t {
@@ -20,6 +20,6 @@ inline constexpr int garage_bay = 1;  ///< in the band of sheds
 inline constexpr int small_window_bay = 3;
 
 /// Paints all bands over a wall that covers the canvas.
-void paint_street_level(SurfaceCanvas& canvas, Random& random);
+void paint_street_level(city::SurfaceCanvas& canvas, Random& random);
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,15 +1,18 @@
-#include "places/paper_city/street_level_texture.h"
+#include "places/dressing/street_level_texture.h"
 
 #include <array>
 #include <cmath>
 
 #include "base/colour.h"
-#include "places/paper_city/brick_texture.h"
+#include "places/dressing/brick_texture.h"
 #include "places/paper_city/shop_texture.h"
 #include "places/paper_city/window_texture.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
+
+using city::Rect, city::SurfaceCanvas, city::Texel, city::WindowStyle, city::matt, city::paint_glass,
+    city::paint_shop_display, city::paint_window;
 
 constexpr float door_m = 1.0f, leaf_m = 2.1f, doorway_m = 2.5f;  // width; heights of its leaf and its light
 constexpr float plinth_m = 0.32f;
@@ -133,4 +136,4 @@ void paint_street_level(SurfaceCanvas& canvas, Random& random) {
   paint_sheds(canvas, foot(StreetBand::sheds), random);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

@@ -1,14 +1,14 @@
 // facades, roofs, ground, greenery: for city models that are bare volumes.
-#include "places/paper_city/city_nodes.h"
+#include "places/dressing/nodes_surfaces.h"
 
-#include "places/paper_city/facades.h"
-#include "places/paper_city/ground_cover.h"
-#include "places/paper_city/roofs.h"
+#include "places/dressing/facades.h"
+#include "places/dressing/ground_cover.h"
+#include "places/dressing/roofs.h"
 #include "scene/data/model_parts.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 using namespace scene::attribute;
@@ -97,12 +97,11 @@ void build_greenery(const scene::Node& node, scene::Model& model, scene::SceneBu
 
 }  // namespace
 
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void add_surface_nodes(scene::NodeRegistry& registry) {
   registry.add_change(facades_schema(), build_facades);
   registry.add_change(roofs_schema(), build_roofs);
   registry.add_change(ground_schema(), build_ground);
   registry.add_change(greenery_schema(), build_greenery);
 }
 
-}  // namespace parvis::city
+}  // namespace parvis::dressing

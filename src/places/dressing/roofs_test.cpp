@@ -1,4 +1,4 @@
-#include "places/paper_city/roofs.h"
+#include "places/dressing/roofs.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "base/mesh.h"
 
-namespace parvis::city {
+namespace parvis::dressing {
 namespace {
 
 /// A square of 4 m a side that rises by `rise_m` to the north.
@@ -52,4 +52,4 @@ TEST(Roofs, WithoutRoofsNothingChanges) {
 }
 
 }  // namespace
-}  // namespace parvis::city
+}  // namespace parvis::dressing
