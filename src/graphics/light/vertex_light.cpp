@@ -9,6 +9,7 @@
 #include "graphics/shading/octahedral.h"
 #include "graphics/shading/shadow.h"
 #include "graphics/shading/sky.h"
+#include "graphics/shading/spherical_harmonics.h"
 
 namespace parvis::light {
 namespace {
@@ -130,25 +131,15 @@ void SkyTable::fill(const std::function<glm::vec3(glm::vec3 direction)>& radianc
   };
   parallel_for(
       texels_.size(), [&](std::size_t i) { texels_[i] = radiance(direction_of(i)); }, 256);
-  // Nine spherical harmonics with the cosine lobe (Ramamoorthi and Hanrahan 2001); a texel of the octahedron
-  // |x| + |y| + |z| = 1 stands for a solid angle that grows with 1 / distance^3 from its middle.
-  constexpr std::array<float, 9> lobe{3.1415927f, 2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
-                                      0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
+  // A texel of the octahedron |x| + |y| + |z| = 1 stands for a solid angle that grows with 1 / distance^3
+  // from its middle.
   float sphere = 0.0f;
   for (std::size_t i = 0; i < texels_.size(); ++i) {
     const glm::vec3 d = direction_of(i);
     const float one_norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
                 weight = one_norm * one_norm * one_norm;
-    const std::array<float, 9> basis{0.282095f,
-                                     0.488603f * d.y,
-                                     0.488603f * d.z,
-                                     0.488603f * d.x,
-                                     1.092548f * d.x * d.y,
-                                     1.092548f * d.y * d.z,
-                                     0.315392f * (3.0f * d.z * d.z - 1.0f),
-                                     1.092548f * d.x * d.z,
-                                     0.546274f * (d.x * d.x - d.y * d.y)};
-    for (std::size_t k = 0; k < 9; ++k) sh_[k] += weight * lobe[k] * basis[k] * texels_[i];
+    const std::array<float, 9> basis = shading::sh_basis(d);
+    for (std::size_t k = 0; k < 9; ++k) sh_[k] += weight * shading::cosine_lobe[k] * basis[k] * texels_[i];
     sphere += weight;
   }
   for (glm::vec3& coefficient : sh_) coefficient *= 12.566371f / sphere;

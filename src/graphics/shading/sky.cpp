@@ -4,6 +4,7 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
+#include "graphics/shading/spherical_harmonics.h"
 
 namespace parvis::shading {
 namespace {
@@ -123,8 +124,6 @@ ImageF with_room_for_levels(const ImageF& picture) {
 }
 
 std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading) {
-  constexpr std::array<float, 9> cosine_lobe{pi_f,       2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
-                                             0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
   std::array<vec3, 9> sh{};
   for (int y = 0; y < picture.height; ++y) {
     const float polar = (float(y) + 0.5f) / float(picture.height) * pi_f;
@@ -133,15 +132,7 @@ std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading
     for (int x = 0; x < picture.width; ++x) {
       const vec3 d = direction_of(picture, float(x) + 0.5f, float(y) + 0.5f, heading);
       const vec3 light = solid_angle * pixel(picture, x, y);
-      const std::array<float, 9> basis{0.282095f,
-                                       0.488603f * d.y,
-                                       0.488603f * d.z,
-                                       0.488603f * d.x,
-                                       1.092548f * d.x * d.y,
-                                       1.092548f * d.y * d.z,
-                                       0.315392f * (3.0f * d.z * d.z - 1.0f),
-                                       1.092548f * d.x * d.z,
-                                       0.546274f * (d.x * d.x - d.y * d.y)};
+      const std::array<float, 9> basis = sh_basis(d);
       for (std::size_t i = 0; i < 9; ++i) sh[i] += basis[i] * light;
     }
   }
