@@ -117,6 +117,22 @@ TEST(Files, WritingFollowsNoLinkOutOfItsFolder) {
   EXPECT_FALSE(fs::exists(folder.path() / "absent.txt"));
 }
 
+TEST(Files, ALoopOfLinksIsNotReplaced) {
+  const TestFolder folder;
+  fs::create_symlink("b.xp", folder.path() / "a.xp");
+  fs::create_symlink("a.xp", folder.path() / "b.xp");
+  EXPECT_FALSE(write_file(folder.path() / "a.xp", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "a.xp"));
+}
+
+TEST(Files, ALinkToWhatIsAbsentBelowItsFolderStays) {
+  const TestFolder folder;
+  fs::create_symlink("below/s.xp", folder.path() / "s.xp");
+  ASSERT_TRUE(write_file(folder.path() / "s.xp", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "s.xp"));
+  EXPECT_EQ(*read_file(folder.path() / "below/s.xp"), "new");
+}
+
 TEST(Files, AFileOfTheWorkingFolderIsWritten) {
   const TestFolder folder;
   const fs::path before = fs::current_path();

@@ -138,7 +138,7 @@ fs::path make_partial(const fs::path& file, int& lock) {
   return {};
 }
 
-/// The path that a chain of links ends at; what it names may be absent.
+/// The path that a chain of links ends at; what it names may be absent. Empty if the chain is a loop.
 fs::path end_of_links(fs::path path) {
   constexpr int max_links = 40;  // as the kernel's
   std::error_code code;
@@ -146,7 +146,7 @@ fs::path end_of_links(fs::path path) {
     path = path.parent_path() / fs::read_symlink(path, code);
     path = fs::weakly_canonical(fs::absolute(path, code).parent_path(), code) / path.filename();
   }
-  return path;
+  return fs::is_symlink(path, code) ? fs::path() : path;
 }
 
 /// The file that is replaced: what a link points to, if that lies below the link's folder.
