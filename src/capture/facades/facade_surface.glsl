@@ -1,4 +1,5 @@
 // Of a captured facade: light that photographs have recorded (IS_RECORDED).
+#include "graphics/shading/srgb.glsl"
 #include "graphics/shading/tone_curve.glsl"
 #include "graphics/shading/view_blend.glsl"
 #include "graphics/shading/recorded_light.glsl"
@@ -38,26 +39,11 @@ vec4 facade_texel(int slot, vec2 at, float level) {
 }
 #include "capture/facades/facade_lookup.glsl"
 
-vec3 linear_of_srgb(vec3 srgb) {
-  vec3 s = clamp(srgb, vec3(0.0f), vec3(1.0f));
-  return mix(pow((s + 0.055f) / 1.055f, vec3(2.4f)), s / 12.92f, vec3(lessThanEqual(s, vec3(0.04045f))));
-}
-
 Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   float pixel_m = min(length(dFdx(position_in_facade)), length(dFdy(position_in_facade)));
   vec3 to_eye = normalize((facade_from_world * vec4(seen.to_viewer, 0.0f)).xyz);
   vec4 colour = facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y),
                               fallback_colour);
   alpha = colour.a;
-  Surface s;
-  s.normal = seen.normal;
-  s.base_colour = vec3(0.0f);
-  s.metallic = 1.0f;
-  s.roughness = 1.0f;
-  s.clear_coat = 0.0f;
-  s.clear_coat_roughness = 0.03f;
-  s.translucency = 0.0f;
-  s.occlusion = 1.0f;
-  s.emission = radiance_of_exposed * tone_unmapped(linear_of_srgb(colour.rgb));
-  return s;
+  return shining_surface(seen.normal, radiance_of_exposed * tone_unmapped(linear_of_srgb(colour.rgb)));
 }

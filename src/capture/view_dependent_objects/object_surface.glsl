@@ -25,15 +25,5 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
       blended_colour(first_entry, view_count, triangle_of_object - first_triangle, pass_count,
                      position_in_object, to_eye, corner_weights, dFdx(corner_weights), dFdy(corner_weights));
   alpha = colour.a;
-  Surface s;
-  s.normal = seen.normal;
-  s.base_colour = vec3(0.0f);
-  s.metallic = 1.0f;
-  s.roughness = 1.0f;
-  s.clear_coat = 0.0f;
-  s.clear_coat_roughness = 0.03f;
-  s.translucency = 0.0f;
-  s.occlusion = 1.0f;
-  s.emission = radiance_of_exposed * tone_unmapped(colour.rgb);
-  return s;
+  return shining_surface(seen.normal, radiance_of_exposed * tone_unmapped(colour.rgb));
 }

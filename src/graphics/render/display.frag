@@ -1,4 +1,5 @@
 // From radiance to the screen: exposure, tone curve, sRGB.
+#include "graphics/shading/srgb.glsl"
 #include "graphics/shading/tone_curve.glsl"
 
 uniform sampler2D radiance_texture;
@@ -7,14 +8,9 @@ uniform float exposure;
 in vec2 screen_uv;
 out vec4 colour;
 
-vec3 srgb_encoded(vec3 linear) {
-  return mix(1.055f * pow(linear, vec3(1.0f / 2.4f)) - 0.055f, 12.92f * linear,
-             vec3(lessThanEqual(linear, vec3(0.0031308f))));
-}
-
 void main() {
   vec2 pixel = clamp(screen_uv * drawn, vec2(0.5f), drawn - 0.5f);
   vec3 exposed =
       exposure * textureLod(radiance_texture, pixel / vec2(textureSize(radiance_texture, 0)), 0.0f).rgb;
-  colour = vec4(srgb_encoded(tone_mapped(exposed)), 1.0f);
+  colour = vec4(srgb_of_linear(tone_mapped(exposed)), 1.0f);
 }

@@ -1,10 +1,7 @@
 // Surfaces that mirror the sky alone: buildings, streets, trees, and movable things in views where
 // reflections end. Walls that hide the sky dim its reflection.
+#include "graphics/render/mirrored_direction.glsl"
 #include "graphics/render/surface_body.glsl"
-
-vec3 mirrored_direction;
-
-void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
 vec3 reflected_radiance(float roughness, int layer) {
   return sky_share_of_direction(surface_sky_cell, mirrored_direction) *

@@ -32,6 +32,11 @@ GLSL_FUNCTION Surface assembled_surface(vec3 normal, vec3 base_colour, vec3 deta
   return s;
 }
 
+// What only shines: a black metal with light of its own, which neither sun nor sky change.
+GLSL_FUNCTION Surface shining_surface(vec3 normal, vec3 emission) {
+  return assembled_surface(normal, vec3(0.0f), vec3(1.0f), emission, vec4(1.0f, 1.0f, 0.0f, 0.03f), 0.0f);
+}
+
 // Highlights of the sun are not allowed to get sharper than this: a mirror would show the sun's disc, of 0.5
 // degrees.
 const float min_roughness = 0.05f;

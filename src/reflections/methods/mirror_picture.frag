@@ -1,13 +1,10 @@
 // Mirror-like surfaces that show the radiance computed for their pixel; the sky where there is none.
 #include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/mirrored_direction.glsl"
 #include "graphics/render/surface_body.glsl"
 
 uniform highp sampler2D base_light;  // alpha: there is some
 uniform highp sampler2D coat_light;
-
-vec3 mirrored_direction;
-
-void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
 vec3 reflected_radiance(float roughness, int layer) {
   vec4 base = texelFetch(base_light, ivec2(gl_FragCoord.xy), 0);

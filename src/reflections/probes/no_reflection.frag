@@ -1,10 +1,7 @@
 // Mirror-like surfaces without reflections: they shine with the mean light of the sky, as in the paper's "no
 // reflection".
 #include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/mirrored_direction.glsl"
 #include "graphics/render/surface_body.glsl"
-
-vec3 mirrored_direction;
-
-void look_along(vec3 at, vec3 direction) { mirrored_direction = direction; }
 
 vec3 reflected_radiance(float roughness, int layer) { return sky_radiance(mirrored_direction, 1.0f); }
