@@ -105,7 +105,10 @@ class FacadeDrawable final : public render::Drawable {
     if (!load(scene)) return;
     const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
     change_ = {};
+    fixed_ = {};
     chosen_.resize(facades.size());
+    for (std::size_t i = facades.size(); i < bounds_.size(); ++i)
+      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
     shown_.resize(facades.size()), bounds_.resize(facades.size()), is_newcomer_.assign(facades.size(), 0);
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
