@@ -69,7 +69,7 @@ std::uint64_t film_key(house::Stage& stage, const Arguments& arguments, int widt
   for (const scene::NamedCamera& named : scene.cameras) {
     hash.add_text(named.name + "/" + named.follows);
     hash.add(named.camera.world_from_camera);
-    hash.add(named.camera.vertical_fov);
+    hash.add(named.camera.tangents(float(width) / float(height)));
     hash.add(named.offset_m);
   }
   hash.add(scene.exposure);

@@ -72,13 +72,13 @@ std::vector<ShadowMap> cascades(const glm::dmat4& sun, const std::vector<glm::dv
 /// How far the viewpoint moves back so that all that can shade the points stands in front of it.
 double retreat_for_casters(const glm::dmat4& camera_from_world, glm::dvec3 to_sun,
                            const std::vector<glm::dvec3>& points, double top, double near_m) {
-  double least = near_m;
+  double minimum = near_m;
   for (const glm::dvec3& point : points) {
     const double reach = std::max(0.0, top - point.z) / std::max(to_sun.z, 0.05);
     for (const glm::dvec3& end : {point, point + reach * to_sun})
-      least = std::min(least, -(camera_from_world * glm::dvec4(end, 1.0)).z);
+      minimum = std::min(minimum, -(camera_from_world * glm::dvec4(end, 1.0)).z);
   }
-  return near_m - least;
+  return near_m - minimum;
 }
 
 /// The map of the space after a projection whose viewpoint has moved back; nothing where its light sees the
@@ -87,7 +87,7 @@ bool perspective_map(const Camera& camera, glm::dvec3 to_sun, const std::vector<
                      double near_m, double far_m, double retreat_m, glm::dmat4& result) {
   const glm::dmat4 camera_from_world = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -retreat_m)) *
                                        glm::inverse(glm::dmat4(camera.world_from_camera));
-  const double tangent = std::tan(0.5 * double(camera.vertical_fov)), n = near_m + retreat_m * 0.999,
+  const double tangent = 0.5 * double(camera.height_at_1m()), n = near_m + retreat_m * 0.999,
                f = far_m + retreat_m;
   const glm::dmat4 view = glm::perspective(2.0 * std::atan(tangent), 1.0, n, f) * camera_from_world;
   std::vector<glm::dvec3> seen;

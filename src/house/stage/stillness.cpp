@@ -11,8 +11,8 @@ namespace {
 std::uint64_t state_of(const scene::Scene& scene, const Camera& camera, int width, int height) {
   ContentHash hash;
   hash.add(camera.world_from_camera);
-  for (const float value :
-       {camera.vertical_fov, scene.exposure, scene.haze_per_m, scene.sky.intensity, scene.sky.heading})
+  hash.add(camera.tangents(float(width) / float(height)));
+  for (const float value : {scene.exposure, scene.haze_per_m, scene.sky.intensity, scene.sky.heading})
     hash.add(value);
   for (const int value : {width, height, scene.sky.version}) hash.add(value);
   for (const glm::vec3 value : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(value);
