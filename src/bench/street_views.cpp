@@ -58,16 +58,17 @@ int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int he
   return int(reflectors.size());
 }
 
-Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width, int height, Report& report) {
+Result<Camera> view_of_cars(house::Stage& stage, int minimum, int maximum, int width, int height,
+                            Report& report) {
   const float aspect = float(width) / float(height);
   constexpr int longest_search_s = 120;
   for (int second = 0; second < longest_search_s; ++second) {
     for (const float height_m : {9.0f, 25.0f, 60.0f})
       for (const Camera& camera :
            street_views(stage.scene(), 24, height_m, -0.004f * height_m, width, height)) {
-        if (vehicles_ahead(stage.scene(), camera, aspect) < least) continue;
+        if (vehicles_ahead(stage.scene(), camera, aspect) < minimum) continue;
         const int seen = reflectors_seen(stage, camera, width, height);
-        if (seen < least || seen > most) continue;
+        if (seen < minimum || seen > maximum) continue;
         report.note(fmt::format("{} cars, {} seen, from {} m above a street, after {} s",
                                 stage.play().clock.find<traffic::TrafficProcess>()->traffic().vehicle_count(),
                                 seen, height_m, second));
@@ -75,7 +76,8 @@ Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width,
       }
     stage.play().advance(1.0);
   }
-  return error("no view of {} to {} cars was found within {} s of traffic", least, most, longest_search_s);
+  return error("no view of {} to {} cars was found within {} s of traffic", minimum, maximum,
+               longest_search_s);
 }
 
 }  // namespace parvis::bench

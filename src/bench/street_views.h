@@ -19,7 +19,8 @@ house::Play play_with(const House& house, const scene::Scene& scene, int vehicle
 /// Number of reflecting objects that a frame of this camera draws.
 int reflectors_seen(house::Stage& stage, const Camera& camera, int width, int height);
 
-/// Lets traffic drive until some view, from a balcony or a roof, sees between `least` and `most` cars.
-Result<Camera> view_of_cars(house::Stage& stage, int least, int most, int width, int height, Report& report);
+/// Lets traffic drive until some view, from a balcony or a roof, sees between `minimum` and `maximum` cars.
+Result<Camera> view_of_cars(house::Stage& stage, int minimum, int maximum, int width, int height,
+                            Report& report);
 
 }  // namespace parvis::bench

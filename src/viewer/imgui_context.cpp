@@ -4,12 +4,12 @@
 
 namespace parvis::viewer {
 
-ImguiContext::ImguiContext(float scale, float pixels_a_point) : scale_(scale) {
+ImguiContext::ImguiContext(float scale, float pixels_per_point) : scale_(scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // each visit begins alike
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  fonts_ = apply_theme(scale, pixels_a_point);
+  fonts_ = apply_theme(scale, pixels_per_point);
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -18,9 +18,9 @@ ImguiContext::~ImguiContext() {
   ImGui::DestroyContext();
 }
 
-void ImguiContext::rescale(float scale, float pixels_a_point) {
+void ImguiContext::rescale(float scale, float pixels_per_point) {
   scale_ = scale;
-  fonts_ = apply_theme(scale, pixels_a_point);
+  fonts_ = apply_theme(scale, pixels_per_point);
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // rebuilt with the next frame
   ImGui_ImplOpenGL3_CreateFontsTexture();
 }

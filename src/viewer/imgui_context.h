@@ -10,12 +10,12 @@ class ImguiContext {
  public:
   /// Needs a current OpenGL context for as long as it lives; there is one of it at a time. Sizes as in
   /// apply_theme.
-  explicit ImguiContext(float scale, float pixels_a_point = 1.0f);
+  explicit ImguiContext(float scale, float pixels_per_point = 1.0f);
   ImguiContext(const ImguiContext&) = delete;
   ~ImguiContext();
 
   /// Takes another scale from the next frame on.
-  void rescale(float scale, float pixels_a_point);
+  void rescale(float scale, float pixels_per_point);
 
   /// Input is there: begins a frame of ImGui.
   void begin_frame();

@@ -55,7 +55,7 @@ void set_colours(ImVec4* colours) {
 
 }  // namespace
 
-Fonts apply_theme(float scale, float pixels_a_point) {
+Fonts apply_theme(float scale, float pixels_per_point) {
   ImGuiStyle style;
   ImGui::StyleColorsDark(&style);
   style.WindowPadding = {14, 12};
@@ -74,8 +74,8 @@ Fonts apply_theme(float scale, float pixels_a_point) {
 
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
-  io.FontGlobalScale = 1.0f / pixels_a_point;
-  const float size = text_size * scale * pixels_a_point;
+  io.FontGlobalScale = 1.0f / pixels_per_point;
+  const float size = text_size * scale * pixels_per_point;
   return {font({"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
                 "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"},
                size),

@@ -17,8 +17,8 @@ inline const ImVec4 dim_text(0.60f, 0.62f, 0.65f, 1.0f);   ///< labels and remar
 inline const ImVec4 error_text(1.0f, 0.50f, 0.42f, 1.0f);  ///< error messages
 
 /// Applies colours, spacing and fonts to the current ImGui context: sizes are multiplied by `scale`, glyphs
-/// are rasterised for `pixels_a_point` framebuffer pixels per unit. Fonts are Inter, else DejaVu Sans, else
+/// are rasterised for `pixels_per_point` framebuffer pixels per unit. Fonts are Inter, else DejaVu Sans, else
 /// ImGui's own. May be called again between frames when the scale changes.
-Fonts apply_theme(float scale, float pixels_a_point = 1.0f);
+Fonts apply_theme(float scale, float pixels_per_point = 1.0f);
 
 }  // namespace parvis::viewer

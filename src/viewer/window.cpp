@@ -49,7 +49,7 @@ Status open_window(Glfw& glfw, const WindowOptions& options) {
 
 /// How large a person wants things on the window's screen, in the window's units, and pixels a unit.
 struct Scale {
-  float interface, pixels_a_point;
+  float interface, pixels_per_point;
   bool operator==(const Scale&) const = default;
 };
 
@@ -59,8 +59,8 @@ Scale scale_of(GLFWwindow* window) {
   int points = 0, pixels = 0, height = 0;
   glfwGetWindowSize(window, &points, &height);
   glfwGetFramebufferSize(window, &pixels, &height);
-  const float pixels_a_point = points > 0 && pixels > 0 ? float(pixels) / float(points) : 1.0f;
-  return {std::max(asked / pixels_a_point, 0.5f), pixels_a_point};
+  const float pixels_per_point = points > 0 && pixels > 0 ? float(pixels) / float(points) : 1.0f;
+  return {std::max(asked / pixels_per_point, 0.5f), pixels_per_point};
 }
 
 /// GLFW's part of Dear ImGui; after the window's own callbacks, which it calls.
@@ -99,7 +99,7 @@ class Frames {
         options_(options),
         scale_(scale_of(window)),
         visit_(stage, start, options.pictures),
-        imgui_(scale_.interface, scale_.pixels_a_point),
+        imgui_(scale_.interface, scale_.pixels_per_point),
         panel_(imgui_, options.title),
         input_(window, visit_, panel_),
         imgui_input_(window) {
@@ -143,14 +143,14 @@ class Frames {
     if (width_ == 0 || height_ == 0) return;  // an icon
     if (const Scale scale = scale_of(window_); scale != scale_) {
       scale_ = scale;
-      imgui_.rescale(scale.interface, scale.pixels_a_point);
+      imgui_.rescale(scale.interface, scale.pixels_per_point);
     }
     ImGui_ImplGlfw_NewFrame();
     imgui_.begin_frame();
     panel_.draw(visit_, statistics_);
 
     house::Stage& stage = visit_.stage();
-    const int covered = int(panel_.width() * scale_.pixels_a_point);
+    const int covered = int(panel_.width() * scale_.pixels_per_point);
     const int shown_width = std::max(width_ - covered, 1);
     stillness_.add_frame(stage.scene(), visit_.camera(), shown_width, height_, passed_s);
     rests_ = options_.max_frames == 0 && stillness_.rests();

@@ -42,12 +42,12 @@ Candidate with_steps(const Texels& texels, const Endpoint& a, const Endpoint& b)
   for (std::size_t i = 0; i < 16; ++i) {
     const float t = glm::dot(texels[i] - from, along) / length2;
     const int guess = std::clamp(int(std::lround(15.0f * t)), 0, 15);
-    float least = std::numeric_limits<float>::max();
+    float minimum = std::numeric_limits<float>::max();
     for (int step = std::max(guess - 1, 0); step <= std::min(guess + 1, 15); ++step) {
       const glm::vec4 off = texels[i] - glm::vec4(at_step(a.value(), b.value(), step));
-      if (const float error = glm::dot(off, off); error < least) least = error, result.steps[i] = step;
+      if (const float error = glm::dot(off, off); error < minimum) minimum = error, result.steps[i] = step;
     }
-    result.error += least;
+    result.error += minimum;
   }
   return result;
 }
@@ -82,12 +82,12 @@ void principal_ends(const Texels& texels, glm::vec4& a, glm::vec4& b) {
     return;
   }
   axis = glm::normalize(axis);
-  float least = 0.0f, greatest = 0.0f;
+  float minimum = 0.0f, maximum = 0.0f;
   for (const glm::vec4& texel : texels) {
     const float t = glm::dot(texel - mean, axis);
-    least = std::min(least, t), greatest = std::max(greatest, t);
+    minimum = std::min(minimum, t), maximum = std::max(maximum, t);
   }
-  a = mean + least * axis, b = mean + greatest * axis;
+  a = mean + minimum * axis, b = mean + maximum * axis;
 }
 
 /// The endpoints that fit best once each texel's step is chosen.

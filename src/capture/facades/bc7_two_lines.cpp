@@ -104,12 +104,12 @@ Part with_steps(const Texels& texels, std::size_t pattern, std::size_t which, co
   for (std::size_t k = 0; k < 8; ++k) colours[k] = glm::vec3(between(from, to, weights[k]));
   for (std::size_t i = 0; i < 16; ++i) {
     if (part_of(pattern, i) != which) continue;
-    float least = std::numeric_limits<float>::max();
+    float minimum = std::numeric_limits<float>::max();
     for (int k = 0; k < 8; ++k) {
       const glm::vec3 off = texels[i] - colours[std::size_t(k)];
-      if (const float error = glm::dot(off, off); error < least) least = error, part.steps[i] = k;
+      if (const float error = glm::dot(off, off); error < minimum) minimum = error, part.steps[i] = k;
     }
-    part.error += least;
+    part.error += minimum;
   }
   return part;
 }
@@ -148,13 +148,13 @@ Part coded_part(const Texels& texels, std::size_t pattern, std::size_t which) {
   for (std::size_t i = 0; i < 16; ++i)
     if (part_of(pattern, i) == which) spread.add(texels[i]);
   const glm::vec3 mean = spread.mean(), axis = principal_axis(spread.covariance());
-  float least = 0.0f, greatest = 0.0f;
+  float minimum = 0.0f, maximum = 0.0f;
   for (std::size_t i = 0; i < 16; ++i)
     if (part_of(pattern, i) == which) {
       const float t = glm::dot(texels[i] - mean, axis);
-      least = std::min(least, t), greatest = std::max(greatest, t);
+      minimum = std::min(minimum, t), maximum = std::max(maximum, t);
     }
-  glm::vec3 a = mean + least * axis, b = mean + greatest * axis;
+  glm::vec3 a = mean + minimum * axis, b = mean + maximum * axis;
   Part best = best_of(texels, pattern, which, a, b);
   for (int round = 0; round < refinements; ++round) {
     refit(texels, pattern, which, best, a, b);

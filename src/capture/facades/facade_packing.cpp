@@ -190,12 +190,12 @@ void complete(OpenSlot& slot) {
 void decide_blocks(Image8& texels) {
   for (int top = 0; top < texels.height; top += 4)
     for (int left = 0; left < texels.width; left += 4) {
-      int least = 255, sum = 0;
+      int minimum = 255, sum = 0;
       for (int i = 0; i < 16; ++i) {
         const int alpha = texels.at(left + i % 4, top + i / 4)[3];
-        least = std::min(least, alpha), sum += alpha;
+        minimum = std::min(minimum, alpha), sum += alpha;
       }
-      if (least < unseen_alpha || least == 255) continue;
+      if (minimum < unseen_alpha || minimum == 255) continue;
       const std::uint8_t alpha = 2 * sum >= 16 * (255 + unseen_alpha) ? 255 : unseen_alpha;
       for (int i = 0; i < 16; ++i) texels.at(left + i % 4, top + i / 4)[3] = alpha;
     }

@@ -90,8 +90,9 @@ std::string main_object(const LayerModel& model, const VisibilityLayers& visibil
                         const std::vector<std::uint32_t>& items) {
   std::map<std::uint32_t, int> counts;
   for (const std::uint32_t item : items) ++counts[visibility.items[item].object];
-  const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
-  return model.objects[most->first].name + (counts.size() > 1 ? fmt::format(" +{}", counts.size() - 1) : "");
+  const auto maximum = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+  return model.objects[maximum->first].name +
+         (counts.size() > 1 ? fmt::format(" +{}", counts.size() - 1) : "");
 }
 
 /// Bounding boxes of the pixel centres that each item covers.

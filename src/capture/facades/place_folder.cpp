@@ -34,9 +34,9 @@ glm::ivec2 empty_margins(const Image8& image) {
       if (!is_full(x, y)) return false;
     return true;
   };
-  const glm::ivec2 most(image.width / 8, image.height / 8);
+  const glm::ivec2 maximum(image.width / 8, image.height / 8);
   bool is_done = false;
-  while (!is_done && margin.x < most.x && margin.y < most.y) {
+  while (!is_done && margin.x < maximum.x && margin.y < maximum.y) {
     const bool rows = row_is_full(margin.y) && row_is_full(image.height - 1 - margin.y);
     const bool columns = column_is_full(margin.x) && column_is_full(image.width - 1 - margin.x);
     is_done = rows && columns;

@@ -84,20 +84,20 @@ Image8 layer_map(const PlaceLayers& place, std::size_t photo) {
 
 Image8 coverage_map(const PlaceLayers& place, std::size_t photo) {
   const View& view = place.views[photo];
-  Image8 least(view.width, view.height, 1, 0);
+  Image8 minimum(view.width, view.height, 1, 0);
   for (std::size_t l = 0; l < place.layered[photo].layers.size(); ++l) {
     const PixelBox& box = place.layered[photo].layers[l].box;
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
         const std::uint8_t source = *place.filled[photo].sources[l].at(x, y);
-        std::uint8_t& known = *least.at(x + box.x, y + box.y);
+        std::uint8_t& known = *minimum.at(x + box.x, y + box.y);
         known = std::max(known, source);
       }
   }
   Image8 map(view.width, view.height, 3);
-  for (std::size_t i = 0; i < least.pixels.size(); ++i)
+  for (std::size_t i = 0; i < minimum.pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      map.pixels[3 * i + c] = source_colours[std::min<std::size_t>(least.pixels[i], 5)][c];
+      map.pixels[3 * i + c] = source_colours[std::min<std::size_t>(minimum.pixels[i], 5)][c];
   return map;
 }
 

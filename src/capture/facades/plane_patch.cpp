@@ -132,13 +132,13 @@ class Irregularities {
 std::optional<glm::ivec2> best_shift(const PlaneGrid& grid, const Group& group,
                                      Irregularities& irregularities) {
   std::optional<glm::ivec2> best;
-  float least = max_rim_difference + max_irregularity;
+  float minimum = max_rim_difference + max_irregularity;
   for (int dy = -group.low.y; dy + group.high.y < grid.height; ++dy)
     for (int dx = -group.low.x; dx + group.high.x < grid.width; ++dx) {
-      const std::optional<float> rim = misfit(grid, group, {dx, dy}, std::min(least, max_rim_difference));
-      if (!rim || *rim >= std::min(least, max_rim_difference)) continue;
-      if (const float all = *rim + irregularities.of({dx, dy}); all < least)
-        least = all, best = glm::ivec2(dx, dy);
+      const std::optional<float> rim = misfit(grid, group, {dx, dy}, std::min(minimum, max_rim_difference));
+      if (!rim || *rim >= std::min(minimum, max_rim_difference)) continue;
+      if (const float all = *rim + irregularities.of({dx, dy}); all < minimum)
+        minimum = all, best = glm::ivec2(dx, dy);
     }
   return best;
 }

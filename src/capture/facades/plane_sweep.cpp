@@ -267,12 +267,12 @@ void extend_path(const std::uint8_t* cost, const std::uint16_t* before, int heig
     std::copy_n(cost, heights, path);
     return;
   }
-  const int least = *std::min_element(before, before + heights);
+  const int minimum = *std::min_element(before, before + heights);
   for (int h = 0; h < heights; ++h) {
-    int way = std::min<int>(before[h], least + large_step);
+    int way = std::min<int>(before[h], minimum + large_step);
     if (h > 0) way = std::min(way, before[h - 1] + small_step);
     if (h + 1 < heights) way = std::min(way, before[h + 1] + small_step);
-    path[h] = std::uint16_t(int(cost[h]) + way - least);
+    path[h] = std::uint16_t(int(cost[h]) + way - minimum);
   }
 }
 

@@ -82,13 +82,13 @@ const CellShares& SunInCrowns::shares(const TreeLevels& tree, glm::vec3 to_sun) 
 }
 
 float way_out(const Bounds& box, glm::vec3 point, glm::vec3 direction) {
-  float least = std::numeric_limits<float>::max();
+  float minimum = std::numeric_limits<float>::max();
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(direction[axis]) < 1e-6f) continue;
     const float face = direction[axis] > 0.0f ? box.max[axis] : box.min[axis];
-    least = std::min(least, std::max((face - point[axis]) / direction[axis], 0.0f));
+    minimum = std::min(minimum, std::max((face - point[axis]) / direction[axis], 0.0f));
   }
-  return least < std::numeric_limits<float>::max() ? least : 0.0f;
+  return minimum < std::numeric_limits<float>::max() ? minimum : 0.0f;
 }
 
 }  // namespace parvis::trees

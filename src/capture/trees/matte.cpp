@@ -79,7 +79,7 @@ std::vector<Cluster> clusters_of(const Image8& photograph, const std::vector<glm
 /// Alpha and pure foreground of a mixed pixel.
 glm::vec4 unmixed(glm::vec3 colour, glm::vec3 lab, const std::vector<Cluster>& foreground,
                   const std::vector<Cluster>& background) {
-  float least = 1e30f, alpha = 0.0f;
+  float minimum = 1e30f, alpha = 0.0f;
   const Cluster* front = &foreground[0];
   const Cluster* back = &background[0];
   for (const Cluster& f : foreground)
@@ -88,7 +88,7 @@ glm::vec4 unmixed(glm::vec3 colour, glm::vec3 lab, const std::vector<Cluster>& f
       const float share =
           std::clamp(glm::dot(lab - b.lab, line) / std::max(glm::dot(line, line), 1e-4f), 0.0f, 1.0f);
       const float distance = glm::distance(lab, b.lab + share * line);
-      if (distance < least) least = distance, alpha = share, front = &f, back = &b;
+      if (distance < minimum) minimum = distance, alpha = share, front = &f, back = &b;
     }
   if (alpha < min_alpha) return {front->srgb, 0.0f};
   if (alpha > 1.0f - min_alpha) return {colour, 1.0f};

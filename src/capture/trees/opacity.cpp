@@ -267,13 +267,13 @@ float cutoff_by_held_out_error(const CellGrid& grid, std::span<const TreeView> v
   const Opacities found = estimate_opacity(grid, used, silhouettes(used), options);
   const float chord_m = mean_chord_m(grid.cell_size_m());
   float best = 1.0f;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (const float cutoff : thesis_cutoffs) {
     std::vector<float> tau = found.extinction_per_m;
     for (float& value : tau)
       if (std::exp(-value * chord_m) > cutoff) value = 0.0f;
     const double rmse = alpha_rmse(grid, tau, held_out, found.picture_factor);
-    if (rmse < least) least = rmse, best = cutoff;
+    if (rmse < minimum) minimum = rmse, best = cutoff;
   }
   return best;
 }

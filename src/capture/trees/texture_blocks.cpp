@@ -37,10 +37,10 @@ std::uint32_t nearest_indices(const Colours& colours, const Palette& steps) {
   std::uint32_t indices = 0;
   for (std::size_t i = 0; i < 16; ++i) {
     std::uint32_t best = 0;
-    float least = 1e30f;
+    float minimum = 1e30f;
     for (std::uint32_t k = 0; k < 4; ++k) {
       const glm::vec3 d = colours.colour[i] - steps[k];
-      if (glm::dot(d, d) < least) least = glm::dot(d, d), best = k;
+      if (glm::dot(d, d) < minimum) minimum = glm::dot(d, d), best = k;
     }
     indices |= best << (2 * i);
   }

@@ -97,10 +97,10 @@ CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3
   for (const glm::u8vec4 base : tree.base) brightness.push_back(luminance(base));
   const std::vector<float> sky = sky_visibility(tree), extinction_per_m = extinctions(tree);
   CapturedLight best;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   const auto attempt = [&](glm::vec3 direction) {
     const LightFit fit = fitted(tree, brightness, passed(tree, extinction_per_m, direction), sky);
-    if (fit.residual < least) least = fit.residual, best = {direction, fit.sun, fit.sky};
+    if (fit.residual < minimum) minimum = fit.residual, best = {direction, fit.sun, fit.sky};
   };
   if (to_sun) {
     attempt(glm::normalize(*to_sun));

@@ -7,12 +7,12 @@
 
 namespace parvis::scene {
 
-/// The highest of the levels, or the highest not above `most`; where all are above it, the lowest. Nothing
+/// The highest of the levels, or the highest not above `maximum`; where all are above it, the lowest. Nothing
 /// where there are none.
-inline std::optional<double> wanted_level(const std::vector<double>& levels, std::optional<double> most) {
+inline std::optional<double> wanted_level(const std::vector<double>& levels, std::optional<double> maximum) {
   std::optional<double> best;
   for (const double level : levels)
-    if ((!most || level <= *most) && (!best || level > *best)) best = level;
+    if ((!maximum || level <= *maximum) && (!best || level > *best)) best = level;
   if (!best && !levels.empty()) best = *std::min_element(levels.begin(), levels.end());
   return best;
 }

@@ -52,10 +52,10 @@ Json volume_json(const Material& glass) {
   constexpr float usual_thickness_m = 0.1f;
   const glm::vec3 absorption_per_m = glass.absorption_per_m;
   Json volume{{"thicknessFactor", glass.thickness_m > 0.0f ? glass.thickness_m : usual_thickness_m}};
-  const float most = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
-  if (most > 0.0f) {
-    volume["attenuationDistance"] = 1.0f / most;
-    volume["attenuationColor"] = array_of(glm::exp(-absorption_per_m / most));
+  const float maximum = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
+  if (maximum > 0.0f) {
+    volume["attenuationDistance"] = 1.0f / maximum;
+    volume["attenuationColor"] = array_of(glm::exp(-absorption_per_m / maximum));
   }
   return volume;
 }

@@ -57,12 +57,12 @@ double largest_block_mb(const std::filesystem::path& file) {
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing, nullptr);
   const std::unique_ptr<TIFF, decltype(&TIFFClose)> images{TIFFOpenExt(file.c_str(), "r", options.get()),
                                                            TIFFClose};
-  std::uint64_t most = 0;
+  std::uint64_t maximum = 0;
   if (images) do {
-      most = std::max(
-          most, TIFFIsTiled(images.get()) ? TIFFTileSize64(images.get()) : TIFFStripSize64(images.get()));
+      maximum = std::max(
+          maximum, TIFFIsTiled(images.get()) ? TIFFTileSize64(images.get()) : TIFFStripSize64(images.get()));
     } while (TIFFReadDirectory(images.get()));
-  return 1e-6 * double(most);
+  return 1e-6 * double(maximum);
 }
 
 /// From a sample (column, row) to the map, in the map's own units.

@@ -148,9 +148,9 @@ class Path {
   }
 
   bool survives() {
-    double most = 0.0;
-    for (const double value : through_) most = std::max(most, value);
-    const double chance = std::min(0.9, most / pi * 2.0);
+    double maximum = 0.0;
+    for (const double value : through_) maximum = std::max(maximum, value);
+    const double chance = std::min(0.9, maximum / pi * 2.0);
     if (next() >= chance) return false;
     for (double& value : through_) value /= chance;
     return true;

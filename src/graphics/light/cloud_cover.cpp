@@ -54,8 +54,8 @@ Means means_of(const ImageF& dome) {
 }  // namespace
 
 float cloud_share(glm::vec3 colour) {
-  const float most = std::max({colour.x, colour.y, colour.z, 1e-9f});
-  const float saturation = 1.0f - std::min({colour.x, colour.y, colour.z}) / most;
+  const float maximum = std::max({colour.x, colour.y, colour.z, 1e-9f});
+  const float saturation = 1.0f - std::min({colour.x, colour.y, colour.z}) / maximum;
   return glm::smoothstep(0.5f, 0.22f, saturation);
 }
 

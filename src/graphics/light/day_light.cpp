@@ -45,12 +45,12 @@ void DayLight::hash(ContentHash& hash) const {
 }
 
 float exposure_for(float illuminance) {
-  constexpr float noon = 146.0f;  // 100,000 lux
-  constexpr float least = 3e-4f;  // 0.2 lux: eyes see no colour below
+  constexpr float noon = 146.0f;    // 100,000 lux
+  constexpr float minimum = 3e-4f;  // 0.2 lux: eyes see no colour below
   constexpr float displayed =
       10.0f;  // illuminance times exposure at noon, as the house's other scenes have it
   constexpr float unadapted = 0.2f;  // power of what adaptation leaves
-  const float light = std::max(illuminance, least);
+  const float light = std::max(illuminance, minimum);
   return displayed / light * std::pow(light / noon, unadapted);
 }
 

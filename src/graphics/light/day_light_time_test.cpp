@@ -16,14 +16,14 @@ namespace {
 /// How far the event that falls on the date by universal time is from `expected_h`: far from Greenwich it may
 /// belong to the daylight of the day before or after.
 double minutes_off(PlaceAndTime when, std::optional<double> DaylightHours::*event, double expected_h) {
-  double least = 1e9;
+  double minimum = 1e9;
   const int date = when.day_of_year;
   for (const int shift : {-1, 0, 1}) {
     when.day_of_year = date + shift;
     const std::optional<double> hours = daylight_hours(when, civil_twilight_elevation_deg).*event;
-    if (hours) least = std::min(least, 60.0 * std::abs(*hours + 24.0 * shift - expected_h));
+    if (hours) minimum = std::min(minimum, 60.0 * std::abs(*hours + 24.0 * shift - expected_h));
   }
-  return least;
+  return minimum;
 }
 
 TEST(DayLightTime, NamesWhatIsOutOfRange) {

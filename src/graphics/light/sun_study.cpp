@@ -72,13 +72,14 @@ void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
         heights.size(),
         [&](std::size_t i) {
           const int x = int(i % std::size_t(study.columns)), y = int(i / std::size_t(study.columns));
-          float least = 1e30f;
+          float minimum = 1e30f;
           for (int k = -reach; k <= reach; ++k) {
             const int nx = x + k * step_x, ny = y + k * step_y;
             if (nx < 0 || ny < 0 || nx >= study.columns || ny >= study.rows) continue;
-            least = std::min(least, heights[std::size_t(ny) * std::size_t(study.columns) + std::size_t(nx)]);
+            minimum =
+                std::min(minimum, heights[std::size_t(ny) * std::size_t(study.columns) + std::size_t(nx)]);
           }
-          result[i] = least;
+          result[i] = minimum;
         },
         256);
     return result;

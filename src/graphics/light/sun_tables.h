@@ -39,16 +39,16 @@ inline std::vector<SunRow> read_sun_rows(const std::filesystem::path& file) {
 
 /// The largest difference of azimuth or zenith over all rows, each shifted by `late_h` (a control).
 inline double max_error_deg(const std::vector<SunRow>& rows, double late_h = 0.0) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (const SunRow& row : rows) {
     const Observer observer{row.latitude_deg, row.longitude_deg, 0.0, 1000.0,
                             10.0};  // as the file's head says
     const SolarPosition sun =
         solar_position(julian_day(row.year, row.month, row.day, row.hours_ut + late_h), 0.0, observer);
     const double azimuth = std::abs(std::remainder(sun.azimuth_deg - row.azimuth_deg, 360.0));
-    most = std::max({most, azimuth, std::abs(sun.zenith_deg - row.zenith_deg)});
+    maximum = std::max({maximum, azimuth, std::abs(sun.zenith_deg - row.zenith_deg)});
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace parvis::light

@@ -14,7 +14,7 @@ namespace {
 using glm::vec3;
 
 // The constants of the paper, section 4.
-constexpr float pixels_a_degree = 67.0f;
+constexpr float pixels_per_degree = 67.0f;
 constexpr float colour_exponent = 0.7f;      // q_c
 constexpr float colour_knee = 0.4f;          // p_c
 constexpr float knee_error = 0.95f;          // p_t
@@ -88,14 +88,14 @@ struct Sensitivity {
 constexpr Sensitivity achromatic{1.0f, 0.0047f, 0.0f, 1e-5f}, red_green{1.0f, 0.0053f, 0.0f, 1e-5f},
     blue_yellow{34.1f, 0.04f, 13.5f, 0.025f};
 
-int filter_radius() { return int(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_a_degree)); }
+int filter_radius() { return int(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_per_degree)); }
 
 /// A channel seen from the distance: each term of the sensitivity is a separable Gaussian, and the whole has
 /// sum 1.
 ImageF seen(const ImageF& channel, const Sensitivity& s) {
   const int radius = filter_radius();
   const auto term = [&](float a, float b, double& sum) {
-    const float sigma = std::sqrt(b / (2.0f * pi * pi)) * pixels_a_degree;
+    const float sigma = std::sqrt(b / (2.0f * pi * pi)) * pixels_per_degree;
     double line = 0.0;
     for (int x = -radius; x <= radius; ++x)
       line += std::exp(-double(x * x) / (2.0 * double(sigma) * double(sigma)));
@@ -134,17 +134,17 @@ ImageF perceived(const ImageF& linear) {
 
 /// Section 4.1.3: the largest distance, green against blue, maps to 1, with more room for small differences.
 float redistributed(float distance) {
-  static const float most =
+  static const float maximum =
       std::pow(hyab(hunt_adjusted(lab_from_linear({0, 1, 0})), hunt_adjusted(lab_from_linear({0, 0, 1}))),
                colour_exponent);
-  const float error = std::pow(distance, colour_exponent), knee = colour_knee * most;
+  const float error = std::pow(distance, colour_exponent), knee = colour_knee * maximum;
   return error < knee ? knee_error / knee * error
-                      : knee_error + (error - knee) / (most - knee) * (1.0f - knee_error);
+                      : knee_error + (error - knee) / (maximum - knee) * (1.0f - knee_error);
 }
 
 /// Section 4.2: edges (first derivative of a Gaussian) or points (second), as the length of the gradient.
 ImageF features(const ImageF& luminance, bool is_edge) {
-  const float sigma = 0.5f * feature_width_deg * pixels_a_degree;
+  const float sigma = 0.5f * feature_width_deg * pixels_per_degree;
   const int radius = int(std::ceil(3.0f * sigma));
   Kernel derivative(std::size_t(2 * radius + 1));
   float positive = 0.0f, negative = 0.0f;

@@ -21,9 +21,9 @@ vec3 kept_above(vec3 vector, vec3 normal) {
   return height >= min_cosine ? vector : glm::normalize(vector + (min_cosine - height) * normal);
 }
 
-vec3 clamped(vec3 radiance, float most) {
+vec3 clamped(vec3 radiance, float maximum) {
   const float light = luminance(radiance);
-  return light > most ? radiance * (most / light) : radiance;
+  return light > maximum ? radiance * (maximum / light) : radiance;
 }
 
 }  // namespace

@@ -8,10 +8,10 @@ vec4 base_colour_at(vec2 at, vec2 along_x, vec2 along_y) {
   vec2 size = vec2(textureSize(base_colour_texture, 0));
   float length_x = length(along_x * size), length_y = length(along_y * size);
   vec2 longer = length_x > length_y ? along_x : along_y;
-  float most = max(length_x, length_y);
+  float maximum = max(length_x, length_y);
   // Footprints narrower than a texel need no more taps than one as wide.
-  int taps = int(clamp(ceil(most / max(min(length_x, length_y), 1.0f)), 1.0f, 8.0f));
-  float level = log2(max(most / float(taps), 1e-4f));
+  int taps = int(clamp(ceil(maximum / max(min(length_x, length_y), 1.0f)), 1.0f, 8.0f));
+  float level = log2(max(maximum / float(taps), 1e-4f));
   vec4 sum = vec4(0.0f);
   for (int i = 0; i < taps; ++i)
     sum += textureLod(base_colour_texture, at + ((float(i) + 0.5f) / float(taps) - 0.5f) * longer, level);

@@ -10,7 +10,7 @@ namespace parvis::render {
 namespace {
 
 struct Difference {
-  int most = 0;
+  int maximum = 0;
   double failing_fraction = 0.0, mean = 0.0;
   Image8 picture;  ///< eight times as strong
 };
@@ -27,7 +27,7 @@ Difference difference_between(const Image8& a, const Image8& b, int failing_diff
         difference.picture.at(x, y)[c] = std::uint8_t(std::min(8 * step, 255));
         worst = std::max(worst, step);
       }
-      difference.most = std::max(difference.most, worst);
+      difference.maximum = std::max(difference.maximum, worst);
       failing += worst > failing_difference;
       sum += worst;
     }
@@ -82,7 +82,7 @@ Status matches_golden(const Image8& actual, const std::string& name, const Golde
                                expected->height),
                    folder, actual, *expected, *expected);
   const Difference difference = difference_between(actual, *expected, tolerance.failing_difference);
-  if (difference.most <= tolerance.max_difference &&
+  if (difference.maximum <= tolerance.max_difference &&
       difference.failing_fraction <= tolerance.failing_fraction &&
       difference.mean <= tolerance.mean_difference)
     return Done{};
@@ -90,7 +90,7 @@ Status matches_golden(const Image8& actual, const std::string& name, const Golde
       name,
       fmt::format("differs by {} at most (allowed {}), {:.4f} of the pixels fail (allowed {}), mean {:.4f} "
                   "(allowed {})",
-                  difference.most, tolerance.max_difference, difference.failing_fraction,
+                  difference.maximum, tolerance.max_difference, difference.failing_fraction,
                   tolerance.failing_fraction, difference.mean, tolerance.mean_difference),
       folder, actual, *expected, difference.picture);
 }

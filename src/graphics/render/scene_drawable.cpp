@@ -42,11 +42,11 @@ constexpr float max_error_px = 0.25f, max_mirror_error_px = 0.1f;
 
 /// How much larger a mesh stands in the world, along the edge of its frame that grows most.
 float size_of(const Item::Record& record) {
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (int edge = 0; edge < 3; ++edge)
-    most = std::max(most,
-                    glm::length(glm::vec3(record.rows[0][edge], record.rows[1][edge], record.rows[2][edge])));
-  return most;
+    maximum = std::max(
+        maximum, glm::length(glm::vec3(record.rows[0][edge], record.rows[1][edge], record.rows[2][edge])));
+  return maximum;
 }
 
 }  // namespace

@@ -44,10 +44,10 @@ GLSL_FUNCTION float hidden_by_box(vec3 point, vec3 normal, vec3 box_half_size) {
 
   vec3 on_plane = clamp(point, -box_half_size, box_half_size);
   vec3 cut = smoothstep(vec3(0.7f), vec3(0.95f), abs(normal));
-  vec3 least = mix(-box_half_size, on_plane, cut * step(vec3(0.0f), normal));
-  vec3 most = mix(box_half_size, on_plane, cut * step(normal, vec3(0.0f)));
-  vec3 half_size = 0.5f * (most - least);
-  vec3 p = point - 0.5f * (least + most);
+  vec3 minimum = mix(-box_half_size, on_plane, cut * step(vec3(0.0f), normal));
+  vec3 maximum = mix(box_half_size, on_plane, cut * step(normal, vec3(0.0f)));
+  vec3 half_size = 0.5f * (maximum - minimum);
+  vec3 p = point - 0.5f * (minimum + maximum);
   vec3 beyond = abs(p) - half_size;
   vec3 side = 2.0f * step(vec3(0.0f), p) - vec3(1.0f);
   vec3 corner = side * half_size;

@@ -79,12 +79,12 @@ float twice_area(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b
 /// The share of the box that the triangles cover, seen along an axis: counted at the middles of cells.
 float coverage_along(int axis, const Bounds& box, const std::vector<Triangle>& triangles) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const vec2 least(box.min[u], box.min[v]), size(box.size()[u], box.size()[v]);
+  const vec2 minimum(box.min[u], box.min[v]), size(box.size()[u], box.size()[v]);
   std::bitset<std::size_t(cells_per_side) * cells_per_side> covered;
   for (const Triangle& triangle : triangles) {
     std::array<vec2, 3> p;
     for (std::size_t i = 0; i < 3; ++i)
-      p[i] = (vec2(triangle[i][u], triangle[i][v]) - least) / size * float(cells_per_side) - 0.5f;
+      p[i] = (vec2(triangle[i][u], triangle[i][v]) - minimum) / size * float(cells_per_side) - 0.5f;
     const glm::ivec2 last(cells_per_side - 1);
     const glm::ivec2 from =
         glm::max(glm::ivec2(glm::ceil(glm::min(p[0], glm::min(p[1], p[2])))), glm::ivec2(0));

@@ -7,15 +7,15 @@ namespace {
 
 using glm::vec3;
 
-void add_box(Mesh& mesh, vec3 least, vec3 most) {
+void add_box(Mesh& mesh, vec3 minimum, vec3 maximum) {
   for (int axis = 0; axis < 3; ++axis)
-    for (const vec3 side : {least, most}) {
+    for (const vec3 side : {minimum, maximum}) {
       const auto first = std::uint32_t(mesh.positions.size());
       for (int corner = 0; corner < 4; ++corner) {
         vec3 p;
         p[axis] = side[axis];
-        p[(axis + 1) % 3] = (corner & 1 ? most : least)[(axis + 1) % 3];
-        p[(axis + 2) % 3] = (corner & 2 ? most : least)[(axis + 2) % 3];
+        p[(axis + 1) % 3] = (corner & 1 ? maximum : minimum)[(axis + 1) % 3];
+        p[(axis + 2) % 3] = (corner & 2 ? maximum : minimum)[(axis + 2) % 3];
         mesh.positions.push_back(p);
       }
       for (const std::uint32_t i : {0u, 1u, 2u, 1u, 3u, 2u}) mesh.indices.push_back(first + i);

@@ -57,13 +57,13 @@ ImageF scaled_without_sun(const ImageF& picture, float intensity) {
   double sum = 0.0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) sum += double(luminance(pixel(picture, x, y)));
-  const float most = sun_threshold * float(sum / double(picture.width) / double(picture.height));
+  const float maximum = sun_threshold * float(sum / double(picture.width) / double(picture.height));
   ImageF result(picture.width, picture.height, 3);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const vec3 colour = pixel(picture, x, y);
       const float light = luminance(colour);
-      const vec3 kept = intensity * (light > most ? colour * (most / light) : colour);
+      const vec3 kept = intensity * (light > maximum ? colour * (maximum / light) : colour);
       for (int c = 0; c < 3; ++c) result.at(x, y)[c] = kept[c];
     }
   return result;

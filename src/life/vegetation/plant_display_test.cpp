@@ -119,15 +119,15 @@ TEST_F(PlantDisplay, PointsAndLinesLookAsTheGeometryDoes) {
 TEST_F(PlantDisplay, NothingPopsFromNearToFar) {
   plant("orange", {0, 0, 0}), plant("oak", {-4, 9, 0}, 2);
   const auto kept = renderer();
-  double most = 0.0, max_full = 0.0;
+  double maximum = 0.0, max_full = 0.0;
   for (float distance_m = 4.0f; distance_m < 140.0f; distance_m *= 1.5f) {
     look_from(distance_m);
     const Image8 picture = drawn(*kept), full = drawn_in_full(*kept);
     look_from(1.01f * distance_m);
     const double step = flip(drawn(*kept), picture), step_full = flip(drawn_in_full(*kept), full);
-    most = std::max(most, step - step_full), max_full = std::max(max_full, step_full);
+    maximum = std::max(maximum, step - step_full), max_full = std::max(max_full, step_full);
   }
-  EXPECT_LT(most, 0.02) << "beyond what the real geometry changes when the viewer steps back";
+  EXPECT_LT(maximum, 0.02) << "beyond what the real geometry changes when the viewer steps back";
   // Control: a level that changes at once, from the real geometry to a quarter of it.
   look_from(12.0f);
   const Image8 full = drawn_in_full(*kept);

@@ -42,9 +42,9 @@ PlacedPlant placed(const ScenePlant& plant, int thing) {
 void PlantSelection::gather(const View& view, const Culling& culling, const PlantDetail& detail) {
   leaves_.clear(), wood_.clear();
   is_full_ = detail.is_full, is_mirrored_ = view.kind == ViewKind::mirrored;
-  const float most = render::ScreenScale(view).pixels_per_metre_at(nearest_m);
+  const float maximum = render::ScreenScale(view).pixels_per_metre_at(nearest_m);
   const auto resolution = [&](const PlacedPlant& plant, const Bounds& bounds) {
-    return plant.scale * std::min(culling.pixels_per_metre(bounds), most);
+    return plant.scale * std::min(culling.pixels_per_metre(bounds), maximum);
   };
   for (std::size_t i = 0; i < plants_.size(); ++i) {
     const PlacedPlant& plant = plants_[i];

@@ -97,9 +97,9 @@ double uneven(const std::vector<glm::vec3>& places, std::size_t prefix) {
     of_all[at] += 1.0 / double(places.size());
     if (i < prefix) of_prefix[at] += 1.0 / double(prefix);
   }
-  double most = 0.0;
-  for (std::size_t i = 0; i < 64; ++i) most = std::max(most, std::abs(of_all[i] - of_prefix[i]));
-  return most;
+  double maximum = 0.0;
+  for (std::size_t i = 0; i < 64; ++i) maximum = std::max(maximum, std::abs(of_all[i] - of_prefix[i]));
+  return maximum;
 }
 
 TEST(PlantShape, EveryPrefixOfItsLeavesIsSpreadAsAllAre) {

@@ -73,9 +73,9 @@ glm::vec3 paint_of(const std::vector<Sample>& samples, const Bounds& bounds) {
     const glm::ivec3 step(16.0f * sample.srgb);
     areas[{step.x, step.y, step.z}] += sample.area_m2;
   }
-  const auto most = std::ranges::max_element(areas, {}, [](const auto& each) { return each.second; });
-  if (most == areas.end()) return glm::vec3(1.0f, 0.0f, 0.0f);
-  return (glm::vec3(most->first[0], most->first[1], most->first[2]) + 0.5f) / 16.0f;
+  const auto maximum = std::ranges::max_element(areas, {}, [](const auto& each) { return each.second; });
+  if (maximum == areas.end()) return glm::vec3(1.0f, 0.0f, 0.0f);
+  return (glm::vec3(maximum->first[0], maximum->first[1], maximum->first[2]) + 0.5f) / 16.0f;
 }
 
 bool is_pane(const Sample& sample, const Bounds& bounds, glm::vec3 paint) {

@@ -88,11 +88,11 @@ std::vector<TreePlace> tree_places() {
 }
 
 std::vector<glm::vec3> street_lamp_places() {
-  constexpr std::size_t most = 112;             // a reach of 342 m
+  constexpr std::size_t maximum = 112;          // a reach of 342 m
   constexpr float clear_m = 1.5f;               // of the carriageways that cross
   const StreetPlan plan = make_street_plan(1);  // roads lie the same for all seeds
   std::vector<glm::vec3> places;
-  for (std::size_t i = 0; i < most; ++i) {
+  for (std::size_t i = 0; i < maximum; ++i) {
     const glm::vec3 place = lamp_place(i);
     const auto stands_on = [&](const Road& road) {
       const float across = road.runs_north ? place.x : place.y;

@@ -122,10 +122,10 @@ Bounds box_of(const std::vector<Face>& faces) {
 void enter(const Face& face, int index, const Bounds& box, float reach_m, std::vector<Nearest>& cells) {
   const glm::ivec3 size = BodyField::size();
   const vec3 cell_m = box.size() / vec3(size);
-  const vec3 least = glm::min(face.corners[0], glm::min(face.corners[1], face.corners[2])) - reach_m;
-  const vec3 most = glm::max(face.corners[0], glm::max(face.corners[1], face.corners[2])) + reach_m;
-  const glm::ivec3 from = glm::max(glm::ivec3(glm::floor((least - box.min) / cell_m)), glm::ivec3(0));
-  const glm::ivec3 to = glm::min(glm::ivec3(glm::floor((most - box.min) / cell_m)), size - 1);
+  const vec3 minimum = glm::min(face.corners[0], glm::min(face.corners[1], face.corners[2])) - reach_m;
+  const vec3 maximum = glm::max(face.corners[0], glm::max(face.corners[1], face.corners[2])) + reach_m;
+  const glm::ivec3 from = glm::max(glm::ivec3(glm::floor((minimum - box.min) / cell_m)), glm::ivec3(0));
+  const glm::ivec3 to = glm::min(glm::ivec3(glm::floor((maximum - box.min) / cell_m)), size - 1);
   for (int z = from.z; z <= to.z; ++z)
     for (int y = from.y; y <= to.y; ++y)
       for (int x = from.x; x <= to.x; ++x) {

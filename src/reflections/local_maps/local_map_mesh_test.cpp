@@ -161,13 +161,13 @@ TEST(LocalMapMesh, IsSplitWhereDepthsDifferAndNoFurtherThanAllowed) {
     make_face_mesh(heights, task_of(0, {10, 0.2f, smallest}), mesh);
     EXPECT_GT(mesh.vertices.size(), last);
     last = mesh.vertices.size();
-    float least = 1e9f;
+    float minimum = 1e9f;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
       const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
       const glm::vec2 side = mesh.vertices[mesh.indices[i]].texel - mesh.vertices[mesh.indices[next]].texel;
-      least = std::min(least, glm::length(side));
+      minimum = std::min(minimum, glm::length(side));
     }
-    EXPECT_GE(least, smallest * 0.7f) << "a fan's spokes are half a quad's diagonal";
+    EXPECT_GE(minimum, smallest * 0.7f) << "a fan's spokes are half a quad's diagonal";
   }
 }
 

@@ -8,8 +8,8 @@
 namespace parvis::local_maps {
 
 float shift_texels(float moved_m, float nearest_m, int tile) {
-  const float texels_a_radian = float(tile - 2 * local_map_border) * 2.0f / std::numbers::pi_v<float>;
-  return moved_m / std::max(nearest_m, 1e-3f) * texels_a_radian;
+  const float texels_per_radian = float(tile - 2 * local_map_border) * 2.0f / std::numbers::pi_v<float>;
+  return moved_m / std::max(nearest_m, 1e-3f) * texels_per_radian;
 }
 
 void LocalMapSlots::begin_frame(int slots, bool are_new) {

@@ -88,10 +88,10 @@ void BoxProjectedProbe::update_maps(render::Renderer& renderer, const scene::Sce
   probe_of_object_.clear();
   for (const methods::VisibleReflector& reflector : reflectors) {
     Probe* nearest = nullptr;
-    float least = std::numeric_limits<float>::max();
+    float minimum = std::numeric_limits<float>::max();
     for (Probe& probe : probes_)
-      if (const float distance = glm::distance(probe.position, reflector.centre); distance < least)
-        nearest = &probe, least = distance;
+      if (const float distance = glm::distance(probe.position, reflector.centre); distance < minimum)
+        nearest = &probe, minimum = distance;
     if (!nearest) {  // a scene without roads: one probe where the first reflector stands
       probes_.push_back({reflector.centre, {1.0f, 0.0f}, {}});
       nearest = &probes_.back();

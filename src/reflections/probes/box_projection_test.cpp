@@ -17,8 +17,9 @@ struct Box {
   }
 };
 
-glm::vec3 random_vector(Random& random, float most) {
-  return {random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most)};
+glm::vec3 random_vector(Random& random, float maximum) {
+  return {random.uniform(-maximum, maximum), random.uniform(-maximum, maximum),
+          random.uniform(-maximum, maximum)};
 }
 
 Box random_box(Random& random) {

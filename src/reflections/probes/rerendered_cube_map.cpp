@@ -11,9 +11,9 @@ constexpr float texels_per_pixel =
     0.5f;  // a face spans a quarter turn, of which a body shows a part in half its width
 constexpr int min_resolution = 16;
 
-int resolution_for(float size_px, int most) {
+int resolution_for(float size_px, int maximum) {
   const int wanted = int(std::bit_ceil(unsigned(std::max(size_px * texels_per_pixel, 1.0f))));
-  return std::clamp(wanted, std::min(min_resolution, most), most);
+  return std::clamp(wanted, std::min(min_resolution, maximum), maximum);
 }
 
 }  // namespace

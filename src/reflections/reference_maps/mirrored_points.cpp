@@ -13,13 +13,13 @@ namespace parvis::reference_maps {
 namespace {
 
 constexpr float bodywork_height_m = 1.0f;
-constexpr float steepest_rise = -0.35f;   // of rays, downward: sine of 20 degrees
-constexpr float vehicles_apart_m = 0.5f;  // of places that vehicles are drawn from
-constexpr float beside_lane_m = 1.0f;     // they do not all keep to its middle
-constexpr float reach_m = 1000.0f;        // of a mirror ray, as in multiple_environment_maps.frag
-constexpr float grazing_cosine = 0.05f;   // flatter surfaces are not measured: cells have no slopes
-constexpr float valid = 0.5f;             // of validity.glsl: most of the map's weight is left
-constexpr std::size_t tries_a_point = 8;  // a place that is mostly sky gives fewer points
+constexpr float steepest_rise = -0.35f;     // of rays, downward: sine of 20 degrees
+constexpr float vehicles_apart_m = 0.5f;    // of places that vehicles are drawn from
+constexpr float beside_lane_m = 1.0f;       // they do not all keep to its middle
+constexpr float reach_m = 1000.0f;          // of a mirror ray, as in multiple_environment_maps.frag
+constexpr float grazing_cosine = 0.05f;     // flatter surfaces are not measured: cells have no slopes
+constexpr float valid = 0.5f;               // of validity.glsl: most of the map's weight is left
+constexpr std::size_t tries_per_point = 8;  // a place that is mostly sky gives fewer points
 
 /// Of the cell's side or top that a ray has met.
 glm::vec3 normal_of_hit(const HeightPyramid& heights, const HeightHit& hit, glm::vec3 at,
@@ -38,7 +38,7 @@ std::vector<MirroredPoint> mirrored_points(const scene::Scene& scene, const Heig
   const std::vector<glm::vec3> vehicles = driving_places(scene, heights, vehicles_apart_m);
   Random random(seed);
   std::vector<MirroredPoint> points;
-  for (std::size_t i = 0; i < tries_a_point * count && points.size() < count; ++i) {
+  for (std::size_t i = 0; i < tries_per_point * count && points.size() < count; ++i) {
     const glm::vec3 foot = vehicles[std::size_t(random.index(int(vehicles.size())))];
     const glm::vec3 vehicle =
         foot + glm::vec3(random.uniform(-beside_lane_m, beside_lane_m),

@@ -66,7 +66,7 @@ std::vector<SetCover::Elements> shown_from(const std::vector<glm::vec3>& places,
 }
 
 /// Indices of an even spread: each next one farthest from all before it.
-std::vector<std::size_t> even_spread(const std::vector<glm::vec3>& candidates, std::size_t most) {
+std::vector<std::size_t> even_spread(const std::vector<glm::vec3>& candidates, std::size_t maximum) {
   std::vector<std::size_t> spread;
   std::vector<float> distances(candidates.size(), std::numeric_limits<float>::max());
   const glm::vec3 middle =
@@ -74,7 +74,7 @@ std::vector<std::size_t> even_spread(const std::vector<glm::vec3>& candidates, s
   std::size_t next = std::size_t(
       std::ranges::min_element(candidates, {}, [&](glm::vec3 p) { return glm::distance(p, middle); }) -
       candidates.begin());
-  while (spread.size() < most && (spread.empty() || distances[next] >= min_apart_m)) {
+  while (spread.size() < maximum && (spread.empty() || distances[next] >= min_apart_m)) {
     spread.push_back(next);
     for (std::size_t i = 0; i < candidates.size(); ++i)
       distances[i] = std::min(distances[i], glm::distance(candidates[i], candidates[next]));
@@ -95,9 +95,9 @@ std::vector<glm::vec3> picked(const std::vector<glm::vec3>& candidates,
 
 Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
                             const PlacementGoal& goal) {
-  const std::size_t most = std::size_t(std::max(goal.max_maps, 0));
-  const std::vector<glm::vec3> candidates = candidate_places(scene, heights, most);
-  const std::size_t count = std::clamp(points_per_map * most, min_points, max_points);
+  const std::size_t maximum = std::size_t(std::max(goal.max_maps, 0));
+  const std::vector<glm::vec3> candidates = candidate_places(scene, heights, maximum);
+  const std::size_t count = std::clamp(points_per_map * maximum, min_points, max_points);
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, count, goal.seed);
   const std::size_t elements = points.size() * goal.sharpness.size();
   const SetCover cover(shown_from(candidates, heights, points, goal.sharpness), elements,
@@ -111,29 +111,30 @@ Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heig
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const float share = goal.share_shown + float(attempt) * attempt_step;
     const std::size_t enough = std::size_t(std::ceil(share * float(elements)));
-    const std::vector<std::size_t> chosen = cover.improved(cover.greedy(most, enough), enough);
+    const std::vector<std::size_t> chosen = cover.improved(cover.greedy(maximum, enough), enough);
     placement.places = picked(candidates, chosen);
     const std::vector<float> shares = coverage(heights, placement.places, judges, goal.sharpness.back());
     placement.share_shown = shares.empty() ? 0.0f : shares.back();
-    if (placement.share_shown >= goal.share_shown || chosen.size() >= most || enough > elements) break;
+    if (placement.share_shown >= goal.share_shown || chosen.size() >= maximum || enough > elements) break;
   }
   return placement;
 }
 
-Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int most) {
-  return place_by_coverage(scene, heights, {most, shown_in_pictures, {8.0f, 4.0f}});
+Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int maximum) {
+  return place_by_coverage(scene, heights, {maximum, shown_in_pictures, {8.0f, 4.0f}});
 }
 
-std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int most) {
-  const std::size_t count = std::size_t(std::max(most, 0));
+std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int maximum) {
+  const std::size_t count = std::size_t(std::max(maximum, 0));
   const std::vector<glm::vec3> candidates = candidate_places(scene, heights, count);
   return picked(candidates, even_spread(candidates, count));
 }
 
-std::vector<glm::vec3> spread_over_roads(const scene::Scene& scene, const HeightPyramid& heights, int most) {
+std::vector<glm::vec3> spread_over_roads(const scene::Scene& scene, const HeightPyramid& heights,
+                                         int maximum) {
   scene::Scene everywhere;
   everywhere.roads = scene.roads;
-  return spread_places(everywhere, heights, most);
+  return spread_places(everywhere, heights, maximum);
 }
 
 }  // namespace parvis::reference_maps

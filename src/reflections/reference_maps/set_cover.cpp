@@ -82,9 +82,9 @@ SetCover::SetCover(std::vector<Elements> sets, std::size_t element_count,
     for (const std::uint32_t element : sets_[set]) holders_[element].push_back(std::uint32_t(set));
 }
 
-SetCover::Chosen SetCover::greedy(std::size_t most, std::size_t enough) const {
+SetCover::Chosen SetCover::greedy(std::size_t maximum, std::size_t enough) const {
   State state(*this);
-  while (state.chosen().size() < most && state.covered() < enough) {
+  while (state.chosen().size() < maximum && state.covered() < enough) {
     const std::size_t best = state.best(sets_.size());
     if (best == sets_.size()) break;
     state.put(state.chosen().size(), best);

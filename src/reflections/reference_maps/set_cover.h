@@ -17,9 +17,9 @@ class SetCover {
   SetCover(std::vector<Elements> sets, std::size_t element_count,
            std::function<bool(std::size_t, std::size_t)> go_together);
 
-  /// Each next set adds the most elements; up to `most` of them, until `enough` elements are covered or none
-  /// adds any.
-  Chosen greedy(std::size_t most, std::size_t enough) const;
+  /// Each next set adds the most elements; up to `maximum` of them, until `enough` elements are covered or
+  /// none adds any.
+  Chosen greedy(std::size_t maximum, std::size_t enough) const;
   /// From `start`, whose sets go together: puts other sets in place of single ones while that covers more,
   /// and leaves sets out while `enough` elements remain covered.
   Chosen improved(const Chosen& start, std::size_t enough) const;

@@ -78,19 +78,19 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
   // The best of a few starting points, then of those beside it.
   float squared_steps[144];  // all_start_count; below 0 where there was a first turn
   int next = 0;
-  float least = no_turn;
+  float minimum = no_turn;
   for (int i = 0; i < search_start_count; ++i)
     squared_steps[i] = estimated_step(task, search_start(i), kind.is_convex);
   for (int i = 0; i < search_start_count; ++i) {
-    next = squared_steps[i] < least ? i : next;
-    least = min(squared_steps[i], least);
+    next = squared_steps[i] < minimum ? i : next;
+    minimum = min(squared_steps[i], minimum);
   }
   int first = search_start_count + starts_beside * next, last = first + starts_beside;
   for (int i = first; i < last; ++i)
     squared_steps[i] = estimated_step(task, further_start(i), kind.is_convex);
   for (int i = first; i < last; ++i) {
-    next = squared_steps[i] < least ? i : next;
-    least = min(squared_steps[i], least);
+    next = squared_steps[i] < minimum ? i : next;
+    minimum = min(squared_steps[i], minimum);
   }
 
   // One search after another, each from the starting point of the shortest estimated step that is left.
@@ -115,11 +115,11 @@ GLSL_FUNCTION PatchPoint search_patch(ReflectionTask task, PatchKind kind, int l
     for (int i = unknown; i < all_start_count; ++i)
       squared_steps[i] = estimated_step(task, further_start(i), kind.is_convex);
     squared_steps[next] = turn;
-    least = no_turn;
+    minimum = no_turn;
     for (int i = 0; i < all_start_count && !is_done; ++i) {
       float rank = squared_steps[i] < 0.0f ? -second_turn * squared_steps[i] : squared_steps[i];
-      next = rank < least ? i : next;
-      least = min(rank, least);
+      next = rank < minimum ? i : next;
+      minimum = min(rank, minimum);
     }
   }
   return best.found;

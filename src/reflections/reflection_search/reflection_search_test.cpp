@@ -196,12 +196,12 @@ TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootAndAllCanBeFound) {
   const Ellipsoid concave{vec3(1), true};
   Search search{concave};
   Random random(7);
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (int i = 0; i < 100; ++i) {
     const Task task{random.uniform(0.2f, 0.9f) * chance_direction(random),
                     random.uniform(0.2f, 0.9f) * chance_direction(random), vec3(0.0f)};
     const std::vector<glm::dvec3> truth = reflections_on_ball(task.viewer, task.vertex, true);
-    most = std::max(most, truth.size());
+    maximum = std::max(maximum, truth.size());
     std::vector<bool> found(truth.size());
     for (int start = 0; start < 300; ++start) {
       const Point point =
@@ -217,7 +217,7 @@ TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootAndAllCanBeFound) {
     }
     EXPECT_EQ(std::count(found.begin(), found.end(), false), 0) << i;
   }
-  EXPECT_EQ(most, 4u);
+  EXPECT_EQ(maximum, 4u);
 }
 
 TEST(MidpointSearch, ConvergesOnABallWhoseViewerAndVertexAreFar) {

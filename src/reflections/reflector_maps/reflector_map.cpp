@@ -67,14 +67,14 @@ float square_extent(const ReflectorMesh& mesh, const ReflectorPatch& patch, cons
 
 /// The band all around the third axis that holds all corners of a patch.
 glm::vec3 band_around(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes) {
-  float least = pi, most = 0.0f;
+  float minimum = pi, maximum = 0.0f;
   for_each_corner(mesh, patch, axes, [&](glm::vec3 direction) {
     const float off_axis = std::atan2(glm::length(glm::vec2(direction)), direction.z);
-    least = std::min(least, off_axis), most = std::max(most, off_axis);
+    minimum = std::min(minimum, off_axis), maximum = std::max(maximum, off_axis);
   });
-  const float margin = 0.5f * (window_margin - 1.0f) * (most - least);
-  least = std::max(least - margin, 0.0f), most = std::min(most + margin, pi);
-  return {pi, least, most - least};
+  const float margin = 0.5f * (window_margin - 1.0f) * (maximum - minimum);
+  minimum = std::max(minimum - margin, 0.0f), maximum = std::min(maximum + margin, pi);
+  return {pi, minimum, maximum - minimum};
 }
 
 /// A window that holds all corners of a patch, seen from its centre: the one of the smaller solid angle.

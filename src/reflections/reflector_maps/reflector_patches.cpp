@@ -225,8 +225,8 @@ std::vector<std::uint32_t> surroundings(const ReflectorMesh& mesh, const Facets&
   std::vector<char> is_seen(mesh.neighbours.size());
   for (const std::uint32_t t : patch.triangles) is_seen[t] = 1;
   std::vector<std::uint32_t> around, rim = patch.triangles;
-  const double most = overlap * area_of(facets, patch.triangles);
-  for (double area = 0.0; !rim.empty() && area < most;) {
+  const double maximum = overlap * area_of(facets, patch.triangles);
+  for (double area = 0.0; !rim.empty() && area < maximum;) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t t : rim)
       for (const std::uint32_t other : mesh.neighbours[t]) {

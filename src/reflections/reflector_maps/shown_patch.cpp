@@ -6,8 +6,9 @@ namespace parvis::reflector_maps {
 
 bool is_scaled_evenly(const glm::mat4& m) {
   const glm::vec3 sizes(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
-  const float least = std::min({sizes.x, sizes.y, sizes.z}), most = std::max({sizes.x, sizes.y, sizes.z});
-  return least > 0.999f * most && glm::determinant(glm::mat3(m)) > 0.0f;
+  const float minimum = std::min({sizes.x, sizes.y, sizes.z}),
+              maximum = std::max({sizes.x, sizes.y, sizes.z});
+  return minimum > 0.999f * maximum && glm::determinant(glm::mat3(m)) > 0.0f;
 }
 
 glm::vec3 in_reflector(const glm::mat4& world_from_reflector, glm::vec3 point) {

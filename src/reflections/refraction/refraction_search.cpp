@@ -40,8 +40,9 @@ glm::vec2 foci_of(glm::vec3 way, const std::array<glm::vec3, 2>& points_apart,
                    turned[0][1] * apart[1][0];
   const double inner = b * b - 4.0 * a * c;
   if (inner < 0.0 || a == 0.0) return glm::vec2(no_focus);
-  const double root = std::sqrt(inner), most = no_focus;
-  return {std::clamp((-b - root) / (2.0 * a), -most, most), std::clamp((-b + root) / (2.0 * a), -most, most)};
+  const double root = std::sqrt(inner), maximum = no_focus;
+  return {std::clamp((-b - root) / (2.0 * a), -maximum, maximum),
+          std::clamp((-b + root) / (2.0 * a), -maximum, maximum)};
 }
 
 class ViewThrough {

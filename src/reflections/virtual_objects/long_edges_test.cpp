@@ -9,7 +9,7 @@
 namespace parvis::virtual_objects {
 namespace {
 
-constexpr std::size_t most = 100000;
+constexpr std::size_t maximum = 100000;
 
 float area(const Mesh& mesh) {
   float sum = 0.0f;
@@ -40,7 +40,7 @@ std::size_t open_edges(const Mesh& mesh) {
 TEST(LongEdges, AreDividedNearAReflectorWithoutCracks) {
   const std::array<ReflectorBall, 1> balls{{{{0.5f, 0.2f, 3.0f}, 0.5f}}};
   const Mesh box = scene::box({-1, -1, 0}, {1, 1, 2});
-  const Mesh divided = with_short_edges(box, glm::mat4(1.0f), balls, most);
+  const Mesh divided = with_short_edges(box, glm::mat4(1.0f), balls, maximum);
   EXPECT_GT(divided.indices.size(), 10 * box.indices.size());
   EXPECT_EQ(divided.positions.size(), divided.normals.size());
   EXPECT_EQ(divided.positions.size(), divided.uvs.size());
@@ -61,8 +61,8 @@ TEST(LongEdges, AreDividedNearAReflectorWithoutCracks) {
 TEST(LongEdges, StayWhereNoReflectorIsNearOrThereIsNoRoom) {
   const Mesh box = scene::box({-1, -1, 0}, {1, 1, 2});
   const std::array<ReflectorBall, 1> far_off{{{{0, 0, 500}, 0.5f}}}, near_by{{{{0, 0, 3}, 0.5f}}};
-  EXPECT_EQ(with_short_edges(box, glm::mat4(1.0f), {}, most).indices, box.indices);
-  EXPECT_EQ(with_short_edges(box, glm::mat4(1.0f), far_off, most).indices, box.indices);
+  EXPECT_EQ(with_short_edges(box, glm::mat4(1.0f), {}, maximum).indices, box.indices);
+  EXPECT_EQ(with_short_edges(box, glm::mat4(1.0f), far_off, maximum).indices, box.indices);
   const Mesh few = with_short_edges(box, glm::mat4(1.0f), near_by, 100);
   EXPECT_LE(few.triangle_count(), 100u);
   EXPECT_EQ(open_edges(few), 0u);

@@ -60,7 +60,7 @@ void MirrorsInMirrors::find_seconds(const ShownPatch& first, std::span<const Sho
   }
   std::ranges::sort(candidates_, [](const auto& a, const auto& b) { return a.first > b.first; });
   seconds_.clear();
-  for (std::size_t i = 0; i < std::min(candidates_.size(), most); ++i)
+  for (std::size_t i = 0; i < std::min(candidates_.size(), maximum); ++i)
     seconds_.push_back(*candidates_[i].second);
 }
 
@@ -102,7 +102,7 @@ void MirrorsInMirrors::draw(render::Renderer& renderer, const gl::Program& patch
                             std::span<const ShownPatch> first, std::span<const ShownPatch> second) {
   firsts_.clear();
   for (const ShownPatch& patch : first)
-    if (firsts_.size() < most) firsts_.push_back(patch);
+    if (firsts_.size() < maximum) firsts_.push_back(patch);
   render::View view = picture_.begin(renderer, *this);
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels, view, firsts_);

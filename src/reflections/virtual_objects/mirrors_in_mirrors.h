@@ -39,11 +39,11 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   void mark_seconds(const render::View& view, int first_number);
   void draw_layers(render::Renderer& renderer, render::View view);
 
-  static constexpr std::size_t most = 15;  ///< of each kind: their numbers share a stencil of eight bits
+  static constexpr std::size_t maximum = 15;  ///< of each kind: their numbers share a stencil of eight bits
 
   gl::Program mirrored_patch_;
   VirtualPicture picture_;
-  std::array<gl::Query, most> is_seen_;  ///< by number of the second
+  std::array<gl::Query, maximum> is_seen_;  ///< by number of the second
   std::vector<ShownPatch> firsts_, seconds_;
   std::vector<std::pair<float, const ShownPatch*>> candidates_;
   const ShownPatch *first_ = nullptr, *second_ = nullptr;  ///< while they are drawn

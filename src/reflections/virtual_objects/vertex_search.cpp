@@ -21,11 +21,11 @@ constexpr int result_layers = 3;                                       // vertex
 int rows_of(std::size_t corners) { return int((corners + results_width - 1) / results_width); }
 
 /// The share that is asked for, and coarser ones.
-std::vector<float> shares_up_to(float greatest, bool follows_area) {
+std::vector<float> shares_up_to(float maximum, bool follows_area) {
   std::vector<float> shares;
-  if (greatest < 1.0f) shares.push_back(greatest);
+  if (maximum < 1.0f) shares.push_back(maximum);
   if (follows_area)
-    std::ranges::copy_if(grid_shares, std::back_inserter(shares), [&](float s) { return s < greatest; });
+    std::ranges::copy_if(grid_shares, std::back_inserter(shares), [&](float s) { return s < maximum; });
   return shares;
 }
 

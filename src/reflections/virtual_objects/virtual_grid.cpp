@@ -11,7 +11,7 @@ namespace {
 constexpr int halvings = 16;                              // of the search for the cells' size
 constexpr float finest = 1e-3f;                           // cells of the box's longest edge
 constexpr std::size_t box_per_vertex = 4, min_box = 512;  // corners of the whole box, used or not
-constexpr float pixels_a_corner = 64.0f;
+constexpr float pixels_per_corner = 64.0f;
 
 /// Cells of about `edge`, stretched so that a whole number fills the box; a flat box has one layer of them.
 GridLayout layout_of(const Bounds& box, float edge) {
@@ -94,7 +94,7 @@ void VirtualGrid::interpolate(std::span<const glm::vec3> vertices, std::span<con
 
 std::optional<std::size_t> grid_level(std::span<const std::uint32_t> corner_counts, std::size_t vertex_count,
                                       float area_px) {
-  const float wanted = area_px / pixels_a_corner;
+  const float wanted = area_px / pixels_per_corner;
   if (corner_counts.empty() || wanted > float(vertex_count)) return {};
   for (std::size_t i = corner_counts.size(); i-- > 0;)
     if (float(corner_counts[i]) >= wanted) return i;

@@ -238,7 +238,7 @@ void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene&
     in_mirrors_->draw(renderer, patch_pixels_, shown_, all_);
   }
   const render::View view = picture_.begin(renderer, *this);
-  pixels_a_radian_ =
+  pixels_per_radian_ =
       0.5f * float(view.height) * glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]));
   glEnable(GL_STENCIL_TEST);
   mark_patches(patch_pixels_, view, shown_);
@@ -269,10 +269,10 @@ bool VirtualObjects::may_show(const Bounds& bounds) const {
 glm::ivec2 VirtualObjects::add(const render::Item& item) {
   const glm::mat4& world_from_reflector = current_->world_from_reflector;
   const float width_px =
-      pixels_a_radian_ * current_->patch->bounds.image_width(
-                             current_->viewer, in_reflector(world_from_reflector, item.bounds.centre()),
-                             item.bounds.radius() / glm::length(world_from_reflector[0]),
-                             current_->patch->is_convex);
+      pixels_per_radian_ * current_->patch->bounds.image_width(
+                               current_->viewer, in_reflector(world_from_reflector, item.bounds.centre()),
+                               item.bounds.radius() / glm::length(world_from_reflector[0]),
+                               current_->patch->is_convex);
   return vertex_search_.add(item, 0.7853982f * width_px * width_px);  // of a disc
 }
 

@@ -69,7 +69,7 @@ class VirtualObjects final : public methods::Overlay, public render::VirtualVert
   std::vector<std::vector<std::uint8_t>> large_;  ///< by reflector: objects that its surroundings show
   std::vector<methods::VisibleReflector> below_reflectors_;  ///< as the method below is to show them
   const ShownPatch* current_ = nullptr;                      ///< while its mirrored view is drawn
-  float pixels_a_radian_ = 0.0f;                             ///< of the main view
+  float pixels_per_radian_ = 0.0f;                           ///< of the main view
   int layer_ = -1;                                           ///< of it, if it may show a vertex several times
 };
 

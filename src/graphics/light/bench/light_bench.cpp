@@ -62,7 +62,7 @@ Status measure_brute_force(const BenchSetup& setup, Report& report) {
   std::vector<double> elevations{-4, -2, 0, 5, 15, 45, 90}, turbidities{3.0};
   if (!setup.is_quick)
     elevations = {-4, -3, -2, -1, 0, 1, 2, 5, 10, 15, 25, 35, 45, 60, 75, 90}, turbidities = {2.0, 3.0, 6.0};
-  double most = 0.0, max_preetham = 0.0;
+  double maximum = 0.0, max_preetham = 0.0;
   for (const double turbidity : turbidities)
     for (const double elevation : elevations) {
       const light::Air air{turbidity};
@@ -75,14 +75,14 @@ Status measure_brute_force(const BenchSetup& setup, Report& report) {
       if (!preetham) return preetham.errors();
       const double error = 100.0 * (diffuse(**sky) / expected - 1.0),
                    of_preetham = 100.0 * (diffuse(**preetham) / expected - 1.0);
-      most = worse(most, std::abs(error)), max_preetham = worse(max_preetham, std::abs(of_preetham));
+      maximum = worse(maximum, std::abs(error)), max_preetham = worse(max_preetham, std::abs(of_preetham));
       report.note(
           fmt::format("turbidity {}, sun at {:3.0f} deg: brute force {:8.1f} lx (+- {:.1f} %), tables "
                       "{:+.1f} %, preetham {:+.0f} %",
                       turbidity, elevation, light::lumens_per_watt * expected, 100.0 * truth.standard_error,
                       error, of_preetham));
     }
-  report.add("sky_diffuse_illuminance_error_percent", most, up_to(5.0));
+  report.add("sky_diffuse_illuminance_error_percent", maximum, up_to(5.0));
   report.add("sky_diffuse_illuminance_error_percent_preetham", max_preetham);
   return Done{};
 }
@@ -134,7 +134,7 @@ Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
   const gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
   glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
-  double most = 0.0;
+  double maximum = 0.0;
   for (int face = 0; face < 6; ++face) {
     glm::vec3 ahead(0.0f);
     ahead[face / 2] = face % 2 ? 1.0f : -1.0f;
@@ -161,26 +161,26 @@ Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
       }
     for (std::size_t i = 0; i < drawn.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        most = worse(most, std::abs(double(drawn[i][c]) - double(expected[i][c])) /
-                               std::max({double(expected[i][c]), mean, 1e-12}));
+        maximum = worse(maximum, std::abs(double(drawn[i][c]) - double(expected[i][c])) /
+                                     std::max({double(expected[i][c]), mean, 1e-12}));
   }
-  return most;
+  return maximum;
 }
 
 Status measure_gpu(const BenchSetup& setup, Report& report) {
-  double most = 0.0, of_models = 0.0;
+  double maximum = 0.0, of_models = 0.0;
   for (const double elevation :
        setup.is_quick ? std::vector{-3.0, 10.0} : std::vector{-4.0, -1.0, 0.0, 2.0, 10.0, 40.0, 90.0}) {
     const Result<double> drawn = drawn_sky_error(elevation, 0.0f);
     if (!drawn) return drawn.errors();
-    most = worse(most, *drawn);
+    maximum = worse(maximum, *drawn);
     const Result<light::SkyGpuCheck> models = light::check_sky_on_gpu(light::Air{3.0}, elevation);
     if (!models) return models.errors();
     of_models = worse(of_models, models->max_relative_error);
   }
   const Result<double> turned = drawn_sky_error(10.0, 1.0f);
   if (!turned) return turned.errors();
-  report.add("sky_gpu_cpu_relative", most, up_to(1e-3));
+  report.add("sky_gpu_cpu_relative", maximum, up_to(1e-3));
   report.add("sky_gpu_cpu_relative_turned_by_a_degree", *turned);
   report.add("sky_model_gpu_cpu_relative", of_models);
   report.note("the sky as the renderer draws it into six views; the formulas of both models by themselves");
@@ -275,7 +275,7 @@ Status measure_sun_hours(const BenchSetup& setup, const scene::Scene& city, Repo
   const reference::RayScene rays(twin);
   const std::vector<light::SunPoint> points = city_points(tracer, setup.is_quick ? 200 : 2000);
   if (points.size() < 2) return error("the scene has no ground or facades to measure hours of sun on");
-  double most = 0.0, max_hourly = 0.0;
+  double maximum = 0.0, max_hourly = 0.0;
   for (const int day : setup.is_quick ? std::vector{80} : std::vector{80, 172, 355}) {
     const light::SunPeriod period{.place = {.day_of_year = day}, .first_day = day, .last_day = day};
     light::SunPeriod hourly = period;
@@ -287,10 +287,10 @@ Status measure_sun_hours(const BenchSetup& setup, const scene::Scene& city, Repo
         off += std::abs(double(hours[i]) - truth[i]), sum += truth[i];
       return 100.0 * off / sum;
     };
-    most = worse(most, error_percent(light::sun_hours(rays, points, period)));
+    maximum = worse(maximum, error_percent(light::sun_hours(rays, points, period)));
     max_hourly = worse(max_hourly, error_percent(light::sun_hours(rays, points, hourly)));
   }
-  report.add("sun_hours_error_percent", most, up_to(1.0));
+  report.add("sun_hours_error_percent", maximum, up_to(1.0));
   report.add("sun_hours_error_percent_hourly_rays", max_hourly);
   report.note(
       fmt::format("mean difference over {} points of ground and facades of the paper's city, as a share of "

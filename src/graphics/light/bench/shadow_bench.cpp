@@ -72,8 +72,8 @@ class SunlitCity {
     const ImageF with = drawn(*renderer_, shaded_, camera), without = drawn(*open_renderer_, open_, camera);
     std::vector<float> shares(std::size_t(width) * height, 1.0f);
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      const float most = without.pixels[i * std::size_t(without.channels)];
-      if (most > 1e-3f) shares[i] = with.pixels[i * std::size_t(with.channels)] / most;
+      const float maximum = without.pixels[i * std::size_t(without.channels)];
+      if (maximum > 1e-3f) shares[i] = with.pixels[i * std::size_t(with.channels)] / maximum;
     }
     return shares;
   }

@@ -126,11 +126,11 @@ Status measure_vegetation(const BenchSetup& setup, Report& report) {
 
   std::vector<Camera> views = grove_views();
   std::vector<double> slowest, fulls;
-  std::size_t most = 0, max_full = 0;
+  std::size_t maximum = 0, max_full = 0;
   double flip = 0.0, flip_thin = 0.0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const PlantStatistics count = counted(scene, views[v], {});
-    most = std::max(most, count.all());
+    maximum = std::max(maximum, count.all());
     max_full = std::max(max_full, counted(scene, views[v], {.is_full = true}).all());
     double cpu_ms = 0.0;
     const std::vector<double> times = frame_times(renderer, scene, views[v], setup.is_quick ? 5 : 15, cpu_ms);
@@ -167,7 +167,7 @@ Status measure_vegetation(const BenchSetup& setup, Report& report) {
                           flip_thin > 0.05 ? "it does not" : "IT DOES"));
   report.add("vegetation_flip", flip, up_to(0.05));
   report.add("vegetation_flip_area_not_kept_control", flip_thin);
-  report.add("vegetation_primitives", double(most), up_to(300'000));
+  report.add("vegetation_primitives", double(maximum), up_to(300'000));
   report.add("vegetation_primitives_real_geometry_control", double(max_full));
   return Done{};
 }

@@ -107,11 +107,11 @@ Status measure(const BenchSetup& setup, Report& report) {
 
   if (Status kept = keep_maps(setup.house, loaded->scene, mem); !kept) return kept.errors();
   const int repeats = setup.is_quick ? 7 : 21;
-  for (const auto& [cars, least, most] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
+  for (const auto& [cars, minimum, maximum] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
     Result<std::unique_ptr<house::Stage>> stage =
         house::Stage::create(play_with(setup.house, loaded->scene, cars));
     if (!stage) return stage.errors();
-    const Result<Camera> camera = view_of_cars(**stage, least, most, width, height, report);
+    const Result<Camera> camera = view_of_cars(**stage, minimum, maximum, width, height, report);
     if (!camera) return camera.errors();
     const int seen = reflectors_seen(**stage, *camera, width, height);
     std::vector<Median> medians;

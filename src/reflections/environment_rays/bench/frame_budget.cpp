@@ -68,11 +68,11 @@ Result<std::pair<double, double>> range_of_frames(house::Stage& stage, const met
                              best = with_budget(stage, reflection, 0.0f);
   if (!cheapest) return cheapest.errors();
   if (!best) return best.errors();
-  const glm::ivec2 least = min_size(size);
+  const glm::ivec2 minimum = min_size(size);
   std::vector<double> cheap_ms, expensive_ms;
   for (int frame = 0; frame < tried_frames; ++frame)
     for (const auto& [method, drawn, samples] :
-         {std::tuple{&*cheapest, least, &cheap_ms}, {&*best, size, &expensive_ms}}) {
+         {std::tuple{&*cheapest, minimum, &cheap_ms}, {&*best, size, &expensive_ms}}) {
       if (Status status = stage.renderer().set_reflection(method->reflections.get()); !status)
         return status.errors();
       for (int turn = 0; turn < 2; ++turn) {  // the first makes what is made once

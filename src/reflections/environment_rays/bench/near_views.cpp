@@ -5,7 +5,7 @@ namespace {
 
 constexpr int seconds_apart = 3;  // by then another car, or another street, is near
 constexpr int longest_search_s = 120;
-constexpr int tries_a_time = 6;
+constexpr int tries_per_time = 6;
 constexpr float min_share = 0.06f, max_others_share = 0.03f;  // of the picture, that cars cover
 constexpr int sketch_width = 160, sketch_height = 90;
 constexpr int margin_px = 12;  // the filters of FLIP look so far
@@ -63,7 +63,7 @@ Result<NearView> NearViews::next() {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       if (scene.objects[i].takes_reflection) cars.push_back(int(i));
     if (cars.empty()) return error("the scene has no car that reflects");
-    for (int attempt = 0; attempt < tries_a_time; ++attempt) {
+    for (int attempt = 0; attempt < tries_per_time; ++attempt) {
       const int car = cars[std::size_t(random_.index(int(cars.size())))];
       const Bounds& bounds = stage_.renderer().gpu().object_bounds()[std::size_t(car)];
       const Camera camera = look_at_car(bounds, random_, float(width_) / float(height_));

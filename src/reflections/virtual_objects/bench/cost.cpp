@@ -24,14 +24,14 @@ constexpr int small_width = 64, small_height = 36;  // few pixels: what is left 
 constexpr int turns = 31, quick_turns = 15, quick_turns_of_grids = 3;
 constexpr float grid10_share = 0.096f;      // the paper's 9.6 %
 constexpr int balls = 10, ball_rings = 50;  // 100,000 triangles round the mirror
-constexpr float radians_a_turn = 6.28318531f;
+constexpr float radians_per_turn = 6.28318531f;
 
 /// Balls round an ellipsoid of 1, 0.6, 0.8, the last object.
 scene::Scene balls_round_a_mirror() {
   scene::Scene scene;
   scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.5f, -0.4f, 0.8f));
   for (int i = 0; i < balls; ++i) {
-    const float turn = radians_a_turn * float(i) / float(balls);
+    const float turn = radians_per_turn * float(i) / float(balls);
     const int ball = scene::add(
         scene,
         scene::model_of(scene::sphere({3.2f * std::cos(turn), 3.2f * std::sin(turn), 1.0f}, 0.6f, ball_rings),

@@ -19,9 +19,9 @@ using MapSearch = ReflectionSearch<ReflectorMap>;
 
 constexpr std::size_t points = 20000, quick_points = 4000;
 constexpr int map_side = 512;
-constexpr double pixels_a_radian = 869.0;  // 720 rows, 45 degrees
-constexpr double wrong_px = 100.0;         // what an end that is not found counts
-constexpr double flattest = 0.1;           // cosine: beyond it a pixel spans most of the body
+constexpr double pixels_per_radian = 869.0;  // 720 rows, 45 degrees
+constexpr double wrong_px = 100.0;           // what an end that is not found counts
+constexpr double flattest = 0.1;             // cosine: beyond it a pixel spans most of the body
 
 /// A floor under the unit ball and boxes beside it, of as few triangles as can be.
 Mesh large_polygons() {
@@ -83,8 +83,8 @@ std::vector<double> pixels_off(const ReflectorMap& map, const Mesh& mesh, std::s
     const auto [image_a, has_a] = image(a);
     const auto [image_b, has_b] = image(b);
     const glm::dvec3 drawn(image_a + part * (image_b - image_a));
-    const double off = pixels_a_radian * glm::length(glm::cross(glm::normalize(drawn - eye),
-                                                                glm::normalize(truth.front() - eye)));
+    const double off = pixels_per_radian * glm::length(glm::cross(glm::normalize(drawn - eye),
+                                                                  glm::normalize(truth.front() - eye)));
     px.push_back(has_a && has_b ? off : wrong_px);
   }
   return px;

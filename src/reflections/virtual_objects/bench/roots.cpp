@@ -21,7 +21,7 @@ using MapSearch = ReflectionSearch<ReflectorMap>;
 constexpr std::size_t tasks = 4000, quick_tasks = 1000;
 constexpr int mesh_rings = 160, map_side = 512;
 constexpr double ring = 1.0, tube = 0.4;            // radii of the torus
-constexpr double pixels_a_radian = 869.0;           // 720 rows, 45 degrees
+constexpr double pixels_per_radian = 869.0;         // 720 rows, 45 degrees
 constexpr double wrong_px = 100.0;                  // what a missed or an extra point counts
 constexpr double same_px = 2.0, same_place = 0.05;  // found from two places
 constexpr double flattest = 0.1;                    // cosine: beyond it a pixel spans most of the body
@@ -131,7 +131,7 @@ class AllPoints {
 };
 
 double pixels_between(glm::dvec3 a, glm::dvec3 b, glm::dvec3 viewer) {
-  return pixels_a_radian * glm::length(glm::cross(glm::normalize(a - viewer), glm::normalize(b - viewer)));
+  return pixels_per_radian * glm::length(glm::cross(glm::normalize(a - viewer), glm::normalize(b - viewer)));
 }
 
 void AllPoints::add(std::vector<glm::dvec3>& points, glm::dvec3 point, glm::dvec3 viewer) {
@@ -215,12 +215,12 @@ Status measure_shape(const JudgedShape& shape, std::size_t count, Report& report
     errors.px.insert(errors.px.end(), of_task.px.begin(), of_task.px.end());
     errors.missed += of_task.missed, errors.extra += of_task.extra;
   }
-  const std::size_t most = *std::ranges::max_element(counted),
+  const std::size_t maximum = *std::ranges::max_element(counted),
                     truths = std::accumulate(counted.begin(), counted.end(), std::size_t(0));
   report.add(shape.key, percentile(errors.px, 0.99));
-  report.note(
-      fmt::format("{}: {} points of {} vertices, at most {} of one: {} missed, {} extra; median {:.3f} px",
-                  shape.key, truths, count, most, errors.missed, errors.extra, percentile(errors.px, 0.5)));
+  report.note(fmt::format(
+      "{}: {} points of {} vertices, at most {} of one: {} missed, {} extra; median {:.3f} px", shape.key,
+      truths, count, maximum, errors.missed, errors.extra, percentile(errors.px, 0.5)));
   return Done{};
 }
 

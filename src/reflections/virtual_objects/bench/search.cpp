@@ -126,11 +126,11 @@ void measure_analytic(const BenchSetup& setup, Report& report) {
     const Ellipsoid ellipsoid{radii};
     Search search{ellipsoid};
     Random random(2);
-    const auto outside = [&](float least, float most) {
+    const auto outside = [&](float minimum, float maximum) {
       glm::vec3 d(0.0f);
       while (glm::length(d) < 0.01f || glm::length(d) > 1.0f)
         d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-      return random.uniform(least, most) * ellipsoid.surface(d).first;
+      return random.uniform(minimum, maximum) * ellipsoid.surface(d).first;
     };
     const auto angle = [&](const Search::ReflectionPoint& point, const Search::ReflectionTask& task) {
       const glm::dvec3 p(point.position), r(radii);
