@@ -18,7 +18,7 @@ struct ReconstructionOptions {
   int coarse_epochs = 3;        ///< of the fit at the grid's level
   int fine_epochs = 4;          ///< of the fit at one level more; 0: there is none
   float fine_smoothing =
-      0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/trees.md
+      0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/tree-smoothing.md
   Processes processes = {};              ///< that share the work (MPI)
   bool leaves_out_inconsistent = false;  ///< a photograph that contradicts all others; else it is an error
 };
