@@ -115,6 +115,21 @@ TEST(CameraFiles, JsonTakesCentresAndTranslations) {
       "c.json"));
 }
 
+TEST(CameraFiles, JsonOf80000LevelsIsRefusedBeforeItIsParsed) {
+  std::string deep = "[\n";
+  for (int level = 0; level < 80'000; ++level) deep += "[";
+  for (const bool is_whole : {false, true}) {
+    const std::string list = deep + (is_whole ? std::string(80'001, ']') : "");
+    const std::string gltf = "{\"scenes\":[],\"nodes\":" + list + (is_whole ? "}" : "");
+    const auto cameras = parse_camera_json(list, "c.json");
+    ASSERT_FALSE(cameras);
+    EXPECT_NE(to_string(cameras.errors()).find("c.json: lists and objects"), std::string::npos);
+    const auto views = parse_gltf_cameras(gltf, "c.gltf");
+    ASSERT_FALSE(views);
+    EXPECT_NE(to_string(views.errors()).find("c.gltf: lists and objects"), std::string::npos);
+  }
+}
+
 TEST(CameraFiles, EachCameraWithoutPictureAndEachPictureWithoutCameraIsNamed) {
   const TestFolder folder;
   folder.write("cameras/a.png.camera", "90 0 49.5 0 90 39.5 0 0 1 0 0 0 1 0 0 0 1 0 0 0 1 1 2 3 100 80");

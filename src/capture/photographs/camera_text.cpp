@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_guard.h"
 #include "capture/photographs/camera_files.h"
 
 namespace parvis::photographs {
@@ -86,6 +87,7 @@ Result<Photograph> photograph_of_entry(const Json& entry) {
 }  // namespace
 
 Result<PhotographSet> parse_camera_json(std::string_view text, const std::string& name) {
+  if (Status depth = check_json_depth(text, name); !depth) return depth.errors();
   const Json json = Json::parse(text, nullptr, false);
   const Json& list = json.is_object() && json.contains("images") ? json["images"] : json;
   if (!list.is_array())

@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/json_guard.h"
 #include "capture/photographs/camera_files.h"
 
 namespace parvis::photographs {
@@ -99,6 +100,7 @@ class CameraWalk {
 }  // namespace
 
 Result<std::vector<ViewOfPicture>> parse_gltf_cameras(std::string_view bytes, const std::string& name) {
+  if (Status depth = check_json_depth(json_text(bytes), name); !depth) return depth.errors();
   const Json file = Json::parse(json_text(bytes), nullptr, false);
   const Error damaged = error("{}: expected glTF 2.0 with nodes and cameras", name);
   if (!file.is_object() || !file.contains("nodes") || !file["nodes"].is_array()) return damaged;

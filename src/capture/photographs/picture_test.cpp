@@ -152,6 +152,12 @@ TEST(Picture, ASetIsKeptWithGainsAndMasks) {
   EXPECT_EQ(loaded->set.photographs[2].mask, pictures / "masks" / "2.png");
   EXPECT_EQ(loaded->set.photographs[0].file, pictures / "place_0.png");
   EXPECT_TRUE(read_picture(loaded->set.photographs[0]));
+  std::string deep = R"({"pictures":"..","photographs":)";
+  for (int level = 0; level < 80'000; ++level) deep += "[";
+  folder.write("out/photographs.json", deep + std::string(80'000, ']') + "}");
+  const auto refused = read_photograph_set(folder.path() / "out");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.errors()).find("photographs.json: lists and objects"), std::string::npos);
 }
 
 }  // namespace

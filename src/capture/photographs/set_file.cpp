@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_guard.h"
 #include "capture/photographs/picture.h"
 
 namespace parvis::photographs {
@@ -65,6 +66,7 @@ Result<LoadedSet> read_photograph_set(const fs::path& folder) {
   if (!text)
     return error("{}: is no folder of calibrated photographs; parvis facade calibrate makes one",
                  folder.string());
+  if (Status depth = check_json_depth(*text, file); !depth) return depth.errors();
   const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object() || !json.contains("pictures") || !json["pictures"].is_string())
     return error("{}: expected an object with \"pictures\", the folder of the photographs", file);
