@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/files.h"
+#include "base/memory_budget.h"
 #include "capture/facades/psd.h"
 
 namespace parvis::facades {
@@ -204,20 +205,24 @@ bool read_channel(Reader data, int bits, Image8& image, int channel) {
 Status read_pixels(Reader& reader, LayerRecord& record, int bits, std::size_t& budget,
                    const std::string& name) {
   PsdLayer& layer = record.layer;
-  const auto claim = [&](const PixelBox& box, std::size_t channels) {
+  const auto claim = [&](const PixelBox& box, std::size_t channels) -> Status {
     const std::size_t bytes =
         std::size_t(box.width) * std::size_t(box.height) * (channels + std::size_t(bits) / 8);
-    if (bytes > budget) return false;
+    if (bytes > budget)
+      return error("{}: layer \"{}\" is too large: the layers have more than {} million bytes", name,
+                   layer.name, max_psd_bytes / 1'000'000);
     budget -= bytes;
-    return true;
+    return check_memory(
+        bytes, fmt::format("{}: layer \"{}\" of {} x {} pixels", name, layer.name, box.width, box.height));
   };
   // Packed data grow 64 times at most, zipped ones about 1000 times: a box that its bytes cannot fill is
   // never allocated.
   std::size_t bytes = 0;
   for (const ChannelRecord& channel : record.channels) bytes += channel.size;
   const std::size_t samples = std::size_t(layer.box.width) * std::size_t(layer.box.height);
-  if (bytes > reader.left() || samples > 1100 * bytes || !claim(layer.box, 4))
+  if (bytes > reader.left() || samples > 1100 * bytes)
     return error("{}: layer \"{}\" is cut short or too large; the file is damaged", name, layer.name);
+  if (Status status = claim(layer.box, 4); !status) return status;
   layer.pixels = Image8(layer.box.width, layer.box.height, 4, 255);
   for (const ChannelRecord& channel : record.channels) {
     Reader data = reader.section(channel.size);
@@ -225,9 +230,10 @@ Status read_pixels(Reader& reader, LayerRecord& record, int bits, std::size_t& b
     if (channel.id >= -1 && channel.id <= 2) {
       is_sound = read_channel(data, bits, layer.pixels, channel.id < 0 ? 3 : channel.id);
     } else if (channel.id == -2 && !record.mask_box.empty()) {
-      if (std::size_t(record.mask_box.width) * std::size_t(record.mask_box.height) > 1100 * channel.size ||
-          !claim(record.mask_box, 1))
+      if (std::size_t(record.mask_box.width) * std::size_t(record.mask_box.height) > 1100 * channel.size)
         return error("{}: the mask of layer \"{}\" is too large; the file is damaged", name, layer.name);
+      if (Status status = claim(record.mask_box, 1); !status) return status;
+      if (Status status = claim(layer.box, 1); !status) return status;  // the mask of the whole layer
       Image8 mask(record.mask_box.width, record.mask_box.height, 1);
       is_sound = read_channel(data, bits, mask, 0);
       layer.mask = Image8(layer.box.width, layer.box.height, 1, record.mask_outside);
@@ -310,10 +316,12 @@ Result<PsdPicture> read_psd(std::span<const std::uint8_t> bytes, const std::stri
 Result<PsdPicture> read_psd(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) return error("{}: no such file", file.string());
-  if (const auto size = std::filesystem::file_size(file, code); size > max_psd_file_bytes)
+  const std::uintmax_t size = std::filesystem::file_size(file, code);
+  if (size > max_psd_file_bytes)
     return error("{}: {} million bytes; a PSD has at most {} million", file.string(), size / 1'000'000,
                  max_psd_file_bytes / 1'000'000);
-  const Result<std::string> text = read_file(file);
+  if (Status status = check_memory(size, file.string()); !status) return status.errors();
+  const Result<std::string> text = read_file(file, max_psd_file_bytes);
   if (!text) return text.errors();
   return read_psd({reinterpret_cast<const std::uint8_t*>(text->data()), text->size()}, file.string());
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/files.h"
+#include "base/memory_budget.h"
 #include "base/random.h"
 #include "base/test_folder.h"
 #include "capture/facades/item_buffer.h"
@@ -74,6 +75,26 @@ TEST(Psd, ATruncatedFileIsAnErrorAtEveryLength) {
     ASSERT_FALSE(read) << size;
     EXPECT_NE(to_string(read.errors()).find("a.psd"), std::string::npos);
   }
+}
+
+TEST(Psd, LayersAreChargedToTheBudgetBeforeTheyAreAllocated) {
+  const TestFolder folder;
+  PsdPicture picture;
+  picture.width = picture.height = 4000;
+  picture.flat = Image8(4000, 4000, 3);
+  picture.layers.push_back({"wall", {0, 0, 4000, 4000}, Image8(4000, 4000, 4, 9), {}, false, false, 255});
+  const auto file = folder.path() / "a.psd";
+  ASSERT_TRUE(write_psd(file, picture));
+  ASSERT_LT(std::filesystem::file_size(file), 1 << 21) << "it is the layer that needs memory, not the file";
+  const std::uint64_t budget = max_memory();
+  set_max_memory(memory_in_use() + (1 << 24));
+  const Result<PsdPicture> refused = read_psd(file);
+  set_max_memory(budget);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.errors()).find("layer \"wall\" of 4000 x 4000 pixels needs 0.1 GB"),
+            std::string::npos)
+      << to_string(refused.errors());
+  EXPECT_TRUE(read_psd(file)) << "with the whole budget";
 }
 
 TEST(Psd, OtherFormatsAreNamed) {
