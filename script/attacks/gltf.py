@@ -5,7 +5,8 @@ import copy
 import json
 import struct
 
-from .case import SECRET, model_case
+from .case import model_case
+from .secret_picture import JPEG, PNG
 
 BIG = 2**64
 
@@ -145,7 +146,7 @@ def cases():
         yield model_case("glTF", f"picture {uri}", "m.gltf", lambda u=uri: with_image(u))
     for data in (b"", b"GIF89a", b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff\xe0" + b"\0" * 40, b"#EXTM3U\nsecret.png", b"ffconcat version 1.0\nfile secret.png\n"):
         yield model_case("glTF", f"embedded picture {data[:8]}", "m.gltf", lambda d=data: with_image(data=d),
-                         extra={"memory.jpg": SECRET, "t.avi": b"ffconcat version 1.0\nfile ../outside/secret.png\n"})
+                         extra={"memory.jpg": JPEG, "memory.png": PNG, "t.avi": b"ffconcat version 1.0\nfile ../outside/secret.png\n"})
     for name, content in (("buffer", "../outside/secret.bin"), ("buffer", "/dev/zero"), ("buffer", "pipe"), ("buffer", "link.bin"),
                           ("buffer", "%2E%2E/outside/secret.bin")):
         document, data = triangle()

@@ -5,7 +5,7 @@ import json
 from .cities import templates
 from .case import CAMERA, Case, scene, write
 from .gltf import instances, meshopt, zeros
-from .pictures import png
+from .png import png
 
 SMALL_BUDGET = "0.5"  # GB
 

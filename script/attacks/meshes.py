@@ -63,7 +63,7 @@ def cases():
                  "v nan nan nan", "v 1e39 0 0", "v 3e38 3e38 3e38\nf 1 2 4", "o " + "n" * 200000, "g \xe9\xff", "usemtl nothing"):
         yield model_case("mesh", f"OBJ {line[:24]!r}", "m.obj", OBJ.encode() + line.encode("latin-1") + b"\n", extra={"m.mtl": "newmtl m\nKd 1 0 0\n"})
     for mtl in ("Kd 1 0 0\nmap_Kd t.png\n", "map_Kd\n", "newmtl m\nmap_Kd ../outside/secret.png\n", "newmtl m\nmap_Kd /etc/passwd\n",
-                "newmtl m\nmap_Kd link.png\n", "newmtl m\nmap_Kd pipe\n", "newmtl m\nKd nan nan nan\nd nan\nNs -1\n", "newmtl m\nNs inf\n",
+                "newmtl m\nmap_Kd link.png\n", "newmtl m\nmap_Kd link.jpg\n", "newmtl m\nmap_Kd ../outside/secret.jpg\n", "newmtl m\nmap_Kd pipe\n", "newmtl m\nKd nan nan nan\nd nan\nNs -1\n", "newmtl m\nNs inf\n",
                 "newmtl " + "m" * 100000 + "\n", "newmtl m\nmap_Kd " + "a/" * 5000 + "\n"):
         yield model_case("mesh", f"MTL {mtl[:30]!r}", "m.obj", OBJ, extra={"m.mtl": mtl})
     for library in ("../outside/secret.mtl", "link.mtl", "/etc/passwd", "pipe", "..\\outside\\secret.mtl", ".", "/dev/zero"):

@@ -1,18 +1,10 @@
 """Pictures that are damaged, claim too much, or are lists of other files; skies with values that are none."""
 
 import struct
-import zlib
 
 from .case import CAMERA, Case, scene, write
-
-
-def png(width, height, rows=None, kind=2, depth=8, cut=None):
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    pixels = rows if rows is not None else b"".join(b"\0" + b"\x50\x60\x70" * width for _ in range(height))
-    whole = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b"")
-    return whole if cut is None else whole[:cut]
+from .png import png
+from .secret_picture import JPEG, PNG
 
 
 def hdr(value=(128, 128, 128, 129), width=4, height=2, claimed=None):
@@ -50,6 +42,8 @@ def texture(name, file, content, expects="done", **more):
     """A picture of a mesh: what cannot be read is a checker with a warning, and the model is there."""
 
     def build(folder):
+        write(folder, "memory.jpg", JPEG)  # of which libraries ask for pictures that they hold in memory
+        write(folder, "memory.png", PNG)
         write(folder, file, content)
         write(folder, "m.mtl", f"newmtl m\nmap_Kd {file}\n")
         write(folder, "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n")
@@ -58,9 +52,23 @@ def texture(name, file, content, expects="done", **more):
     return Case("picture", name, build, expects, **more)
 
 
+def shown(extension, content):
+    """A picture in the scene's own folder, on a square before the camera: exported, or rendered."""
+
+    def build(folder):
+        write(folder, "t.jpg", content)
+        write(folder, "m.mtl", "newmtl m\nmap_Kd t.jpg\n")
+        write(folder, "m.obj", "mtllib m.mtl\nv -4 0 0\nv 4 0 0\nv 4 4 0\nv -4 4 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n")
+        script = scene(folder, 'model(file="m.obj")\ndayLight(timeOfDay=13)\n' + CAMERA)
+        return [["export", script, "-o", "out.glb"] if extension == ".glb" else ["render", script, "--size", "64x64", "-o", "out" + extension]]
+
+    return Case("shown", extension, build, "done", needs_gl=extension != ".glb")
+
+
 def sky(name, file, content, expects="either", command="photograph"):
     def build(folder):
-        write(folder, file, content)
+        if content is not None:
+            write(folder, file, content)
         write(folder, "m.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
         script = scene(folder, f'sky(file="{file}")\nmodel(file="m.obj")\n' + CAMERA)
         options = ["--size", "16x16", "--samples", "1"]
@@ -97,3 +105,5 @@ def cases():
             yield sky(name, "sky.exr", exr(values), "done", command)
     for name, content in {"cut": exr(floats)[:200], "empty": b"", "HDR of 255": hdr((255, 255, 255, 255)), "HDR that claims": hdr(claimed=32768), "HDR": hdr(), "a PNG": good}.items():
         yield sky(name, "sky.exr" if "HDR" not in name else "sky.hdr", content)
+    for name in ("../outside/secret.png", "../outside/secret.jpg", "link.png", "link.jpg", "pipe"):
+        yield sky(f"of {name}", name, None, "refused")

@@ -3,13 +3,13 @@
 import os
 
 from .case import CAMERA, Case, scene, write
+from .png import png
 
 TRIANGLE = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
 OLD = b"OLD" * 100
 
 
 def place(folder):
-    from .pictures import png
     write(folder, "t.png", png(64, 64))
     write(folder, "m.mtl", "newmtl m\nmap_Kd t.png\n")
     write(folder, "m.obj", TRIANGLE)
