@@ -10,6 +10,7 @@ import hashlib
 import os
 import pathlib
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -75,6 +76,16 @@ def baseline(verb):
         return _baseline(verb)
 
 
+@functools.lru_cache(maxsize=None)
+def starting_seconds():
+    """Processor time until the program does what it is asked: of one that only says its version. To be asked first
+    while no other command runs, whose time would be counted, too."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([*program, "--version"], check=False, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 def is_whole_or_old(verb, before, folder, ran):
     """What the command left where it was hit: each file is whole, or the one that was there before; another one
     only after a warning, that a picture could not be read."""
@@ -112,12 +123,19 @@ def hit(kind, name, verb, **faults):
     return Case(kind, f"{verb}, {name}", build, "either", seconds=120, check=check_both(verb), needs_gl=verb in ("render", "reference", "bake"), **faults)
 
 
+def failing_allocation(verb, share):
+    count = baseline(verb).allocations
+    if count == 0:
+        raise RuntimeError(f"{verb}: no allocation is counted, so that none would fail; is {library} loaded?")
+    return f"new:{max(1, round(share * count))}"
+
+
 def allocations(verb, count):
     """Allocations at evenly spread places of the command's life."""
     for i in range(count):
         share = (i + 0.5) / count
         yield hit("allocation", f"at {share:.4f} of its allocations", verb,
-                  faults=lambda v=verb, s=share: f"new:{max(1, round(s * baseline(v).allocations))}")
+                  faults=lambda v=verb, s=share: failing_allocation(v, s))
 
 
 def kills(verb, count):
@@ -126,6 +144,18 @@ def kills(verb, count):
     for i in range(count):
         share, number = chance.uniform(0.0, 1.1), (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)[i % 3]
         yield hit("kill", f"{number.name} at {share:.3f} of its time", verb, kill_after=lambda v=verb, s=share: s * baseline(v).seconds, kill_with=number)
+
+
+def deaf(program):
+    """A control: a stand-in that works for a second and does not listen to SIGTERM. `program` is set to it; what
+    starting takes is Parvis's."""
+    starting_seconds()
+    program[:] = ["bash", "-c", "while :; do :; done", "control"]
+
+    def build(folder):
+        return [["format", "scene.xp"]]
+
+    return Case("control", "deaf", build, "either", seconds=20, kill_after=lambda: 3 * starting_seconds() + 1, kill_with=signal.SIGTERM)
 
 
 def cases():
