@@ -39,7 +39,9 @@ def command_line(option, value, expects="refused"):
         return [commands[option]]
 
     harmless = option in ("circle x", "circle eye") and value.startswith(("4294967360", "-1"))
-    return Case("command line", f"{option}={value}", build, "either" if harmless or option == "clamp" else expects)
+    if option == "clamp" and value.startswith(("4294967360", "18446744073709551617")):
+        expects = "done"  # much light, and a number
+    return Case("command line", f"{option}={value}", build, "either" if harmless else expects)
 
 
 OPTIONS = ["time", "seconds", "fps", "size", "height", "supersample", "fov", "clamp", "seed", "samples", "bounces",

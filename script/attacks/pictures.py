@@ -1,6 +1,8 @@
 """Pictures that are damaged, claim too much, or are lists of other files; skies with values that are none."""
 
+import math
 import struct
+import subprocess
 
 from .case import CAMERA, Case, scene, write
 from .png import png
@@ -78,6 +80,38 @@ def sky(name, file, content, expects="either", command="photograph"):
     return Case("sky", f"{name}, {command}", build, expects, needs_gl=command == "trace")
 
 
+def numbers_of(file):
+    """The values of a picture in float."""
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "gbrpf32le", "-"], capture_output=True, stdin=subprocess.DEVNULL).stdout
+    return struct.unpack(f"<{len(raw) // 4}f", raw)
+
+
+def mended(name, values, replaced, command):
+    """A sky with values that are none, beside the same sky with finite ones: one picture, and a warning."""
+
+    def build(folder):
+        write(folder, "m.obj", "v -2 0 0\nv 2 0 0\nv 0 4 0\nf 1 2 3\n")
+        commands = []
+        for sky, content, output in (("sky.exr", values, "out.exr"), ("mended.exr", replaced, "right.exr")):
+            write(folder, sky, exr(content))
+            script = scene(folder, f'sky(file="{sky}")\nmodel(file="m.obj")\n' + CAMERA, sky + ".xp")
+            options = ["--size", "16x16", "--samples", "4", "-o", output]
+            commands.append(["reference", script, *options, *(["--path-traced"] if command == "photograph" else [])])
+        return commands
+
+    def check(folder, results):
+        got, right = numbers_of(folder / "out.exr"), numbers_of(folder / "right.exr")
+        if not right or not all(map(math.isfinite, got)):
+            return "the picture has values that are no finite numbers"
+        if got != right:
+            return "another picture than of the sky whose values are finite"
+        if max(right) <= 0 < max(replaced):
+            return "the picture of the finite sky is black: nothing is compared"
+        return "" if b"warning" in results[0]["said"] else "no warning of what was replaced"
+
+    return Case("sky", f"{name} as if mended, {command}", build, "done", needs_gl=command == "trace", check=check)
+
+
 def cases():
     good = png(8, 8)
     for size in range(0, len(good), 9):
@@ -103,6 +137,11 @@ def cases():
                          "negative": [-1.0, 1.0], "3e38": [3e38, 1.0], "all 3e38": [3e38], "all zero": [0.0], "denormal": [1e-44], "right": floats}.items():
         for command in ("check", "trace", "photograph"):
             yield sky(name, "sky.exr", exr(values), "done", command)
+    inf, nan = float("inf"), float("nan")
+    for name, values, replaced in (("an infinite sun", [1.0, 2.0, inf], [1.0, 2.0, 2.0]), ("no number", [nan, 1.0], [0.0, 1.0]),
+                                   ("minus infinity", [-inf, 1.0], [0.0, 1.0]), ("all infinite", [inf], [0.0]), ("all of them", [inf, nan, -inf, 3.0], [3.0, 0.0, 0.0, 3.0])):
+        for command in ("trace", "photograph"):
+            yield mended(name, values, replaced, command)
     for name, content in {"cut": exr(floats)[:200], "empty": b"", "HDR of 255": hdr((255, 255, 255, 255)), "HDR that claims": hdr(claimed=32768), "HDR": hdr(), "a PNG": good}.items():
         yield sky(name, "sky.exr" if "HDR" not in name else "sky.hdr", content)
     for name in ("../outside/secret.png", "../outside/secret.jpg", "link.png", "link.jpg", "pipe"):
