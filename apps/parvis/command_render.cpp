@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
-#include <set>
 
 #include "base/content_hash.h"
 #include "base/image_io.h"
@@ -13,6 +12,7 @@
 #include "graphics/render/picture_reader.h"
 #include "house/stage/divided_film.h"
 #include "house/stage/film.h"
+#include "house/stage/output_names.h"
 #include "house/stage/probe.h"
 #include "machines/processes.h"
 #include "reflections/methods/registry.h"
@@ -147,22 +147,6 @@ Status render_film(house::Stage& stage, const Arguments& arguments, const std::f
   return film->finish();
 }
 
-/// picture.png of the scenario "oaks": picture-oaks.png. No two of them share a file: where "a/b" and "a-b"
-/// would, the later one gets a number.
-std::filesystem::path named_after(const std::filesystem::path& output, std::string scenario,
-                                  std::set<std::filesystem::path>& known) {
-  std::ranges::replace(scenario, '/', '-');
-  const std::string stem = output.stem().string() + "-" + scenario;
-  std::filesystem::path named = output;
-  for (int number = 1;
-       !known
-            .insert(named.replace_filename(stem + (number == 1 ? "" : fmt::format("-{}", number)) +
-                                           output.extension().string()))
-            .second;)
-    ++number;
-  return named;
-}
-
 /// Pixels of --probe.
 Result<std::vector<glm::ivec2>> probed_pixels(const Arguments& arguments, int width, int height) {
   std::vector<glm::ivec2> pixels;
@@ -210,11 +194,11 @@ Status render_states(house::Stage& stage, const Arguments& arguments, int width,
                      const machines::Processes& processes) {
   if (arguments.scenarios.size() < 2)
     return render_one(stage, arguments, arguments.output, width, height, processes);
-  std::set<std::filesystem::path> known;
-  for (const std::string& scenario : arguments.scenarios) {
-    if (Status status = stage.choose_scenario(scenario); !status) return status;
-    const std::filesystem::path output = named_after(arguments.output, scenario, known);
-    if (Status status = render_one(stage, arguments, output, width, height, processes); !status)
+  const std::vector<std::filesystem::path> outputs =
+      house::series_files(arguments.output, '-', arguments.scenarios);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (Status status = stage.choose_scenario(arguments.scenarios[i]); !status) return status;
+    if (Status status = render_one(stage, arguments, outputs[i], width, height, processes); !status)
       return status;
   }
   return Done{};

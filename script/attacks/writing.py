@@ -6,6 +6,7 @@ from .case import CAMERA, Case, scene, write
 from .png import png
 
 TRIANGLE = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
+TOWER = "v -1 0 0\nv 1 0 0\nv 0 4 0\nf 1 2 3\n"
 OLD = b"OLD" * 100
 
 
@@ -62,6 +63,64 @@ def linked(verb, output, link, target):
     return Case("link", f"{verb} beside {link} -> {target}", build, "either", needs_gl=verb in ("render", "film", "reference", "bake"))
 
 
+def pipe_in_place(verb, output, name):
+    """A pipe where a command looks for what an earlier one has left, or is to write."""
+
+    def build(folder):
+        script = place(folder)
+        os.makedirs(os.path.dirname(os.path.join(folder, name)) or folder, exist_ok=True)
+        os.mkfifo(os.path.join(folder, name))
+        return [command(verb, script, output)]
+
+    return Case("pipe", f"{verb} beside a pipe {name}", build, "either", seconds=30, needs_gl=verb in ("render", "film", "reference", "bake"))
+
+
+def two_states(names, verb="render"):
+    """Pictures of scenarios, or of cameras, whose names have one shape as names of files: as many pictures, each of its own."""
+
+    def build(folder):
+        write(folder, "tower.obj", TOWER)
+        states = "".join(f'scenario(name="{name}") {{ override(of="m", position="{3 * i} 0 0") }}\n' for i, name in enumerate(names))
+        cameras = "".join(f'camera(name="{name}", position="{3 * i} -9 2", target="0 0 1")\n' for i, name in enumerate(names))
+        text = 'model(name="m", file="tower.obj", dynamic=1)\n' + (states + CAMERA if verb == "render" else cameras)
+        script = scene(folder, text)
+        if verb == "render":
+            return [["render", script, "--size", "64x64", *(word for name in names for word in ("--scenario", name)), "-o", "out.png"]]
+        return [["reference", script, "--path-traced", "--all-cameras", "--size", "64x64", "--samples", "1", "-o", "out.png"]]
+
+    def check(folder, results):
+        if results[0]["status"] != 0:
+            return f"refused: {results[0]['said'][:200]}"
+        pictures = [path.read_bytes() for path in folder.glob("out*.png")]
+        if len(set(pictures)) != len(names):
+            return f"{len(pictures)} pictures, {len(set(pictures))} that differ, of {len(names)} states"
+        return ""
+
+    return Case("names", f"{verb} of {' and '.join(names)}", build, "either", check=check, needs_gl=verb == "render")
+
+
+def formatted(mode, link=False):
+    """`format` of a script with permissions of its own, or through a link beside it."""
+
+    def build(folder):
+        script = place(folder)
+        scene(folder, (folder / "scene.xp").read_text().replace(", ", " ,  "))
+        (folder / "scene.xp").chmod(mode)
+        if link:
+            (folder / "link.xp").symlink_to("scene.xp")
+        return [["format", "link.xp" if link else script]]
+
+    def check(folder, results):
+        path = folder / "scene.xp"
+        if " ,  " in path.read_text():
+            return "nothing is formatted"
+        if link and not (folder / "link.xp").is_symlink():
+            return "the link has become a file"
+        return "" if path.stat().st_mode & 0o7777 == mode else f"its mode was {mode:o} and is {path.stat().st_mode & 0o7777:o}"
+
+    return Case("format", f"of a script of mode {mode:o}{' through a link' if link else ''}", build, "done", check=check)
+
+
 def to_full_output(arguments):
     def build(folder):
         script = place(folder)
@@ -92,9 +151,25 @@ def cases():
         yield linked("city", "city", "city/.unfinished", target if target != "/" else "../outside/keep")
     for verb, output, link in (("render", "out.png", ".partial-out.png"), ("film", "out.mp4", ".partial-out.mp4"), ("export", "out.glb", ".partial-out.glb"),
                                ("format", "", ".partial-scene.xp"), ("bake", "", ".partial-scene.xp"), ("photograph", "out.png", "out.png.checkpoint"),
-                               ("photograph", "out.png", ".partial-out.png"), ("reference", "out.png", ".partial-out.png")):
+                               ("photograph", "out.png", ".partial-out.png"), ("reference", "out.png", ".partial-out.png"),
+                               ("export", "out.glb", "out_t.png"), ("export", "out.glb", "out_t.jpg"), ("export", "out.glb", "out.glb"), ("render", "out.png", "out.png"),
+                               ("film", "out.mp4", "out.mp4"), ("photograph", "out.png", "out.png")):
         for target in ("../outside/secret.bin", "../outside/absent"):
             yield linked(verb, output, link, target)
+    for target in ("../outside/keep", "../outside", "../outside/absent"):
+        yield linked("film", "out.mp4", "out.mp4.frames", target)
+        for inner in ("scene.baked/reflectors", "scene.baked/bounced_light", "scene.baked"):
+            yield linked("bake", "", inner, target)
+    for verb, output, name in (("photograph", "out.png", "out.png.checkpoint"), ("photograph", "out.png", "out.png"), ("render", "out.png", "out.png"),
+                               ("export", "out.glb", "out.glb"), ("export", "out.glb", "out_t.jpg"), ("film", "out.mp4", "out.mp4"), ("film", "out.mp4", "out.mp4.frames"),
+                               ("bake", "", "scene.baked"), ("bake", "", "scene.baked/reflectors"), ("city", "city", "city"), ("city", "city", "city/.unfinished")):
+        yield pipe_in_place(verb, output, name)
+    for names in (["a/b", "a-b"], ["a-b", "a/b"], ["a b", "a_b", "a/b"], ["a-b-2", "a-b", "a/b"]):
+        yield two_states(names)
+        yield two_states(names, "reference")
+    for mode in (0o600, 0o640, 0o755):
+        yield formatted(mode)
+        yield formatted(mode, link=True)
     for arguments in (["check", "SCENE"], ["check", "--reference"], ["check", "--schema"], ["--help"], ["export", "SCENE", "-o", "out.glb"]):
         yield to_full_output(arguments)
     for verb, extension in (("render", "png"), ("film", "mp4"), ("export", "glb"), ("reference", "png"), ("photograph", "png")):
@@ -103,6 +178,7 @@ def cases():
         yield bad_output(verb, "a" * (254 - len(extension)) + "." + extension, "done")
         yield bad_output(verb, "out.gif")
         yield bad_output(verb, "out.jp2")
+        yield bad_output(verb, "out.sgi")
         yield bad_output(verb, "out")
         yield bad_output(verb, "")
         yield bad_output(verb, "/dev/full")

@@ -2,12 +2,12 @@
 
 #include <optional>
 
-#include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/progress.h"
 #include "base/sealed_file.h"
 #include "house/stage/film.h"
+#include "house/stage/output_names.h"
 #include "machines/divided_work.h"
 
 namespace parvis::house {
@@ -102,15 +102,7 @@ Status encode(const FilmJob& job, Film& film) {
 
 }  // namespace
 
-fs::path frames_folder(const fs::path& film) {
-  constexpr std::size_t max_name = 255;
-  const std::string ending = ".frames", name = film.filename().string();
-  if (name.size() + ending.size() <= max_name) return fs::path(film) += ending;
-  ContentHash hash;
-  hash.add_text(name);
-  const std::string cut = fmt::format("-{:016x}{}", hash.value(), ending);
-  return fs::path(film).replace_filename(name.substr(0, max_name - cut.size()) + cut);
-}
+fs::path frames_folder(const fs::path& film) { return file_beside(film, ".frames"); }
 
 Status make_divided_film(const FilmJob& job, const machines::Processes& processes) {
   std::optional<Film> film;

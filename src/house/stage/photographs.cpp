@@ -1,7 +1,6 @@
 #include "house/stage/photographs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
+#include "house/stage/output_names.h"
 
 namespace parvis::house {
 namespace {
@@ -19,42 +19,31 @@ namespace fs = std::filesystem;
 constexpr int max_cameras_of_circle = 1000;
 constexpr int points_across = 48;  // of the grid of points that a COLMAP model gets from each picture
 
-/// What is left of a camera's name in the name of a file.
-std::string file_part(std::string name) {
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  return name;
+/// The files of the cameras' pictures.
+std::vector<fs::path> files_of(const fs::path& file, const PhotographJob& job) {
+  if (job.cameras.size() == 1) return {file};
+  std::vector<std::string> names;
+  for (const scene::NamedCamera& camera : job.cameras) names.push_back(camera.name);
+  return series_files(file, '_', names);
 }
 
-/// The file of one camera's picture.
-fs::path file_of(const fs::path& file, const scene::NamedCamera& camera, const PhotographJob& job) {
-  if (job.cameras.size() == 1) return file;
-  return file.parent_path() /
-         (file.stem().string() + "_" + file_part(camera.name) + file.extension().string());
-}
-
-fs::path checkpoint_of(const scene::NamedCamera& camera, const PhotographJob& job) {
-  constexpr std::size_t max_name = 255;
-  const std::string_view extension = ".checkpoint";
-  const fs::path picture = file_of(job.pictures.front(), camera, job);
-  std::string name = picture.filename().string();
-  name.resize(std::min(name.size(), max_name - extension.size()));
-  return picture.parent_path() / name.append(extension);
+fs::path checkpoint_of(std::size_t camera, const PhotographJob& job) {
+  return file_beside(files_of(job.pictures.front(), job)[camera], ".checkpoint");
 }
 
 bool is_linear(const fs::path& file) { return file.extension() == ".exr" || file.extension() == ".hdr"; }
 
-Status write_photograph(const reference::Photograph& photograph, const Image8& display,
-                        const scene::NamedCamera& camera, const PhotographJob& job) {
+Status write_photograph(const reference::Photograph& photograph, const Image8& display, std::size_t camera,
+                        const PhotographJob& job) {
   for (const fs::path& picture : job.pictures) {
-    const fs::path file = file_of(picture, camera, job);
+    const fs::path file = files_of(picture, job)[camera];
     Status status = is_linear(file) ? write_image(file, photograph.radiance) : write_image(file, display);
     if (!status) return status;
   }
   if (!job.depth.empty())
-    if (Status status = write_image(file_of(job.depth, camera, job), photograph.depth_m); !status)
+    if (Status status = write_image(files_of(job.depth, job)[camera], photograph.depth_m); !status)
       return status;
-  if (!job.alpha.empty()) return write_image(file_of(job.alpha, camera, job), photograph.alpha);
+  if (!job.alpha.empty()) return write_image(files_of(job.alpha, job)[camera], photograph.alpha);
   return Done{};
 }
 
@@ -62,10 +51,14 @@ Status check(const PhotographJob& job) {
   if (job.cameras.empty()) return error("the scene has no camera to photograph with");
   if (!job.depth.empty() && !is_linear(job.depth))
     return error("--depth {}: expected a file in float, .exr", job.depth.string());
-  std::set<std::string> files;
-  for (const scene::NamedCamera& camera : job.cameras)
-    if (!files.insert(file_part(camera.name)).second)
-      return error("two cameras are named \"{}\": their pictures would have one name", camera.name);
+  std::set<fs::path> files;
+  for (const std::vector<fs::path>& given : {job.pictures, {job.depth}, {job.alpha}})
+    for (const fs::path& output : given)
+      if (!output.empty())
+        for (const fs::path& file : files_of(output, job))
+          if (!files.insert(file.lexically_normal()).second)
+            return error("{}: two of the pictures would have this file; give each a name of its own",
+                         file.string());
   return Done{};
 }
 
@@ -103,21 +96,22 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
       shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
   std::vector<scene::TakenPicture> taken;
   std::vector<Image8> displays;
-  for (const scene::NamedCamera& named : job.cameras) {
+  for (std::size_t camera = 0; camera < job.cameras.size(); ++camera) {
+    const scene::NamedCamera& named = job.cameras[camera];
     reference::PhotographOptions options = job.options;
-    options.checkpoint = checkpoint_of(named, job);
+    options.checkpoint = checkpoint_of(camera, job);
     options.progress = fmt::format("photograph {}/{}, tiles", taken.size() + 1, job.cameras.size());
     const Result<reference::Photograph> photograph =
         reference::take_photograph(rays, scene, sky, named.camera, job.width, job.height, options);
     if (!photograph) return photograph.errors();
     if (!options.processes.is_first()) continue;
     displays.push_back(shading::tone_mapped_picture(photograph->radiance, scene.exposure));
-    if (Status status = write_photograph(*photograph, displays.back(), named, job); !status) return status;
+    if (Status status = write_photograph(*photograph, displays.back(), camera, job); !status) return status;
     const double millions = 1e-6 * double(photograph->rays);
     fmt::print("{}: {:.1f} million rays in {:.1f} s, {:.2f} million a second\n", named.name, millions,
                photograph->seconds, millions / photograph->seconds);
-    taken.push_back(
-        {file_of(job.pictures.front(), named, job).filename().string(), named.camera, job.width, job.height});
+    taken.push_back({files_of(job.pictures.front(), job)[camera].filename().string(), named.camera, job.width,
+                     job.height});
   }
   if (!job.options.processes.is_first()) return Done{};
   if (!job.colmap_folder.empty()) {
@@ -127,7 +121,8 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
   if (!job.gltf_cameras.empty())
     if (Status status = scene::write_gltf_cameras(job.gltf_cameras, taken); !status) return status;
   std::error_code ignored;
-  for (const scene::NamedCamera& camera : job.cameras) fs::remove(checkpoint_of(camera, job), ignored);
+  for (std::size_t camera = 0; camera < job.cameras.size(); ++camera)
+    fs::remove(checkpoint_of(camera, job), ignored);
   return Done{};
 }
 
