@@ -1,6 +1,7 @@
 #include "base/partial_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -47,8 +48,17 @@ int list(const std::string& path) {
   return -1;
 }
 
+/// Set when the program ends by a signal: from then on nobody makes files that would be left.
+std::atomic<bool> is_ending = false;
+
+/// To be asked before anything is made, or taken off the list.
+void wait_for_the_end() {
+  while (is_ending) pause();
+}
+
 void unlist(int slot) {
   if (slot < 0) return;
+  wait_for_the_end();
   slots[std::size_t(slot)].is_listed = false;
   slots[std::size_t(slot)].is_taken = false;
 }
@@ -62,21 +72,33 @@ struct FolderRecord {
   char name[1];
 };
 
-/// Without the library's functions for folders: they allocate, which a signal handler must not.
-void remove_folder_in_signal(const char* path) {
+/// Without the library's functions for folders: they allocate, which a signal handler must not. False where
+/// something is left in it.
+bool remove_folder_in_signal(const char* path) {
   alignas(FolderRecord) static std::array<char, 16384> records;
   const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (folder < 0) return;
+  if (folder < 0) return true;
   for (long size = 0; (size = syscall(SYS_getdents64, folder, records.data(), records.size())) > 0;)
     for (long at = 0; at < size;) {
       const auto* record = reinterpret_cast<const FolderRecord*>(records.data() + at);
       unlinkat(folder, record->name, 0);
       at += record->bytes;
     }
-  rmdir(path);
+  close(folder);
+  return rmdir(path) == 0 || errno == ENOENT;
+}
+
+/// What is listed; false where something of it is left.
+bool remove_listed() {
+  bool is_gone = true;
+  for (const Slot& slot : slots)
+    if (slot.is_listed && unlink(slot.path.data()) != 0)
+      is_gone = remove_folder_in_signal(slot.path.data()) && is_gone;
+  return is_gone;
 }
 
 void on_signal(int) {
+  if (is_ending) return;  // another thread is about to end it
   remove_partial_files_and_end("parvis: interrupted; what was being written is removed\n");
 }
 
@@ -110,32 +132,51 @@ bool lock_made(int file) {
   return flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-/// A new, empty file of a name that fits into a folder, and the lock on it; empty if none can be made.
-fs::path make_partial(const fs::path& file, int& lock) {
-  constexpr std::size_t max_name = 255, random_digits = 8;
+/// Something new in a folder: its path, how it is listed, and the lock on it.
+struct Made {
+  fs::path path;
+  int slot = -1, lock = -1;
+};
+
+constexpr std::size_t random_digits = 8;
+
+/// Makes something whose name is `front`, random digits and `back`. It is listed before it is there, for a
+/// signal between the two would leave it. `make` says its descriptor, or -1 and why in errno. No path where
+/// none can be made.
+Made make_listed(const fs::path& folder, std::string_view front, std::string_view back,
+                 int (*make)(const char* path)) {
+  std::error_code code;
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    wait_for_the_end();
+    Made made{folder / fmt::format("{}{:08x}{}", front, std::uint32_t(random()), back)};
+    made.slot = list(fs::absolute(made.path, code).string());
+    wait_for_the_end();
+    made.lock = make(made.path.c_str());
+    const int why = errno;
+    if (made.lock >= 0 && lock_made(made.lock)) return made;
+    unlist(made.slot);
+    if (made.lock >= 0)
+      close(made.lock);
+    else if (why != EEXIST)
+      break;
+    errno = why;
+  }
+  return {};
+}
+
+/// A new, empty file of a name that fits into a folder; no path if none can be made.
+Made make_partial(const fs::path& file) {
+  constexpr std::size_t max_name = 255;
   const std::string extension = file.extension().string(), front = ".partial-";
   std::string stem = file.stem().string();
   const std::size_t around = front.size() + random_digits + 1 + extension.size();
   if (around > max_name) return {};
   stem.resize(std::min(stem.size(), max_name - around));
   remove_abandoned(file.parent_path(), front, random_digits, "-" + stem + extension);
-  std::random_device random;
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    fs::path partial =
-        file.parent_path() / fmt::format("{}{:08x}-{}{}", front, std::uint32_t(random()), stem, extension);
-    const int made = open(partial.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
-    if (made >= 0) {
-      if (lock_made(made)) {
-        lock = made;
-        return partial;
-      }
-      unlink(partial.c_str());
-      close(made);
-      continue;
-    }
-    if (errno != EEXIST) break;
-  }
-  return {};
+  return make_listed(file.parent_path(), front, "-" + stem + extension, [](const char* path) {
+    return open(path, O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+  });
 }
 
 /// The path that a chain of links ends at; what it names may be absent. Empty if the chain is a loop.
@@ -178,11 +219,9 @@ Result<PartialFile> PartialFile::create(const fs::path& named) {
   struct stat before {};
   if (stat(file.c_str(), &before) == 0 && !S_ISREG(before.st_mode))
     return error("{}: is not a regular file and is not replaced", file.string());
-  int lock = -1;
-  fs::path partial = make_partial(file, lock);
-  if (partial.empty()) return cannot_write(file);
-  const int slot = list(fs::absolute(partial, code).string());
-  return PartialFile(file, std::move(partial), slot, lock);
+  Made partial = make_partial(file);
+  if (partial.path.empty()) return cannot_write(file);
+  return PartialFile(file, std::move(partial.path), partial.slot, partial.lock);
 }
 
 PartialFile::PartialFile(PartialFile&& other) noexcept
@@ -233,16 +272,16 @@ Status PartialFile::keep() {
 }
 
 Result<PartialFolder> PartialFolder::create(const fs::path& folder) {
-  const std::string front = ".unfinished-", random = "XXXXXX";
-  remove_abandoned(folder, front, random.size(), "");
-  std::string path = folder / (front + random);
-  if (mkdtemp(path.data()) == nullptr) return cannot_write(folder);
-  int lock = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (lock >= 0 && !lock_made(lock)) close(std::exchange(lock, -1));
-  std::error_code code;
-  fs::permissions(path, fs::perms::group_read | fs::perms::others_read, fs::perm_options::add, code);
-  const int slot = list(fs::absolute(path, code).string());
-  return PartialFolder(path, slot, lock);
+  const std::string front = ".unfinished-";
+  remove_abandoned(folder, front, random_digits, "");
+  Made made = make_listed(folder, front, "", [](const char* path) {
+    if (mkdir(path, 0744) != 0) return -1;
+    const int lock = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (lock < 0) rmdir(path);
+    return lock;
+  });
+  if (made.path.empty()) return cannot_write(folder);
+  return PartialFolder(std::move(made.path), made.slot, made.lock);
 }
 
 PartialFolder::PartialFolder(PartialFolder&& other) noexcept
@@ -260,8 +299,14 @@ PartialFolder::~PartialFolder() {
 }
 
 void remove_partial_files_and_end(std::string_view message) {
-  for (const Slot& slot : slots)
-    if (slot.is_listed && unlink(slot.path.data()) != 0) remove_folder_in_signal(slot.path.data());
+  if (is_ending.exchange(true)) wait_for_the_end();  // another thread is about to
+  // Threads that were making files when it began may still do so: again, until nothing is left.
+  constexpr int min_times = 2, max_times = 500;
+  bool is_gone = false;
+  for (int time = 0; time < min_times || (!is_gone && time < max_times); ++time) {
+    is_gone = remove_listed();
+    poll(nullptr, 0, 1);
+  }
   const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
   static_cast<void>(ignored);
   _exit(1);

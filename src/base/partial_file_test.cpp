@@ -6,6 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
 #include "base/files.h"
 #include "base/test_folder.h"
 
@@ -59,6 +64,45 @@ TEST(PartialFile, SignalsThatCanBeHeardRemoveFilesAndFolders) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
     EXPECT_EQ(count_of(folder.path()), 1u) << number;
     EXPECT_EQ(*read_file(folder.path() / "out.txt"), "old");
+  }
+}
+
+/// A child process whose threads write into folders that they make again and again, ended after a while.
+int ended_while_writing(int after_us, const fs::path& folder) {
+  sigset_t term;
+  sigemptyset(&term), sigaddset(&term, SIGTERM);
+  sigprocmask(SIG_BLOCK, &term, nullptr);  // until the child listens
+  const pid_t child = fork();
+  if (child == 0) {
+    remove_partial_files_on_signals();
+    sigprocmask(SIG_UNBLOCK, &term, nullptr);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDERR_FILENO);
+    std::vector<std::thread> writers;
+    for (int writer = 0; writer < 4; ++writer)
+      writers.emplace_back([&] {
+        for (;;) {
+          const Result<PartialFolder> inner = PartialFolder::create(folder);
+          for (int file = 0; inner && file < 8; ++file)
+            std::ignore = write_file(inner->path() / std::to_string(file), "1");
+        }
+      });
+    pause();
+  }
+  sigprocmask(SIG_UNBLOCK, &term, nullptr);
+  usleep(useconds_t(after_us));
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(PartialFile, ASignalLeavesNothingOfThreadsThatGoOnWriting) {
+  const TestFolder folder;
+  for (int time = 0; time < 60; ++time) {
+    const int status = ended_while_writing(3000 + 311 * time, folder.path());
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+    ASSERT_EQ(count_of(folder.path()), 0u) << time;
   }
 }
 
