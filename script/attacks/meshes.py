@@ -1,6 +1,8 @@
 """Meshes that assimp reads, and files that are named like them."""
 
 import io
+import pathlib
+import re
 import struct
 import zipfile
 
@@ -46,12 +48,105 @@ def scene_of(nodes):
     return f'<library_visual_scenes><visual_scene id="s">{nodes}</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>'
 
 
-REFUSED = ["lws", "x3d", "x3db", "irr", "irrmesh", "assbin", "assxml", "ifc", "smd", "md2", "md3", "md5mesh", "mdl", "bvh", "ase", "blend",
+def pavilion():
+    """A right building as IFC, 48 KB."""
+    return (pathlib.Path(__file__).resolve().parents[2] / "scenes/pavilion.ifc").read_bytes()
+
+
+def ifc_spoiled(pattern, replacement):
+    """The pavilion with each match replaced."""
+    text = re.sub(pattern, replacement, pavilion())
+    if text == pavilion():
+        raise LookupError(f"{pattern}: nothing of the pavilion is replaced")
+    return text
+
+
+def ifc_cases():
+    whole = pavilion()
+    yield model_case("ifc", "a right one", "m.ifc", whole, "done")
+    for share in range(0, 20):
+        yield model_case("ifc", f"cut to {share} of 20", "m.ifc", whole[: len(whole) * share // 20])
+    for name, pattern, replacement in (
+            ("points that are no numbers", rb"IFCCARTESIANPOINT\(\([^)]*\)\)", b"IFCCARTESIANPOINT((nan,inf,1.E400))"),
+            ("points at 3e38", rb"IFCCARTESIANPOINT\(\([^)]*\)\)", b"IFCCARTESIANPOINT((3.E38,-3.E38,3.E38))"),
+            ("points without numbers", rb"IFCCARTESIANPOINT\(\([^)]*\)\)", b"IFCCARTESIANPOINT(())"),
+            ("points of points", rb"IFCCARTESIANPOINT\(\([^)]*\)\)", b"IFCCARTESIANPOINT(((((1.)))))"),
+            ("directions of length 0", rb"IFCDIRECTION\(\([^)]*\)\)", b"IFCDIRECTION((0.,0.,0.))"),
+            ("entities of one number", rb"\n#\d+=", b"\n#1="),
+            ("entities of huge numbers", rb"\n#(\d+)=", rb"\n#99999999999999999999\1="),
+            ("entities of negative numbers", rb"\n#(\d+)=", rb"\n#-\1="),
+            ("references to what is absent", rb"#(\d+)([,)])", rb"#9\g<1>999\2"),
+            ("references to themselves", rb"\n#(\d+)=(\w+)\(#\d+", rb"\n#\1=\2(#\1"),
+            ("references to the first", rb"#\d+([,)])", rb"#1\1"),
+            ("nothing where something must be", rb"#\d+([,)])", rb"$\1"),
+            ("other entities", rb"IFCEXTRUDEDAREASOLID", b"IFCPERSON"), ("no entities", rb"=IFC\w+", b"=IFCNOTHING"),
+            ("text without end", rb"'\)", b")"), ("another schema", rb"IFC4", b"IFC9"),
+            ("escapes without end", rb"'Pavilion|'[A-Z][a-z]+", rb"'\\X2\\D800"),
+            ("names of bytes", rb"'[A-Z][a-z]+", b"'\xff\xfe\x00")):
+        yield model_case("ifc", name, "m.ifc", lambda p=pattern, r=replacement: ifc_spoiled(p, r))
+    for depth in (1000, 100000):
+        yield model_case("ifc", f"{depth} lists in a list", "m.ifc",
+                         lambda d=depth: ifc_spoiled(rb"\(\(0\.,0\.,1\.\)\)", b"(" * d + b"0." + b")" * d))
+    yield model_case("ifc", "300,000 entities that are alike", "m.ifc",
+                     lambda: whole.replace(b"ENDSEC;\nEND-ISO", b"".join(b"#%d=IFCDIRECTION((0.,0.,1.));\n" % (100000 + i) for i in range(300000)) + b"ENDSEC;\nEND-ISO"), seconds=120)
+    boxes = rb"IFCRECTANGLEPROFILEDEF\(([^;]*)\);"
+    yield model_case("ifc", "profiles of no size", "m.ifc", lambda: re.sub(boxes, b"IFCRECTANGLEPROFILEDEF(.AREA.,$,$,0.,-1.);", whole))
+    for name in ("m.iv", "m.obj", "m.stp"):
+        yield model_case("ifc", f"as {name}", name, whole, "refused")
+
+
+INVENTOR = "#Inventor V2.1 ascii\n"
+FACES = "Coordinate3 { point [ 0 0 0, 1 0 0, 0 0 1 ] }\nIndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] }\n"
+SHAPE = "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 0 1 ] } coordIndex [ 0 1 2 -1 ] } }\n"
+
+
+def inventor_cases():
+    """Open Inventor and VRML 1 and 2."""
+    heads = {"iv": (INVENTOR, FACES), "wrl": ("#VRML V1.0 ascii\n", FACES), "wrl 2": ("#VRML V2.0 utf8\n", SHAPE)}
+    for kind, (head, body) in heads.items():
+        name = "m." + kind.split()[0]
+        right = head + body
+        yield model_case("inventor", f"a right {kind}", name, right, "done")
+        for size in range(0, len(right), 9):
+            yield model_case("inventor", f"{kind} cut at {size}", name, right[:size])
+        for index in ("99", "-7", "2147483647", "4294967296", "a", "0 0", "1e9", ", , ,"):
+            yield model_case("inventor", f"{kind} of index {index!r}", name, right.replace("2", index).replace(f"V{index}", "V2"))
+        for number in ("nan", "inf", "1e400", "3e38", "-", "0x7f"):
+            yield model_case("inventor", f"{kind} of a point {number}", name, right.replace("1 0 0", f"{number} 0 0"))
+        group = "Separator" if kind != "wrl 2" else "Group"
+        opening, closing = (f"{group} {{ ", "} ") if kind != "wrl 2" else ("Group { children [ ", "] } ")
+        for depth in (255, 300, 100000):
+            yield model_case("inventor", f"{kind} nested {depth}", name, head + opening * depth + body + closing * depth)
+            yield model_case("inventor", f"{kind} nested {depth} without end", name, head + opening * depth)
+        yield model_case("inventor", f"{kind} that uses itself", name, head + f"DEF a {opening} USE a {body} {closing}")
+        doubling = "".join(f"DEF n{i} {opening}USE n{i + 1} USE n{i + 1} {closing}" for i in reversed(range(40)))
+        yield model_case("inventor", f"{kind} that doubles 40 times", name, head + f"DEF n40 {opening}{body}{closing}" + doubling, seconds=120)
+        for path in ("../outside/secret.png", "../outside/secret.jpg", "/etc/passwd", "link.png", "pipe", "http://127.0.0.1:9/a.png", "memory.jpg.png", "a" * 5000):
+            texture = f'Texture2 {{ filename "{path}" }}\n{body}' if kind != "wrl 2" else body.replace("Shape {", f'Shape {{ appearance Appearance {{ texture ImageTexture {{ url "{path}" }} }} ')
+            yield model_case("inventor", f"{kind} with a picture {path[:30]}", name, head + texture)
+        for path in ("../outside/secret.bin", "/dev/zero", "pipe", "m." + kind.split()[0]):
+            inline = {"iv": f'File {{ name "{path}" }}', "wrl": f'WWWInline {{ name "{path}" }}', "wrl 2": f'Inline {{ url "{path}" }}'}[kind]
+            yield model_case("inventor", f"{kind} with a file {path}", name, right + inline + "\n")
+        yield model_case("inventor", f"{kind} with a picture that claims", name,
+                         head + ("Texture2 { image 32768 32768 4 0 }\n" if kind != "wrl 2" else "Shape { appearance Appearance { texture PixelTexture { image 32768 32768 4 0 } } }\n") + body)
+        yield model_case("inventor", f"{kind} of bytes", name, right.encode().replace(b"point", b"p\xff\xfe\0nt"))
+        yield model_case("inventor", f"{kind} of an unknown node", name, right + "Nonsense { fields [ SFFloat a ] a 1e999 }\n")
+    yield model_case("inventor", "binary Inventor", "m.iv", b"#Inventor V2.1 binary\n" + b"\xff" * 400, "refused")
+    yield model_case("inventor", "packed VRML", "m.wrl", b"\x1f\x8b\x08\0" + b"\xff" * 400, "refused")
+    yield model_case("inventor", "VRML with a script", "m.wrl", "#VRML V2.0 utf8\n" + 'Script { url "javascript: while (true) {}" eventIn SFTime a }\n' + SHAPE)
+    yield model_case("inventor", "an elevation of 10^10 heights", "m.wrl",
+                     "#VRML V2.0 utf8\nShape { geometry ElevationGrid { xDimension 100000 zDimension 100000 height [ 0 ] } }\n")
+    yield model_case("inventor", "a cone of complexity 1e9", "m.iv", INVENTOR + "Complexity { value 1e9 }\nSphere { radius 1e30 }\n")
+
+
+REFUSED = ["lws", "x3d", "x3db", "irr", "irrmesh", "assbin", "assxml", "smd", "md2", "md3", "md5mesh", "mdl", "bvh", "ase", "blend",
            "b3d", "cob", "csm", "dxf", "enff", "hmp", "lxo", "ms3d", "ndo", "nff", "pk3", "q3o", "raw", "sib", "ter", "vrml", "zgl", "xgl",
            "mesh.xml", "ogex", "step", "stp", "amf", "m3d", "iqm", "pmx", "q3s", "scn", "", "obj ", "gltf2", "sh", "so"]
 
 
 def cases():
+    yield from ifc_cases()
+    yield from inventor_cases()
     ply = ply_binary()
     for size in range(0, len(ply), 17):
         yield model_case("mesh", f"binary PLY cut at {size}", "m.ply", ply[:size])
