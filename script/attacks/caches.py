@@ -89,7 +89,7 @@ def is_right(pattern, folder, results, may_differ=False, must_warn=False):
 
 
 def changed(name, pattern, change, is_sealed=False, must_warn=False, may_refuse=False):
-    """The kept files with a change, rendered, baked anew and rendered. `change(folder, kept)`, of a folder and the
+    """The kept files with a change, rendered, baked again and rendered. `change(folder, kept)`, of a folder and the
     files in it that match, says which of them it has changed. Sealed: whoever knows how may say what he likes, but
     not crash Parvis. May refuse: what is no file of ours need not be baked over, but the picture is the right one."""
 

@@ -1,6 +1,6 @@
 """A picture that must not get out: of one colour that nothing else here has, found again in pictures of any kind.
 
-Pictures are decoded and written anew on their way out, as textures and as what a camera sees, so that no byte of
+Pictures are decoded and written again on their way out, as textures and as what a camera sees, so that no byte of
 theirs is left to look for: their hue is.
 """
 
