@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/drawn_sky_check.h"
 #include "graphics/light/sky_gpu_check.h"
 
 namespace parvis::light {
@@ -23,6 +24,15 @@ TEST_F(SkyOnGpu, AWrongTableIsSeen) {
   const Result<SkyGpuCheck> check = check_sky_on_gpu(Air{3.0}, 8.0, 1.0f);
   ASSERT_TRUE(check) << to_string(check.errors());
   EXPECT_GT(check->max_relative_error, 1e-2);
+}
+
+TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
+  for (const double elevation : {-3.0, 2.0, 10.0, 70.0}) {
+    const Result<double> error = drawn_sky_error(elevation);
+    ASSERT_TRUE(error) << to_string(error.errors());
+    EXPECT_LE(*error, 1e-3) << elevation;
+  }
+  EXPECT_GT(*drawn_sky_error(10.0, 1.0f), 1e-2) << "turned by a degree";
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void renew_heights(const scene::Scene& scene, const render::GpuScene& gpu, shadi
 
 gl::Texture upload(const shading::SkyLight& sky) {
   const ImageF& sharpest = sky.levels.front();
-  gl::Texture texture = gl::texture_2d(GL_RGB16F, sharpest.width, sharpest.height, int(sky.levels.size()));
+  gl::Texture texture = gl::texture_2d(GL_RGB32F, sharpest.width, sharpest.height, int(sky.levels.size()));
   for (std::size_t level = 0; level < sky.levels.size(); ++level) {
     const ImageF& image = sky.levels[level];
     glTextureSubImage2D(texture.name(), GLint(level), 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,

@@ -16,6 +16,7 @@
 #include "graphics/light/bench/vegetation_bench.h"
 #include "graphics/light/brute_force_sky.h"
 #include "graphics/light/day_light.h"
+#include "graphics/light/drawn_sky_check.h"
 #include "graphics/light/preetham.h"
 #include "graphics/light/sky_gpu_check.h"
 #include "graphics/light/sky_model.h"
@@ -23,8 +24,6 @@
 #include "graphics/light/sun_hours.h"
 #include "graphics/light/sun_tables.h"
 #include "graphics/light/vertex_light.h"
-#include "graphics/reference/camera_ray.h"
-#include "graphics/render/renderer.h"
 #include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 
@@ -114,71 +113,18 @@ Status count_negatives(const BenchSetup& setup, Report& report) {
   return Done{};
 }
 
-/// The largest difference between the sky that the renderer draws and its C++ build, in six views, relative
-/// to the value or to the mean; `turned_deg` turns the sky of the C++ build.
-Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
-  constexpr int size = 128;
-  const auto sky = light::make_sky(SkyKind::atmosphere, light::Air{3.0}, sun_at(elevation_deg));
-  if (!sky) return sky.errors();
-  scene::Scene scene;
-  scene.sun = {(*sky)->to_sun(), glm::vec3(1.0f)};
-  scene.sky.picture = light::sky_picture(**sky, {}, 512);
-  scene.sky.file = "bench";
-  auto renderer = render::Renderer::create(scene, {}, light::sun_and_sky);
-  if (!renderer) return renderer.errors();
-  shading::SkyLight expected_sky = (*renderer)->sky();
-  expected_sky.heading += glm::radians(turned_deg);
-
-  const gl::Texture target = gl::texture_2d(GL_RGBA32F, size, size);
-  gl::Texture depth = gl::texture_2d(GL_DEPTH_COMPONENT32F, size, size);
-  const gl::Framebuffer framebuffer = gl::Framebuffer::create();
-  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
-  glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
-  double maximum = 0.0;
-  for (int face = 0; face < 6; ++face) {
-    glm::vec3 ahead(0.0f);
-    ahead[face / 2] = face % 2 ? 1.0f : -1.0f;
-    Camera camera;
-    camera.world_from_camera =
-        look_at(glm::vec3(0.0f), ahead, face / 2 == 2 ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
-    camera.vertical_fov = 1.5707963f;
-    (*renderer)->begin_frame(scene, camera);
-    render::View view = render::camera_view(camera, framebuffer.name(), size, size);
-    view.kind = render::ViewKind::cube_face;
-    (*renderer)->draw_view(view);
-    std::vector<glm::vec4> drawn(std::size_t(size) * size);
-    glGetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(drawn.size() * sizeof(glm::vec4)),
-                      drawn.data());
-    std::vector<glm::vec3> expected(drawn.size());
-    double mean = 0.0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const glm::vec2 at(float(x) + 0.5f, float(size - y) - 0.5f);
-        glm::vec3& value = expected[std::size_t(y * size + x)];
-        value = shading::sky_radiance(expected_sky, reference::camera_ray(camera, size, size, at).direction,
-                                      0.0f);
-        mean += double(value.y) / double(size * size);
-      }
-    for (std::size_t i = 0; i < drawn.size(); ++i)
-      for (int c = 0; c < 3; ++c)
-        maximum = worse(maximum, std::abs(double(drawn[i][c]) - double(expected[i][c])) /
-                                     std::max({double(expected[i][c]), mean, 1e-12}));
-  }
-  return maximum;
-}
-
 Status measure_gpu(const BenchSetup& setup, Report& report) {
   double maximum = 0.0, of_models = 0.0;
   for (const double elevation :
        setup.is_quick ? std::vector{-3.0, 10.0} : std::vector{-4.0, -1.0, 0.0, 2.0, 10.0, 40.0, 90.0}) {
-    const Result<double> drawn = drawn_sky_error(elevation, 0.0f);
+    const Result<double> drawn = light::drawn_sky_error(elevation, 0.0f);
     if (!drawn) return drawn.errors();
     maximum = worse(maximum, *drawn);
     const Result<light::SkyGpuCheck> models = light::check_sky_on_gpu(light::Air{3.0}, elevation);
     if (!models) return models.errors();
     of_models = worse(of_models, models->max_relative_error);
   }
-  const Result<double> turned = drawn_sky_error(10.0, 1.0f);
+  const Result<double> turned = light::drawn_sky_error(10.0, 1.0f);
   if (!turned) return turned.errors();
   report.add("sky_gpu_cpu_relative", maximum, up_to(1e-3));
   report.add("sky_gpu_cpu_relative_turned_by_a_degree", *turned);

@@ -1,0 +1,72 @@
+#include "graphics/light/drawn_sky_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "graphics/light/day_light.h"
+#include "graphics/light/sky_model.h"
+#include "graphics/light/sun_and_sky.h"
+#include "graphics/reference/camera_ray.h"
+#include "graphics/render/renderer.h"
+
+namespace parvis::light {
+
+Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
+  constexpr int size = 128;
+  const auto sky = make_sky(SkyKind::atmosphere, Air{3.0},
+                            SolarPosition{.azimuth_deg = 180.0,
+                                          .zenith_deg = 90.0 - elevation_deg,
+                                          .geometric_elevation_deg = elevation_deg});
+  if (!sky) return sky.errors();
+  scene::Scene scene;
+  scene.sun = {(*sky)->to_sun(), glm::vec3(1.0f)};
+  scene.sky.picture = sky_picture(**sky, {}, 512);
+  scene.sky.file = "computed";
+  auto renderer = render::Renderer::create(scene, {}, sun_and_sky);
+  if (!renderer) return renderer.errors();
+  shading::SkyLight expected_sky = (*renderer)->sky();
+  expected_sky.heading += glm::radians(turned_deg);
+
+  const gl::Texture target = gl::texture_2d(GL_RGBA32F, size, size);
+  gl::Texture depth = gl::texture_2d(GL_DEPTH_COMPONENT32F, size, size);
+  const gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
+  glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  double maximum = 0.0;
+  for (int face = 0; face < 6; ++face) {
+    glm::vec3 ahead(0.0f);
+    ahead[face / 2] = face % 2 ? 1.0f : -1.0f;
+    Camera camera;
+    camera.world_from_camera =
+        look_at(glm::vec3(0.0f), ahead, face / 2 == 2 ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
+    camera.vertical_fov = 1.5707963f;
+    (*renderer)->begin_frame(scene, camera);
+    render::View view = render::camera_view(camera, framebuffer.name(), size, size);
+    view.kind = render::ViewKind::cube_face;
+    (*renderer)->draw_view(view);
+    std::vector<glm::vec4> drawn(std::size_t(size) * size);
+    glGetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(drawn.size() * sizeof(glm::vec4)),
+                      drawn.data());
+    std::vector<glm::vec3> expected(drawn.size());
+    double mean = 0.0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const glm::vec2 at(float(x) + 0.5f, float(size - y) - 0.5f);
+        glm::vec3& value = expected[std::size_t(y * size + x)];
+        value = shading::sky_radiance(expected_sky, reference::camera_ray(camera, size, size, at).direction,
+                                      0.0f);
+        mean += double(value.y) / double(size * size);
+      }
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        const double error = std::abs(double(drawn[i][c]) - double(expected[i][c])) /
+                             std::max({double(expected[i][c]), mean, 1e-12});
+        if (!(error <= maximum)) maximum = error;
+        if (std::isnan(error)) return error;
+      }
+  }
+  return maximum;
+}
+
+}  // namespace parvis::light
