@@ -41,6 +41,8 @@ class ObjectDrawable final : public render::Drawable {
     placed_ = scene.items<PlacedObject>();
     exposure_ = scene.exposure;
     change_ = {}, fixed_ = {};
+    for (std::size_t i = placed_.size(); i < bounds_.size(); ++i)
+      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
     bounds_.resize(placed_.size()), is_newcomer_.assign(placed_.size(), 0);
     for (std::size_t i = 0; i < placed_.size(); ++i) {
       const Bounds all = transformed(placed_[i].world_from_object, placed_[i].model->bounds());
