@@ -78,8 +78,10 @@ int ended_while_writing(int after_us, const fs::path& folder) {
     sigprocmask(SIG_UNBLOCK, &term, nullptr);
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDERR_FILENO);
+    constexpr int count = 4;
     std::vector<std::thread> writers;
-    for (int writer = 0; writer < 4; ++writer)
+    writers.reserve(count);
+    for (int writer = 0; writer < count; ++writer)
       writers.emplace_back([&] {
         for (;;) {
           const Result<PartialFolder> inner = PartialFolder::create(folder);

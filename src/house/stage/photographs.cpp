@@ -23,6 +23,7 @@ constexpr int points_across = 48;  // of the grid of points that a COLMAP model 
 std::vector<fs::path> files_of(const fs::path& file, const PhotographJob& job) {
   if (job.cameras.size() == 1) return {file};
   std::vector<std::string> names;
+  names.reserve(job.cameras.size());
   for (const scene::NamedCamera& camera : job.cameras) names.push_back(camera.name);
   return series_files(file, '_', names);
 }
