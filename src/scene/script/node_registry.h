@@ -56,6 +56,11 @@ class NodeRegistry {
   void add_finish_step(FinishStep step) { finish_steps_.push_back(std::move(step)); }
   /// In the order in which they run.
   const std::vector<FinishStep>& finish_steps() const { return finish_steps_; }
+  /// Adds a step that runs whenever a node of the loaded scene has been rebuilt: builder.scene holds only the
+  /// objects and cameras that the node has just made.
+  void add_rebuild_step(FinishStep step) { rebuild_steps_.push_back(std::move(step)); }
+  /// In the order in which they run.
+  const std::vector<FinishStep>& rebuild_steps() const { return rebuild_steps_; }
 
   const NodeType* find(const std::string& type) const;  ///< null if there is no such type
   /// All types in the order in which they were added: related types stand together.
@@ -66,7 +71,7 @@ class NodeRegistry {
 
  private:
   std::deque<NodeType> types_;
-  std::vector<FinishStep> finish_steps_;
+  std::vector<FinishStep> finish_steps_, rebuild_steps_;
 };
 
 }  // namespace parvis::scene

@@ -67,6 +67,13 @@ void SceneBuilder::build_again(const Node& node, const std::unordered_map<const 
   known_frames_ = &frames;
   frame_ = frames.at(&node);
   build_one(node);
+  for (const FinishStep& step : registry_.rebuild_steps()) step(*this);
+}
+
+/// The number of the node that made an object; -1 where no node did.
+int SceneBuilder::maker_number(std::size_t object) const {
+  const Node* maker = object < object_makers_.size() ? object_makers_[object] : nullptr;
+  return maker ? frames_.at(maker).number : -1;
 }
 
 std::vector<int> SceneBuilder::objects_of(const std::string& name) const {

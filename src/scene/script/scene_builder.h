@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -64,12 +65,24 @@ class SceneBuilder {
   void add(T item) {
     scene.data<ItemsOf<T>>().add(std::move(item), node_number_);
   }
+  /// Adds items in their order, as `add` does one; the time is that of all items of the type.
+  template <SceneItem T>
+  void add_all(std::vector<T> items) {
+    add_made_by(node_number_, std::move(items));
+  }
+  /// As `add_all`, of items that belong to the object at this index of the scene: recorded with the node that
+  /// made the object, they are replaced with it. For finish and rebuild steps.
+  template <SceneItem T>
+  void add_all_for(std::size_t object, std::vector<T> items) {
+    add_made_by(maker_number(object), std::move(items));
+  }
 
   /// Builds nodes inside the current frame; hidden ones are built, too.
   void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
              bool is_visible = true);
-  /// Rebuilds one node in its former frame; types that are laid out once are skipped. `frames` holds the
-  /// frame of each node, for those inside it.
+  /// Rebuilds one node in its former frame and runs the rebuild steps; types that are laid out once are
+  /// skipped. `frames` holds the frame of each node, for those inside it. The scene must hold no other
+  /// objects and cameras.
   void build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames);
 
   /// Applies a node that stands inside a `model` to that model.
@@ -109,6 +122,14 @@ class SceneBuilder {
 
  private:
   void build_one(const Node& node);
+  int maker_number(std::size_t object) const;
+  template <SceneItem T>
+  void add_made_by(int maker, std::vector<T> items) {
+    ItemsOf<T>& all = scene.data<ItemsOf<T>>();
+    ItemsOf<T> later = all.take({maker + 1, std::numeric_limits<int>::max()});
+    for (T& item : items) all.add(std::move(item), maker);
+    for (std::size_t i = 0; i < later.items.size(); ++i) all.add(std::move(later.items[i]), later.makers[i]);
+  }
 
   const NodeRegistry& registry_;
   NodeFrame frame_;

@@ -39,6 +39,25 @@ struct WaterNeed {
   void hash(ContentHash& hash) const { hash.add(metres_of_jets); }
 };
 
+/// An item: the pavement around a fountain's basin, of as many slabs as were laid before.
+struct Slab {
+  static constexpr std::string_view name = "test.slab";
+  static constexpr DataRole role = DataRole::static_content;
+  float x;
+  int number;
+
+  void hash(ContentHash& hash) const { hash.add(x), hash.add(number); }
+};
+
+/// A step for all basins of the builder's scene.
+void pave(SceneBuilder& builder) {
+  for (std::size_t i = 0; i < builder.scene.objects.size(); ++i) {
+    const float x = builder.scene.objects[i].world_from_model[3].x;
+    builder.add_all_for(i, std::vector<Slab>{{x, 0}, {x, 1}});
+    if (x > 1000.0f) builder.fail(error("no pavement there"));
+  }
+}
+
 NodeSchema jet_schema() {
   return {.type = "jet",
           .help = "One jet.",
@@ -81,6 +100,8 @@ void furnish(House& house) {
       builder.scene.data<WaterNeed>().metres_of_jets += jet.height_m;
     if (builder.scene.data<WaterNeed>().metres_of_jets > 100.0f) builder.fail(error("not so much water"));
   });
+  registry.add_finish_step(pave);
+  registry.add_rebuild_step(pave);
 }
 
 class SceneBuilderTest : public testing::Test {
@@ -130,6 +151,25 @@ TEST_F(SceneBuilderTest, AChangeReplacesExactlyWhatTheNodeMade) {
   EXPECT_EQ(scene_.items<Jet>()[0].foot, glm::vec3(1, 0, 0));
   ASSERT_EQ(scene_.objects.size(), 3u);
   EXPECT_EQ(scene_.objects[1].world_from_model[3].x, 20.0f);
+}
+
+TEST_F(SceneBuilderTest, WhatAStepGaveToAnObjectIsReplacedWithIt) {
+  load(three);
+  const auto places = [&] {
+    std::vector<float> xs;
+    for (std::size_t i = 0; i < scene_.items<Slab>().size(); ++i) {
+      EXPECT_EQ(scene_.items<Slab>()[i].number, int(i % 2));
+      xs.push_back(scene_.items<Slab>()[i].x);
+    }
+    return xs;
+  };
+  EXPECT_EQ(places(), (std::vector{1.0f, 1.0f, 10.0f, 10.0f, 0.0f, 0.0f}));
+  live_.set(*live_.find("g"), "position", glm::vec3(20, 0, 0));
+  EXPECT_TRUE(live_.refresh(scene_).empty());
+  EXPECT_EQ(places(), (std::vector{1.0f, 1.0f, 20.0f, 20.0f, 0.0f, 0.0f}));
+  live_.set(*live_.find("a"), "position", glm::vec3(2000, 0, 0));
+  EXPECT_EQ(live_.refresh(scene_).size(), 1u);
+  EXPECT_EQ(places(), (std::vector{1.0f, 1.0f, 20.0f, 20.0f, 0.0f, 0.0f})) << "a step that fails";
 }
 
 TEST_F(SceneBuilderTest, AChangedPartBuildsTheNodeAroundItAgain) {
