@@ -189,6 +189,59 @@ TEST_F(Kerbside, TreesOfAMapStayTakenWhereAScenarioPaintsTheMap) {
   EXPECT_EQ(vegetation::scene_plants(scene).size(), 1u);
 }
 
+/// Where its visible plants stand.
+std::vector<glm::vec2> seen_plants(const scene::Scene& scene) {
+  std::vector<glm::vec2> places;
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene))
+    if (plant.is_visible) places.emplace_back(plant.world_from_plant[3]);
+  return places;
+}
+
+TEST_F(Kerbside, TreesOfAMapFollowTheMap) {
+  folder_.write("map.osm", map_of_a_tree);
+  folder_.write("other.osm",
+                R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
+    <node id="1" version="1" lat="48.0005" lon="11.0007"><tag k="natural" v="tree"/></node>
+    <node id="2" version="1" lat="48.0003" lon="11.0016"><tag k="natural" v="tree"/></node></osm>)");
+  folder_.write("scene.xp",
+                std::string(streets) +
+                    "model(name=\"map\", file=\"map.osm\", visible=0)\n"
+                    "group(name=\"trees\") { grownTrees(of=\"map*\") }\n"
+                    "scenario(name=\"other\") { override(of=\"map\", file=\"other.osm\", visible=1) }\n"
+                    "scenario(name=\"more\") { model(name=\"map of it\", file=\"other.osm\") }\n");
+  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene scene = std::move(loaded->scene);
+  scene::LiveScene live(std::move(loaded->script));
+  ASSERT_TRUE(live.prepare_scenarios(scene));
+  const auto set = [&](const char* node, const char* attribute, scene::AttributeValue value) {
+    live.set(*live.find(node), attribute, std::move(value));
+    EXPECT_TRUE(live.refresh(scene).empty());
+    for (const scene::Object& object : called(scene, "map")) EXPECT_EQ(map_trees_in(object), 0);
+    return seen_plants(scene);
+  };
+  const auto choose = [&](const char* scenario) {
+    EXPECT_TRUE(live.choose(scene, scenario));
+    for (const scene::Object& object : called(scene, "map")) EXPECT_EQ(map_trees_in(object), 0);
+    return seen_plants(scene).size();
+  };
+  EXPECT_TRUE(seen_plants(scene).empty()) << "hidden with the map";
+  EXPECT_TRUE(set("trees", "visible", false).empty());
+  const std::vector<glm::vec2> shown = set("map", "visible", true);
+  ASSERT_EQ(shown.size(), 1u);
+  const std::vector<glm::vec2> moved = set("map", "position", glm::vec3(5, 7, 0));
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_NEAR(glm::distance(moved[0], shown[0] + glm::vec2(5, 7)), 0.0f, 1e-3f);
+  EXPECT_TRUE(set("map", "visible", false).empty());
+  EXPECT_EQ(set("map", "position", glm::vec3(0)).size(), 0u);
+  EXPECT_EQ(choose("other"), 2u) << "of the other file, and none of the first";
+  EXPECT_EQ(choose("more"), 2u);
+  EXPECT_EQ(choose("base"), 0u);
+  const std::size_t objects = scene.objects.size();
+  EXPECT_EQ(choose("other"), 2u);
+  EXPECT_EQ(scene.objects.size(), objects) << "objects find their places again";
+}
+
 TEST_F(Kerbside, FlatTreesOfAMapGrowToTheLeastHeight) {
   folder_.write("flat.obj", "o tree\nv 20 0 20\nv 21 0 20\nv 20 0 21\nf 1 2 3\n");
   const scene::Scene scene =

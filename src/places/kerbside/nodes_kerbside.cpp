@@ -184,18 +184,20 @@ std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, scene::Scen
 void plant_series(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
   constexpr int shapes = 3;
   Random random(planned.series.seed, 300);
+  std::vector<vegetation::ScenePlant> plants;
+  const std::size_t before = vegetation::scene_plants(builder.scene).size();
   for (const KerbPlace& place : take_kerb_places(builder.scene.roads, planned.series, ground)) {
     vegetation::PlantRecipe recipe = planned.plant;
     recipe.seed += std::uint64_t(random.index(shapes));
     auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
     if (!shape) return builder.fail(shape.errors(), planned.where_of);
-    if (vegetation::scene_plants(builder.scene).size() >= max_objects)
+    if (before + plants.size() >= max_objects)
       return builder.fail(
           error_at(planned.where_of, "more than {} plants: give a wider spacing", max_objects));
-    builder.add(vegetation::ScenePlant{*std::move(shape),
-                                       glm::rotate(glm::translate(glm::mat4(1.0f), place.foot),
-                                                   random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f})});
+    plants.push_back({*std::move(shape), glm::rotate(glm::translate(glm::mat4(1.0f), place.foot),
+                                                     random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f})});
   }
+  builder.add_all(std::move(plants));
 }
 
 void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
@@ -253,6 +255,7 @@ void furnish(House& house) {
   registry.add(street_furniture_schema(), build_street_furniture);
   add_map_tree_nodes(registry);
   registry.add_finish_step(plant_map_trees);  // first: what grows there takes its place
+  registry.add_rebuild_step(plant_rebuilt_map_trees);
   registry.add_finish_step(finish);
 }
 

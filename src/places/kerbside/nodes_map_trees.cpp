@@ -11,9 +11,9 @@
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/map_trees.h"
-#include "scene/data/model_change.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
+#include "scene/data/object_animation.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -26,6 +26,12 @@ using namespace scene::attribute;
 constexpr float height_step_m = 2.0f;  // plants within one step share their shape, scaled
 constexpr int shapes = 2;              // of each kind and height
 
+/// A model without its trees, and these. Null: it has none.
+struct TakenTrees {
+  std::shared_ptr<const scene::Model> model;
+  std::vector<MapTree> trees;
+};
+
 /// Trees that a script asks for.
 struct PlannedTrees {
   static constexpr std::string_view name = "kerbside.planned_map_trees";
@@ -33,6 +39,8 @@ struct PlannedTrees {
   std::string of, target, kind;
   std::uint64_t seed = 1;
   FileLocation where_of, where_target;
+  /// By original, while somebody holds it: equal objects share what is left, also when they are rebuilt.
+  std::map<std::weak_ptr<const scene::Model>, TakenTrees, std::owner_less<>> taken = {};
 
   /// What follows from the script is in the plants.
   void hash(ContentHash& hash) const { hash.add_text(of), hash.add_text(target), hash.add_text(kind); }
@@ -64,65 +72,64 @@ void build_grown_trees(const scene::Node& node, scene::SceneBuilder& builder) {
                            .where_target = node.where_of("target")});
 }
 
-/// False where the scene has failed.
-bool plant_tree(const PlannedTrees& planned, const MapTree& tree, const glm::mat4& world_from_model,
-                bool is_visible, Random& random, scene::SceneBuilder& builder) {
-  vegetation::PlantRecipe recipe;
-  recipe.kind = vegetation::find_kind(plant_kind_of(tree.name, planned.kind));
-  const float height_m = std::max(tree.height_m, recipe.kind->min_height_m);  // flat trees have none
-  recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
-                               recipe.kind->min_height_m, recipe.kind->max_height_m);
-  recipe.seed = planned.seed + std::uint64_t(random.index(shapes));
-  auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
-  if (!shape) return builder.fail(shape.errors(), planned.where_of), false;
-  const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),
-                                       random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f});
-  builder.add(vegetation::ScenePlant{*std::move(shape),
-                                     glm::scale(placed, glm::vec3(height_m / recipe.height_m)), is_visible});
-  return true;
+const TakenTrees& taken_from(const std::shared_ptr<const scene::Model>& original, PlannedTrees& planned) {
+  std::erase_if(planned.taken, [](const auto& each) { return each.first.expired(); });
+  const auto [known, is_new] = planned.taken.try_emplace(original);
+  TakenTrees& taken = known->second;
+  if (!is_new || scene::matching_parts(*original, planned.target).empty()) return taken;
+  scene::Model model = *original;
+  taken.trees = take_trees(model, planned.target);
+  taken.model = std::make_shared<const scene::Model>(std::move(model));
+  return taken;
 }
 
-/// A model without its trees, and these; the model itself where it has none.
-struct TakenTrees {
-  std::shared_ptr<const scene::Model> model;
-  std::vector<MapTree> trees;
-};
+void replace_model(scene::Object& object, const std::shared_ptr<const scene::Model>& model) {
+  object.model = model;
+  object.deformed_meshes.clear();  // they are one for each part of the former model
+  if (object.played.animation != scene::no_index) scene::play(object, object.played);
+}
 
-TakenTrees taken_from(const std::shared_ptr<const scene::Model>& original, const std::string& target) {
-  if (scene::matching_parts(*original, target).empty()) return {original, {}};
-  scene::Model model = *original;
-  std::vector<MapTree> trees = take_trees(model, target);
-  return {std::make_shared<const scene::Model>(std::move(model)), std::move(trees)};
+/// Adds a plant in place of each tree of an object; none where the scene has failed.
+void plant_trees(const PlannedTrees& planned, const std::vector<MapTree>& trees, std::size_t object,
+                 scene::SceneBuilder& builder) {
+  const glm::mat4& world_from_model = builder.scene.objects[object].world_from_model;
+  Random random(planned.seed, 301);
+  std::vector<vegetation::ScenePlant> plants;
+  for (const MapTree& tree : trees) {
+    vegetation::PlantRecipe recipe;
+    recipe.kind = vegetation::find_kind(plant_kind_of(tree.name, planned.kind));
+    const float height_m = std::max(tree.height_m, recipe.kind->min_height_m);  // flat trees have none
+    recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
+                                 recipe.kind->min_height_m, recipe.kind->max_height_m);
+    recipe.seed = planned.seed + std::uint64_t(random.index(shapes));
+    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
+    if (!shape) return builder.fail(shape.errors(), planned.where_of);
+    const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),
+                                         random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f});
+    plants.push_back({*std::move(shape), glm::scale(placed, glm::vec3(height_m / recipe.height_m)),
+                      builder.scene.objects[object].is_visible});
+  }
+  builder.add_all_for(object, std::move(plants));
 }
 
 /// Takes the trees of all objects that are named and plants them. Returns how many there were.
-std::size_t replace(const PlannedTrees& planned, scene::SceneBuilder& builder) {
-  scene::ModelChange change{.of = planned.of, .change = [target = planned.target](const auto& original) {
-                              return taken_from(original, target).model;
-                            }};
-  std::map<std::shared_ptr<const scene::Model>, std::vector<MapTree>> trees_of;
+std::size_t replace(PlannedTrees& planned, scene::SceneBuilder& builder) {
   std::size_t count = 0;
-  for (scene::Object& object : builder.scene.objects) {
+  for (std::size_t i = 0; i < builder.scene.objects.size(); ++i) {
+    scene::Object& object = builder.scene.objects[i];
     if (!scene::matches(planned.of, object.name)) continue;
-    const auto [known, is_new] = trees_of.try_emplace(object.model);
-    if (is_new) {
-      TakenTrees taken = taken_from(object.model, planned.target);
-      change.changed[object.model] = std::move(taken.model), known->second = std::move(taken.trees);
-    }
-    const std::vector<MapTree>& trees = known->second;
-    count += trees.size();
+    const TakenTrees& taken = taken_from(object.model, planned);
+    if (!taken.model) continue;
+    count += taken.trees.size();
     if (count > max_map_trees) {
       builder.fail(error_at(planned.where_target, "more than {} trees match \"{}\"; name fewer of them",
                             max_map_trees, planned.target));
       return count;
     }
-    scene::apply(change, object);
-    Random random(planned.seed, 301);
-    for (const MapTree& tree : trees)
-      if (!plant_tree(planned, tree, object.world_from_model, object.is_visible, random, builder))
-        return count;
+    replace_model(object, taken.model);
+    plant_trees(planned, taken.trees, i, builder);
+    if (!builder.errors().empty()) return count;
   }
-  builder.add(std::move(change));
   return count;
 }
 
@@ -133,7 +140,9 @@ void add_map_tree_nodes(scene::NodeRegistry& registry) {
 }
 
 void plant_map_trees(scene::SceneBuilder& builder) {
-  for (const PlannedTrees& planned : std::vector<PlannedTrees>(builder.scene.items<PlannedTrees>())) {
+  scene::ItemsOf<PlannedTrees>& all = builder.scene.data<scene::ItemsOf<PlannedTrees>>();
+  std::ranges::fill(all.makers, -1);  // they stay when the group that they stand in is rebuilt
+  for (PlannedTrees& planned : all.items) {
     if (!builder.errors().empty()) return;
     const auto first = std::ranges::find_if(builder.scene.objects, [&](const scene::Object& object) {
       return scene::matches(planned.of, object.name);
@@ -145,6 +154,11 @@ void plant_map_trees(scene::SceneBuilder& builder) {
       builder.warn(error_at(planned.where_target, "nothing that matches \"{}\" is a tree; the model has {}",
                             planned.target, scene::part_names(*first->model)));
   }
+}
+
+void plant_rebuilt_map_trees(scene::SceneBuilder& builder) {
+  for (PlannedTrees& planned : builder.scene.data<scene::ItemsOf<PlannedTrees>>().items)
+    if (builder.errors().empty()) replace(planned, builder);
 }
 
 }  // namespace parvis::kerbside

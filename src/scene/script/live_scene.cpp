@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/progress.h"
-#include "scene/data/model_change.h"
 #include "scene/script/spelling.h"
 
 namespace parvis::scene {
@@ -285,7 +284,6 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
     return errors;
   }
   for (auto& [inside, frame] : built.frames) script_.frames[inside] = frame;
-  for (Object& object : built_objects) apply_model_changes(scene, object);
   put_objects(scene, std::move(built_objects), built.object_makers, node);
   put_cameras(scene, built_cameras, built.camera_makers);
   return {};
