@@ -283,6 +283,27 @@ TEST_F(Kerbside, PiecesOfATreeOfAMapAreOneTree) {
             2);
 }
 
+TEST_F(Kerbside, TreesThatStandCloseAreTreesOfTheirOwn) {
+  const auto planted = [&](const std::string& nodes) {
+    folder_.write("close.osm",
+                  "<osm version=\"0.6\"><bounds minlat=\"48\" minlon=\"11\" maxlat=\"48.001\" "
+                  "maxlon=\"11.002\"/>" +
+                      nodes + "</osm>");
+    return vegetation::scene_plants(load("model(name=\"map\", file=\"close.osm\")\ngrownTrees(of=\"map\")\n"))
+        .size();
+  };
+  const auto tree = [](int id, double east_m, double height_m) {
+    return fmt::format(
+        "<node id=\"{}\" version=\"1\" lat=\"48.0005\" lon=\"{:.8f}\"><tag k=\"natural\" v=\"tree\"/>"
+        "<tag k=\"height\" v=\"{}\"/></node>",
+        id, 11.0003 + east_m / 74'600.0, height_m);
+  };
+  std::string dense;
+  for (int i = 0; i < 100; ++i) dense += tree(i + 1, i, 7 + i % 5);
+  EXPECT_EQ(planted(dense), 100u) << "1 m apart";
+  EXPECT_EQ(planted(tree(1, 0, 60) + tree(2, 7, 5)), 2u) << "a small tree beside a large one";
+}
+
 TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
   const scene::Scene scene = load("streetTrees(spacing=10)\n");
   const std::vector<scene::Object> trees = called(scene, "street tree");

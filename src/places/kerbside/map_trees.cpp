@@ -31,6 +31,7 @@ struct Piece {
   std::size_t part;  ///< of the model
 
   glm::vec2 middle() const { return glm::vec2(bounds.centre()); }
+  float width_m() const { return std::max(bounds.size().x, bounds.size().y); }
 };
 
 bool overlap_in_plan(const Bounds& a, const Bounds& b) {
@@ -38,10 +39,16 @@ bool overlap_in_plan(const Bounds& a, const Bounds& b) {
          glm::all(glm::lessThanEqual(glm::vec2(b.min), glm::vec2(a.max)));
 }
 
-/// Crowns of neighbours overlap, too, but the middles of trees are farther apart.
-bool share_an_axis(const Piece& a, const Piece& b) {
-  const glm::vec2 wider = glm::max(glm::vec2(a.bounds.size()), glm::vec2(b.bounds.size()));
-  return glm::all(glm::lessThanEqual(glm::abs(a.middle() - b.middle()), 0.25f * wider));
+bool is_trunk_of(const Piece& low, const Piece& high) { return low.width_m() <= 0.5f * high.width_m(); }
+
+/// Crowns of neighbours overlap, too, but the middles of trees are farther apart. The crown of a leaning
+/// trunk stands aside, and begins above the trunk's foot, as no other tree does.
+bool share_an_axis(const Piece& low, const Piece& high) {
+  const bool is_crown =
+      is_trunk_of(low, high) && high.bounds.min.z > low.bounds.min.z + 0.25f * low.bounds.size().z;
+  const glm::vec2 wider = glm::max(glm::vec2(low.bounds.size()), glm::vec2(high.bounds.size()));
+  return glm::all(
+      glm::lessThanEqual(glm::abs(low.middle() - high.middle()), (is_crown ? 0.25f : 0.05f) * wider));
 }
 
 /// Calls use(i, j) for pieces of one name that overlap in plan; i stands lower. `pieces` begin ever farther
