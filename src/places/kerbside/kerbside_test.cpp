@@ -283,6 +283,16 @@ TEST_F(Kerbside, PiecesOfATreeOfAMapAreOneTree) {
             2);
 }
 
+TEST_F(Kerbside, TreesOnATerraceDoNotHangAboveThoseBelow) {
+  int points = 0;
+  std::string map = "o tree\n" + spindle({20, 20}, 2.0f, 0.0f, 6.0f, points);
+  map += spindle({22.5f, 20}, 2.5f, 4.0f, 12.0f, points);
+  folder_.write("terrace.obj", map);
+  const scene::Scene scene =
+      load("model(name=\"map\", file=\"terrace.obj\")\ngrownTrees(of=\"map\", target=\"*\")\n");
+  EXPECT_EQ(vegetation::scene_plants(scene).size(), 2u);
+}
+
 TEST_F(Kerbside, TreesThatStandCloseAreTreesOfTheirOwn) {
   const auto planted = [&](const std::string& nodes) {
     folder_.write("close.osm",

@@ -84,7 +84,9 @@ DisjointSets trees_of(const scene::Model& model, const std::vector<Piece>& piece
   std::vector<bool> stands(pieces.size(), false);  // about the axis of something lower
   each_overlap(model, pieces, [&](std::size_t low, std::size_t high) {
     if (share_an_axis(pieces[low], pieces[high])) trees.join(high, low), stands[high] = true;
-    if (pieces[high].bounds.min.z < pieces[low].bounds.centre().z) return;
+    if (!is_trunk_of(pieces[low], pieces[high]) ||  // but a tree at the foot of a terrace
+        pieces[high].bounds.min.z < pieces[low].bounds.centre().z)
+      return;
     const auto away = [&](std::size_t i) { return glm::distance(pieces[i].middle(), pieces[high].middle()); };
     if (below[high] == high || away(low) < away(below[high])) below[high] = low;
   });

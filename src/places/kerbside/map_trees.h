@@ -22,7 +22,7 @@ inline constexpr std::size_t max_map_trees = 50'000;
 
 /// Takes the trees out of the parts that match the pattern `target`. Triangles that share corners are one
 /// piece. Pieces of one name are one tree where they stand about one axis, as a trunk and its crown or
-/// crossed pictures do, or where one hangs above the other: it belongs to the nearest below it. More pieces
+/// crossed pictures do, or where one hangs above a trunk: it belongs to the nearest below it. More pieces
 /// than `max_map_trees` are not joined: each is returned as a tree.
 std::vector<MapTree> take_trees(scene::Model& model, std::string_view target);
 
