@@ -7,6 +7,7 @@
 #include "base/test_folder.h"
 #include "house/rooms.h"
 #include "life/vegetation/scene_plant.h"
+#include "places/kerbside/map_trees.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/scene_loader.h"
 
@@ -291,6 +292,36 @@ TEST_F(Kerbside, TreesOnATerraceDoNotHangAboveThoseBelow) {
   const scene::Scene scene =
       load("model(name=\"map\", file=\"terrace.obj\")\ngrownTrees(of=\"map\", target=\"*\")\n");
   EXPECT_EQ(vegetation::scene_plants(scene).size(), 2u);
+}
+
+/// The faces of tetrahedra whose feet stand about these places.
+scene::Model needles(const std::vector<glm::vec2>& places, float radius) {
+  scene::Model model;
+  model.materials.emplace_back();
+  Mesh& mesh = model.parts.emplace_back().mesh;
+  for (const glm::vec2 at : places) {
+    const std::uint32_t first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{at.x - radius, at.y - radius, 0},
+                                                 {at.x + radius, at.y - radius, 0},
+                                                 {at.x, at.y + radius, 0},
+                                                 {at, 5.0f}});
+    for (const std::uint32_t k : {0, 1, 3, 1, 2, 3, 2, 0, 3}) mesh.indices.push_back(first + k);
+  }
+  return model;
+}
+
+TEST_F(Kerbside, TreesOfAForestAreCountedAndMoreThanCanBeComparedAreRefused) {
+  std::vector<glm::vec2> column, heap;
+  for (int i = 0; i < 60000; ++i) column.emplace_back(0.0f, 2.0f * float(i));
+  for (int i = 0; i < 20000; ++i) heap.emplace_back(0.1f * float(i % 100), 0.1f * float(i / 100));
+  scene::Model forest = needles(column, 0.9f), bush = needles(heap, 50.0f);
+  const Result<std::vector<MapTree>> trees = take_trees(forest, "*");
+  ASSERT_TRUE(trees) << to_string(trees.errors());
+  EXPECT_EQ(trees->size(), column.size());
+  const Result<std::vector<MapTree>> none = take_trees(bush, "*");
+  ASSERT_FALSE(none);
+  EXPECT_NE(to_string(none.errors()).find("20000 pieces"), std::string::npos) << to_string(none.errors());
+  EXPECT_EQ(to_string(none.errors()).find("50000"), std::string::npos) << to_string(none.errors());
 }
 
 TEST_F(Kerbside, TreesThatStandCloseAreTreesOfTheirOwn) {

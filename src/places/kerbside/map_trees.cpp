@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "base/bounds.h"
 #include "base/disjoint_sets.h"
@@ -51,16 +54,67 @@ bool share_an_axis(const Piece& low, const Piece& high) {
       glm::lessThanEqual(glm::abs(low.middle() - high.middle()), (is_crown ? 0.25f : 0.05f) * wider));
 }
 
-/// Calls use(i, j) for pieces of one name that overlap in plan; i stands lower. `pieces` begin ever farther
-/// along x.
+/// Pieces of each name by cells of the plan, of a size for each octave of their widths: what overlaps a piece
+/// and is no narrower lies in a cell beside its own, of that size.
+class PiecePlan {
+ public:
+  /// `model` and `pieces` must outlive it.
+  PiecePlan(const scene::Model& model, const std::vector<Piece>& pieces) : pieces_(pieces) {
+    std::map<std::string_view, int> names;
+    for (const Piece& piece : pieces)
+      names_.push_back(names.try_emplace(model.parts[piece.part].object, int(names.size())).first->second);
+  }
+
+  void add(std::size_t i) { cells_[names_[i]][octave(i)][cell_of(i, octave(i))].push_back(i); }
+
+  /// Calls use(j) for the pieces that were added, of the same name and no narrower, that may overlap piece i.
+  template <class Use>
+  void each_near(std::size_t i, const Use& use) const {
+    const auto named = cells_.find(names_[i]);
+    if (named == cells_.end()) return;
+    for (const auto& [octave, cells] : named->second)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+          const std::pair<double, double> middle = cell_of(i, octave);
+          const auto cell = cells.find({middle.first + x, middle.second + y});
+          if (cell == cells.end()) continue;
+          for (const std::size_t j : cell->second) use(j);
+        }
+  }
+
+ private:
+  using Cells = std::map<std::pair<double, double>, std::vector<std::size_t>>;
+
+  int octave(std::size_t i) const { return int(std::ceil(std::log2(std::max(pieces_[i].width_m(), 1.0f)))); }
+  std::pair<double, double> cell_of(std::size_t i, int octave) const {
+    const glm::dvec2 cell = glm::floor(glm::dvec2(pieces_[i].middle()) / std::exp2(double(octave)));
+    return {cell.x, cell.y};
+  }
+
+  const std::vector<Piece>& pieces_;
+  std::vector<int> names_;
+  std::map<int, std::map<int, Cells>> cells_;  // by name and octave
+};
+
+/// Calls use(i, j) for pieces of one name that overlap in plan; i stands lower. False where more pairs stand
+/// so close than can be looked at.
 template <class Use>
-void each_overlap(const scene::Model& model, const std::vector<Piece>& pieces, const Use& use) {
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (std::size_t j = i + 1; j < pieces.size() && pieces[j].bounds.min.x <= pieces[i].bounds.max.x; ++j) {
-      if (!overlap_in_plan(pieces[i].bounds, pieces[j].bounds)) continue;
-      if (model.parts[pieces[i].part].object != model.parts[pieces[j].part].object) continue;
+bool each_overlap(const scene::Model& model, const std::vector<Piece>& pieces, const Use& use) {
+  std::vector<std::size_t> widest_first(pieces.size());
+  std::iota(widest_first.begin(), widest_first.end(), std::size_t(0));
+  std::ranges::stable_sort(widest_first, std::greater<>(),
+                           [&](std::size_t i) { return pieces[i].width_m(); });
+  PiecePlan plan(model, pieces);
+  std::size_t pairs = 0;
+  for (const std::size_t i : widest_first) {
+    plan.each_near(i, [&](std::size_t j) {
+      if (++pairs > max_tree_pairs || !overlap_in_plan(pieces[i].bounds, pieces[j].bounds)) return;
       pieces[i].bounds.min.z <= pieces[j].bounds.min.z ? use(i, j) : use(j, i);
-    }
+    });
+    if (pairs > max_tree_pairs) return false;
+    plan.add(i);
+  }
+  return true;
 }
 
 /// One piece for each set of them, in the order of their roots.
@@ -76,13 +130,13 @@ std::vector<Piece> merged(const std::vector<Piece>& pieces, const Root& root) {
   return result;
 }
 
-/// Which pieces are one tree.
-DisjointSets trees_of(const scene::Model& model, const std::vector<Piece>& pieces) {
+/// Which pieces are one tree. Nothing where too many are close to each other.
+std::optional<DisjointSets> trees_of(const scene::Model& model, const std::vector<Piece>& pieces) {
   DisjointSets trees(pieces.size());
   std::vector<std::size_t> below(pieces.size());  // of what hangs: the nearest that it hangs above
   std::iota(below.begin(), below.end(), std::size_t(0));
   std::vector<bool> stands(pieces.size(), false);  // about the axis of something lower
-  each_overlap(model, pieces, [&](std::size_t low, std::size_t high) {
+  const bool is_done = each_overlap(model, pieces, [&](std::size_t low, std::size_t high) {
     if (share_an_axis(pieces[low], pieces[high])) trees.join(high, low), stands[high] = true;
     if (!is_trunk_of(pieces[low], pieces[high]) ||  // but a tree at the foot of a terrace
         pieces[high].bounds.min.z < pieces[low].bounds.centre().z)
@@ -90,6 +144,7 @@ DisjointSets trees_of(const scene::Model& model, const std::vector<Piece>& piece
     const auto away = [&](std::size_t i) { return glm::distance(pieces[i].middle(), pieces[high].middle()); };
     if (below[high] == high || away(low) < away(below[high])) below[high] = low;
   });
+  if (!is_done) return std::nullopt;
   for (std::size_t i = 0; i < pieces.size(); ++i)
     if (!stands[i]) trees.join(i, below[i]);
   return trees;
@@ -97,7 +152,7 @@ DisjointSets trees_of(const scene::Model& model, const std::vector<Piece>& piece
 
 }  // namespace
 
-std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
+Result<std::vector<MapTree>> take_trees(scene::Model& model, std::string_view target) {
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   TrianglesAtCorners joined(same_point_m);
   std::vector<Piece> triangles;
@@ -117,11 +172,18 @@ std::vector<MapTree> take_trees(scene::Model& model, std::string_view target) {
     mesh.indices.clear();
   }
   std::vector<Piece> pieces = merged(triangles, [&](std::size_t triangle) { return joined.root(triangle); });
-  if (pieces.size() <= max_map_trees) {
-    std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.bounds.min.x; });
-    DisjointSets trees = trees_of(model, pieces);
-    pieces = merged(pieces, [&](std::size_t piece) { return trees.root(piece); });
-  }
+  if (pieces.size() > max_tree_pieces)
+    return error(
+        "what matches \"{}\" is {} pieces that do not touch each other; {} is the most of which trees "
+        "are made: name fewer of them",
+        target, pieces.size(), max_tree_pieces);
+  std::optional<DisjointSets> trees = trees_of(model, pieces);
+  if (!trees)
+    return error(
+        "what matches \"{}\" is {} pieces of which more than {} pairs stand close together; trees of a "
+        "map stand beside each other: name fewer of them",
+        target, pieces.size(), max_tree_pairs);
+  pieces = merged(pieces, [&](std::size_t piece) { return trees->root(piece); });
   std::vector<MapTree> result;
   for (const auto& [bounds, part] : pieces)
     result.push_back(

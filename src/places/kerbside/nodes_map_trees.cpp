@@ -72,15 +72,22 @@ void build_grown_trees(const scene::Node& node, scene::SceneBuilder& builder) {
                            .where_target = node.where_of("target")});
 }
 
-const TakenTrees& taken_from(const std::shared_ptr<const scene::Model>& original, PlannedTrees& planned) {
+/// Null: the scene has failed.
+const TakenTrees* taken_from(const std::shared_ptr<const scene::Model>& original, PlannedTrees& planned,
+                             scene::SceneBuilder& builder) {
   std::erase_if(planned.taken, [](const auto& each) { return each.first.expired(); });
   const auto [known, is_new] = planned.taken.try_emplace(original);
   TakenTrees& taken = known->second;
-  if (!is_new || scene::matching_parts(*original, planned.target).empty()) return taken;
+  if (!is_new || scene::matching_parts(*original, planned.target).empty()) return &taken;
   scene::Model model = *original;
-  taken.trees = take_trees(model, planned.target);
-  taken.model = std::make_shared<const scene::Model>(std::move(model));
-  return taken;
+  Result<std::vector<MapTree>> trees = take_trees(model, planned.target);
+  if (!trees) {
+    planned.taken.erase(known);
+    builder.fail(trees.errors(), planned.where_target);
+    return nullptr;
+  }
+  taken = {std::make_shared<const scene::Model>(std::move(model)), *std::move(trees)};
+  return &taken;
 }
 
 void replace_model(scene::Object& object, const std::shared_ptr<const scene::Model>& model) {
@@ -118,16 +125,17 @@ std::size_t replace(PlannedTrees& planned, scene::SceneBuilder& builder) {
   for (std::size_t i = 0; i < builder.scene.objects.size(); ++i) {
     scene::Object& object = builder.scene.objects[i];
     if (!scene::matches(planned.of, object.name)) continue;
-    const TakenTrees& taken = taken_from(object.model, planned);
-    if (!taken.model) continue;
-    count += taken.trees.size();
+    const TakenTrees* taken = taken_from(object.model, planned, builder);
+    if (!taken) return count;
+    if (!taken->model) continue;
+    count += taken->trees.size();
     if (count > max_map_trees) {
       builder.fail(error_at(planned.where_target, "more than {} trees match \"{}\"; name fewer of them",
                             max_map_trees, planned.target));
       return count;
     }
-    replace_model(object, taken.model);
-    plant_trees(planned, taken.trees, i, builder);
+    replace_model(object, taken->model);
+    plant_trees(planned, taken->trees, i, builder);
     if (!builder.errors().empty()) return count;
   }
   return count;
