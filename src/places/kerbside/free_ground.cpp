@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/bounds.h"
+#include "base/cut_polygon.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/cells_under.h"
 #include "scene/data/model_parts.h"
@@ -19,12 +20,18 @@ constexpr float reach_m = 12.0f;  // beside a lane, of what is looked at
 constexpr float cell_m = 0.4f;
 constexpr float low_m = 0.35f, high_m = 3.5f;
 constexpr float min_trunk_m = 0.15f;
-constexpr float steep = 0.8f;  // z of unit normals below which a triangle is a side of something
+constexpr float ground_from_lane_m = 2.5f;  // up and down, at most: what GroundHeights knows
+constexpr float steep = 0.8f;               // z of unit normals below which a triangle is a side of something
 
-scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
+Bounds bounds_of(const scene::RoadGraph& roads) {
   Bounds bounds;
   for (const scene::Lane& lane : roads.lanes)
     for (const vec3& point : lane.points) bounds.add(point);
+  return bounds;
+}
+
+scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
+  const Bounds bounds = bounds_of(roads);
   if (bounds.empty()) return {};
   const vec2 origin = vec2(bounds.min) - reach_m, size = vec2(bounds.size()) + 2.0f * reach_m;
   const glm::ivec2 cells(glm::ceil(size / cell_m));
@@ -40,6 +47,9 @@ std::uint64_t FreeGround::bytes(const scene::RoadGraph& roads) {
 
 FreeGround::FreeGround(const scene::Scene& scene)
     : heights_(scene, reach_m), taken_(grid_of(scene.roads), 0) {
+  const Bounds lanes = bounds_of(scene.roads);
+  lowest_m_ = lanes.min.z - ground_from_lane_m + low_m;
+  highest_m_ = lanes.max.z + ground_from_lane_m + high_m;
   take_lanes(scene.roads);
   take_things(scene);
   take_plants(scene);
@@ -138,7 +148,11 @@ void FreeGround::take_triangle(vec3 a, vec3 b, vec3 c) {
   const vec3 across = glm::cross(b - a, c - a);
   const float area = glm::length(across);
   if (!(area > 0.0f) || std::abs(across.z) > steep * area) return;
-  each_cell_under(taken_, {a, b, c}, [&](glm::ivec2 cell, const Corners& part) {
+  // What slants far may have all cells under it: most are not near the ground.
+  Corners standing = cut(Corners{a, b, c}, [&](const glm::dvec3& p) { return p.z - double(lowest_m_); });
+  standing = cut(standing, [&](const glm::dvec3& p) { return double(highest_m_) - p.z; });
+  if (standing.empty()) return;
+  each_cell_under(taken_, std::move(standing), [&](glm::ivec2 cell, const Corners& part) {
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
     const auto [lowest, highest] = std::ranges::minmax_element(part, {}, &glm::dvec3::z);
     const auto above_ground_m = [&](const glm::dvec3& p) {

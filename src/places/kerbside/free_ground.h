@@ -34,7 +34,8 @@ class FreeGround {
   void mark(glm::vec2 point, float radius_m, unsigned char with);
 
   scene::GroundHeights heights_;
-  scene::Mask taken_;  ///< of each cell: bit 0, a carriageway; bit 1, a thing
+  float lowest_m_ = 0.0f, highest_m_ = 0.0f;  ///< between which something may stand on the ground
+  scene::Mask taken_;                         ///< of each cell: bit 0, a carriageway; bit 1, a thing
 };
 
 }  // namespace parvis::kerbside
