@@ -24,6 +24,7 @@ constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others
 constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
 constexpr float before_wall_m = 0.6f;                 // an opening so near belongs to the wall
 constexpr float hash_cell_m = 6.0f;
+constexpr std::size_t max_panels = 4000;  // of one wall: triangles may cross all of them
 
 /// A connected part of a wall in the file.
 struct Surface {
@@ -167,7 +168,7 @@ void share_out(const Surface& surface, const std::vector<ModelTriangle>& walls, 
   }
 }
 
-/// The wall between two steps of its outline.
+/// The wall between two steps of its outline; the whole wall where it has more steps than any house.
 void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::vector<WallPanel>& panels) {
   const glm::vec3 along = along_of(surface.normal);
   surface.low = 1e30f, surface.high = -1e30f;  // until now along the plane's first surface
@@ -182,23 +183,30 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
     panel.offset_m = glm::dot(panel.normal, walls[surface.triangles.front()].corners[0]);
     panel.low = {place, 1e30f}, panel.high = {surface.high, -1e30f}, panel.eaves_m = 1e30f;
   };
-  begin(surface.low);
   Span before;
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    Span left = spans[2 * i], right = spans[2 * i + 1];
-    if (left.is_empty()) left = right;  // a gap between surfaces
-    if (right.is_empty()) right = left;
-    if (left.is_empty()) continue;
-    const bool is_step = !before.is_empty() && (std::abs(left.high - before.high) > step_m ||
-                                                std::abs(left.low - before.low) > foot_step_m);
-    if (is_step) panels.back().high.x = places[i], begin(places[i]);
-    WallPanel& panel = panels.back();
-    for (const Span& span : {left, right}) {
-      panel.low.y = std::min(panel.low.y, span.low), panel.high.y = std::max(panel.high.y, span.high);
-      panel.eaves_m = std::min(panel.eaves_m, span.high);
+  const auto lay_out = [&](bool has_steps) {
+    panels.erase(panels.begin() + std::ptrdiff_t(first_panel), panels.end());
+    begin(surface.low);
+    before = {};
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      Span left = spans[2 * i], right = spans[2 * i + 1];
+      if (left.is_empty()) left = right;  // a gap between surfaces
+      if (right.is_empty()) right = left;
+      if (left.is_empty()) continue;
+      const bool is_step =
+          has_steps && !before.is_empty() &&
+          (std::abs(left.high - before.high) > step_m || std::abs(left.low - before.low) > foot_step_m);
+      if (is_step) panels.back().high.x = places[i], begin(places[i]);
+      WallPanel& panel = panels.back();
+      for (const Span& span : {left, right}) {
+        panel.low.y = std::min(panel.low.y, span.low), panel.high.y = std::max(panel.high.y, span.high);
+        panel.eaves_m = std::min(panel.eaves_m, span.high);
+      }
+      before = right;
     }
-    before = right;
-  }
+  };
+  lay_out(true);
+  if (panels.size() - first_panel > max_panels) lay_out(false);
   if (before.is_empty()) {  // narrower than what steps are sought with
     WallPanel& panel = panels.back();
     panel.low.y = surface.bottom_m, panel.high.y = panel.eaves_m = surface.top_m;

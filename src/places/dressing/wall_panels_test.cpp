@@ -56,6 +56,18 @@ TEST(WallPanels, AnyNumberOfStepsGivesPanelsWithTheirOwnTriangles) {
   }
 }
 
+TEST(WallPanels, AWallOfMoreStepsThanAnyHouseIsLeftWhole) {
+  constexpr int teeth = 2500;
+  const std::vector<ModelTriangle> walls = triangles_of(battlements(teeth));
+  const std::vector<WallPanel> panels = wall_panels(walls);
+  ASSERT_EQ(panels.size(), 1u);
+  EXPECT_EQ(panels[0].triangles.size(), walls.size()) << "nothing is lost";
+  EXPECT_NEAR(panels[0].high.x - panels[0].low.x, 4.0f * float(teeth), 0.01f);
+  EXPECT_EQ(panels[0].low.y, 0.0f);
+  EXPECT_EQ(panels[0].high.y, 6.0f);
+  EXPECT_EQ(panels[0].eaves_m, 5.0f);
+}
+
 TEST(WallPanels, WestIsOneHeading) {
   // Two polygons of one wall, one above the other: atan2 returns 180 degrees for one and -180 for the other.
   Mesh wall;
