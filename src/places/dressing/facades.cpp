@@ -171,7 +171,8 @@ class Dresser {
   /// A strip of the panel between two heights: `count` bays and storeys from the cell `first` of a sheet on.
   void add(BrickSheet sheet, float low_m, float high_m, glm::vec2 first, glm::vec2 count) {
     if (!(high_m > low_m)) return;
-    const glm::vec2 low(panel_->low.x, low_m), size(panel_->high.x - panel_->low.x, high_m - low_m);
+    const glm::vec2 low(panel_->low.x, low_m);
+    const glm::vec2 size = glm::max(glm::vec2(panel_->high.x - panel_->low.x, high_m - low_m), 1e-4f);
     const glm::vec2 cells =
         brick_sheet_m(sheet) / glm::vec2(brick_bay_m, brick_storey_m);  // across and up the sheet
     const int material = first_material_ + int(sheet_count) * style_.colour + int(sheet);

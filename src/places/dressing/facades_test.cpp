@@ -150,6 +150,28 @@ TEST(Facades, NarrowLongAndPointedWallsAreKept) {
   expect_all_kept(spire, "a spire");
 }
 
+TEST(Facades, WallsWithoutAWidthHaveFiniteTextureCoordinates) {
+  scene::Model slivers = no_walls();  // whose sides round to one place along the wall
+  Mesh& mesh = slivers.parts.front().mesh;
+  for (int i = 0; i < 40; ++i) {
+    const float x = 1000.0f + 30.0f * float(i), y = 0.3f * x;
+    const std::uint32_t first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{x, y, 0}, {x, y, 9}});
+    if (i % 2 == 0)
+      mesh.positions.emplace_back(std::nextafter(x, 1e9f), y, 0);
+    else
+      mesh.positions.emplace_back(x, std::nextafter(y, 1e9f), 0);
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  }
+  for (glm::vec3& p : mesh.positions) p = {0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y, p.z};
+  fill_normals(mesh);
+  mesh.uvs.resize(mesh.positions.size());
+  EXPECT_GT(add_facades(slivers, "*"), 10u);
+  for (const scene::Part& part : slivers.parts)
+    for (const glm::vec2 uv : part.mesh.uvs)
+      EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y)) << part.object;
+}
+
 TEST(Facades, HousesHaveDoorsAtTheStreetAndPartyWallsAreBlank) {
   scene::Model free_wall = no_walls();
   add_wall(free_wall, 0.0f, 12.0f, 0.0f, 9.0f);
