@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/street_level_texture.h"
 #include "places/dressing/wall_panels.h"
-#include "scene/data/name_pattern.h"
+#include "scene/data/model.h"
 
 namespace parvis::dressing {
 
@@ -72,26 +75,40 @@ int add_wall_materials(scene::Model& model) {
   return first;
 }
 
-/// A window or a door that a model has itself.
-bool is_opening(const scene::Model& model, const scene::Part& part) {
-  const std::string& material = model.materials[std::size_t(part.material)].name;
-  return std::ranges::any_of(std::array{"*Window*", "*Door*"}, [&](const char* pattern) {
-    return scene::matches(pattern, material) || scene::matches(pattern, part.object);
-  });
+/// Whether one of the words of a name says that it is a window or a door; "WallWithWindows" is a wall.
+bool names_opening(std::string_view name) {
+  static const std::set<std::string_view> openings{"window", "windows", "ifcwindow",
+                                                   "door",   "doors",   "ifcdoor"};
+  std::string word;
+  for (const char c : std::string(name) + ' ')
+    if (std::isalpha(static_cast<unsigned char>(c))) {
+      word += char(std::tolower(static_cast<unsigned char>(c)));
+    } else {
+      if (openings.contains(word)) return true;
+      word.clear();
+    }
+  return false;
+}
+
+/// The parts that are windows and doors which the model has itself.
+std::set<const scene::Part*> opening_parts(const scene::Model& model) {
+  std::set<const scene::Part*> openings;
+  for (const scene::Part& part : model.parts)
+    if (names_opening(part.object) || names_opening(model.materials[std::size_t(part.material)].name))
+      openings.insert(&part);
+  return openings;
 }
 
 /// The middles of their triangles.
-std::vector<glm::vec3> own_openings(const scene::Model& model) {
+std::vector<glm::vec3> middles_of(const std::set<const scene::Part*>& openings, const scene::Model& model) {
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   std::vector<glm::vec3> middles;
-  for (const scene::Part& part : model.parts) {
-    if (!is_opening(model, part)) continue;
-    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+  for (const scene::Part* part : openings)
+    for (std::size_t i = 0; i + 2 < part->mesh.indices.size(); i += 3) {
       glm::vec3 sum(0.0f);
-      for (std::size_t k = 0; k < 3; ++k) sum += part.mesh.positions[part.mesh.indices[i + k]];
-      middles.emplace_back(pose[std::size_t(part.node)] * glm::vec4(sum / 3.0f, 1.0f));
+      for (std::size_t k = 0; k < 3; ++k) sum += part->mesh.positions[part->mesh.indices[i + k]];
+      middles.emplace_back(pose[std::size_t(part->node)] * glm::vec4(sum / 3.0f, 1.0f));
     }
-  }
   return middles;
 }
 
@@ -200,13 +217,14 @@ class Dresser {
 }  // namespace
 
 std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed) {
+  const std::set<const scene::Part*> own_openings = opening_parts(model);
+  const std::vector<glm::vec3> openings = middles_of(own_openings, model);
   const std::vector<ModelTriangle> walls =
       take_triangles(model, target, [&](const scene::Part& part, glm::vec3 normal) {
-        return std::abs(normal.z) < steepest_roof_z && !is_opening(model, part) &&
+        return std::abs(normal.z) < steepest_roof_z && !own_openings.contains(&part) &&
                model.materials[std::size_t(part.material)].base_colour_texture == scene::no_index;
       });
   if (walls.empty()) return 0;
-  const std::vector<glm::vec3> openings = own_openings(model);
   const int first_material = add_wall_materials(model);
   DressedParts parts(model, "facade");
   Dresser dresser(parts, walls, first_material, seed);

@@ -231,6 +231,19 @@ TEST(Facades, WindowsAndPicturesOfTheModelAreKept) {
   EXPECT_EQ(add_facades(pictured, "*"), 0u);
 }
 
+TEST(Facades, OnlyWhatIsNamedAsAnOpeningIsNoWall) {
+  const auto dressed = [](const char* material) {
+    scene::Model model = no_walls();
+    add_wall(model, 0.0f, 12.0f, 0.0f, 9.0f);
+    model.materials.front().name = material;
+    return add_facades(model, "*");
+  };
+  for (const char* wall : {"WallWithWindows", "Doorstep", "", "indoor paint"})
+    EXPECT_EQ(dressed(wall), 2u) << wall;
+  for (const char* opening : {"window", "Door_12", "front DOOR", "IfcWindow Casement:1400x1600", "doors"})
+    EXPECT_EQ(dressed(opening), 0u) << opening;
+}
+
 TEST(Facades, HousesOfARowDifferAndASeedChangesThem) {
   const auto dressed = [](std::uint64_t seed) {
     scene::Model row = no_walls();
