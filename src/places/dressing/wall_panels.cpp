@@ -336,7 +336,7 @@ std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
                                    const std::vector<glm::vec3>& openings) {
   std::vector<WallPanel> panels;
   for (std::vector<Surface>& plane : planes_of(walls))
-    for (const Surface& surface : joined(std::move(plane), walls)) add_panels(surface, walls, panels);
+    for (Surface& surface : joined(std::move(plane), walls)) add_panels(std::move(surface), walls, panels);
   find_ground(panels);
   find_openings(panels, openings);
   find_party_walls(panels);
