@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "base/mesh.h"
@@ -170,6 +171,51 @@ TEST(Facades, WallsWithoutAWidthHaveFiniteTextureCoordinates) {
   for (const scene::Part& part : slivers.parts)
     for (const glm::vec2 uv : part.mesh.uvs)
       EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y)) << part.object;
+}
+
+/// sRGB of the front at a place, as its parts of this material paint it; nothing where they do not.
+std::optional<glm::ivec3> painted_at(const scene::Model& model, const char* material, glm::vec2 place) {
+  for (const std::size_t index : scene::matching_parts(model, material)) {
+    const Mesh& mesh = model.parts[index].mesh;
+    const scene::Material& paint = model.materials[std::size_t(model.parts[index].material)];
+    const Image8& image = model.textures[std::size_t(paint.base_colour_texture)].image;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) {
+        const glm::vec3 p = mesh.positions[mesh.indices[i + k]];
+        return glm::dvec2(p.x, p.z);
+      };
+      const glm::dmat2 sides(corner(1) - corner(0), corner(2) - corner(0));
+      const glm::dvec2 at = glm::inverse(sides) * (glm::dvec2(place) - corner(0));
+      if (!(at.x >= 0.0 && at.y >= 0.0 && at.x + at.y <= 1.0)) continue;
+      const auto uv = [&](std::size_t k) { return mesh.uvs[mesh.indices[i + k]]; };
+      const glm::vec2 t = uv(0) + float(at.x) * (uv(1) - uv(0)) + float(at.y) * (uv(2) - uv(0));
+      const glm::vec2 pixel = (t - glm::floor(t)) * glm::vec2(image.width, image.height);
+      const std::uint8_t* rgb =
+          image.at(std::min(int(pixel.x), image.width - 1), std::min(int(pixel.y), image.height - 1));
+      return glm::ivec3(rgb[0], rgb[1], rgb[2]);
+    }
+  }
+  return std::nullopt;
+}
+
+TEST(Facades, DoorsStandOnTheGroundAndHaveTheSizeOfDoors) {
+  scene::Model front = no_walls();
+  add_wall(front, 0.0f, 6.0f, 2.0f, 11.0f);
+  add_facades(front, "*", 1);
+  constexpr float step_m = 0.05f;
+  glm::vec2 low(1e9f), high(-1e9f);  // of the door's leaf, whose paint is green or blue between red bricks
+  int painted = 0;
+  for (float z = 2.025f; z < 6.0f; z += step_m)
+    for (float x = 0.025f; x < 6.0f; x += step_m) {
+      const std::optional<glm::ivec3> colour = painted_at(front, "street level", {x, z});
+      if (!colour || std::max(colour->y, colour->z - 7) <= colour->x + 8) continue;
+      low = glm::min(low, {x, z}), high = glm::max(high, {x, z}), ++painted;
+    }
+  const glm::vec2 size = high - low + step_m;
+  EXPECT_LT(low.y, 2.4f) << "above the step";
+  EXPECT_NEAR(size.x, 0.9f, 0.2f);
+  EXPECT_NEAR(size.y, 2.1f, 0.25f);
+  EXPECT_GT(float(painted) * step_m * step_m, 0.85f * size.x * size.y) << "one door, not two";
 }
 
 TEST(Facades, HousesHaveDoorsAtTheStreetAndPartyWallsAreBlank) {
