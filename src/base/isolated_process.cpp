@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -241,9 +242,20 @@ bool is_worker = false;
   _exit(0);
 }
 
+/// In memory that the program shares with its workers, once it is asked for before they are forked.
+std::atomic<std::uint64_t>& worker_count() {
+  static std::atomic<std::uint64_t>& count = []() -> std::atomic<std::uint64_t>& {
+    static std::atomic<std::uint64_t> own{0};  // where no memory can be shared
+    void* const shared = mmap(nullptr, sizeof own, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return shared == MAP_FAILED ? own : *new (shared) std::atomic<std::uint64_t>(0);
+  }();
+  return count;
+}
+
 /// The program's end of the socket to the server; -1 where none can be had.
 int server_socket() {
   static const int socket = [] {
+    worker_count();
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return -1;
     const pid_t child = fork();
@@ -259,6 +271,7 @@ int server_socket() {
 
 /// Has a worker begin with the request.
 bool start_worker(const Request& request, const Descriptors& descriptors) {
+  ++worker_count();
   if (!is_worker) return send_request(server_socket(), request, descriptors);
   const pid_t child = fork();
   if (child == 0) be_worker(request, descriptors);
@@ -349,6 +362,8 @@ IsolatedBytes::~IsolatedBytes() {
   if (!mapped_.empty()) munmap(const_cast<std::byte*>(mapped_.data()), mapped_.size());
   if (file_ >= 0) close(file_);
 }
+
+std::uint64_t begun_workers() { return worker_count(); }
 
 void start_isolation() {
   if (!is_worker) server_socket();

@@ -75,4 +75,8 @@ void start_isolation();
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
 
+/// Workers that this program has begun so far, those that its workers began included: the control of what
+/// measures them.
+std::uint64_t begun_workers();
+
 }  // namespace parvis

@@ -64,6 +64,19 @@ TEST(IsolatedProcess, GivesWhatTheWorkMade) {
   EXPECT_TRUE(nothing->bytes().empty());
 }
 
+Status repeat_in_worker(std::string_view input, IsolatedOutput&) {
+  const Result<IsolatedBytes> inside = run_isolated(repeat_backwards, input, "inside");
+  return inside ? Status(Done{}) : Status(inside.errors());
+}
+
+TEST(IsolatedProcess, CountsItsWorkersAndThoseInsideThem) {
+  const std::uint64_t before = begun_workers();
+  ASSERT_TRUE(run_isolated(repeat_backwards, "parvis", "x"));
+  EXPECT_EQ(begun_workers(), before + 1);
+  ASSERT_TRUE(run_isolated(repeat_in_worker, "parvis", "x"));
+  EXPECT_EQ(begun_workers(), before + 3);
+}
+
 TEST(IsolatedProcess, HandsOnEveryError) {
   const Result<IsolatedBytes> result = run_isolated(refuse, "car.dae", "car.dae");
   ASSERT_FALSE(result);

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/isolated_process.h"
 #include "base/picture_codec.h"
 #include "base/test_data.h"
 #include "bench/scratch_folder.h"
@@ -30,14 +30,22 @@ std::string text_of(const fs::path& file) {
   return text ? *text : "";
 }
 
-/// The command that a user of the project would give, on this very program.
-std::string attack(const std::string& arguments) {
+/// The file of this very program; empty where there is no /proc.
+fs::path this_program() {
   std::error_code code;
-  return fmt::format("script/attack --parvis '{}' {}", fs::read_symlink("/proc/self/exe", code).string(),
-                     arguments);
+  return fs::read_symlink("/proc/self/exe", code);
 }
 
-Status measure_cases(const BenchSetup& setup, const fs::path& folder, Report& report) {
+void skip_cases(const std::string& reason, Report& report) {
+  for (const char* key : keys) report.skip(key, reason);
+  for (const auto& [tried, survived] : survivals) report.skip(survived, reason);
+}
+
+Status measure_cases(const BenchSetup& setup, const fs::path& program, const fs::path& folder,
+                     Report& report) {
+  const auto attack = [&](const std::string& arguments) {
+    return fmt::format("script/attack --parvis '{}' {}", program.string(), arguments);
+  };
   if (std::system(attack(fmt::format("--controls > '{}'", (folder / "controls").string())).c_str()) != 0)
     return error("script/attack --controls: a control is not found, so its verdicts are worth nothing:\n{}",
                  text_of(folder / "controls"));
@@ -62,35 +70,25 @@ Status measure_cases(const BenchSetup& setup, const fs::path& folder, Report& re
   return Done{};
 }
 
-/// Processes and threads that this machine has begun since it started; 0 where /proc does not tell.
-long begun_processes() {
-  std::ifstream file("/proc/stat");
-  std::string word;
-  while (file >> word)
-    if (long count = 0; word == "processes" && file >> count) return count;
-  return 0;
-}
-
 /// What reading a file in a child takes beyond reading it here.
 struct Overhead {
   Median ms;
   bool is_read = true;
-  /// The fewest that one reading began: others work on this machine, too.
-  long processes_isolated = std::numeric_limits<long>::max(), processes_here = processes_isolated;
+  std::uint64_t workers_isolated = 0, workers_here = 0;  ///< that one reading began
 };
 
 Overhead overhead(const std::function<bool()>& isolated, const std::function<bool()>& here, int repeats) {
   Overhead measured;
-  const auto read_ms = [&](const std::function<bool()>& read, long& fewest_processes) {
-    const long before = begun_processes();
+  const auto read_ms = [&](const std::function<bool()>& read, std::uint64_t& workers) {
+    const std::uint64_t before = begun_workers();
     const double ms = milliseconds([&] { measured.is_read = read() && measured.is_read; });
-    fewest_processes = std::min(fewest_processes, begun_processes() - before);
+    workers = begun_workers() - before;
     return ms;
   };
   std::vector<double> samples;
   for (int i = 0; i < repeats; ++i) {
-    const double there_ms = read_ms(isolated, measured.processes_isolated);
-    samples.push_back(there_ms - read_ms(here, measured.processes_here));
+    const double there_ms = read_ms(isolated, measured.workers_isolated);
+    samples.push_back(there_ms - read_ms(here, measured.workers_here));
   }
   measured.ms = median(samples);
   return measured;
@@ -129,9 +127,9 @@ Status measure_overhead(const BenchSetup& setup, const fs::path& folder, Report&
       repeats);
   for (const Overhead& of : {of_hague, of_car, of_picture}) {
     if (!of.is_read) return error("a file of the overhead of child processes cannot be read");
-    report.note(fmt::format("control: a reading begins {} processes, without isolation {}",
-                            of.processes_isolated, of.processes_here));
-    if (of.processes_isolated <= of.processes_here)
+    report.note(fmt::format("control: a reading begins {} child processes, without isolation {}",
+                            of.workers_isolated, of.workers_here));
+    if (of.workers_isolated <= of.workers_here)
       return error("the overhead of child processes is measured without any");
   }
   report.add("isolated_reader_overhead_ms",
@@ -152,10 +150,13 @@ Status measure_attacks(const BenchSetup& setup, Report& report) {
   fs::create_directories(folder.path, code);
   if (code) return error("{}: {}", folder.path.string(), code.message());
   if (Status status = measure_overhead(setup, folder.path, report); !status) return status;
-  if (fs::exists("script/attack")) return measure_cases(setup, folder.path, report);
-  for (const char* key : keys) report.skip(key, "script/attack is not in this folder");
-  for (const auto& [tried, survived] : survivals)
-    report.skip(survived, "script/attack is not in this folder");
+  const fs::path program = this_program();
+  if (!fs::exists("script/attack"))
+    skip_cases("script/attack is not in this folder", report);
+  else if (program.empty())
+    skip_cases("/proc does not tell where this program is", report);
+  else
+    return measure_cases(setup, program, folder.path, report);
   return Done{};
 }
 
