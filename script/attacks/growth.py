@@ -82,7 +82,7 @@ def cases():
             yield checked(f"cars beside a {plant} in {groups} groups of scale 1e6", text + CAMERA)
     wall = "v -1e6 0 -5\nv 1e6 0 -5\nv 0 1e6 -5\n" + "f 1 2 3\n" * 100
     yield checked("cars beside 100 triangles of 2,000 km", 'model(file="wall.obj")\nroad(path="0 0, 1000 0")\nparkedCars()\n' + CAMERA, files={"wall.obj": wall})
-    slant = "v -1e6 -1e6 -1e6\nv 1e6 -1e6 -1e6\nv 0 1e6 1e6\n" + "f 1 2 3\n" * 100
+    slant = "v -1e6 -2e6 -1e6\nv -1e6 -2e6 1e6\nv 1e6 2e6 0\n" + "f 1 2 3\n" * 100
     yield checked("cars along 200 km under 100 slanted triangles of 2,000 km", 'model(file="slant.obj")\nroad(path="0 0, 200000 0")\nparkedCars()\n' + CAMERA, files={"slant.obj": slant})
     yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
     yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
