@@ -62,8 +62,8 @@ Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
       for (int c = 0; c < 3; ++c) {
         const double error = std::abs(double(drawn[i][c]) - double(expected[i][c])) /
                              std::max({double(expected[i][c]), mean, 1e-12});
-        if (!(error <= maximum)) maximum = error;
         if (std::isnan(error)) return error;
+        maximum = std::max(maximum, error);
       }
   }
   return maximum;
