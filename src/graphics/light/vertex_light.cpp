@@ -1,7 +1,9 @@
 #include "graphics/light/vertex_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
 #include "graphics/reference/frame.h"
@@ -51,6 +53,38 @@ bool is_open(const reference::RayScene& scene, glm::vec3 from, glm::vec3 directi
   reference::Passage passage{Random(ray)};
   return !scene.is_blocked({from, direction, 1e-4f, 1e30f}, passage);
 }
+
+/// Rays from one point that are answered together.
+class Packet {
+ public:
+  static constexpr int size = int(reference::RayScene::packet_size);
+
+  Packet(const reference::RayScene& scene, glm::vec3 from) : scene_(scene), from_(from) {}
+
+  void clear() { count_ = 0; }
+  /// Everything stops light, from both sides; the number of the ray is for what blends.
+  void add(glm::vec3 direction, std::uint64_t ray) {
+    rays_[count_] = {from_, direction, 1e-4f, 1e30f};
+    passages_[count_] = {Random(ray)};
+    numbers_[count_++] = ray;
+  }
+  /// Calls `body` with direction and number of each ray, and whether nothing stops it, in their order.
+  template <class Body>
+  void for_each(const Body& body) {
+    if (count_ == 0) return;
+    const std::uint32_t blocked =
+        scene_.are_blocked(std::span<const reference::Ray>(rays_.data(), count_), {passages_.data(), count_});
+    for (std::size_t i = 0; i < count_; ++i) body(rays_[i].direction, numbers_[i], (blocked >> i & 1u) == 0);
+  }
+
+ private:
+  const reference::RayScene& scene_;
+  glm::vec3 from_;
+  std::size_t count_ = 0;
+  std::array<reference::Ray, std::size_t(size)> rays_;
+  std::array<reference::Passage, std::size_t(size)> passages_{};
+  std::array<std::uint64_t, std::size_t(size)> numbers_;
+};
 
 glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
 
@@ -172,13 +206,20 @@ glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTabl
   const glm::vec3 from = lifted(vertex);
   const glm::vec2 shift = shift_of(v);
   glm::vec3 sum(0.0f);
-  for (int i = 0; i < rays; ++i) {
-    const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
-    const glm::vec3 direction = frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))});
-    if (is_open(scene, from, direction, v + std::uint64_t(i)))
-      sum += sky.radiance(direction);
-    else if (blocked == Blocked::bounces)
-      sum += bounced_radiance(scene, sky, {from, direction}, v + std::uint64_t(i));
+  Packet packet(scene, from);
+  for (int first = 0; first < rays; first += Packet::size) {
+    packet.clear();
+    for (int i = first; i < std::min(first + Packet::size, rays); ++i) {
+      const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
+      packet.add(frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))}),
+                 v + std::uint64_t(i));
+    }
+    packet.for_each([&](glm::vec3 direction, std::uint64_t ray, bool is_open) {
+      if (is_open)
+        sum += sky.radiance(direction);
+      else if (blocked == Blocked::bounces)
+        sum += bounced_radiance(scene, sky, {from, direction}, ray);
+    });
   }
   return sum;
 }
@@ -191,12 +232,17 @@ glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTabl
   const reference::Frame frame(sky.to_sun());
   const glm::vec2 shift = shift_of(v);
   glm::vec3 sum(0.0f);
-  for (int i = 0; i < rays; ++i) {
-    const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
-    const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
-    const float facing = glm::dot(direction, vertex.normal);
-    if (facing > 0.0f && is_open(scene, from, direction, v + std::uint64_t(i)))
-      sum += facing * sky.sun_irradiance();
+  Packet packet(scene, from);
+  for (int first = 0; first < rays; first += Packet::size) {
+    packet.clear();
+    for (int i = first; i < std::min(first + Packet::size, rays); ++i) {
+      const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
+      const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
+      if (glm::dot(direction, vertex.normal) > 0.0f) packet.add(direction, v + std::uint64_t(i));
+    }
+    packet.for_each([&](glm::vec3 direction, std::uint64_t, bool is_open) {
+      if (is_open) sum += glm::dot(direction, vertex.normal) * sky.sun_irradiance();
+    });
   }
   return sum;
 }

@@ -2,14 +2,23 @@
 
 namespace parvis::reference {
 
-Ray camera_ray(const Camera& camera, int width, int height, glm::vec2 pixel) {
-  const FrustumTangents edges = camera.tangents(float(width) / float(height));
-  const float across = 2.0f * pixel.x / float(width) - 1.0f, up = 1.0f - 2.0f * pixel.y / float(height);
-  const glm::vec3 in_camera(0.5f * (edges.right + edges.left + across * (edges.right - edges.left)),
-                            0.5f * (edges.top + edges.bottom + up * (edges.top - edges.bottom)), -1.0f);
+CameraRays::CameraRays(const Camera& camera, int width, int height)
+    : world_from_camera_(camera.world_from_camera),
+      eye_(camera.position_in_world()),
+      edges_(camera.tangents(float(width) / float(height))),
+      size_(float(width), float(height)),
+      near_m_(camera.near_m) {}
+
+Ray CameraRays::through(glm::vec2 pixel) const {
+  const float across = 2.0f * pixel.x / size_.x - 1.0f, up = 1.0f - 2.0f * pixel.y / size_.y;
+  const glm::vec3 in_camera(0.5f * (edges_.right + edges_.left + across * (edges_.right - edges_.left)),
+                            0.5f * (edges_.top + edges_.bottom + up * (edges_.top - edges_.bottom)), -1.0f);
   const float slant = glm::length(in_camera);
-  return {camera.position_in_world(), glm::mat3(camera.world_from_camera) * in_camera / slant,
-          camera.near_m * slant};
+  return {eye_, world_from_camera_ * in_camera / slant, near_m_ * slant};
+}
+
+Ray camera_ray(const Camera& camera, int width, int height, glm::vec2 pixel) {
+  return CameraRays(camera, width, height).through(pixel);
 }
 
 }  // namespace parvis::reference

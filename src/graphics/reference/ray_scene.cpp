@@ -3,121 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <numeric>
 #include <unordered_set>
 
-#include "graphics/reference/traced_hit.h"
+#include "graphics/reference/ray_query.h"
 #include "scene/data/mip_levels.h"
 
 namespace parvis::reference {
 namespace {
 
-using Places = std::vector<std::unique_ptr<PlacedPart>>;
+/// Of single precision, as a share of how far corners and rays lie from the origin: several roundings of 6e-8
+/// each, and as much again to spare.
+constexpr float share_of_rounding = 4e-6f;
 
-/// What travels with a query to the filters below.
-struct QueryContext {
-  RTCIntersectContext embree;
-  const Places& places;
-  Passage* passage;  ///< null: the ray sees as the renderer draws
-
-  QueryContext(const Places& all, Passage* p) : places(all), passage(p) { rtcInitIntersectContext(&embree); }
-};
-
-RTCRay embree_ray(const Ray& ray) {
-  return {ray.origin.x,
-          ray.origin.y,
-          ray.origin.z,
-          ray.min_m,
-          ray.direction.x,
-          ray.direction.y,
-          ray.direction.z,
-          0.0f,
-          ray.max_m,
-          ~0u,
-          0,
-          0};
-}
-
-/// Instance of the joined triangles; that of place i is i + 1.
-constexpr unsigned joined_instance = 0;
-
-unsigned instance_of(std::size_t place) { return unsigned(place + 1); }
-
-/// Which place a hit belongs to.
-std::size_t place_of(unsigned instance, unsigned geometry) {
-  return instance == joined_instance ? geometry : instance - 1;
-}
-
-/// Front and back are decided in the mesh's frame, where a mirroring transform does not exchange them.
-bool meets_back(const RTCFilterFunctionNArguments* arguments) {
-  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, arguments->N, 0),
-                     RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
-                     RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
-  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
-                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
-                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
-  return glm::dot(ng, direction) > 0.0f;
-}
-
-/// The ray is in the frame of the triangles.
-glm::vec3 direction_in_world(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments) {
-  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
-                            RTCRayN_dir_y(arguments->ray, arguments->N, 0),
-                            RTCRayN_dir_z(arguments->ray, arguments->N, 0));
-  return place.is_joined ? direction : glm::mat3(place.world_from_mesh) * direction;
-}
-
-float alpha_at_hit(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
-  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-  const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
-  if (place.surface) {
-    const glm::vec3 along = glm::normalize(direction_in_world(place, arguments));
-    return place.surface->alpha(traced_hit(place, triangle, {u, v}, is_shadow ? along : -along, 0.0f));
+/// How far from the origin anything lies.
+float reach_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects) {
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p)
+      bounds.add(transformed(object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
+                             object.mesh(p).bounds()));
   }
-  const scene::Material& material = *place.material;
-  if (material.base_colour_texture == scene::no_index) return material.alpha;
-  const glm::vec2 uv = texture_coordinates(place, triangle, u, v);
-  return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
-}
-
-bool stops_light(const PlacedPart& place, Passage& passage, const RTCFilterFunctionNArguments* arguments,
-                 bool is_shadow) {
-  const scene::Material& material = *place.material;
-  if (!passage.sees_backs && !material.is_double_sided && meets_back(arguments)) return false;
-  if (material.alpha_mode == scene::Alpha::opaque) return true;
-  if (material.alpha_mode == scene::Alpha::cutout) return alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
-  return place.casts_shadow && passage.random.uniform() < alpha_at_hit(place, arguments, is_shadow);
-}
-
-/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass cast no
-/// shadow.
-bool stops_as_drawn(const PlacedPart& place, const RTCFilterFunctionNArguments* arguments, bool is_shadow) {
-  const scene::Material& material = *place.material;
-  const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
-  if (is_shadow && (!place.casts_shadow || lets_through)) return false;
-  if (!material.is_double_sided && meets_back(arguments) != is_shadow) return false;
-  return material.alpha_mode != scene::Alpha::cutout || alpha_at_hit(place, arguments, is_shadow) >= 0.5f;
-}
-
-/// Embree calls this for each candidate hit.
-template <bool is_shadow>
-void pass_through_holes(const RTCFilterFunctionNArguments* arguments) {
-  const QueryContext& context = *reinterpret_cast<const QueryContext*>(arguments->context);
-  const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, arguments->N, 0, 0),
-                                                     RTCHitN_geomID(arguments->hit, arguments->N, 0))];
-  const bool stops = context.passage ? stops_light(place, *context.passage, arguments, is_shadow)
-                                     : stops_as_drawn(place, arguments, is_shadow);
-  if (!stops) arguments->valid[0] = 0;
+  if (bounds.empty()) return 1.0f;
+  const glm::vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  return std::max({farthest.x, farthest.y, farthest.z});
 }
 
 }  // namespace
-
-glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v) {
-  const Mesh& mesh = *place.mesh;
-  const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(triangle);
-  const glm::vec2 uv =
-      (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
-  return glm::vec2(place.material->texture_from_mesh_uv * glm::vec3(uv, 1.0f));
-}
 
 /// Takes over what rooms draw by themselves.
 class RayScene::TracedThings final : public scene::TracedScene {
@@ -158,12 +71,13 @@ class RayScene::TracedThings final : public scene::TracedScene {
   int first_thing_;
 };
 
-RayScene::RayScene(const scene::Scene& scene)
+RayScene::RayScene(const scene::Scene& scene, Precision precision)
     : shadows_(scene.data<scene::SunShadows>()),
       device_(rtcNewDevice(nullptr)),
       top_(rtcNewScene(device_)),
-      joined_(rtcNewScene(device_)) {
-  rtcSetSceneFlags(joined_, RTC_SCENE_FLAG_ROBUST);
+      joined_(rtcNewScene(device_)),
+      margin_m_(precision == Precision::fine ? share_of_rounding * reach_of(scene) : 0.0f) {
+  rtcSetSceneFlags(joined_, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, joined_);
   rtcAttachGeometryByID(top_, instance, joined_instance);
@@ -310,11 +224,12 @@ void RayScene::place(const PlacedPart& part, bool is_visible, bool may_join) {
 /// exchange front and back.
 void RayScene::join(std::size_t place) {
   PlacedPart& part = *places_[place];
-  const RTCGeometry geometry = triangles(*part.mesh, part.world_from_mesh);
-  rtcAttachGeometryByID(joined_, geometry, unsigned(place));
-  rtcReleaseGeometry(geometry);
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
   part.is_joined = part.is_traced = true, part.is_mirrored = false;
+  const RTCGeometry geometry =
+      triangles(*part.mesh, part.world_from_mesh, margin_m_, margin_m_ > 0.0f || has_filter(part));
+  rtcAttachGeometryByID(joined_, geometry, unsigned(place));
+  rtcReleaseGeometry(geometry);
   has_other_joined_ = true;
 }
 
@@ -344,17 +259,22 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   part.world_from_mesh = world_from_mesh;
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
   part.is_mirrored = volume < 0.0f;
-  rtcSetGeometryInstancedScene(instance, mesh_scene(mesh));
+  rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
   return true;
 }
 
-RTCScene RayScene::mesh_scene(const Mesh& mesh) {
+/// By how much a mesh's triangles are grown in its own frame.
+float RayScene::margin_in_mesh(const glm::mat4& world_from_mesh) const {
+  return margin_m_ / std::cbrt(std::abs(glm::determinant(glm::mat3(world_from_mesh))));
+}
+
+RTCScene RayScene::mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh) {
   const auto [entry, is_new] = mesh_scenes_.try_emplace(&mesh, nullptr);
   if (!is_new) return entry->second;
-  const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f));
+  const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), true);
   entry->second = rtcNewScene(device_);
   rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
   rtcAttachGeometry(entry->second, geometry);
@@ -363,71 +283,58 @@ RTCScene RayScene::mesh_scene(const Mesh& mesh) {
   return entry->second;
 }
 
-RTCGeometry RayScene::triangles(const Mesh& mesh, const glm::mat4& transform) const {
+RTCGeometry RayScene::triangles(const Mesh& mesh, const glm::mat4& transform, float margin,
+                                bool is_filtered) const {
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  glm::vec3* const vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
-  const bool is_moved = transform != glm::mat4(1.0f);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    vertices[i] = is_moved ? glm::vec3(transform * glm::vec4(mesh.positions[i], 1.0f)) : mesh.positions[i];
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(std::uint32_t), mesh.triangle_count());
-  std::copy(mesh.indices.begin(), mesh.indices.end(), static_cast<std::uint32_t*>(indices));
-  rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes<false>);
-  rtcSetGeometryOccludedFilterFunction(geometry, pass_through_holes<true>);
+  const std::size_t corner_count = margin > 0.0f ? mesh.indices.size() : mesh.positions.size();
+  glm::vec3* const corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), corner_count));
+  set_corners(mesh, transform, margin, corners);
+  auto* const indices = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
+                              mesh.triangle_count()));
+  if (margin > 0.0f)
+    std::iota(indices, indices + mesh.indices.size(), 0u);  // no triangle shares its grown corners
+  else
+    std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
+  if (is_filtered) {
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_seen);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_shadow);
+  }
   rtcCommitGeometry(geometry);
   return geometry;
+}
+
+/// As Embree gets them: those of the mesh, or of each triangle by itself, grown.
+void RayScene::set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners) {
+  const bool is_moved = transform != glm::mat4(1.0f);
+  const auto placed = [&](std::size_t i) {
+    return is_moved ? glm::vec3(transform * glm::vec4(mesh.positions[i], 1.0f)) : mesh.positions[i];
+  };
+  if (margin <= 0.0f) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) corners[i] = placed(i);
+    return;
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::array<glm::vec3, 3> all =
+        grown({placed(mesh.indices[i]), placed(mesh.indices[i + 1]), placed(mesh.indices[i + 2])}, margin);
+    std::copy(all.begin(), all.end(), corners + i);
+  }
 }
 
 /// The hierarchy keeps its tree and fits it to the corners as they are deformed now.
 void RayScene::deform(std::size_t place) {
   const Mesh& mesh = *places_[place]->mesh;
-  const RTCScene scene = mesh_scene(mesh);
+  const glm::mat4& world_from_mesh = places_[place]->world_from_mesh;
+  const RTCScene scene = mesh_scene(mesh, world_from_mesh);
   const RTCGeometry geometry = rtcGetGeometry(scene, 0);
-  void* vertices = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
+  void* const corners = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  set_corners(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), static_cast<glm::vec3*>(corners));
   rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   rtcCommitScene(scene);
   rtcCommitGeometry(rtcGetGeometry(top_, instance_of(place)));
 }
-
-/// Embree asserts that rays are finite. One that is not hits nothing: a surface so degenerate that it has no
-/// normal must not end the program.
-static bool is_finite(const Ray& ray) {
-  constexpr float embree_limit = 1.8e18f;
-  const auto fits = [](glm::vec3 v) {
-    return std::abs(v.x) < embree_limit && std::abs(v.y) < embree_limit && std::abs(v.z) < embree_limit;
-  };
-  return fits(ray.origin) && fits(ray.direction) && ray.min_m <= ray.max_m;
-}
-
-std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
-  if (!is_finite(ray)) return std::nullopt;
-  QueryContext context(places_, passage);
-  RTCRayHit query{};
-  query.ray = embree_ray(ray);
-  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(top_, &context.embree, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const std::size_t place = place_of(query.hit.instID[0], query.hit.geomID);
-  return Hit{places_[place].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
-}
-
-bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
-  if (!is_finite(ray)) return false;
-  QueryContext context(places_, passage);
-  RTCRay query = embree_ray(ray);
-  rtcOccluded1(top_, &context.embree, &query);
-  return query.tfar < 0.0f;
-}
-
-std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const { return nearest_hit(ray, nullptr); }
-std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const {
-  return nearest_hit(ray, &passage);
-}
-bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
-bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
 
 }  // namespace parvis::reference

@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "base/random.h"
+#include "graphics/reference/fine_triangle.h"
 #include "graphics/reference/mip_texture.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
@@ -51,20 +53,38 @@ struct Hit {
   float distance_m;
 };
 
+/// Nearest intersection of a FineRay.
+struct FineHit {
+  const PlacedPart* place = nullptr;  ///< null: the sky
+  std::uint32_t triangle = 0;
+  double distance_m = 0.0;
+  float u = 0.0f, v = 0.0f;  ///< as Hit's
+};
+
 /// How light passes surfaces in a photograph, in contrast to the renderer: every part blocks it from both
 /// sides; blended parts block it at random with a probability of their alpha. Contact shadows painted for the
 /// renderer (blended parts that cast no shadow) are ignored.
 struct Passage {
-  Random random;
+  Random random{0};
   bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
+};
+
+/// What decides whether a ray hits a triangle, and which it hits first. A scene answers rays of its precision
+/// alone.
+enum class Precision : unsigned char {
+  coarse,  ///< Ray: Embree, in single precision, off by some 1e-7 of the scene's size
+  fine     ///< FineRay: double precision, with the corners in the world as the float transforms place them
 };
 
 /// Ray queries against the scene. Queries are const and may run on many threads.
 class RayScene {
  public:
+  /// Rays that are answered together go about the same way, and at most so many.
+  static constexpr std::size_t packet_size = 16;
+
   /// Takes the scene as it stands now, with what rooms draw by themselves (Scene::traced_kinds); it must
   /// outlive this. What a transform flattens or makes infinite is left out.
-  explicit RayScene(const scene::Scene& scene);
+  explicit RayScene(const scene::Scene& scene, Precision precision = Precision::coarse);
   RayScene(const RayScene&) = delete;
   ~RayScene();
 
@@ -81,6 +101,12 @@ class RayScene {
   bool is_blocked(const Ray& ray) const;
   /// True if a surface blocks the ray under the rules of a photograph.
   bool is_blocked(const Ray& ray, Passage& passage) const;
+  /// is_blocked of each ray of a packet, each with its own `passages`: bit i is that of ray i.
+  std::uint32_t are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const;
+  /// nearest_hit of each ray of a packet, into `hits`.
+  void nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const;
+  /// is_blocked of each ray of a packet: bit i is that of ray i.
+  std::uint32_t are_blocked(std::span<const FineRay> rays) const;
   /// Of what is traced, without dynamic objects of the scene that this was made of.
   Bounds fixed_bounds(const scene::Scene& scene) const;
   std::size_t triangle_count() const { return triangle_count_; }  ///< summed over all placements of a mesh
@@ -101,9 +127,11 @@ class RayScene {
   void forget_meshes_but_those_placed();
   void join(std::size_t place);
   void leave_joined(std::size_t place);
-  RTCGeometry triangles(const Mesh& mesh, const glm::mat4& transform) const;
+  RTCGeometry triangles(const Mesh& mesh, const glm::mat4& transform, float margin, bool is_filtered) const;
+  static void set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners);
+  float margin_in_mesh(const glm::mat4& world_from_mesh) const;
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
-  RTCScene mesh_scene(const Mesh& mesh);
+  RTCScene mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh);
   void deform(std::size_t place);
 
   scene::SunShadows shadows_;
@@ -118,7 +146,11 @@ class RayScene {
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::size_t triangle_count_ = 0;
+  float margin_m_ = 0.0f;  ///< by which triangles are grown; 0: Precision::coarse
 };
+
+/// Of a triangle in the world, on the side of its front; of any length.
+glm::vec3 facet_normal(const PlacedPart& place, std::uint32_t triangle);
 
 /// Texture coordinates of a hit, transformed as the material says.
 glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <span>
 
 #include "base/random.h"
 #include "scene/data/test_scene.h"
@@ -126,6 +128,80 @@ TEST(RayScene, TracedThingsAreFollowed) {
     expect_same(rays, scene, "wandered");
   }
   EXPECT_EQ(rays.triangle_count(), RayScene(scene).triangle_count());
+}
+
+/// Many that go about the same way, from beside the place through it.
+std::vector<FineRay> parallel_rays() {
+  std::vector<FineRay> rays;
+  Random random(8);
+  const glm::dvec3 along = glm::normalize(glm::dvec3(0.7, 0.5, -0.31));
+  for (int i = 0; i < 1600; ++i) {
+    const glm::dvec3 through(random.uniform(-4.0f, 4.0f), random.uniform(-4.0f, 4.0f),
+                             random.uniform(0.0f, 2.0f));
+    rays.push_back({through - 20.0 * along, along});
+  }
+  return rays;
+}
+
+TEST(RayScene, PacketsFindWhatSingleRaysFind) {
+  scene::Scene scene = three_things();
+  scene.objects[1].world_from_model = glm::scale(glm::mat4(1.0f), {-1.5f, 1.0f, 1.0f});
+  scene.objects[2].world_from_model = glm::translate(glm::mat4(1.0f), {2.0f, 2.0f, 0.0f});
+  const RayScene coarse(scene), fine(scene, Precision::fine);
+  const std::vector<FineRay> all = parallel_rays();
+  int hits = 0, blocked = 0;
+  for (std::size_t first = 0; first < all.size(); first += RayScene::packet_size) {
+    const std::span<const FineRay> packet(all.data() + first, RayScene::packet_size);
+    std::array<FineHit, RayScene::packet_size> found;
+    fine.nearest_hits(packet, found);
+    const std::uint32_t stopped = fine.are_blocked(packet);
+    std::vector<Ray> rays;
+    for (const FineRay& ray : packet) rays.push_back({glm::vec3(ray.origin), glm::vec3(ray.direction)});
+    std::array<Passage, RayScene::packet_size> passages{};
+    const std::uint32_t passed_not = coarse.are_blocked(rays, passages);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::optional<Hit> expected = coarse.nearest_hit(rays[i]);
+      ASSERT_EQ(found[i].place != nullptr, expected.has_value());
+      EXPECT_EQ((stopped >> i & 1u) != 0, coarse.is_blocked(rays[i]));
+      EXPECT_EQ((passed_not >> i & 1u) != 0, coarse.is_blocked(rays[i], passages[i]));
+      blocked += int(stopped >> i & 1u);
+      if (!expected) continue;
+      ++hits;
+      EXPECT_NEAR(found[i].distance_m, double(expected->distance_m), 1e-3);
+      EXPECT_EQ(found[i].place->object, expected->place->object);
+    }
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(blocked, 300);
+}
+
+/// Far from the origin a float is as coarse as 3e-5 m; these rays pass an edge at 1e-8 m on either side.
+TEST(RayScene, FineRaysTellTheSidesOfAnEdge) {
+  scene::Scene scene;
+  const glm::vec3 a(401.3f, -377.7f, 3.1f), b(403.9f, -371.2f, 11.7f), c(389.4f, -380.6f, 9.2f);
+  Mesh mesh = scene::quad(a, b, c, c);
+  mesh.indices.resize(3);
+  scene::add(scene, scene::model_of(mesh, scene::matt(glm::vec3(0.5f))));
+  const RayScene coarse(scene), fine(scene, Precision::fine);
+  const glm::dvec3 along =
+      glm::normalize(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)) + glm::dvec3(3, 1, 2));
+  const glm::dvec3 side = glm::normalize(glm::cross(along, glm::dvec3(b) - glm::dvec3(a)));  // away from c
+  int wrong_coarse = 0;
+  for (int i = 1; i < 100; ++i)
+    for (const double off_m : {-1e-8, 1e-8}) {
+      const glm::dvec3 at = glm::mix(glm::dvec3(a), glm::dvec3(b), double(i) / 100.0) + off_m * side;
+      const bool is_inside = glm::dot(at - glm::dvec3(a), side) * glm::dot(glm::dvec3(c - a), side) > 0.0;
+      for (const double sense : {1.0, -1.0}) {
+        const FineRay ray{at - sense * 40.0 * along, sense * along};
+        FineHit hit;
+        fine.nearest_hits({&ray, 1}, {&hit, 1});
+        EXPECT_EQ(hit.place != nullptr, is_inside && sense < 0.0);
+        EXPECT_EQ(fine.are_blocked(std::span(&ray, 1)) != 0, is_inside && sense > 0.0);
+        const Ray rounded{glm::vec3(ray.origin), glm::vec3(ray.direction)};
+        wrong_coarse += coarse.nearest_hit(rounded).has_value() != (is_inside && sense < 0.0);
+      }
+    }
+  EXPECT_GT(wrong_coarse, 20) << "the control: single precision cannot";
 }
 
 }  // namespace

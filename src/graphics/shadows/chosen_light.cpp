@@ -50,6 +50,7 @@ bool ChosenShadows::choose(const scene::Scene& scene) {
   const bool is_other = wanted.technique != settings_.technique;
   settings_ = wanted;
   sun_ = scene::sun_light(scene);
+  if (is_other) followed_.reset();  // its precision may be another
   follow(scene);
   if (is_other) make_maps();
   return is_other;
@@ -59,7 +60,8 @@ bool ChosenShadows::choose(const scene::Scene& scene) {
 void ChosenShadows::follow(const scene::Scene& scene) {
   if (settings_.technique == ShadowTechnique::cached_cascades) return followed_.reset();
   if (!followed_ || has_new_fixed_) {
-    followed_ = std::make_unique<reference::RayScene>(scene);
+    followed_ = std::make_unique<reference::RayScene>(
+        scene, is_exact() ? reference::Precision::fine : reference::Precision::coarse);
     ++scene_version_;
   } else if (followed_->update(scene)) {
     ++scene_version_;

@@ -110,7 +110,7 @@ TEST(TracedSun, AStillViewConvergesToTheDiscAndAJumpIsAStillOfItsOwn) {
   add(scene, scene::model_of(scene::ground(60), scene::matt(glm::vec3(0.5f))));
   add(scene, scene::model_of(scene::box({-40, 5, 30}, {40, 45, 31}), scene::matt(glm::vec3(0.5f))));
   scene.sun.direction_to_sun = {0, 0, 1};
-  const reference::RayScene rays(scene);
+  const reference::RayScene rays(scene, reference::Precision::fine);
   Camera camera;
   camera.world_from_camera = look_at({0, 5, 8}, {0, 5, 0}, {0, 1, 0});
   camera.vertical_fov = 0.1f;

@@ -1,17 +1,17 @@
 #include "graphics/shadows/traced_sun.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
 #include "graphics/reference/camera_ray.h"
-#include "graphics/reference/shading_point.h"
 #include "graphics/reference/sun_disc.h"
 
 namespace parvis::shadows {
 namespace {
 
-constexpr float lift_m = 1e-3f;       // rays begin off the surface
 constexpr float jump_m = 5.0f;        // a view that is so far from the last, or
 constexpr float jump_cosine = 0.94f;  // has turned by 20 degrees, is no step of a movement
 
@@ -29,43 +29,93 @@ bool has_jumped(const glm::mat4& before, const glm::mat4& now) {
 
 }  // namespace
 
-/// What the pixels' middles show: distances, and where rays to the sun begin.
-void TracedSun::find_surfaces(const reference::RayScene& rays, const Camera& camera) {
-  const glm::ivec2 size = view_.size;
-  parallel_for(std::size_t(size.y), [&](std::size_t row) {
-    for (int x = 0; x < size.x; ++x) {
-      const std::size_t i = row * std::size_t(size.x) + std::size_t(x);
-      const glm::vec2 at(float(x) + 0.5f, float(size.y - int(row)) - 0.5f);
-      const reference::Ray ray = reference::camera_ray(camera, size.x, size.y, at);
-      const auto hit = rays.nearest_hit(ray);
-      pixels_[i] = glm::vec2(1.0f, hit ? hit->distance_m : 0.0f);
-      surfaces_[i] = glm::vec4(0.0f);
-      if (!hit) continue;
-      const glm::vec3 normal = reference::shading_point(*hit, ray.direction, 0.0f).geometric_normal;
-      surfaces_[i] = glm::vec4(ray.origin + hit->distance_m * ray.direction + lift_m * normal, 1.0f);
+/// A picture in squares of pixels, each of which is one packet of rays.
+class TracedSun::Tiles {
+ public:
+  static constexpr int side = 4;
+  static_assert(side * side == reference::RayScene::packet_size);
+
+  Tiles(const Camera& camera, glm::ivec2 size) : rays_(camera, size.x, size.y), size_(size) {}
+
+  std::size_t rows() const { return std::size_t((size_.y + side - 1) / side); }
+
+  /// Calls `body` with the pixels of each tile of a row: their indices, bottom row of the picture first.
+  template <class Body>
+  void for_each(std::size_t row, const Body& body) const {
+    std::array<std::size_t, reference::RayScene::packet_size> pixels;
+    const int bottom = int(row) * side, top = std::min(bottom + side, size_.y);
+    for (int left = 0; left < size_.x; left += side) {
+      std::size_t count = 0;
+      for (int y = bottom; y < top; ++y)
+        for (int x = left; x < std::min(left + side, size_.x); ++x)
+          pixels[count++] = std::size_t(y) * std::size_t(size_.x) + std::size_t(x);
+      body(std::span(pixels.data(), count));
+    }
+  }
+
+  /// Through a pixel's middle.
+  reference::FineRay ray_through(std::size_t pixel) const {
+    const int x = int(pixel) % size_.x, row = int(pixel) / size_.x;
+    const reference::Ray ray = rays_.through({float(x) + 0.5f, float(size_.y - row) - 0.5f});
+    return {glm::dvec3(ray.origin), glm::normalize(glm::dvec3(ray.direction)), double(ray.min_m)};
+  }
+
+ private:
+  reference::CameraRays rays_;
+  glm::ivec2 size_;
+};
+
+void TracedSun::find_surfaces(const reference::RayScene& rays, const Tiles& tiles, std::size_t row) {
+  tiles.for_each(row, [&](std::span<const std::size_t> pixels) {
+    std::array<reference::FineRay, reference::RayScene::packet_size> seen;
+    std::array<reference::FineHit, reference::RayScene::packet_size> hits;
+    for (std::size_t k = 0; k < pixels.size(); ++k) seen[k] = tiles.ray_through(pixels[k]);
+    rays.nearest_hits({seen.data(), pixels.size()}, {hits.data(), pixels.size()});
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const std::size_t i = pixels[k];
+      surfaces_[i] = {};
+      if (hits[k].place) {
+        const glm::vec3 normal = reference::facet_normal(*hits[k].place, hits[k].triangle);
+        const bool is_back = glm::dot(normal, glm::vec3(seen[k].direction)) > 0.0f;
+        surfaces_[i] = {hits[k].distance_m, is_back ? -normal : normal};
+      }
+      pixels_[i] = glm::vec2(1.0f, float(surfaces_[i].distance_m));
+      lit_[i] = 0;
     }
   });
-  std::ranges::fill(lit_, std::uint16_t(0));
 }
 
-/// A direction for each pixel; sample -1 is the middle of the disc, which later ones replace.
-void TracedSun::add_sample(const reference::RayScene& rays, int sample) {
+/// A direction for each pixel; sample -1 is the middle of the disc, which later ones replace. Surfaces that
+/// face away from it are dark without a ray.
+void TracedSun::add_sample(const reference::RayScene& rays, const Tiles& tiles, std::size_t row, int sample) {
   const reference::SunDisc disc(view_.sun);
-  const glm::ivec2 size = view_.size;
-  parallel_for(std::size_t(size.y), [&](std::size_t row) {
-    for (std::size_t i = row * std::size_t(size.x), end = i + std::size_t(size.x); i < end; ++i) {
-      if (surfaces_[i].w == 0.0f) continue;
-      reference::Ray ray{glm::vec3(surfaces_[i]), disc.to_middle()};
+  const glm::dvec3 to_middle = glm::normalize(glm::dvec3(view_.sun.direction_to_sun));
+  tiles.for_each(row, [&](std::span<const std::size_t> pixels) {
+    std::array<reference::FineRay, reference::RayScene::packet_size> to_sun;
+    std::array<std::size_t, reference::RayScene::packet_size> asking;
+    std::size_t count = 0;
+    for (const std::size_t i : pixels) {
+      if (surfaces_[i].distance_m == 0.0) continue;
+      pixels_[i].x = sample > 0 ? float(lit_[i]) / float(sample + 1) : 0.0f;
+      const reference::FineRay seen = tiles.ray_through(i);
+      reference::FineRay ray{seen.origin + surfaces_[i].distance_m * seen.direction, to_middle};
       if (view_.sun.spot) {
-        const glm::vec3 to_light = view_.sun.spot->position - ray.origin;
+        const glm::dvec3 to_light = glm::dvec3(view_.sun.spot->position) - ray.origin;
         ray.max_m = glm::length(to_light);
         ray.direction = to_light / ray.max_m;
       } else if (sample >= 0) {
-        ray.direction = disc.direction(on_disc(sample, std::uint32_t(i)));
+        ray.direction = glm::normalize(glm::dvec3(disc.direction(on_disc(sample, std::uint32_t(i)))));
       }
-      const bool is_lit = !rays.is_blocked(ray);
-      lit_[i] = std::uint16_t(lit_[i] + (sample >= 0 && is_lit));
-      pixels_[i].x = sample >= 0 ? float(lit_[i]) / float(sample + 1) : float(is_lit);
+      if (glm::dot(ray.direction, glm::dvec3(surfaces_[i].normal)) <= 0.0) continue;
+      to_sun[count] = ray, asking[count++] = i;
+    }
+    if (count == 0) return;
+    const std::uint32_t blocked = rays.are_blocked(std::span<const reference::FineRay>(to_sun.data(), count));
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((blocked >> k & 1u) != 0) continue;
+      const std::size_t i = asking[k];
+      lit_[i] = std::uint16_t(lit_[i] + (sample >= 0));
+      pixels_[i].x = sample >= 0 ? float(lit_[i]) / float(sample + 1) : 1.0f;
     }
   });
 }
@@ -78,9 +128,12 @@ void TracedSun::trace(const reference::RayScene& rays, std::uint64_t scene_versi
                   {width, height},
                   sun,
                   scene_version};
-  const int limit = sun.spot ? 0 : sun_samples;
+  const int limit = sun.spot || sun_samples == 1 ? 0 : sun_samples;  // one is to the middle
+  const Tiles tiles(camera, view.size);
   if (view == view_) {
-    if (samples_ < limit) add_sample(rays, samples_++);
+    if (samples_ >= limit) return;
+    parallel_for(tiles.rows(), [&](std::size_t row) { add_sample(rays, tiles, row, samples_); });
+    ++samples_;
     return;
   }
   const bool is_still =
@@ -88,10 +141,12 @@ void TracedSun::trace(const reference::RayScene& rays, std::uint64_t scene_versi
   view_ = view;
   const std::size_t count = std::size_t(width) * std::size_t(height);
   pixels_.resize(count), surfaces_.resize(count), lit_.resize(count);
-  find_surfaces(rays, camera);
-  samples_ = 0;
-  if (!is_still || limit == 0) return add_sample(rays, -1);
-  while (samples_ < limit) add_sample(rays, samples_++);
+  samples_ = is_still ? limit : 0;
+  parallel_for(tiles.rows(), [&](std::size_t row) {
+    find_surfaces(rays, tiles, row);
+    if (samples_ == 0) add_sample(rays, tiles, row, -1);
+    for (int sample = 0; sample < samples_; ++sample) add_sample(rays, tiles, row, sample);
+  });
 }
 
 GLuint TracedSun::upload() {

@@ -15,11 +15,11 @@ namespace parvis::shadows {
 
 class TracedSun {
  public:
-  /// The share of the sun that each pixel's middle sees, and how far away its surface is (0: the sky), as
-  /// render::TracedSun wants them. While the view, the sun and the scene (`scene_version`) stay as they were
-  /// in the last call, directions to the sun's disc are added, one per call up to `sun_samples`: shadows
-  /// become soft, and nothing else is traced again. A view that has jumped is a still of its own: it gets all
-  /// of them at once.
+  /// `rays` must be of reference::Precision::fine. The share of the sun that each pixel's middle sees, and
+  /// how far away its surface is (0: the sky), as render::TracedSun wants them. While the view, the sun and
+  /// the scene (`scene_version`) stay as they were in the last call, directions to the sun's disc are added,
+  /// one per call up to `sun_samples`: shadows become soft, and nothing else is traced again. A view that has
+  /// jumped is a still of its own: it gets all of them at once.
   void trace(const reference::RayScene& rays, std::uint64_t scene_version, const scene::SunLight& sun,
              const Camera& camera, int width, int height, int sun_samples);
 
@@ -38,13 +38,19 @@ class TracedSun {
     std::uint64_t scene_version = 0;
     bool operator==(const View&) const = default;
   };
-  void find_surfaces(const reference::RayScene& rays, const Camera& camera);
-  void add_sample(const reference::RayScene& rays, int sample);
+  /// What a pixel's middle shows.
+  struct Surface {
+    double distance_m = 0.0;  ///< 0: the sky
+    glm::vec3 normal{0.0f};   ///< of the triangle, toward the viewer; of any length
+  };
+  class Tiles;
+  void find_surfaces(const reference::RayScene& rays, const Tiles& tiles, std::size_t row);
+  void add_sample(const reference::RayScene& rays, const Tiles& tiles, std::size_t row, int sample);
 
   View view_;
   std::vector<glm::vec2> pixels_;
-  std::vector<glm::vec4> surfaces_;  ///< where rays to the sun begin; w: 1 where there are any
-  std::vector<std::uint16_t> lit_;   ///< how many directions were open
+  std::vector<Surface> surfaces_;
+  std::vector<std::uint16_t> lit_;  ///< how many directions were open
   int samples_ = 0;
   gl::Texture texture_;
   glm::ivec2 texture_size_{0};

@@ -39,13 +39,15 @@ DoubleTracer::DoubleTracer(const scene::Scene& twin) {
   for (const scene::Object& object : twin.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts) {
-      const glm::dmat4 world(glm::dmat4(object.world_from_model) * glm::dmat4(pose[std::size_t(part.node)]));
+      const glm::dmat4 world(object.world_from_model * pose[std::size_t(part.node)]);
+      const bool is_mirrored = glm::determinant(glm::dmat3(world)) < 0.0;  // its triangles turn the other way
       const bool is_double = object.model->materials[std::size_t(part.material)].is_double_sided;
       for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k)
           triangle.corners[k] =
               glm::dvec3(world * glm::dvec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0));
+        if (is_mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
         triangles_.push_back(triangle);
         if (is_double)
           triangles_.push_back({{triangle.corners[0], triangle.corners[2], triangle.corners[1]}});
@@ -108,7 +110,9 @@ std::optional<DoubleTracer::Hit> DoubleTracer::nearest(glm::dvec3 origin, glm::d
       const glm::dvec3 e1 = t.corners[1] - t.corners[0], e2 = t.corners[2] - t.corners[0];
       const glm::dvec3 p = glm::cross(direction, e2);
       const double determinant = glm::dot(e1, p);
-      if (side == StoppedBy::front ? determinant <= 0.0 : determinant == 0.0) continue;
+      if (determinant == 0.0 || (side == StoppedBy::front && determinant < 0.0) ||
+          (side == StoppedBy::back && determinant > 0.0))
+        continue;
       const glm::dvec3 s = origin - t.corners[0], q = glm::cross(s, e1);
       const double u = glm::dot(s, p) / determinant, v = glm::dot(direction, q) / determinant;
       const double distance = glm::dot(e2, q) / determinant;

@@ -14,8 +14,9 @@ namespace parvis::bench {
 /// tracers can tell exactly.
 scene::Scene opaque_twin(const scene::Scene& scene);
 
-/// Which side of a triangle stops a ray.
-enum class StoppedBy : unsigned char { front, both };
+/// Which side of a triangle stops a ray. Rays that see are stopped by fronts; rays to the sun by backs, as
+/// the sun sees their fronts.
+enum class StoppedBy : unsigned char { front, back, both };
 
 /// Rays against the triangles of an opaque_twin.
 class DoubleTracer {

@@ -278,9 +278,35 @@ Status measure_vegetation_alone(const BenchSetup& setup, Report& report) {
   return measure_vegetation(setup, report);
 }
 
+/// The keys shadow_* by themselves.
+Status measure_shadows_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  const ScratchFolder folder;
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
+  const Result<scene::LoadedScene> loaded =
+      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+  if (!loaded) return loaded.errors();
+  return measure_shadows(setup, loaded->scene, report);
+}
+
+/// The keys relight_* by themselves.
+Status measure_relighting_alone(const BenchSetup& setup, Report& report) {
+  const ScratchFolder folder;
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
+  const Result<scene::LoadedScene> loaded =
+      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+  if (!loaded) return loaded.errors();
+  return measure_relighting(reference::RayScene(loaded->scene), report);
+}
+
 }  // namespace
 
 void furnish_light(House& house) {
+  house.get<Benches>().add({"shadows", "shadows of each method against exact ones", measure_shadows_alone});
+  house.get<Benches>().add(
+      {"relighting", "light at the vertices of moved objects", measure_relighting_alone});
   house.get<Benches>().add({"vegetation", "points and lines of grown plants against their real geometry",
                             measure_vegetation_alone});
   house.get<Benches>().add(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "base/parallel.h"
@@ -9,7 +10,7 @@
 #include "graphics/light/bench/double_tracer.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/shadows/chosen_light.h"
 #include "graphics/shadows/traced_sun.h"
 #include "scene/data/sun_shadows.h"
@@ -20,28 +21,66 @@ namespace {
 using light::ShadowTechnique;
 
 constexpr int width = 160, height = 90;
-constexpr double lift_m = 2e-3, min_facing = 0.03;
+constexpr double min_facing = 0.03, min_m = 1e-4;
 constexpr float half_lit = 0.5f;
 
 /// What each pixel's middle sees of the sun: -1 nothing that faces it, 0 shadow, 1 light.
 using SunPicture = std::vector<signed char>;
 
+/// A middle is in shadow if the line from the very point that it shows to the middle of the sun crosses a
+/// triangle, more than `min_m` away, whose front the sun sees: shadows as they are drawn.
 SunPicture exact_sun(const DoubleTracer& tracer, const Camera& camera, glm::dvec3 to_sun) {
   SunPicture picture(std::size_t(width) * height, -1);
+  const reference::CameraRays rays(camera, width, height);
   parallel_for(std::size_t(height), [&](std::size_t row) {
     for (int x = 0; x < width; ++x) {
-      const reference::Ray ray =
-          reference::camera_ray(camera, width, height, {float(x) + 0.5f, float(row) + 0.5f});
+      const reference::Ray ray = rays.through({float(x) + 0.5f, float(row) + 0.5f});
       const glm::dvec3 origin(ray.origin), direction = glm::normalize(glm::dvec3(ray.direction));
-      const auto hit = tracer.nearest(origin, direction, 1e-4, StoppedBy::front);
+      const auto hit = tracer.nearest(origin, direction, double(ray.min_m), StoppedBy::front);
       if (!hit || glm::dot(hit->normal, to_sun) < min_facing) continue;
-      const glm::dvec3 at = origin + hit->distance_m * direction + lift_m * hit->normal;
       picture[row * std::size_t(width) + std::size_t(x)] =
-          tracer.is_blocked(at, to_sun, 1e-4, StoppedBy::front) ? 0 : 1;
+          tracer.is_blocked(origin + hit->distance_m * direction, to_sun, min_m, StoppedBy::back) ? 0 : 1;
     }
   });
   return picture;
 }
+
+/// A picture of the share of the sun in each pixel; 1 where nothing faces it.
+using Shares = std::vector<float>;
+
+/// The light of each pixel: of its four samples as they are resolved for the eye, and of its very middle,
+/// which at edges shows one surface where the samples show two.
+struct DrawnSun {
+  Shares resolved, middle;
+};
+
+/// A target of one sample per pixel, which lies in the pixel's middle.
+class MiddleTarget {
+ public:
+  MiddleTarget()
+      : colour_(gl::texture_2d(GL_RGBA32F, width, height)),
+        depth_(gl::texture_2d(GL_DEPTH_COMPONENT32F, width, height)),
+        framebuffer_(gl::Framebuffer::create()) {
+    glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
+    glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+  }
+
+  /// The main view as the renderer drew it last, once more.
+  ImageF drawn(render::Renderer& renderer) const {
+    render::View view = renderer.main_view();
+    view.framebuffer = framebuffer_.name();
+    renderer.draw_view(view);
+    ImageF picture(width, height, 4);
+    glGetTextureImage(colour_.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(picture.pixels.size() * sizeof(float)),
+                      picture.pixels.data());
+    render::flip_rows(picture);
+    return picture;
+  }
+
+ private:
+  gl::Texture colour_, depth_;
+  gl::Framebuffer framebuffer_;
+};
 
 /// The city in the light of the sun alone, with and without shadows, by the renderer.
 class SunlitCity {
@@ -65,17 +104,19 @@ class SunlitCity {
     for (scene::Scene* scene : {&shaded_, &open_}) scene->sun.direction_to_sun = to_sun;
   }
 
-  /// The share of the sun in each pixel; 1 where nothing faces it.
-  std::vector<float> shares(const Camera& camera, ShadowTechnique technique) {
+  /// The view that is drawn next. Fails as render::draw_frame.
+  Status look(const Camera& camera) {
+    camera_ = camera;
+    return draw(*open_renderer_, open_, unshaded_);
+  }
+
+  /// The shares of the sun in the view that was set. Fails as render::draw_frame.
+  Result<DrawnSun> sun(ShadowTechnique technique) {
     light::ShadowSettings& settings = shaded_.data<light::ShadowSettings>();
     settings.technique = technique, settings.sun_samples = 1;
-    const ImageF with = drawn(*renderer_, shaded_, camera), without = drawn(*open_renderer_, open_, camera);
-    std::vector<float> shares(std::size_t(width) * height, 1.0f);
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      const float maximum = without.pixels[i * std::size_t(without.channels)];
-      if (maximum > 1e-3f) shares[i] = with.pixels[i * std::size_t(with.channels)] / maximum;
-    }
-    return shares;
+    Pictures shaded;
+    if (Status status = draw(*renderer_, shaded_, shaded); !status) return status.errors();
+    return DrawnSun{shares(shaded.resolved, unshaded_.resolved), shares(shaded.middle, unshaded_.middle)};
   }
 
   /// Milliseconds of a frame's beginning: shadow maps for this camera and the sun as it is.
@@ -89,22 +130,35 @@ class SunlitCity {
   }
 
  private:
-  static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
-    renderer.begin_frame(scene, camera);
-    renderer.prepare_main_view(camera, width, height);
-    renderer.draw_main_view();
-    return renderer.read_radiance();
+  struct Pictures {
+    ImageF resolved, middle;
+  };
+  Status draw(render::Renderer& renderer, const scene::Scene& scene, Pictures& pictures) const {
+    if (Status status = render::draw_frame(renderer, scene, {camera_, width, height}); !status) return status;
+    pictures = {renderer.read_radiance(), middles_.drawn(renderer)};
+    return Done{};
+  }
+  static Shares shares(const ImageF& with, const ImageF& without) {
+    Shares shares(std::size_t(width) * height, 1.0f);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const float maximum = without.pixels[i * std::size_t(without.channels)];
+      if (maximum > 1e-3f) shares[i] = with.pixels[i * std::size_t(with.channels)] / maximum;
+    }
+    return shares;
   }
 
   scene::Scene shaded_, open_;
   std::unique_ptr<render::Renderer> renderer_, open_renderer_;
+  MiddleTarget middles_;
+  Camera camera_;
+  Pictures unshaded_;
 };
 
 /// Wrong pixels among those that face the sun.
 struct Wrong {
   long wrong = 0, pixels = 0;
 
-  void add(const SunPicture& truth, const std::vector<float>& shares) {
+  void add(const SunPicture& truth, const Shares& shares) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (truth[i] < 0) continue;
       ++pixels;
@@ -128,12 +182,11 @@ glm::vec3 any_sun(Random& random) {
   return glm::normalize(glm::vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
 }
 
-/// The renderer's own pixels of method rays, before the picture: what the tracer in single precision finds.
-std::vector<float> traced_shares(const reference::RayScene& rays, const scene::Scene& twin,
-                                 const Camera& camera) {
+/// The renderer's own pixels of method rays, before the picture.
+Shares traced_shares(const reference::RayScene& rays, const scene::SunLight& sun, const Camera& camera) {
   shadows::TracedSun traced;
-  traced.trace(rays, 1, scene::sun_light(twin), camera, width, height, 0);
-  std::vector<float> shares(std::size_t(width) * height);
+  traced.trace(rays, 1, sun, camera, width, height, 1);
+  Shares shares(std::size_t(width) * height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       shares[std::size_t(y * width + x)] = traced.pixels()[std::size_t((height - 1 - y) * width + x)].x;
@@ -141,25 +194,57 @@ std::vector<float> traced_shares(const reference::RayScene& rays, const scene::S
 }
 
 /// Pixels that change between right and wrong from one step of a walk to the next, while the truth stays.
-double flicker_percent(SunlitCity& drawn, const DoubleTracer& tracer, const Camera& start, glm::vec3 to_sun,
-                       int steps) {
-  drawn.set_sun(to_sun);
-  long changes = 0, pixels = 0;
-  SunPicture truth_before;
-  std::vector<float> shares_before;
-  Camera camera = start;
-  for (int i = 0; i < steps; ++i) {
-    camera.world_from_camera[3] -= 0.02f * camera.world_from_camera[2];  // ahead
-    const SunPicture truth = exact_sun(tracer, camera, glm::dvec3(to_sun));
-    const std::vector<float> shares = drawn.shares(camera, ShadowTechnique::cached_cascades);
-    for (std::size_t k = 0; i > 0 && k < truth.size(); ++k) {
-      if (truth[k] < 0 || truth[k] != truth_before[k]) continue;
-      ++pixels;
-      changes += (shares[k] > half_lit) != (shares_before[k] > half_lit);
+class Flicker {
+ public:
+  void add(const SunPicture& truth, const Shares& shares) {
+    for (std::size_t k = 0; !truth_before_.empty() && k < truth.size(); ++k) {
+      if (truth[k] < 0 || truth[k] != truth_before_[k]) continue;
+      ++pixels_;
+      changes_ += (shares[k] > half_lit) != (shares_before_[k] > half_lit);
     }
-    truth_before = truth, shares_before = shares;
+    truth_before_ = truth, shares_before_ = shares;
   }
-  return pixels > 0 ? 100.0 * double(changes) / double(pixels) : std::nan("");
+  double percent() const { return pixels_ > 0 ? 100.0 * double(changes_) / double(pixels_) : std::nan(""); }
+
+ private:
+  long changes_ = 0, pixels_ = 0;
+  SunPicture truth_before_;
+  Shares shares_before_;
+};
+
+Status measure_flicker(SunlitCity& drawn, const DoubleTracer& tracer, const Camera& start, glm::vec3 to_sun,
+                       int steps, Report& report) {
+  drawn.set_sun(to_sun);
+  Flicker of_default, of_resolved, of_perspective;
+  Camera camera = start;
+  const auto walk = [&](ShadowTechnique technique,
+                        const std::function<void(const SunPicture&, DrawnSun)>& add) -> Status {
+    camera = start;
+    for (int i = 0; i < steps; ++i) {
+      camera.world_from_camera[3] -= 0.02f * camera.world_from_camera[2];  // ahead
+      if (Status status = drawn.look(camera); !status) return status;
+      Result<DrawnSun> sun = drawn.sun(technique);
+      if (!sun) return sun.errors();
+      add(exact_sun(tracer, camera, glm::dvec3(to_sun)), *std::move(sun));
+    }
+    return Done{};
+  };
+  if (Status status = walk(ShadowTechnique::cached_cascades,
+                           [&](const SunPicture& truth, const DrawnSun& sun) {
+                             of_default.add(truth, sun.middle), of_resolved.add(truth, sun.resolved);
+                           });
+      !status)
+    return status;
+  if (Status status =
+          walk(ShadowTechnique::perspective,
+               [&](const SunPicture& truth, const DrawnSun& sun) { of_perspective.add(truth, sun.middle); });
+      !status)
+    return status;
+  report.add("shadow_flicker_percent", of_default.percent(), up_to(0.1));
+  report.add("shadow_flicker_percent_resolved", of_resolved.percent());
+  report.add("shadow_flicker_percent_perspective", of_perspective.percent());
+  report.note("control: maps of method perspective, which are fitted anew to each view, must fail 0.1");
+  return Done{};
 }
 
 /// Rays for one 720p picture beside the shadow maps of a new sun, on all of the city's triangles.
@@ -168,15 +253,15 @@ Status measure_times(const scene::Scene& city, Report& report) {
   std::erase_if(still.objects, [](const scene::Object& object) { return object.is_dynamic; });
   auto drawn = SunlitCity::create(still);
   if (!drawn) return drawn.errors();
-  const reference::RayScene rays(still);
+  const reference::RayScene rays(still, reference::Precision::fine);
   Camera camera = city.cameras.front().camera;
   std::vector<double> rays_ms, maps_ms;
   shadows::TracedSun traced;
   scene::SunLight sun = scene::sun_light(still);
-  traced.trace(rays, 1, sun, camera, 1280, 720, 0);
+  traced.trace(rays, 1, sun, camera, 1280, 720, 1);
   for (int i = 0; i < 5; ++i) {
     camera.world_from_camera[3] += glm::vec4(0.0f, 0.01f, 0.0f, 0.0f);
-    rays_ms.push_back(milliseconds([&] { traced.trace(rays, 1, sun, camera, 1280, 720, 0); }));
+    rays_ms.push_back(milliseconds([&] { traced.trace(rays, 1, sun, camera, 1280, 720, 1); }));
     (*drawn)->set_sun(glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(i), 0.7f)));
     maps_ms.push_back((*drawn)->beginning_ms(camera));
   }
@@ -194,11 +279,11 @@ Status measure_shadows(const BenchSetup& setup, const scene::Scene& city, Report
   if (twin.objects.empty() || city.cameras.empty())
     return error("the scene has no opaque objects or no cameras to measure shadows with");
   const DoubleTracer tracer(twin);
-  const reference::RayScene rays(twin);
+  const reference::RayScene rays(twin, reference::Precision::fine);
   auto drawn = SunlitCity::create(twin);
   if (!drawn) return drawn.errors();
-  std::array<Wrong, light::shadow_technique_names.size()> wrong;
-  Wrong of_rays, with_sun_moved;
+  std::array<Wrong, light::shadow_technique_names.size()> wrong, wrong_resolved;
+  Wrong of_rays, of_rays_with_sun_moved, with_sun_moved;
   Random random(4);
   const int cameras = setup.is_quick ? 8 : 200, suns = setup.is_quick ? 3 : 24;
   for (int c = 0; c < cameras; ++c) {
@@ -206,33 +291,47 @@ Status measure_shadows(const BenchSetup& setup, const scene::Scene& city, Report
     for (int s = 0; s < suns; ++s) {
       const glm::vec3 to_sun = any_sun(random);
       const SunPicture truth = exact_sun(tracer, camera, glm::dvec3(to_sun));
-      scene::Scene lit = twin;
-      lit.sun.direction_to_sun = to_sun;
-      of_rays.add(truth, traced_shares(rays, lit, camera));
+      scene::SunLight sun = scene::sun_light(twin);
+      sun.direction_to_sun = to_sun;
+      of_rays.add(truth, traced_shares(rays, sun, camera));
+      sun.direction_to_sun = glm::normalize(to_sun + glm::vec3(1e-4f, 0.0f, 0.0f));
+      of_rays_with_sun_moved.add(truth, traced_shares(rays, sun, camera));
       (*drawn)->set_sun(to_sun);
-      for (std::size_t t = 0; t < wrong.size(); ++t)
-        wrong[t].add(truth, (*drawn)->shares(camera, ShadowTechnique(t)));
-      const glm::vec3 other = glm::normalize(to_sun + glm::vec3(0.03f, 0.0f, 0.0f));
-      with_sun_moved.add(exact_sun(tracer, camera, glm::dvec3(other)),
-                         (*drawn)->shares(camera, ShadowTechnique::cached_cascades));
+      if (Status status = (*drawn)->look(camera); !status) return status;
+      for (std::size_t t = 0; t < wrong.size(); ++t) {
+        const Result<DrawnSun> shares = (*drawn)->sun(ShadowTechnique(t));
+        if (!shares) return shares.errors();
+        wrong[t].add(truth, shares->middle), wrong_resolved[t].add(truth, shares->resolved);
+        if (ShadowTechnique(t) == ShadowTechnique::cached_cascades)
+          with_sun_moved.add(
+              exact_sun(tracer, camera, glm::dvec3(glm::normalize(to_sun + glm::vec3(0.03f, 0.0f, 0.0f)))),
+              shares->middle);
+      }
     }
   }
-  double best = 1e9;
+  double best = 1e9, best_resolved = 1e9;
   for (std::size_t t = 0; t < wrong.size(); ++t) {
-    report.note(fmt::format("{}: {:.3f} % of {} pixels wrong", light::shadow_technique_names[t],
-                            wrong[t].percent(), wrong[t].pixels));
-    if (ShadowTechnique(t) != ShadowTechnique::rays) best = std::min(best, wrong[t].percent());
+    report.note(fmt::format("{}: {:.3f} % of {} pixels wrong in their middle, {:.3f} % as resolved",
+                            light::shadow_technique_names[t], wrong[t].percent(), wrong[t].pixels,
+                            wrong_resolved[t].percent()));
+    if (ShadowTechnique(t) == ShadowTechnique::rays) continue;
+    best = std::min(best, wrong[t].percent());
+    best_resolved = std::min(best_resolved, wrong_resolved[t].percent());
   }
   report.add("shadow_wrong_px_percent_rays", of_rays.percent(), up_to(0.0));
+  report.add("shadow_wrong_px_percent_rays_sun_0.006_deg_off", of_rays_with_sun_moved.percent());
+  report.note(fmt::format("{} of {} pixels; control: rays to a sun 0.006 degrees off must fail 0",
+                          of_rays.wrong, of_rays.pixels));
   report.add("shadow_wrong_px_percent_best_raster", best, up_to(0.5));
+  report.add("shadow_wrong_px_percent_best_raster_resolved", best_resolved);
   report.add("shadow_wrong_px_percent_sun_2_deg_off", with_sun_moved.percent());
   report.note("control: the same pictures against a sun 2 degrees off must fail 0.5");
   report.add("shadow_perspective_over_best_raster",
              wrong[std::size_t(ShadowTechnique::perspective)].percent() / std::max(best, 1e-9));
-  report.add("shadow_flicker_percent",
-             flicker_percent(**drawn, tracer, city.cameras.front().camera, any_sun(random),
-                             setup.is_quick ? 12 : 100),
-             up_to(0.1));
+  if (Status status = measure_flicker(**drawn, tracer, city.cameras.front().camera, any_sun(random),
+                                      setup.is_quick ? 12 : 100, report);
+      !status)
+    return status;
   return measure_times(city, report);
 }
 

@@ -1,0 +1,270 @@
+// Packets of rays in double precision: Embree finds candidates among triangles that are grown by more than
+// its error, along rays that begin earlier and end later by more than that; each candidate is decided here.
+#include "graphics/reference/ray_query.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "graphics/reference/traced_hit.h"
+
+namespace parvis::reference {
+namespace {
+
+/// What travels with a query to the filters below.
+struct QueryContext {
+  RTCIntersectContext embree;
+  const Places& places;
+  std::span<Passage> passages;  ///< of each ray; empty: rays see as the renderer draws
+  std::span<const FineRay> fine_rays = {};
+  std::span<FineHit> fine_hits = {};  ///< the nearest so far
+  float margin_m = 0.0f;
+
+  QueryContext(const Places& all, std::span<Passage> of_rays) : places(all), passages(of_rays) {
+    rtcInitIntersectContext(&embree);
+  }
+};
+
+/// A triangle along a ray.
+struct Candidate {
+  const PlacedPart& place;
+  std::uint32_t triangle;
+  float u, v;
+  bool is_back;
+  glm::vec3 direction;  ///< of the ray, in the frame of the triangle
+};
+
+glm::vec3 direction_in_world(const Candidate& candidate) {
+  return candidate.place.is_joined ? candidate.direction
+                                   : glm::mat3(candidate.place.world_from_mesh) * candidate.direction;
+}
+
+float alpha_of(const Candidate& candidate, bool is_shadow) {
+  const PlacedPart& place = candidate.place;
+  if (place.surface) {
+    const glm::vec3 along = glm::normalize(direction_in_world(candidate));
+    return place.surface->alpha(
+        traced_hit(place, candidate.triangle, {candidate.u, candidate.v}, is_shadow ? along : -along, 0.0f));
+  }
+  const scene::Material& material = *place.material;
+  if (material.base_colour_texture == scene::no_index) return material.alpha;
+  const glm::vec2 uv = texture_coordinates(place, candidate.triangle, candidate.u, candidate.v);
+  return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
+}
+
+bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
+  const scene::Material& material = *candidate.place.material;
+  if (!passage.sees_backs && !material.is_double_sided && candidate.is_back) return false;
+  if (material.alpha_mode == scene::Alpha::opaque) return true;
+  if (material.alpha_mode == scene::Alpha::cutout) return alpha_of(candidate, is_shadow) >= 0.5f;
+  return candidate.place.casts_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
+}
+
+/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass cast no
+/// shadow.
+bool stops_as_drawn(const Candidate& candidate, bool is_shadow) {
+  const scene::Material& material = *candidate.place.material;
+  const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
+  if (is_shadow && (!candidate.place.casts_shadow || lets_through)) return false;
+  if (!material.is_double_sided && candidate.is_back != is_shadow) return false;
+  return material.alpha_mode != scene::Alpha::cutout || alpha_of(candidate, is_shadow) >= 0.5f;
+}
+
+/// Where the ray itself crosses the triangle itself.
+std::optional<Crossing> fine_crossing(const FineRay& ray, const PlacedPart& place, std::uint32_t triangle) {
+  const glm::dmat4 world_from_mesh(place.world_from_mesh);
+  const std::uint32_t* const index = place.mesh->indices.data() + 3 * std::size_t(triangle);
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k)
+    corners[k] = glm::dvec3(world_from_mesh * glm::dvec4(place.mesh->positions[index[k]], 1.0));
+  return crossing(ray, corners);
+}
+
+/// Asks about the `lane`-th of the rays that a call is about.
+template <bool is_shadow, bool is_of_context>
+bool stops(QueryContext& context, const RTCFilterFunctionNArguments* arguments, unsigned lane) {
+  const unsigned n = arguments->N, ray = RTCRayN_id(arguments->ray, n, lane);
+  const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, n, lane, 0),
+                                                     RTCHitN_geomID(arguments->hit, n, lane))];
+  if (is_of_context && has_filter(place)) return true;  // its own filter has been asked
+  const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, n, lane), RTCHitN_Ng_y(arguments->hit, n, lane),
+                     RTCHitN_Ng_z(arguments->hit, n, lane));
+  const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, lane), RTCRayN_dir_y(arguments->ray, n, lane),
+                            RTCRayN_dir_z(arguments->ray, n, lane));
+  Candidate candidate{place,
+                      RTCHitN_primID(arguments->hit, n, lane),
+                      RTCHitN_u(arguments->hit, n, lane),
+                      RTCHitN_v(arguments->hit, n, lane),
+                      glm::dot(ng, direction) > 0.0f,  // mirroring exchanges nothing in the mesh's frame
+                      direction};
+  double distance_m = 0.0;
+  if (!context.fine_rays.empty()) {
+    const FineRay& fine = context.fine_rays[ray];
+    const auto found = fine_crossing(fine, place, candidate.triangle);
+    const double max_m =
+        is_shadow || !context.fine_hits[ray].place ? fine.max_m : context.fine_hits[ray].distance_m;
+    if (!found || found->distance_m <= fine.min_m || found->distance_m >= max_m) return false;
+    distance_m = found->distance_m, candidate.u = float(found->u), candidate.v = float(found->v);
+    candidate.is_back = found->is_back != place.is_mirrored;
+  }
+  if (!(context.passages.empty() ? stops_as_drawn(candidate, is_shadow)
+                                 : stops_light(candidate, context.passages[ray], is_shadow)))
+    return false;
+  if (!is_shadow && !context.fine_rays.empty()) {
+    context.fine_hits[ray] = {&place, candidate.triangle, distance_m, candidate.u, candidate.v};
+    // candidates a little behind may yet prove to be nearer
+    RTCRayN_tfar(arguments->ray, n, lane) += context.margin_m * 2.0f;
+  }
+  return true;
+}
+
+template <bool is_shadow, bool is_of_context>
+void filter(const RTCFilterFunctionNArguments* arguments) {
+  QueryContext& context = *reinterpret_cast<QueryContext*>(arguments->context);
+  for (unsigned lane = 0; lane < arguments->N; ++lane)
+    if (arguments->valid[lane] != 0 && !stops<is_shadow, is_of_context>(context, arguments, lane))
+      arguments->valid[lane] = 0;
+}
+
+RTCRay embree_ray(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.min_m,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0f,
+          ray.max_m,
+          ~0u,
+          0,
+          0};
+}
+
+/// Embree asserts that rays are finite. One that is not hits nothing: a surface so degenerate that it has no
+/// normal must not end the program.
+bool is_finite(const Ray& ray) {
+  constexpr float embree_limit = 1.8e18f;
+  const auto fits = [](glm::vec3 v) {
+    return std::abs(v.x) < embree_limit && std::abs(v.y) < embree_limit && std::abs(v.z) < embree_limit;
+  };
+  return fits(ray.origin) && fits(ray.direction) && ray.min_m <= ray.max_m;
+}
+
+/// Begins and ends where single precision cannot miss what lies on the ray.
+Ray embree_ray_around(const FineRay& ray, float margin_m) {
+  const double before = std::max(ray.min_m - double(margin_m), -4.0 * double(margin_m));
+  return {glm::vec3(ray.origin + before * ray.direction), glm::vec3(ray.direction), 0.0f,
+          float(std::min(ray.max_m - before + double(margin_m), 1e30))};
+}
+
+/// Embree's form of a packet; rays that are missing or not finite are left out.
+struct Packet {
+  alignas(64) int valid[RayScene::packet_size];
+  alignas(64) RTCRayHit16 rays;
+
+  template <class MakeRay>
+  Packet(std::size_t count, const MakeRay& make_ray) {
+    assert(count <= RayScene::packet_size);
+    for (std::size_t i = 0; i < RayScene::packet_size; ++i) {
+      const Ray ray = i < count ? make_ray(i) : Ray{glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
+      valid[i] = i < count && is_finite(ray) ? -1 : 0;
+      RTCRay16& r = rays.ray;
+      r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
+      r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
+      r.tnear[i] = ray.min_m, r.tfar[i] = ray.max_m, r.time[i] = 0.0f;
+      r.mask[i] = ~0u, r.id[i] = unsigned(i), r.flags[i] = 0;
+      rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+  std::uint32_t blocked() const {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < RayScene::packet_size; ++i)
+      bits |= std::uint32_t(valid[i] != 0 && rays.ray.tfar[i] < 0.0f) << i;
+    return bits;
+  }
+};
+
+}  // namespace
+
+void filter_seen(const RTCFilterFunctionNArguments* arguments) { filter<false, false>(arguments); }
+void filter_shadow(const RTCFilterFunctionNArguments* arguments) { filter<true, false>(arguments); }
+
+glm::vec2 texture_coordinates(const PlacedPart& place, std::uint32_t triangle, float u, float v) {
+  const Mesh& mesh = *place.mesh;
+  const std::uint32_t* corner = mesh.indices.data() + 3 * std::size_t(triangle);
+  const glm::vec2 uv =
+      (1.0f - u - v) * mesh.uvs[corner[0]] + u * mesh.uvs[corner[1]] + v * mesh.uvs[corner[2]];
+  return glm::vec2(place.material->texture_from_mesh_uv * glm::vec3(uv, 1.0f));
+}
+
+glm::vec3 facet_normal(const PlacedPart& place, std::uint32_t triangle) {
+  const std::uint32_t* const corner = place.mesh->indices.data() + 3 * std::size_t(triangle);
+  const glm::mat3 turn(place.world_from_mesh);
+  const glm::vec3 a = place.mesh->positions[corner[0]], ab = turn * (place.mesh->positions[corner[1]] - a),
+                  ac = turn * (place.mesh->positions[corner[2]] - a);
+  return place.is_mirrored ? glm::cross(ac, ab) : glm::cross(ab, ac);
+}
+
+void RayScene::nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const {
+  assert(margin_m_ > 0.0f && hits.size() >= rays.size());
+  std::fill(hits.begin(), hits.end(), FineHit{});
+  Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
+  QueryContext context(places_, {});
+  context.fine_rays = rays, context.fine_hits = hits, context.margin_m = margin_m_;
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(packet.valid, top_, &context.embree, &packet.rays);
+}
+
+std::uint32_t RayScene::are_blocked(std::span<const FineRay> rays) const {
+  assert(margin_m_ > 0.0f);
+  Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
+  QueryContext context(places_, {});
+  context.fine_rays = rays;
+  rtcOccluded16(packet.valid, top_, &context.embree, &packet.rays.ray);
+  return packet.blocked();
+}
+
+std::uint32_t RayScene::are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const {
+  assert(margin_m_ == 0.0f && passages.size() >= rays.size());
+  Packet packet(rays.size(), [&](std::size_t i) { return rays[i]; });
+  QueryContext context(places_, passages);
+  for (const Passage& passage : passages)
+    if (!passage.sees_backs) context.embree.filter = filter<true, true>;
+  rtcOccluded16(packet.valid, top_, &context.embree, &packet.rays.ray);
+  return packet.blocked();
+}
+
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {
+  assert(margin_m_ == 0.0f);
+  if (!is_finite(ray)) return std::nullopt;
+  QueryContext context(places_, {passage, passage ? 1u : 0u});
+  if (!passage || !passage->sees_backs) context.embree.filter = filter<false, true>;
+  RTCRayHit query{};
+  query.ray = embree_ray(ray);
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(top_, &context.embree, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const std::size_t place = place_of(query.hit.instID[0], query.hit.geomID);
+  return Hit{places_[place].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
+  assert(margin_m_ == 0.0f);
+  if (!is_finite(ray)) return false;
+  QueryContext context(places_, {passage, passage ? 1u : 0u});
+  if (!passage || !passage->sees_backs) context.embree.filter = filter<true, true>;
+  RTCRay query = embree_ray(ray);
+  rtcOccluded1(top_, &context.embree, &query);
+  return query.tfar < 0.0f;
+}
+
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray) const { return nearest_hit(ray, nullptr); }
+std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const {
+  return nearest_hit(ray, &passage);
+}
+bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
+bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
+
+}  // namespace parvis::reference

@@ -1,0 +1,35 @@
+// What Embree asks about the triangles that it finds along rays: does this one stop the ray?
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <span>
+
+#include "graphics/reference/ray_scene.h"
+
+namespace parvis::reference {
+
+using Places = std::vector<std::unique_ptr<PlacedPart>>;
+
+/// Instance of the joined triangles; that of place i is i + 1.
+inline constexpr unsigned joined_instance = 0;
+/// That of a place which is not joined.
+inline unsigned instance_of(std::size_t place) { return unsigned(place + 1); }
+
+/// Which place a hit belongs to.
+inline std::size_t place_of(unsigned instance, unsigned geometry) {
+  return instance == joined_instance ? geometry : instance - 1;
+}
+
+/// Do all queries of a scene in single precision have to ask about this part's triangles? Else those alone do
+/// that see as the renderer draws.
+inline bool has_filter(const PlacedPart& part) {
+  return !part.is_joined || part.material->alpha_mode != scene::Alpha::opaque;
+}
+
+/// Embree's filter functions of rays that see and of rays to the light; for geometries, and for the context
+/// of a query, where they leave out geometries that have a filter.
+void filter_seen(const RTCFilterFunctionNArguments* arguments);
+void filter_shadow(const RTCFilterFunctionNArguments* arguments);
+
+}  // namespace parvis::reference
