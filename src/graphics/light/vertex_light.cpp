@@ -25,14 +25,14 @@ constexpr int min_rays = 16, max_rays = 256;
 
 glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
-/// In [0, 1), another for each vertex (PCG's output function, O'Neill 2014).
+/// In [0, 1), another for each number (PCG's output function, O'Neill 2014).
 float scrambled(std::uint32_t value) {
   value = value * 747796405u + 2891336453u;
   value = ((value >> ((value >> 28) + 4)) ^ value) * 277803737u;
   return float((value >> 22 ^ value) >> 8) * 0x1p-24f;
 }
 
-/// Points of the R2 sequence (Roberts 2018), moved for each vertex (Cranley and Patterson 1976).
+/// Points of the R2 sequence (Roberts 2018), moved for each pattern (Cranley and Patterson 1976).
 glm::vec2 low_discrepancy(int index, glm::vec2 shift) {
   const glm::dvec2 step(0.7548776662466927, 0.5698402909980532);
   return glm::vec2(glm::fract(glm::dvec2(shift) + double(index) * step));
@@ -57,7 +57,7 @@ bool is_open(const reference::RayScene& scene, glm::vec3 from, glm::vec3 directi
 /// Rays from one point that are answered together.
 class Packet {
  public:
-  static constexpr int size = int(reference::RayScene::packet_size);
+  static constexpr std::size_t size = reference::RayScene::packet_size;
 
   Packet(const reference::RayScene& scene, glm::vec3 from) : scene_(scene), from_(from) {}
 
@@ -81,15 +81,43 @@ class Packet {
   const reference::RayScene& scene_;
   glm::vec3 from_;
   std::size_t count_ = 0;
-  std::array<reference::Ray, std::size_t(size)> rays_;
-  std::array<reference::Passage, std::size_t(size)> passages_{};
-  std::array<std::uint64_t, std::size_t(size)> numbers_;
+  std::array<reference::Ray, size> rays_;
+  std::array<reference::Passage, size> passages_{};
+  std::array<std::uint64_t, size> numbers_;
 };
 
 glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
 
-glm::vec2 shift_of(std::size_t vertex) {
-  return {scrambled(std::uint32_t(2 * vertex)), scrambled(std::uint32_t(2 * vertex + 1))};
+/// Points of the unit disc for several vertices to share: rays `first` to `first + count - 1` of each
+/// pattern. Vertices that share a pattern differ by a turn about their normals.
+class DiscPatterns {
+ public:
+  DiscPatterns(int first, int count) : count_(std::size_t(count)) {
+    points_.reserve(pattern_count * count_);
+    for (std::size_t pattern = 0; pattern < pattern_count; ++pattern) {
+      const glm::vec2 shift(scrambled(std::uint32_t(2 * pattern)), scrambled(std::uint32_t(2 * pattern + 1)));
+      for (int i = first; i < first + count; ++i) points_.push_back(on_disc(low_discrepancy(i, shift)));
+    }
+  }
+  /// Those of a vertex, before its turn.
+  std::span<const glm::vec2> of(std::size_t vertex) const {
+    return {points_.data() + vertex % pattern_count * count_, count_};
+  }
+
+ private:
+  static constexpr std::size_t pattern_count = 64;
+  std::size_t count_;
+  std::vector<glm::vec2> points_;
+};
+
+/// Axes about a direction, turned for a vertex.
+reference::Frame turned_frame(glm::vec3 normal, std::size_t vertex) {
+  reference::Frame frame(normal);
+  const float turn = 6.2831853f * scrambled(std::uint32_t(vertex)), c = std::cos(turn), s = std::sin(turn);
+  const glm::vec3 tangent = c * frame.tangent + s * frame.bitangent;
+  frame.bitangent = c * frame.bitangent - s * frame.tangent;
+  frame.tangent = tangent;
+  return frame;
 }
 
 /// Mean colour of a surface that a ray hit.
@@ -200,19 +228,17 @@ void VertexLight::restart(std::vector<LitVertex> vertices) {
 }
 
 glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
-                                 int rays, Blocked blocked) const {
+                                 std::span<const glm::vec2> disc, Blocked blocked) const {
   const LitVertex& vertex = vertices_[v];
-  const reference::Frame frame(vertex.normal);
+  const reference::Frame frame = turned_frame(vertex.normal, v);
   const glm::vec3 from = lifted(vertex);
-  const glm::vec2 shift = shift_of(v);
   glm::vec3 sum(0.0f);
   Packet packet(scene, from);
-  for (int first = 0; first < rays; first += Packet::size) {
+  for (std::size_t first = 0; first < disc.size(); first += Packet::size) {
     packet.clear();
-    for (int i = first; i < std::min(first + Packet::size, rays); ++i) {
-      const glm::vec2 p = on_disc(low_discrepancy(rays_ + i, shift));
-      packet.add(frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))}),
-                 v + std::uint64_t(i));
+    for (std::size_t i = first; i < std::min(first + Packet::size, disc.size()); ++i) {
+      const glm::vec2 p = disc[i];
+      packet.add(frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))}), v + i);
     }
     packet.for_each([&](glm::vec3 direction, std::uint64_t ray, bool is_open) {
       if (is_open)
@@ -225,20 +251,19 @@ glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTabl
 }
 
 glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
-                                 int rays) const {
+                                 std::span<const glm::vec2> disc) const {
   const LitVertex& vertex = vertices_[v];
   const glm::vec3 from = lifted(vertex);
-  if (sky.spot()) return float(rays) * spot_light(scene, sky, vertex, from, v);
-  const reference::Frame frame(sky.to_sun());
-  const glm::vec2 shift = shift_of(v);
+  if (sky.spot()) return float(disc.size()) * spot_light(scene, sky, vertex, from, v);
+  const reference::Frame frame = turned_frame(sky.to_sun(), v);
   glm::vec3 sum(0.0f);
   Packet packet(scene, from);
-  for (int first = 0; first < rays; first += Packet::size) {
+  for (std::size_t first = 0; first < disc.size(); first += Packet::size) {
     packet.clear();
-    for (int i = first; i < std::min(first + Packet::size, rays); ++i) {
-      const glm::vec2 p = float(sun_radius_rad) * on_disc(low_discrepancy(sun_rays_ + i, shift));
-      const glm::vec3 direction = glm::normalize(frame.in_world({p.x, p.y, 1.0f}));
-      if (glm::dot(direction, vertex.normal) > 0.0f) packet.add(direction, v + std::uint64_t(i));
+    for (std::size_t i = first; i < std::min(first + Packet::size, disc.size()); ++i) {
+      const glm::vec3 direction =
+          glm::normalize(frame.in_world(glm::vec3(float(sun_radius_rad) * disc[i], 1.0f)));
+      if (glm::dot(direction, vertex.normal) > 0.0f) packet.add(direction, v + i);
     }
     packet.for_each([&](glm::vec3 direction, std::uint64_t, bool is_open) {
       if (is_open) sum += glm::dot(direction, vertex.normal) * sky.sun_irradiance();
@@ -250,11 +275,12 @@ glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTabl
 void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays, Blocked blocked) {
   const int sun_rays = std::max(1, rays / 4);
   const bool has_sun = sky.sun_irradiance() != glm::vec3(0.0f);
+  const DiscPatterns to_sky(rays_, rays), to_sun(sun_rays_, sun_rays);
   parallel_for(
       vertices_.size(),
       [&](std::size_t v) {
-        sky_sums_[v] += sky_light(scene, sky, v, rays, blocked);
-        if (has_sun) sun_sums_[v] += sun_light(scene, sky, v, sun_rays);
+        sky_sums_[v] += sky_light(scene, sky, v, to_sky.of(v), blocked);
+        if (has_sun) sun_sums_[v] += sun_light(scene, sky, v, to_sun.of(v));
       },
       16);
   rays_ += rays, sun_rays_ += sun_rays;

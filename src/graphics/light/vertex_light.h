@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/bounds.h"
@@ -78,10 +79,10 @@ class VertexLight {
   const std::vector<LitVertex>& vertices() const { return vertices_; }
 
  private:
-  glm::vec3 sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex, int rays,
-                      Blocked blocked) const;
+  glm::vec3 sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
+                      std::span<const glm::vec2> disc, Blocked blocked) const;
   glm::vec3 sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
-                      int rays) const;
+                      std::span<const glm::vec2> disc) const;
 
   std::vector<LitVertex> vertices_;
   std::vector<glm::vec3> sky_sums_, sun_sums_;

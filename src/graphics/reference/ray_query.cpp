@@ -213,7 +213,6 @@ void RayScene::nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hi
   Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
   QueryContext context(places_, {});
   context.fine_rays = rays, context.fine_hits = hits, context.margin_m = margin_m_;
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(packet.valid, top_, &context.embree, &packet.rays);
 }
 

@@ -27,9 +27,9 @@ inline bool has_filter(const PlacedPart& part) {
   return !part.is_joined || part.material->alpha_mode != scene::Alpha::opaque;
 }
 
-/// Embree's filter functions of rays that see and of rays to the light; for geometries, and for the context
-/// of a query, where they leave out geometries that have a filter.
+/// Embree's filter function of a geometry, for rays that see.
 void filter_seen(const RTCFilterFunctionNArguments* arguments);
+/// The same for rays to the light.
 void filter_shadow(const RTCFilterFunctionNArguments* arguments);
 
 }  // namespace parvis::reference

@@ -16,6 +16,9 @@ namespace {
 /// each, and as much again to spare.
 constexpr float share_of_rounding = 4e-6f;
 
+/// No ray slips between two triangles, and queries bring filters of their own.
+const auto traced_flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
 /// How far from the origin anything lies.
 float reach_of(const scene::Scene& scene) {
   Bounds bounds;
@@ -77,7 +80,7 @@ RayScene::RayScene(const scene::Scene& scene, Precision precision)
       top_(rtcNewScene(device_)),
       joined_(rtcNewScene(device_)),
       margin_m_(precision == Precision::fine ? share_of_rounding * reach_of(scene) : 0.0f) {
-  rtcSetSceneFlags(joined_, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneFlags(joined_, traced_flags);
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, joined_);
   rtcAttachGeometryByID(top_, instance, joined_instance);
@@ -276,7 +279,7 @@ RTCScene RayScene::mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh
   if (!is_new) return entry->second;
   const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), true);
   entry->second = rtcNewScene(device_);
-  rtcSetSceneFlags(entry->second, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
+  rtcSetSceneFlags(entry->second, traced_flags);
   rtcAttachGeometry(entry->second, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(entry->second);

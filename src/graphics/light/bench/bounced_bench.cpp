@@ -9,7 +9,7 @@
 #include "graphics/light/day_light.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/photograph.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/shading/tone_curve.h"
 #include "graphics/shadows/chosen_light.h"
 
@@ -30,10 +30,9 @@ Result<std::unique_ptr<render::Renderer>> renderer_of(const scene::Scene& scene)
       scene, {}, bounced_light::with_bounced_light(lamps::with_lamps(shadows::ChosenLight::create)));
 }
 
-Image8 drawn(render::Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
-  renderer.begin_frame(scene, camera);
-  renderer.prepare_main_view(camera, width, height);
-  renderer.draw_main_view();
+Result<Image8> drawn(render::Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
+  if (Status status = render::draw_frame(renderer, scene, {camera, width, height}); !status)
+    return status.errors();
   return renderer.read_picture(scene.exposure);
 }
 
@@ -82,7 +81,10 @@ Status measure_bounced_light(const BenchSetup& setup, const scene::Scene& city, 
         if (Status status = light::light_scene(*scene); !status) return status;
       }
       const Camera camera = with.cameras[v].camera;
-      const Image8 seen_with = drawn(**bounced, with, camera), seen_without = drawn(**plain, without, camera);
+      const Result<Image8> seen_with = drawn(**bounced, with, camera),
+                           seen_without = drawn(**plain, without, camera);
+      if (!seen_with) return seen_with.errors();
+      if (!seen_without) return seen_without.errors();
       const reference::RayScene rays(with);
       reference::PhotographOptions options;
       options.samples_per_pixel = setup.is_quick ? 64 : 256;
@@ -92,7 +94,7 @@ Status measure_bounced_light(const BenchSetup& setup, const scene::Scene& city, 
       const Image8 truth = shading::tone_mapped_picture(photograph->radiance, with.exposure);
       const Image8 darkened = shading::tone_mapped_picture(photograph->radiance, 0.5f * with.exposure);
       double flips[3];
-      const Image8* pictures[]{&seen_with, &seen_without, &darkened};
+      const Image8* pictures[]{&*seen_with, &*seen_without, &darkened};
       for (int i = 0; i < 3; ++i) {
         const auto difference = reference::compare(*pictures[i], truth);
         if (!difference) return difference.errors();

@@ -212,6 +212,7 @@ Status measure_relighting(const reference::RayScene& rays, Report& report) {
   report.add("relight_16_rmse_percent", rmse_percent(quick.irradiance(), truth.irradiance()));
   quick.refine(rays, table, 240);
   report.add("relight_256_rmse_percent", rmse_percent(quick.irradiance(), truth.irradiance()), up_to(2.0));
+  report.note("500 vertices of a tree in the street, against 16384 rays each; control: 16 rays must fail 2");
   return Done{};
 }
 
@@ -245,11 +246,14 @@ Status measure_sun_hours(const BenchSetup& setup, const scene::Scene& city, Repo
   return Done{};
 }
 
-Status measure_city(const BenchSetup& setup, Report& report) {
+Result<scene::LoadedScene> load_city(const BenchSetup& setup) {
   const ScratchFolder folder;
-  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
-  const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
+  return scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+}
+
+Status measure_city(const BenchSetup& setup, Report& report) {
+  const Result<scene::LoadedScene> loaded = load_city(setup);
   if (!loaded) return loaded.errors();
   {
     const reference::RayScene rays(loaded->scene);
@@ -283,20 +287,14 @@ Status measure_shadows_alone(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  const ScratchFolder folder;
-  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
-  const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+  const Result<scene::LoadedScene> loaded = load_city(setup);
   if (!loaded) return loaded.errors();
   return measure_shadows(setup, loaded->scene, report);
 }
 
 /// The keys relight_* by themselves.
 Status measure_relighting_alone(const BenchSetup& setup, Report& report) {
-  const ScratchFolder folder;
-  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
-  const Result<scene::LoadedScene> loaded =
-      scene::load_scene(folder.path / "paper_day.xp", setup.house.get<scene::NodeRegistry>());
+  const Result<scene::LoadedScene> loaded = load_city(setup);
   if (!loaded) return loaded.errors();
   return measure_relighting(reference::RayScene(loaded->scene), report);
 }
