@@ -15,7 +15,7 @@ namespace parvis::trees {
 namespace {
 
 constexpr float sun_turn_deg = 60.0f;  // of the relit tree
-constexpr float wrong_scale = 1.05f;   // of a reconstruction that is measured wrongly
+constexpr float wrong_scale = 1.1f;    // of a reconstruction that is measured wrongly
 constexpr int thesis_iterations = 4;
 constexpr float thesis_cutoff = 0.94f;  // of its oak
 
