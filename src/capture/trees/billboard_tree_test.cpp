@@ -143,5 +143,23 @@ TEST(BillboardTextures, CoarserBillboardsStandForFinerCells) {
   EXPECT_GT(mean_psnr(tree, views), 22.0);
 }
 
+TEST(Textures, AreAsFineAsThePhotographs) {
+  const TreeVolume volume = coloured_ball();
+  TextureOptions options;
+  options.parent_levels = 0, options.iterations = 1;
+  const auto side_at = [&](int size) {
+    return textured(volume, photographs_of(volume, 4, size), options).texels_per_side;
+  };
+  // A cell of 0.11 m at 4 m before a lens of 0.3 rad covers a 11th of the picture.
+  EXPECT_EQ(side_at(48), 4);
+  EXPECT_EQ(side_at(92), 8);
+  EXPECT_EQ(side_at(400), 16) << "no finer than this";
+  const BillboardTree fine = textured(volume, photographs_of(volume, 4, 92), options);
+  std::size_t bytes = 0;
+  for (const BillboardTextures& view : fine.views) bytes += view.texels.size() / 4;
+  options.max_megabytes = 0.5e-6f * float(bytes);
+  EXPECT_EQ(side_at(92), 4) << "no room for more";
+}
+
 }  // namespace
 }  // namespace parvis::trees
