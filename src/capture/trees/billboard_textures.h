@@ -27,7 +27,7 @@ struct TextureOptions {
   /// M, a multiple of 4; 0 (the default of `textured`): as fine as the photographs' pixels, at most 16, and
   /// coarser until the textures' blocks stay below `max_megabytes`.
   int texels_per_side = 0;
-  float max_megabytes = 6.0f;
+  float max_megabytes = 6.0f;  ///< of all textures in blocks, one byte per texel
   int iterations = 10;     ///< of `optimised`
   int parent_levels = 1;   ///< billboards stand for cells that are so many levels coarser than the volume's
   std::uint64_t seed = 1;  ///< of `random_texels`
