@@ -28,7 +28,7 @@ struct TextureOptions {
   /// coarser until the textures' blocks stay below `max_megabytes`.
   int texels_per_side = 0;
   float max_megabytes = 6.0f;  ///< of all textures in blocks, one byte per texel
-  int iterations = 10;     ///< of `optimised`
+  int iterations = 10;         ///< of `optimised`
   int parent_levels = 1;   ///< billboards stand for cells that are so many levels coarser than the volume's
   std::uint64_t seed = 1;  ///< of `random_texels`
   std::optional<glm::vec3> to_sun = std::nullopt;  ///< of the photographs; none: estimated

@@ -40,6 +40,7 @@ struct TreeOutline {
   float foot_m = 0.0f, top_m = 0.0f;  ///< heights; equal where there is no tree
   std::vector<TreeSlice> slices;      ///< slice_count of them, from below; none where there is no tree
 
+  /// Metres; 0 where there is no tree.
   float slice_height_m() const { return (top_m - foot_m) / float(slice_count); }
 };
 
