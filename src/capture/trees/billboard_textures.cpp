@@ -217,20 +217,24 @@ BillboardTextures textures_of(const BillboardTree& tree, const TreeVolume& volum
                                                     : selected_texels(tree, view, options);
 }
 
-/// The pixels of the photographs that a cell's side covers, in the mean.
-float pixels_per_cell(const CellGrid& grid, std::span<const TreeView> views) {
-  const glm::vec3 size = grid.cell_size_m();
+/// The pixels of the photographs that the longer side of a billboard at the grid's middle covers, in the
+/// mean.
+float pixels_per_billboard(const CellGrid& grid, std::span<const TreeView> views) {
+  const glm::vec3 middle = grid.box().centre();
   float sum = 0.0f;
-  for (const TreeView& view : views)
-    sum += view.camera.focal.y / glm::distance(view.camera.position_in_world, grid.box().centre());
-  return std::max({size.x, size.y, size.z}) * sum / float(std::max(views.size(), std::size_t(1)));
+  for (const TreeView& view : views) {
+    const glm::vec3 eye = view.camera.position_in_world;
+    const glm::vec2 half_m = billboard_frame(middle, grid.cell_size_m(), eye).half_size_m;
+    sum += 2.0f * std::max(half_m.x, half_m.y) * view.camera.focal.y / glm::distance(eye, middle);
+  }
+  return sum / float(std::max(views.size(), std::size_t(1)));
 }
 
 /// One photograph stands for all of them: how many cells each sees differs little.
 int chosen_texels_per_side(const BillboardTree& tree, const TreeVolume& volume,
                            std::span<const TreeView> views, TextureOptions options) {
   int& side = options.texels_per_side;
-  side = block_side * std::clamp(int(std::lround(pixels_per_cell(tree.grid, views) / block_side)), 1,
+  side = block_side * std::clamp(int(std::lround(pixels_per_billboard(tree.grid, views) / block_side)), 1,
                                  max_chosen_side / block_side);
   for (; side > block_side; side -= block_side) {
     const std::size_t bytes = textures_of(tree, volume, views[views.size() / 2], options).texels.size() / 4;
