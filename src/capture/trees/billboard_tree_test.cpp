@@ -119,7 +119,7 @@ TEST(BillboardTextures, AgeAndImportanceSelectTheFloorOfAlphaTimesTexels) {
   const TreeVolume volume = coloured_ball();
   const std::vector<TreeView> views = photographs_of(volume, 4, 64);
   TextureOptions options;
-  options.parent_levels = 0, options.method = TextureMethod::age_importance;
+  options.parent_levels = 0, options.texels_per_side = 4, options.method = TextureMethod::age_importance;
   BillboardTree tree = textured(volume, views, options);
   // Within the ball's silhouette every selected texel keeps the photograph's alpha, the others have none.
   const BillboardTextures& view = tree.views[0];
