@@ -340,9 +340,11 @@ void add_texture(CLI::App& tree, Chosen& chosen) {
       ->add_option("--method", arguments->options.method,
                    "optimised, age_importance (the thesis), naive, random_texels")
       ->transform(CLI::CheckedTransformer(texture_methods, CLI::ignore_case));
-  command->add_option("--texels", arguments->options.texels_per_side, "Texels along a billboard's side")
+  command
+      ->add_option("--texels", arguments->options.texels_per_side,
+                   "Texels along a billboard's side; 0: as fine as the photographs, below 6 MB")
       ->capture_default_str()
-      ->check(CLI::IsMember({4, 8, 16}));
+      ->check(CLI::IsMember({0, 4, 8, 12, 16}));
   command
       ->add_option("--parents", arguments->options.parent_levels,
                    "Levels by which billboards are coarser than the volume")

@@ -21,6 +21,7 @@ namespace {
 
 constexpr float max_alpha_factor = 3.0f;  // of a texel's extinction, per iteration
 constexpr float max_alpha = 0.998f;
+constexpr int block_side = 4, max_chosen_side = 16;  // texels; a block of 4x4 becomes 16 bytes
 constexpr float min_seen = 0.02f;  // share of a billboard's pixels below which it has no texture of its own
 
 /// Billboards of the cells `levels` above the volume's: the mean colour and extinction of their parts.
@@ -207,16 +208,53 @@ BillboardTextures optimised_texels(const BillboardTree& tree, const TreeVolume& 
   return fit.result();
 }
 
+namespace {
+
+/// By the options' method.
+BillboardTextures textures_of(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view,
+                              const TextureOptions& options) {
+  return options.method == TextureMethod::optimised ? optimised_texels(tree, volume, view, options)
+                                                    : selected_texels(tree, view, options);
+}
+
+/// The pixels of the photographs that the longer side of a billboard at the grid's middle covers, in the
+/// mean.
+float pixels_per_billboard(const CellGrid& grid, std::span<const TreeView> views) {
+  const glm::vec3 middle = grid.box().centre();
+  float sum = 0.0f;
+  for (const TreeView& view : views) {
+    const glm::vec3 eye = view.camera.position_in_world;
+    const glm::vec2 half_m = billboard_frame(middle, grid.cell_size_m(), eye).half_size_m;
+    sum += 2.0f * std::max(half_m.x, half_m.y) * view.camera.focal.y / glm::distance(eye, middle);
+  }
+  return sum / float(std::max(views.size(), std::size_t(1)));
+}
+
+/// One photograph stands for all of them: how many cells each sees differs little.
+int chosen_texels_per_side(const BillboardTree& tree, const TreeVolume& volume,
+                           std::span<const TreeView> views, TextureOptions options) {
+  int& side = options.texels_per_side;
+  side = block_side * std::clamp(int(std::lround(pixels_per_billboard(tree.grid, views) / block_side)), 1,
+                                 max_chosen_side / block_side);
+  for (; side > block_side; side -= block_side) {
+    const std::size_t bytes = textures_of(tree, volume, views[views.size() / 2], options).texels.size() / 4;
+    if (1e-6f * float(bytes) * float(views.size()) <= options.max_megabytes) break;
+  }
+  return side;
+}
+
+}  // namespace
+
 BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
                        const TextureOptions& options) {
   BillboardTree tree = bare_billboards(volume, options.parent_levels);
-  tree.texels_per_side = options.texels_per_side;
+  TextureOptions chosen = options;
+  if (chosen.texels_per_side == 0)
+    chosen.texels_per_side = chosen_texels_per_side(tree, volume, views, options);
+  tree.texels_per_side = chosen.texels_per_side;
   tree.views.resize(views.size());
-  parallel_for(views.size(), [&](std::size_t i) {
-    tree.views[i] = options.method == TextureMethod::optimised
-                        ? optimised_texels(tree, volume, views[i], options)
-                        : selected_texels(tree, views[i], options);
-  });
+  parallel_for(views.size(),
+               [&](std::size_t i) { tree.views[i] = textures_of(tree, volume, views[i], chosen); });
   tree.light = estimated_light(tree, options.to_sun);
   return tree;
 }

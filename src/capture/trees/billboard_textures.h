@@ -24,10 +24,13 @@ enum class TextureMethod : std::uint8_t {
 /// Options of `textured`.
 struct TextureOptions {
   TextureMethod method = TextureMethod::optimised;
-  int texels_per_side = 4;  ///< M, a multiple of 4
-  int iterations = 10;      ///< of `optimised`
-  int parent_levels = 1;    ///< billboards stand for cells that are so many levels coarser than the volume's
-  std::uint64_t seed = 1;   ///< of `random_texels`
+  /// M, a multiple of 4; 0 (the default of `textured`): as fine as the photographs' pixels, at most 16, and
+  /// coarser until the textures' blocks stay below `max_megabytes`.
+  int texels_per_side = 0;
+  float max_megabytes = 6.0f;  ///< of all textures in blocks, one byte per texel
+  int iterations = 10;         ///< of `optimised`
+  int parent_levels = 1;   ///< billboards stand for cells that are so many levels coarser than the volume's
+  std::uint64_t seed = 1;  ///< of `random_texels`
   std::optional<glm::vec3> to_sun = std::nullopt;  ///< of the photographs; none: estimated
 };
 
@@ -35,11 +38,12 @@ struct TextureOptions {
 BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
                        const TextureOptions& options);
 
-/// The textures of one photograph by 4.5.3, or by one of its two baselines.
+/// The textures of one photograph by 4.5.3, or by one of its two baselines. `texels_per_side` is given.
 BillboardTextures selected_texels(const BillboardTree& tree, const TreeView& view,
                                   const TextureOptions& options);
 
-/// The textures of one photograph by optimisation. `volume` is finer than or equal to the tree's grid.
+/// The textures of one photograph by optimisation. `volume` is finer than or equal to the tree's grid;
+/// `texels_per_side` is given.
 BillboardTextures optimised_texels(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view,
                                    const TextureOptions& options);
 

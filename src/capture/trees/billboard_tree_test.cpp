@@ -119,7 +119,7 @@ TEST(BillboardTextures, AgeAndImportanceSelectTheFloorOfAlphaTimesTexels) {
   const TreeVolume volume = coloured_ball();
   const std::vector<TreeView> views = photographs_of(volume, 4, 64);
   TextureOptions options;
-  options.parent_levels = 0, options.method = TextureMethod::age_importance;
+  options.parent_levels = 0, options.texels_per_side = 4, options.method = TextureMethod::age_importance;
   BillboardTree tree = textured(volume, views, options);
   // Within the ball's silhouette every selected texel keeps the photograph's alpha, the others have none.
   const BillboardTextures& view = tree.views[0];
@@ -141,6 +141,24 @@ TEST(BillboardTextures, CoarserBillboardsStandForFinerCells) {
   EXPECT_EQ(tree.grid.side(), 9);
   EXPECT_LT(tree.grid.size(), volume.grid.size());
   EXPECT_GT(mean_psnr(tree, views), 22.0);
+}
+
+TEST(Textures, AreAsFineAsThePhotographs) {
+  const TreeVolume volume = coloured_ball();
+  TextureOptions options;
+  options.parent_levels = 0, options.iterations = 1;
+  const auto side_at = [&](int size) {
+    return textured(volume, photographs_of(volume, 4, size), options).texels_per_side;
+  };
+  // A cell of 0.11 m at 4 m before a lens of 0.3 rad is an 11th of the picture wide, its billboard an 8th.
+  EXPECT_EQ(side_at(32), 4);
+  EXPECT_EQ(side_at(64), 8);
+  EXPECT_EQ(side_at(400), 16) << "no finer than this";
+  const BillboardTree fine = textured(volume, photographs_of(volume, 4, 64), options);
+  std::size_t bytes = 0;
+  for (const BillboardTextures& view : fine.views) bytes += view.texels.size() / 4;
+  options.max_megabytes = 0.5e-6f * float(bytes);
+  EXPECT_EQ(side_at(64), 4) << "no room for more";
 }
 
 }  // namespace

@@ -1,72 +1,26 @@
 #include "capture/trees/measure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "capture/trees/tree_outline.h"
 
 namespace parvis::trees {
 namespace {
 
-constexpr int slices = 40, sectors = 24, directions = 36, density_bands = 10;
+constexpr int slices = TreeOutline::slice_count, density_bands = 10;
 constexpr float crown_over_trunk = 2.5f;
 constexpr int trunk_slices = slices / 5;
-constexpr float pi = 3.14159265f;
+constexpr float sample_m = 0.02f;  // of triangles
+constexpr int max_samples = 60;    // along a triangle's side
 
-/// Points of the tree with how far each reaches beyond itself.
-struct Points {
-  std::vector<glm::vec3> places;
-  float reach_m = 0.0f;
-};
-
-/// Area of an outline round the points' centroid: the farthest point of each sector.
-float outline_area(const std::vector<glm::vec2>& points, float reach_m) {
-  if (points.size() < 3) return 0.0f;
-  glm::vec2 middle(0.0f);
-  for (const glm::vec2 p : points) middle += p / float(points.size());
-  std::array<float, sectors> radius{};
-  for (const glm::vec2 p : points) {
-    const glm::vec2 d = p - middle;
-    const int s = std::min(int((std::atan2(d.y, d.x) + pi) / (2.0f * pi) * sectors), sectors - 1);
-    radius[std::size_t(s)] = std::max(radius[std::size_t(s)], glm::length(d) + reach_m);
-  }
-  float area = 0.0f;
-  for (const float r : radius) area += pi / sectors * r * r;
-  return area;
-}
-
-/// Mean extent over horizontal directions.
-float mean_width(const std::vector<glm::vec2>& points, float reach_m) {
-  if (points.empty()) return 0.0f;
-  float sum = 0.0f;
-  for (int i = 0; i < directions; ++i) {
-    const glm::vec2 along(std::cos(pi * float(i) / directions), std::sin(pi * float(i) / directions));
-    float low = 1e30f, high = -1e30f;
-    for (const glm::vec2 p : points)
-      low = std::min(low, glm::dot(p, along)), high = std::max(high, glm::dot(p, along));
-    sum += high - low + 2.0f * reach_m;
-  }
-  return sum / directions;
-}
-
-/// Points between two heights, from above.
-std::vector<glm::vec2> between(const Points& points, float low, float high) {
-  std::vector<glm::vec2> result;
-  for (const glm::vec3 p : points.places)
-    if (p.z >= low && p.z < high) result.emplace_back(p.x, p.y);
-  return result;
-}
-
-TreeMeasures measured(const Points& points) {
+/// The trunk is the narrowest slice near the ground, the foot left out; above it the crown begins.
+TreeMeasures measured(const TreeOutline& outline) {
   TreeMeasures result;
-  if (points.places.empty()) return result;
-  const auto [lowest, highest] = std::ranges::minmax_element(points.places, {}, &glm::vec3::z);
-  const float foot = lowest->z - points.reach_m, top = highest->z + points.reach_m,
-              step = (top - foot) / slices;
-  result.height_m = top - foot;
-  const auto width = [&](int slice) {
-    return mean_width(between(points, foot + float(slice) * step, foot + float(slice + 1) * step),
-                      points.reach_m);
-  };
+  if (outline.slices.empty()) return result;
+  const float step = outline.slice_height_m();
+  result.height_m = outline.top_m - outline.foot_m;
+  const auto width = [&](int slice) { return outline.slices[std::size_t(slice)].mean_width_m(); };
   int base = 1;
   for (int slice = 1; slice < trunk_slices; ++slice)
     if (const float w = width(slice);
@@ -74,11 +28,12 @@ TreeMeasures measured(const Points& points) {
       result.trunk_diameter_m = w, base = slice;
   while (base < slices && width(base) < crown_over_trunk * result.trunk_diameter_m) ++base;
   result.crown_base_m = float(base) * step;
-  result.crown_width_m = mean_width(between(points, foot + result.crown_base_m, top + 1.0f), points.reach_m);
-  for (int i = base; i < slices; ++i)
-    result.crown_volume_m3 +=
-        step *
-        outline_area(between(points, foot + float(i) * step, foot + float(i + 1) * step), points.reach_m);
+  TreeSlice crown;
+  for (int i = base; i < slices; ++i) {
+    const TreeSlice& slice = outline.slices[std::size_t(i)];
+    crown.add(slice), result.crown_volume_m3 += step * slice.hull_area_m2();
+  }
+  result.crown_width_m = crown.mean_width_m();
   return result;
 }
 
@@ -96,51 +51,70 @@ float projected_area(const TreeVolume& volume, int axis) {
   return area;
 }
 
+/// Leaves per band: twice the extinction, over the band's share of the crown.
+std::vector<float> leaf_area_density(const TreeVolume& volume, const TreeOutline& outline) {
+  const glm::vec3 size = volume.grid.cell_size_m();
+  const float step = outline.slice_height_m(), height = outline.top_m - outline.foot_m;
+  std::vector<float> leaves(density_bands, 0.0f), space(density_bands, 0.0f);
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    const float up = (volume.grid.centre(i).z - outline.foot_m) / height;
+    leaves[std::size_t(std::clamp(int(up * density_bands), 0, density_bands - 1))] +=
+        2.0f * volume.extinction_per_m[i] * size.x * size.y * size.z;
+  }
+  for (int i = 0; i < slices; ++i)
+    space[std::size_t(i * density_bands / slices)] += step * outline.slices[std::size_t(i)].hull_area_m2();
+  for (std::size_t band = 0; band < space.size(); ++band)
+    leaves[band] = space[band] > 0.0f ? leaves[band] / space[band] : 0.0f;
+  return leaves;
+}
+
+/// Does a cutout material show at a place of its textures? As the path tracer's nearest texel.
+bool is_there(const scene::Model& model, const scene::Material& material, glm::vec2 uv) {
+  if (material.alpha_mode != scene::Alpha::cutout || material.base_colour_texture == scene::no_index)
+    return true;
+  const scene::Texture& texture = model.textures[std::size_t(material.base_colour_texture)];
+  const Image8& image = texture.image;
+  uv = glm::vec2(material.texture_from_mesh_uv * glm::vec3(uv, 1.0f));
+  uv = texture.repeats ? glm::fract(uv) : glm::clamp(uv, 0.0f, 1.0f);
+  const int x = std::min(int(uv.x * float(image.width)), image.width - 1),
+            y = std::min(int(uv.y * float(image.height)), image.height - 1);
+  return material.alpha * float(image.at(x, y)[3]) >= 0.5f * 255.0f;
+}
+
 }  // namespace
 
 TreeMeasures measured(const TreeVolume& volume, float min_alpha) {
-  const CellGrid& grid = volume.grid;
-  const glm::vec3 size = grid.cell_size_m();
-  Points points;
-  points.reach_m = 0.5f * std::min(size.x, std::min(size.y, size.z));
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    if (volume.alpha(i) >= min_alpha) points.places.push_back(grid.centre(i));
-  TreeMeasures result = measured(points);
+  const TreeOutline outline = outline_of(volume, min_alpha);
+  TreeMeasures result = measured(outline);
+  if (outline.slices.empty()) return result;
   result.projected_area_m2 = 0.5f * (projected_area(volume, 0) + projected_area(volume, 1));
-  // Leaves per band: twice the extinction, over the band's share of the crown.
-  const float height = grid.box().size().z;
-  std::vector<float> leaves(density_bands, 0.0f), space(density_bands, 0.0f);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto band = std::size_t(std::clamp(
-        int((grid.centre(i).z - grid.box().min.z) / height * density_bands), 0, density_bands - 1));
-    leaves[band] += 2.0f * volume.extinction_per_m[i] * size.x * size.y * size.z;
-  }
-  for (std::size_t band = 0; band < space.size(); ++band) {
-    const float low = grid.box().min.z + height * float(band) / density_bands;
-    space[band] = height / density_bands *
-                  outline_area(between(points, low, low + height / density_bands), points.reach_m);
-    result.leaf_area_density_per_m.push_back(space[band] > 0.0f ? leaves[band] / space[band] : 0.0f);
-  }
+  result.leaf_area_density_per_m = leaf_area_density(volume, outline);
   return result;
 }
 
 TreeMeasures measured(const scene::Model& model) {
-  Points points;
+  std::vector<glm::vec3> points;
   for (const scene::Part& part : model.parts) {
     const Mesh& mesh = part.mesh;
+    const scene::Material& material = model.materials[std::size_t(part.material)];
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      const glm::vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
-                      c = mesh.positions[mesh.indices[t + 2]];
+      const std::uint32_t i = mesh.indices[t], j = mesh.indices[t + 1], k = mesh.indices[t + 2];
+      const glm::vec3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
+      const bool has_uvs = mesh.uvs.size() == mesh.positions.size();
       // So densely that no slice misses a long triangle.
       const float edge = std::max(glm::distance(a, b), std::max(glm::distance(b, c), glm::distance(c, a)));
-      const int steps = std::clamp(int(std::ceil(edge / 0.1f)), 1, 40);
-      for (int i = 0; i <= steps; ++i)
-        for (int j = 0; j <= steps - i; ++j)
-          points.places.push_back(a + (b - a) * (float(i) / float(steps)) +
-                                  (c - a) * (float(j) / float(steps)));
+      const int steps = std::clamp(int(std::ceil(edge / sample_m)), 1, max_samples);
+      for (int m = 0; m <= steps; ++m)
+        for (int n = 0; n <= steps - m; ++n) {
+          const float u = float(m) / float(steps), v = float(n) / float(steps);
+          const glm::vec2 uv =
+              has_uvs ? mesh.uvs[i] + u * (mesh.uvs[j] - mesh.uvs[i]) + v * (mesh.uvs[k] - mesh.uvs[i])
+                      : glm::vec2(0.0f);
+          if (is_there(model, material, uv)) points.push_back(a + u * (b - a) + v * (c - a));
+        }
     }
   }
-  return measured(points);
+  return measured(outline_of(points));
 }
 
 }  // namespace parvis::trees

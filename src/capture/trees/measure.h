@@ -12,22 +12,23 @@ namespace parvis::trees {
 /// Lengths in metres; heights count from the foot.
 struct TreeMeasures {
   float height_m = 0.0f;
-  float crown_base_m = 0.0f;     ///< where the tree becomes wider than 2.5 times its trunk
-  float crown_width_m = 0.0f;    ///< mean over 36 horizontal directions, above the crown's base
-  float crown_volume_m3 = 0.0f;  ///< slices of 1/40 of the height, each the area of its outline in 24 sectors
+  float crown_base_m = 0.0f;       ///< where the tree becomes wider than 2.5 times its trunk
+  float crown_width_m = 0.0f;      ///< mean over 36 horizontal directions, above the crown's base
+  float crown_volume_m3 = 0.0f;    ///< convex hulls of slices of 1/40 of the height: tree_outline.h
   float projected_area_m2 = 0.0f;  ///< opaque area seen from the side, mean of two horizontal directions
   float trunk_diameter_m = 0.0f;   ///< the narrowest slice below a fifth of the height, the foot left out
   std::vector<float>
       leaf_area_density_per_m;  ///< m2 of leaves (one side) per m3 of crown, per tenth of the height
 };
 
-/// Of a volume: cells of at least `min_alpha` opacity are the tree. Leaf area density takes leaves of all
+/// Of a volume: the tree is where its cells stop at least `min_alpha` of the light that passes them together,
+/// horizontally: two or three steps of a matte of 8 bits. Leaf area density takes leaves of all
 /// directions alike: twice the mean extinction (Ross 1981). Opaque cells hide how many leaves are behind each
 /// other, so that dense crowns come out too low.
-TreeMeasures measured(const TreeVolume& volume, float min_alpha = 0.25f);
+TreeMeasures measured(const TreeVolume& volume, float min_alpha = 0.01f);
 
-/// Of a model's triangles (holes of its leaf textures count as leaf). Without projected area and leaf area
-/// density.
+/// Of a model's triangles, as the path tracer photographs them: where the alpha of a cutout material is below
+/// half nothing is there. Without projected area and leaf area density.
 TreeMeasures measured(const scene::Model& model);
 
 }  // namespace parvis::trees
