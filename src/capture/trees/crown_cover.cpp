@@ -9,6 +9,7 @@ namespace parvis::trees {
 namespace {
 
 constexpr float square_pixels = 4.0f;
+constexpr int around_squares = 1;  // of what is visible: billboards that end at one line leave a bright seam
 constexpr float large_squares = 4.0f;  // a quarter of a billboard's area in squares: it is four squares wide
 
 /// At a place of the billboard.
@@ -59,6 +60,7 @@ std::optional<glm::vec4> CrownCover::visible_part(const CoveringBillboard& billb
       if (visible_[std::size_t(y) * std::size_t(size_.x) + std::size_t(x)] >= min_visible_)
         low = glm::min(low, glm::ivec2(x, y)), high = glm::max(high, glm::ivec2(x, y) + 1);
   if (low.x >= high.x) return std::nullopt;
+  low -= around_squares, high += around_squares;
   const glm::mat2 billboard_from_squares = glm::inverse(placed.squares_from_billboard);
   glm::vec2 least(all), most(-all);
   for (int corner = 0; corner < 4; ++corner) {

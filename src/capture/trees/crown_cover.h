@@ -31,8 +31,8 @@ class CrownCover {
   /// Starts a view in which nothing is covered. What lets less than `min_visible` pass hides what is behind
   /// it; 0: nothing is hidden.
   void begin(const render::View& view, float min_visible);
-  /// The part of the billboard (low and high corner, -1..1 but for rounding to the picture's squares) out of
-  /// which more than that share is visible nowhere; none: all of it is hidden.
+  /// The part of the billboard (low and high corner, -1..1 but for a margin of two squares of the picture)
+  /// out of which more than that share is visible nowhere; none: all of it is hidden.
   std::optional<glm::vec4> visible_part(const CoveringBillboard& billboard) const;
   /// Covers what is behind the billboard. `mask_scale`: from the billboard (-1..1) to its texture.
   void add(const CoveringBillboard& billboard, const OpacityMask& mask, glm::vec2 mask_scale);
