@@ -230,8 +230,9 @@ Status report(const FileArguments& arguments) {
   if (!shown) return shown.errors();
   trees::ViewErrors mean;
   for (const trees::TreeView& view : *views) {
-    const ImageF picture = shown->picture(view.camera);
-    const Result<trees::ViewErrors> errors = trees::judged(picture, view);
+    const Result<ImageF> picture = shown->picture(view.camera);
+    if (!picture) return picture.errors();
+    const Result<trees::ViewErrors> errors = trees::judged(*picture, view);
     if (!errors) return errors.errors();
     fmt::print("{}: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}, silhouette IoU {:.3f}\n",
                view.name, errors->psnr_db, errors->ssim, errors->flip, errors->alpha_rmse,
@@ -241,7 +242,7 @@ Status report(const FileArguments& arguments) {
       std::error_code code;
       std::filesystem::create_directories(arguments.pictures, code);
       const std::string name = std::filesystem::path(view.name).stem().string() + ".png";
-      if (Status status = write_image(arguments.pictures / name, trees::over_white(picture)); !status)
+      if (Status status = write_image(arguments.pictures / name, trees::over_white(*picture)); !status)
         return status;
     }
   }

@@ -37,11 +37,12 @@ struct TreeDetail {
   static constexpr std::string_view name = "trees.detail";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
-  /// A texel may be so many pixels wide before a finer level of detail is shown.
-  float max_texel_pixels = 1.0f;
+  DetailLimits limits = {};  ///< beyond them a finer level of detail is shown
+  /// Billboards of which the crowns before them leave less visible are not drawn; 0: all are drawn.
+  float min_visible = 0.01f;
 
-  /// Adds the setting.
-  void hash(ContentHash& hash) const { hash.add(max_texel_pixels); }
+  /// Adds the limits.
+  void hash(ContentHash& hash) const { limits.hash(hash), hash.add(min_visible); }
 };
 
 /// Trees that have been read, by file: a node that changes does not read them again.

@@ -92,24 +92,24 @@ Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, cons
   return shown;
 }
 
-ImageF ShownTree::before(float backdrop, const Camera& camera, int width, int height) {
+Result<ImageF> ShownTree::before(float backdrop, const render::EyeView& eye) {
   backdrop_->set(backdrop);
-  renderer_->begin_frame(*scene_, camera);
-  renderer_->prepare_main_view(camera, width, height);
-  renderer_->draw_main_view();
+  if (Status status = render::draw_frame(*renderer_, *scene_, eye); !status) return status.errors();
   return renderer_->read_radiance();
 }
 
-ImageF ShownTree::picture(const Pinhole& pinhole) {
-  const Camera camera = camera_of(pinhole);
-  ImageF result = before(0.0f, camera, pinhole.width, pinhole.height);
-  const ImageF white = before(1.0f, camera, pinhole.width, pinhole.height);
-  for (std::size_t i = 0; i < result.pixels.size(); i += 4) {
+Result<ImageF> ShownTree::picture(const Pinhole& pinhole) {
+  const render::EyeView eye{camera_of(pinhole), pinhole.width, pinhole.height};
+  Result<ImageF> black = before(0.0f, eye);
+  if (!black) return black.errors();
+  const Result<ImageF> white = before(1.0f, eye);
+  if (!white) return white.errors();
+  for (std::size_t i = 0; i < black->pixels.size(); i += 4) {
     float passed = 0.0f;
-    for (std::size_t c = 0; c < 3; ++c) passed += (white.pixels[i + c] - result.pixels[i + c]) / 3.0f;
-    result.pixels[i + 3] = std::clamp(1.0f - passed, 0.0f, 1.0f);
+    for (std::size_t c = 0; c < 3; ++c) passed += (white->pixels[i + c] - black->pixels[i + c]) / 3.0f;
+    black->pixels[i + 3] = std::clamp(1.0f - passed, 0.0f, 1.0f);
   }
-  return result;
+  return black;
 }
 
 }  // namespace parvis::trees

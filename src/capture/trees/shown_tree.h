@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_view.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/frame_views.h"
 
 namespace parvis::trees {
 
@@ -20,13 +20,14 @@ class ShownTree {
   /// `light`: whose sun, sky and haze it stands in; other things of that scene are not drawn.
   static Result<ShownTree> create(std::shared_ptr<const TreeLevels> tree, const scene::Scene& light);
 
-  /// What a camera sees of the tree: RGBA, premultiplied, linear light before any tone curve.
-  ImageF picture(const Pinhole& camera);
+  /// What a camera sees of the tree: RGBA, premultiplied, linear light before any tone curve. Fails only
+  /// if a shader does.
+  Result<ImageF> picture(const Pinhole& camera);
 
  private:
   class Backdrop;
   ShownTree() = default;
-  ImageF before(float backdrop, const Camera& camera, int width, int height);
+  Result<ImageF> before(float backdrop, const render::EyeView& eye);
 
   std::unique_ptr<scene::Scene> scene_;  // the renderer's
   std::unique_ptr<Backdrop> backdrop_;

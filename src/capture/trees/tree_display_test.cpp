@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/cell_order.h"
@@ -18,6 +19,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/test_scene.h"
@@ -80,9 +82,7 @@ class TreeDisplayTest : public gl::ContextTest {
     return *std::move(made);
   }
   Image8 drawn(render::Renderer& renderer) const {
-    renderer.begin_frame(scene_, camera_);
-    renderer.prepare_main_view(camera_, width, height);
-    renderer.draw_main_view();
+    EXPECT_TRUE(render::draw_frame(renderer, scene_, render::EyeView{camera_, width, height}));
     return shading::tone_mapped_picture(renderer.read_radiance(), 1.0f);
   }
   Image8 traced(render::Renderer& renderer, int samples) const {
@@ -125,8 +125,9 @@ TEST_F(TreeDisplayTest, InTheLightOfItsPhotographsItLooksAsInThem) {
   const auto error = [&](const scene::Scene& scene) {
     Result<ShownTree> shown = ShownTree::create(ball_levels(), scene);
     EXPECT_TRUE(shown) << to_string(shown.errors());
-    return flip(over_white(shown->picture(view.camera)),
-                over_white(render_billboards(ball_tree(), view.camera)));
+    const Result<ImageF> picture = shown->picture(view.camera);
+    EXPECT_TRUE(picture) << to_string(picture.errors());
+    return flip(over_white(*picture), over_white(render_billboards(ball_tree(), view.camera)));
   };
   const double own = error(scene_in_light_of(light));
   // Measured 0.031. The ball's light is nearly all sky, of whose highlight foliage.glsl takes too little off:
@@ -220,17 +221,122 @@ TEST(TreeLevels, EachShowsTheSameTreeWithFewerBillboards) {
 
 TEST(TreeLevels, AreChosenByPixels) {
   const TreeLevels& tree = *ball_levels();
-  EXPECT_EQ(level_for(tree, 1e6f, 1.0f), 0u);
-  EXPECT_EQ(level_for(tree, 1.0f, 1.0f), tree.levels.size() - 1);
-  std::size_t last = tree.levels.size() - 1;
-  for (float pixels_per_metre = 1.0f; pixels_per_metre < 1e4f; pixels_per_metre *= 1.3f) {
-    const std::size_t level = level_for(tree, pixels_per_metre, 1.0f);
-    EXPECT_LE(level, last);
-    if (level > 0) {
-      EXPECT_LE(texel_size_m(tree.levels[level]) * pixels_per_metre, 1.0f);
+  const DetailLimits limits{1.0f, 3.0f};
+  EXPECT_EQ(level_for(tree, {1e6f, 0.1f}, limits), 0u);
+  EXPECT_EQ(level_for(tree, {std::numeric_limits<float>::infinity(), 0.0f}, limits), 0u)
+      << "the eye is in it";
+  EXPECT_EQ(level_for(tree, {1.0f, 0.2f}, limits), tree.levels.size() - 1);
+  EXPECT_EQ(level_for(tree, {1.0f, 0.2f}, {0.0f, 0.0f}), 0u);
+  for (const float parallax : {0.0f, 0.1f, 1.0f}) {
+    std::size_t last = tree.levels.size() - 1;
+    for (float pixels_per_metre = 1.0f; pixels_per_metre < 1e4f; pixels_per_metre *= 1.3f) {
+      const std::size_t level = level_for(tree, {pixels_per_metre, parallax}, limits);
+      EXPECT_LE(level, last) << "nearer is never coarser";
+      EXPECT_LE(level, level_for(tree, {pixels_per_metre, 0.5f * parallax}, limits))
+          << "a photograph from nearby allows coarser levels";
+      last = level;
+      if (level == 0) continue;
+      if (texel_size_m(tree.levels[level]) > 1.01f * texel_size_m(tree.levels[0])) {
+        EXPECT_LE(texel_size_m(tree.levels[level]) * pixels_per_metre, limits.max_texel_pixels);
+      }
+      const float cell_pixels = tree.levels[level].grid.cell_size_m().x * pixels_per_metre;
+      EXPECT_LE(0.5f * cell_pixels * parallax, limits.max_shift_pixels + 1e-3f);
     }
-    last = level;
   }
+}
+
+TEST(TreeLevels, ParallaxIsNoneAtAPhotographAndAllFromAbove) {
+  const BillboardTree& tree = ball_tree();
+  const glm::vec3 middle = tree.grid.box().centre(), camera = tree.views[0].camera.position_in_world,
+                  next = tree.views[1].camera.position_in_world;
+  EXPECT_LT(parallax(tree, camera), 1e-3f);
+  EXPECT_GT(parallax(tree, middle + 0.5f * (camera - middle)), 0.05f) << "another perspective";
+  const glm::vec3 between =
+      middle + glm::length(camera - middle) *
+                   glm::normalize(glm::normalize(camera - middle) + glm::normalize(next - middle));
+  const float half_angle =
+      0.5f * std::acos(glm::dot(glm::normalize(camera - middle), glm::normalize(next - middle)));
+  EXPECT_NEAR(parallax(tree, between), std::sin(half_angle), 0.02f);
+  EXPECT_GT(parallax(tree, middle + glm::vec3(0, 0, glm::length(camera - middle))), 0.8f);
+}
+
+TEST_F(TreeDisplayTest, FarTreesAreAHandfulOfBillboards) {
+  plant({0, 0, 0});
+  const SceneTree& tree = scene_trees(scene_)[0];
+  const Bounds bounds = transformed(tree.world_from_tree, tree.tree->box);
+  std::size_t last = tree.tree->levels.front().grid.size();
+  bool has_a_level_between = false;
+  for (float distance_m = 3.0f; distance_m < 400.0f; distance_m *= 1.25f) {
+    camera_.world_from_camera = look_at({0.3f * distance_m, -distance_m, 3}, {0, 0, 2});
+    const render::View view = render::camera_view(camera_, 0, 1280, 720);
+    const SeenTree seen = seen_tree(tree, bounds, view, render::Culling(view, nullptr));
+    const std::size_t billboards = tree.tree->levels[level_for(*tree.tree, seen, DetailLimits())].grid.size();
+    EXPECT_LE(billboards, last) << distance_m << " m";
+    const float height_pixels = tree.tree->box.size().z * seen.pixels_per_metre;
+    if (height_pixels < 20.0f) {
+      EXPECT_LE(billboards, 8u) << distance_m << " m";
+    }
+    has_a_level_between |= billboards < tree.tree->levels.front().grid.size() && billboards > 1;
+    last = billboards;
+  }
+  EXPECT_EQ(last, 1u);
+  EXPECT_TRUE(has_a_level_between);
+}
+
+TEST_F(TreeDisplayTest, FarLevelsAreAsRaysSeeThem) {
+  plant({-2, 0, 0}), plant({3, 4, 0}, 3.0f);
+  camera_.world_from_camera = look_at({-10, -60, 8}, {0, 0, 2});
+  camera_.vertical_fov = 0.2f;
+  const auto kept = renderer();
+  const auto drawn_with = [&](const DetailLimits& limits) {
+    scene_.data<TreeDetail>().limits = limits;
+    return drawn(*kept);
+  };
+  const Image8 finest = drawn_with({0.0f, 0.0f}), shipped = drawn_with({}),
+               coarsest = drawn_with({1e9f, 1e9f});
+  EXPECT_NE(shipped.pixels, finest.pixels) << "no coarser level is used";
+  const Image8 rays = traced(*kept, 64);
+  const double of_finest = flip(finest, rays), of_shipped = flip(shipped, rays);
+  EXPECT_LT(of_finest, 0.05);
+  EXPECT_LT(of_shipped, 1.5 * of_finest) << flip(coarsest, rays);
+  // The control: without the trees.
+  scene_.data<SceneTrees>() = {};
+  EXPECT_GT(flip(drawn(*renderer()), rays), 2.5 * of_shipped);
+}
+
+TEST_F(TreeDisplayTest, WhatCrownsHideIsNotMissed) {
+  for (int i = 0; i < 6; ++i) plant({0.3f * float(i % 3), 4.5f * float(i), 0});
+  const auto kept = renderer();
+  const auto drawn_with = [&](float min_visible) {
+    scene_.data<TreeDetail>().min_visible = min_visible;
+    return drawn(*kept);
+  };
+  const Image8 all = drawn_with(0.0f), shipped = drawn_with(TreeDetail().min_visible);
+  const double missed = flip(shipped, all);
+  EXPECT_GT(missed, 0.0) << "nothing is left out";
+  EXPECT_LT(missed, 0.01);
+  // The control: what is half visible is left out, too.
+  EXPECT_GT(flip(drawn_with(0.5f), all), 3.0 * missed);
+}
+
+TEST_F(TreeDisplayTest, FarLevelsCastTheShadowsOfTheFinest) {
+  camera_.world_from_camera = look_at({0, 0, 30}, {0, 0, 0}, {0, 1, 0});
+  scene_.sun.direction_to_sun = glm::normalize(glm::vec3(1, 0, 0.7f));
+  plant({0, 0, 0}), plant({0, 5, 0}, 3.0f);
+  const auto shaded_with = [&](const DetailLimits& limits) {
+    scene_.data<TreeDetail>().limits = limits;
+    Image8 picture = drawn(*renderer());
+    for (int y = 0; y < picture.height; ++y)  // the shadows alone, which lie to the west
+      for (int x = width / 2 - 14; x < picture.width; ++x) std::fill_n(picture.at(x, y), picture.channels, 0);
+    return picture;
+  };
+  const Image8 finest = shaded_with({0.0f, 0.0f});
+  const double of_shipped = flip(shaded_with({}), finest);
+  EXPECT_GT(of_shipped, 0.0) << "no coarser level is used";
+  EXPECT_LT(of_shipped, 0.01);
+  // The control: no shadows.
+  scene_.data<SceneTrees>() = {};
+  EXPECT_GT(flip(shaded_with({}), finest), 5.0 * of_shipped);
 }
 
 class TreeNodeTest : public testing::Test {

@@ -1,16 +1,19 @@
 // The billboards of a view are put in order on the CPU: trees by distance, the cells of each exactly
-// (cell_order.h). Views with colour blend them; shadow maps and picking take each texel by its opacity's
-// chance, so that a crown's shadow has the crown's density.
+// (cell_order.h). They are visited from front to back, so that those behind opaque crowns are left out
+// (crown_cover.h), and drawn from back to front. Views with colour blend them; shadow maps and picking take
+// each texel by its opacity's chance, so that a crown's shadow has the crown's density.
 //
 // Limit: trees whose boxes overlap are in the order of their middles.
 #include "capture/trees/tree_drawable.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "base/colour.h"
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/cell_order.h"
+#include "capture/trees/crown_cover.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
 #include "graphics/render/bindings.h"
@@ -31,13 +34,52 @@ constexpr float margin_pixels = 0.75f, min_margin = 0.02f;
 struct DrawnBillboard {
   glm::vec3 centre;
   float second_share;
-  glm::vec3 half_right, half_up;
+  glm::vec3 half_right;
+  float mip_level;
+  glm::vec3 half_up;
   glm::vec4 slants;
   glm::vec4 base;
   glm::uvec3 tiles_and_thing;
-  float reach;  ///< how far the quad goes beyond the billboard: its pixels choose by their centres
-  glm::vec4 light_in_crown;
+  glm::vec4 extent;  ///< of the quad: what the textures show, with a margin
+  glm::vec3 light_in_crown;
+  glm::vec4 ways_out;                       ///< of the quad's corners
+  std::array<glm::vec2, 2> texture_scales;  ///< from the billboard to those of the photographs
 };
+
+/// A rectangle on a billboard (-1..1).
+struct Extent {
+  glm::vec2 low{1.0f}, high{-1.0f};
+
+  void add(glm::vec4 other, glm::vec2 scale) {
+    low = glm::min(low, scale * glm::vec2(other)), high = glm::max(high, scale * glm::vec2(other.z, other.w));
+  }
+  glm::vec4 with_margin(float margin) const {
+    return {glm::max(low, -1.0f) - margin, glm::min(high, 1.0f) + margin};
+  }
+};
+
+/// For each corner of a quad how far the crown reaches toward the sun, in the tree's frame.
+glm::vec4 ways_out(const Bounds& box, glm::vec3 centre, const BillboardFrame& frame, glm::vec4 extent,
+                   glm::vec3 to_sun) {
+  glm::vec4 ways;
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::vec2 place(corner & 1 ? extent.z : extent.x, corner & 2 ? extent.w : extent.y);
+    const glm::vec2 m = place * frame.half_size_m;
+    const glm::vec3 at = centre + m.x * frame.right + m.y * frame.up;
+    ways[corner] = way_out(box, glm::clamp(at, box.min, box.max), to_sun);
+  }
+  return ways;
+}
+
+/// A photograph that does not see a cell says nothing of it where another does: in large cells the mean
+/// colour would be seen as a rectangle.
+void leave_out_unseen(const BillboardTree& tree, std::size_t cell, ClosestViews& closest) {
+  const auto sees = [&](std::size_t i) {
+    return tree.views[std::size_t(closest.views[i])].texture_of_cell[cell] >= 0;
+  };
+  if (sees(0) && !sees(1)) closest.weights = {1.0f, 0.0f};
+  if (!sees(0) && sees(1)) closest.weights = {0.0f, 1.0f};
+}
 
 /// What one view shows.
 struct DrawList {
@@ -45,16 +87,21 @@ struct DrawList {
   GLintptr offset = 0;
 };
 
+float scale_of(const glm::mat4& world_from_tree) {
+  const glm::mat3 turn(world_from_tree);
+  return std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
+}
+
 bool is_blended(const View& view) { return view.kind != ViewKind::shadow && view.kind != ViewKind::picking; }
 
 class TreeDrawable final : public render::Drawable {
  public:
   static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
     const std::string vertex = "capture/trees/tree_vertex.glsl", surface = "capture/trees/tree_surface.glsl";
-    Result<ViewPrograms> blended = ViewPrograms::create({vertex, surface, {{"IS_LEAF", ""}}});
+    Result<ViewPrograms> blended = ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}}});
     if (!blended) return blended.errors();
     Result<ViewPrograms> by_chance =
-        ViewPrograms::create({vertex, surface, {{"IS_LEAF", ""}, {"HAS_HOLES", ""}}});
+        ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}, {"HAS_HOLES", ""}}});
     if (!by_chance) return by_chance.errors();
     std::unique_ptr<TreeDrawable> drawable(
         new TreeDrawable(first_thing, *std::move(blended), *std::move(by_chance)));
@@ -65,7 +112,7 @@ class TreeDrawable final : public render::Drawable {
 
   void update(const scene::Scene& scene) override {
     const std::vector<SceneTree>& trees = scene_trees(scene);
-    max_texel_pixels_ = scene.data<TreeDetail>().max_texel_pixels;
+    detail_ = scene.data<TreeDetail>();
     sun_ = scene::sun_light(scene);
     change_ = {};
     fixed_ = {};
@@ -100,8 +147,11 @@ class TreeDrawable final : public render::Drawable {
           culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}) &&
           culling.may_see(bounds_[i]) && !culling.is_hidden(bounds_[i]))
         seen.emplace_back(glm::distance(bounds_[i].centre(), view.position_in_world), i);
-    std::ranges::sort(seen, std::greater<>());
-    for (const auto& [distance, i] : seen) add(i, view.position_in_world, culling, list.billboards);
+    std::ranges::sort(seen);
+    const bool has_cover = view.kind == ViewKind::main || view.kind == ViewKind::cube_face;
+    cover_.begin(view, has_cover ? detail_.min_visible : 0.0f);
+    for (const auto& [distance, i] : seen) add(i, view, culling, list.billboards);
+    std::ranges::reverse(list.billboards);
     render::StreamBuffer& stream = view.kind == ViewKind::main ? main_stream_ : other_stream_;
     list.offset = stream.append(std::span<const DrawnBillboard>(list.billboards), 16);
   }
@@ -136,15 +186,17 @@ class TreeDrawable final : public render::Drawable {
       glVertexArrayAttribBinding(array, index, 0);
     };
     attribute(0, 4, offsetof(DrawnBillboard, centre));
-    attribute(1, 3, offsetof(DrawnBillboard, half_right));
+    attribute(1, 4, offsetof(DrawnBillboard, half_right));
     attribute(2, 3, offsetof(DrawnBillboard, half_up));
     attribute(3, 4, offsetof(DrawnBillboard, slants));
     attribute(4, 4, offsetof(DrawnBillboard, base));
     glEnableVertexArrayAttrib(array, 5);
     glVertexArrayAttribIFormat(array, 5, 3, GL_UNSIGNED_INT, offsetof(DrawnBillboard, tiles_and_thing));
     glVertexArrayAttribBinding(array, 5, 0);
-    attribute(6, 1, offsetof(DrawnBillboard, reach));
-    attribute(7, 4, offsetof(DrawnBillboard, light_in_crown));
+    attribute(6, 4, offsetof(DrawnBillboard, extent));
+    attribute(7, 3, offsetof(DrawnBillboard, light_in_crown));
+    attribute(9, 4, offsetof(DrawnBillboard, ways_out));
+    attribute(8, 4, offsetof(DrawnBillboard, texture_scales));
     glVertexArrayBindingDivisor(array, 0, 1);
   }
 
@@ -163,16 +215,17 @@ class TreeDrawable final : public render::Drawable {
     return Done{};
   }
 
-  /// A tree's billboards, from back to front.
-  void add(std::size_t i, glm::vec3 eye_in_world, const Culling& culling, std::vector<DrawnBillboard>& out) {
+  /// What is visible of a tree's billboards, from front to back.
+  void add(std::size_t i, const View& view, const Culling& culling, std::vector<DrawnBillboard>& out) {
     const SceneTree& placed = trees_[i];
     const glm::mat4& world_from_tree = placed.world_from_tree;
     const glm::mat3 turn(world_from_tree);
-    const float scale = std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
-    const float pixels_per_metre = scale * culling.pixels_per_metre(bounds_[i]);
-    const std::size_t level = level_for(*placed.tree, pixels_per_metre, max_texel_pixels_);
+    const float scale = scale_of(world_from_tree);
+    const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(view.position_in_world, 1.0f));
+    const SeenTree seen = seen_tree(placed, bounds_[i], view, culling);
+    const std::size_t level = level_for(*placed.tree, seen, detail_.limits);
     const BillboardTree& shown = placed.tree->levels[level];
-    const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(eye_in_world, 1.0f));
+    const float mip_level = TreeAtlas::mip_level(texel_size_m(shown) * seen.pixels_per_metre);
     order_.back_to_front(shown.grid, eye, cells_);
     const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(bounds_[i].centre()));
     const std::vector<float>& sun = crowns_.shares(*placed.tree, to_sun)[level];
@@ -180,27 +233,50 @@ class TreeDrawable final : public render::Drawable {
           &sky = placed.tree->crown.sky[level];
     const glm::vec3 cell_size_m = shown.grid.cell_size_m();
     const float half_cell_pixels =
-        0.5f * std::min({cell_size_m.x, cell_size_m.y, cell_size_m.z}) * pixels_per_metre;
-    const float reach = 1.0f + std::clamp(margin_pixels / half_cell_pixels, min_margin, 1.0f);
+        0.5f * std::min({cell_size_m.x, cell_size_m.y, cell_size_m.z}) * seen.pixels_per_metre;
+    const float margin = std::clamp(margin_pixels / half_cell_pixels, min_margin, 1.0f);
+    std::ranges::reverse(cells_);
     for (const std::uint32_t cell : cells_) {
       const glm::vec3 centre = shown.grid.centre(cell);
       const BillboardFrame frame = billboard_frame(centre, cell_size_m, eye);
-      const ClosestViews closest = closest_views(shown, centre, frame.to_eye);
+      const CoveringBillboard covering{glm::vec3(world_from_tree * glm::vec4(centre, 1.0f)),
+                                       turn * (frame.half_size_m.x * frame.right),
+                                       turn * (frame.half_size_m.y * frame.up), frame.slants};
+      const std::optional<glm::vec4> visible = cover_.visible_part(covering);
+      if (!visible) continue;
+      ClosestViews closest = closest_views(shown, centre, frame.to_eye);
+      if (level > 0) leave_out_unseen(shown, cell, closest);
       DrawnBillboard& b = out.emplace_back();
-      b.reach = reach;
-      b.centre = glm::vec3(world_from_tree * glm::vec4(centre, 1.0f));
+      b.mip_level = mip_level;
+      b.centre = covering.centre;
       b.second_share = closest.weights[1];
-      b.half_right = turn * (frame.half_size_m.x * frame.right);
-      b.half_up = turn * (frame.half_size_m.y * frame.up);
+      b.half_right = covering.half_right, b.half_up = covering.half_up;
       b.slants = frame.slants;
       const glm::vec4 base = glm::vec4(shown.base[cell]) / 255.0f;
       b.base = glm::vec4(linear_from_srgb(glm::vec3(base)), base.w);
-      for (int v = 0; v < 2; ++v)
-        b.tiles_and_thing[v] =
-            atlas_.tile(placed.tree.get(), level, std::size_t(closest.views[std::size_t(v)]), cell);
+      Extent extent;
+      for (std::size_t v = 0; v < 2; ++v) {
+        const std::size_t view_index = std::size_t(closest.views[v]);
+        b.tiles_and_thing[glm::length_t(v)] = atlas_.tile(placed.tree.get(), level, view_index, cell);
+        // A cell of the finest level is filled, so that its texture is stretched with its billboard; what
+        // coarser ones show has a place within them.
+        const glm::vec3 camera = shown.views[view_index].camera.position_in_world;
+        b.texture_scales[v] =
+            level == 0 ? glm::vec2(1.0f)
+                       : frame.half_size_m / billboard_frame(centre, cell_size_m, camera).half_size_m;
+        if (closest.weights[v] > 0.0f)
+          extent.add(atlas_.extent(placed.tree.get(), level, view_index, cell, mip_level),
+                     1.0f / b.texture_scales[v]);
+      }
+      b.extent = extent.with_margin(margin);
+      b.extent = {glm::max(glm::vec2(b.extent), glm::vec2(*visible)),
+                  glm::min(glm::vec2(b.extent.z, b.extent.w), glm::vec2(visible->z, visible->w))};
+      const std::size_t stronger = closest.weights[1] > closest.weights[0] ? 1 : 0;
+      cover_.add(covering, atlas_.mask(placed.tree.get(), level, std::size_t(closest.views[stronger]), cell),
+                 b.texture_scales[stronger]);
       b.tiles_and_thing.z = std::uint32_t(first_thing_) + std::uint32_t(i);
-      b.light_in_crown = {albedo_factor[cell], sun[cell], sky[cell],
-                          scale * way_out(placed.tree->box, centre, to_sun)};
+      b.light_in_crown = {albedo_factor[cell], sun[cell], sky[cell]};
+      b.ways_out = scale * ways_out(placed.tree->box, centre, frame, b.extent, to_sun);
     }
   }
 
@@ -212,7 +288,8 @@ class TreeDrawable final : public render::Drawable {
   DrawList& list_of(const View& view) { return view.kind == ViewKind::main ? main_list_ : other_list_; }
 
   int first_thing_;
-  float max_texel_pixels_ = TreeDetail().max_texel_pixels;
+  TreeDetail detail_;
+  CrownCover cover_;
   ViewPrograms blended_, by_chance_;
   gl::VertexArray vertex_array_ = gl::VertexArray::create();
   TreeAtlas atlas_;
@@ -233,6 +310,12 @@ class TreeDrawable final : public render::Drawable {
 };
 
 }  // namespace
+
+SeenTree seen_tree(const SceneTree& tree, const Bounds& bounds, const View& view, const Culling& culling) {
+  const glm::vec3 eye(glm::inverse(tree.world_from_tree) * glm::vec4(view.position_in_world, 1.0f));
+  return {scale_of(tree.world_from_tree) * culling.pixels_per_metre(bounds),
+          parallax(tree.tree->levels.front(), eye)};
+}
 
 render::DrawableKind scene_trees_kind() {
   render::DrawableKind kind;

@@ -15,8 +15,8 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int max_texels_per_side = 64;
-constexpr int samples_per_side = 2;  // of a texel
+constexpr int max_texels_per_side = 128;
+constexpr float off_middle = 0.25f;  // of the box's diagonal: where a tree's leaves are, in the mean
 constexpr float foot_share = 0.06f;  // of the height: what of the tree is near the ground
 constexpr float min_opacity = 1.0f / 510.0f;
 
@@ -59,7 +59,9 @@ glm::u8vec4 base_of(const BillboardTree& tree, const std::vector<std::uint32_t>&
 /// Draws the parts of one coarse cell into its texture, as one photograph sees them.
 class PartsPicture {
  public:
-  PartsPicture(const BillboardTree& fine, const BillboardTextures& view) : fine_(fine), view_(view) {}
+  /// `samples_per_side` of a texel.
+  PartsPicture(const BillboardTree& fine, const BillboardTextures& view, int samples_per_side)
+      : fine_(fine), view_(view), samples_per_side_(samples_per_side) {}
 
   /// `parts` from front to back. False: the photograph sees none of them.
   bool draw(glm::vec3 centre, glm::vec3 cell_size_m, const std::vector<std::uint32_t>& parts, int side,
@@ -73,7 +75,7 @@ class PartsPicture {
       is_seen |= view_.texture_of_cell[part] >= 0;
     }
     if (!is_seen) return false;
-    const int fine_side = side * samples_per_side;
+    const int samples_per_side = samples_per_side_, fine_side = side * samples_per_side;
     for (int v = 0; v < side; ++v)
       for (int u = 0; u < side; ++u) {
         glm::vec4 sum(0.0f);
@@ -110,6 +112,7 @@ class PartsPicture {
 
   const BillboardTree& fine_;
   const BillboardTextures& view_;
+  int samples_per_side_;
   std::vector<BillboardFrame> frames_;
 };
 
@@ -119,7 +122,9 @@ BillboardTextures coarser_view(const BillboardTree& fine, const BillboardTree& c
   std::vector<std::uint32_t> order, rank(fine.grid.size());
   CellOrder().back_to_front(fine.grid, view.camera.position_in_world, order);
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = std::uint32_t(order.size() - i);
-  PartsPicture picture(fine, view);
+  // A texel as wide as those that it is drawn from has their detail in its middle.
+  const bool is_as_fine = coarse.texels_per_side == fine.grid.branching() * fine.texels_per_side;
+  PartsPicture picture(fine, view, is_as_fine ? 1 : 2);
   std::int32_t next = 0;
   for (std::size_t cell = 0; cell < coarse.grid.size(); ++cell) {
     std::vector<std::uint32_t> parts = parents.parts[cell];
@@ -148,6 +153,11 @@ glm::vec3 foot_of(const BillboardTree& tree) {
   return {sum.x / weight, sum.y / weight, lowest - 0.5f * tree.grid.cell_size_m().z};
 }
 
+float longest_edge(const CellGrid& grid) {
+  const glm::vec3 size = grid.cell_size_m();
+  return std::max({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 BillboardTree coarser(const BillboardTree& tree) {
@@ -156,7 +166,7 @@ BillboardTree coarser(const BillboardTree& tree) {
   BillboardTree result;
   result.grid = CellGrid(tree.grid.box(), branching, tree.grid.side() / branching, parents.cells);
   result.light = tree.light;
-  result.texels_per_side = std::min(2 * tree.texels_per_side, max_texels_per_side);
+  result.texels_per_side = std::min(branching * tree.texels_per_side, max_texels_per_side);
   for (const auto& parts : parents.parts) result.base.push_back(base_of(tree, parts));
   result.views.resize(tree.views.size());
   parallel_for(tree.views.size(),
@@ -175,15 +185,37 @@ TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells) {
 }
 
 float texel_size_m(const BillboardTree& tree) {
-  const glm::vec3 size = tree.grid.cell_size_m();
-  return std::max({size.x, size.y, size.z}) / float(tree.texels_per_side);
+  return longest_edge(tree.grid) / float(tree.texels_per_side);
 }
 
-std::size_t level_for(const TreeLevels& tree, float pixels_per_metre, float max_texel_pixels) {
+float parallax(const BillboardTree& tree, glm::vec3 eye) {
+  const glm::vec3 middle = tree.grid.box().centre();
+  const float distance_m = std::max(glm::distance(eye, middle), 1e-3f);
+  const glm::vec3 to_eye = (eye - middle) / distance_m;
+  const float off_m = off_middle * glm::length(tree.grid.box().size());
+  const ClosestViews closest = closest_views(tree, middle, to_eye);
+  float squares = 0.0f;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const glm::vec3 offset = tree.views[std::size_t(closest.views[i])].camera.position_in_world - middle;
+    const float camera_m = std::max(glm::length(offset), 1e-3f);
+    const float sine =
+        glm::dot(to_eye, offset) > 0.0f ? glm::length(glm::cross(to_eye, offset)) / camera_m : 1.0f;
+    const float perspective = off_m * (1.0f / distance_m - 1.0f / camera_m);
+    squares += closest.weights[i] * (sine * sine + perspective * perspective);
+  }
+  return std::sqrt(squares);
+}
+
+std::size_t level_for(const TreeLevels& tree, const SeenTree& seen, const DetailLimits& limits) {
   std::size_t level = 0;
-  while (level + 1 < tree.levels.size() &&
-         texel_size_m(tree.levels[level + 1]) * pixels_per_metre <= max_texel_pixels)
+  while (level + 1 < tree.levels.size()) {
+    const BillboardTree& next = tree.levels[level + 1];
+    const bool is_as_sharp = texel_size_m(next) <= 1.001f * texel_size_m(tree.levels.front()) ||
+                             texel_size_m(next) * seen.pixels_per_metre <= limits.max_texel_pixels;
+    const float shift_pixels = 0.5f * longest_edge(next.grid) * seen.parallax * seen.pixels_per_metre;
+    if (!(is_as_sharp && shift_pixels <= limits.max_shift_pixels)) break;
     ++level;
+  }
   return level;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/content_hash.h"
 #include "capture/trees/billboard_tree.h"
 #include "capture/trees/crown_light.h"
 
@@ -16,8 +17,8 @@ struct TreeLevels {
   CrownLight crown;                   ///< of the levels
 };
 
-/// The tree with each cell's parts drawn into one billboard, as each photograph sees them: with twice the
-/// texels along a side where a cell has 3 parts along an edge.
+/// The tree with each cell's parts drawn into one billboard, as each photograph sees them: with texels of the
+/// same width, up to a number of texels per side.
 BillboardTree coarser(const BillboardTree& tree);
 
 /// All levels down to one in which the tree has at most `max_last_cells` billboards.
@@ -26,8 +27,30 @@ TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells = 1);
 /// The width that a texel of the level covers, in the tree's frame, metres.
 float texel_size_m(const BillboardTree& tree);
 
-/// The coarsest level whose texels are no wider than a pixel, where the tree's scale shows it at so many
-/// pixels per metre of its own frame; `max_texel_pixels` widens that.
-std::size_t level_for(const TreeLevels& tree, float pixels_per_metre, float max_texel_pixels);
+/// How a view shows a tree.
+struct SeenTree {
+  float pixels_per_metre;  ///< of the tree's own frame
+  float parallax;          ///< sine of the angle between the eye and the photographs that it sees
+};
+
+/// The sine of the angle between the directions from the tree to an eye (in its frame) and to the eye's two
+/// closest photographs: the root of the mean square by their weights, and over the tree, where an eye that is
+/// nearer or farther than the photographs has another perspective. 0 at a photograph's place.
+float parallax(const BillboardTree& tree, glm::vec3 eye);
+
+/// What a level of detail may differ from reality, in pixels.
+struct DetailLimits {
+  /// The width of a texel, where it is wider than those of the finest level.
+  float max_texel_pixels = 1.0f;
+  /// How far a billboard shows the front and the back of its cell beside their places: half a cell times the
+  /// parallax.
+  float max_shift_pixels = 3.0f;
+
+  /// Adds the limits.
+  void hash(ContentHash& hash) const { hash.add(max_texel_pixels), hash.add(max_shift_pixels); }
+};
+
+/// The coarsest level within the limits.
+std::size_t level_for(const TreeLevels& tree, const SeenTree& seen, const DetailLimits& limits);
 
 }  // namespace parvis::trees

@@ -1,5 +1,5 @@
-// Leaves and twigs of a captured tree: the textures of the two closest photographs, and light that comes from
-// everywhere (003_d5b01da2d2f805f6, section 4.6).
+// Leaves and twigs of a captured tree: the textures of the two closest photographs
+// (003_d5b01da2d2f805f6, section 4.6), in the light that the billboard's corners have (leaf_light.glsl).
 #include "capture/trees/billboard.glsl"
 #include "capture/trees/foliage.glsl"
 
@@ -8,26 +8,37 @@ uniform sampler2DArray tree_texels;  // TreeAtlas
 flat in vec4 slants;
 flat in vec4 base_of_cell;
 flat in uvec2 tiles;
-flat in float second_share;
-flat in float albedo_factor;
+flat in vec4 scales;
+flat in vec3 share_level_factor;
+#if !defined(WRITES_DEPTH) && !defined(WRITES_OBJECT)
+in vec3 highlight_of_leaves;
+in vec3 radiance_per_albedo;
+#endif
 
 // Linear, premultiplied.
-vec4 tile_colour(uint tile) {
+vec4 tile_colour(uint tile, vec2 scale) {
   if (tile == 0xFFFFFFFFu) return vec4(base_of_cell.rgb * base_of_cell.a, base_of_cell.a);
   vec2 corner = 4.0f * vec2(float(tile & 511u), float(tile >> 9 & 511u));
-  float side = 4.0f * float(tile >> 26);
-  vec2 at = corner + clamp(billboard_uv(uv) * side, vec2(0.5f), vec2(side - 0.5f));
-  return textureLod(tree_texels, vec3(at / 2048.0f, float(tile >> 18 & 255u)), 0.0f);
+  float side = 4.0f * float(tile >> 26), level = share_level_factor.y;
+  float border = 0.5f * exp2(level);  // half a texel of the mip level
+  vec2 at = corner + clamp(billboard_uv(uv * scale) * side, vec2(border), vec2(side - border));
+  return textureLod(tree_texels, vec3(at / 2048.0f, float(tile >> 18 & 255u)), level);
 }
 
 Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   if (silhouette_reach(uv, slants) > 1.0f) discard;
-  vec4 colour = tile_colour(tiles.x);
-  if (second_share > 0.0f) colour = mix(colour, tile_colour(tiles.y), second_share);
+  vec4 colour = tile_colour(tiles.x, scales.xy);
+  float second_share = share_level_factor.x;
+  if (second_share > 0.0f) colour = mix(colour, tile_colour(tiles.y, scales.zw), second_share);
   if (colour.a < 1.0f / 510.0f) discard;
   alpha = colour.a;
 #ifdef HAS_HOLES
   alpha = alpha > opacity_threshold(position) ? 1.0f : 0.0f;
 #endif
-  return foliage_surface(albedo_factor * colour.rgb / colour.a, to_sun_at(position), seen.to_viewer);
+#if !defined(WRITES_DEPTH) && !defined(WRITES_OBJECT)
+  vec3 albedo = share_level_factor.z * colour.rgb / colour.a;
+  return shining_surface(seen.normal, highlight_of_leaves + without_highlight(albedo) * radiance_per_albedo);
+#else
+  return shining_surface(seen.normal, vec3(0.0f));
+#endif
 }

@@ -1,43 +1,47 @@
 // Billboards of captured trees: where they stand was decided for this view (tree_drawable.cpp).
-#define IS_LEAF  // light is evaluated at the corners alone: surface_outputs.glsl
 #include "graphics/render/frame.glsl"
-#include "graphics/render/body_lookup.glsl"
-#include "graphics/render/sky_lookup.glsl"
-#include "graphics/render/sun_lookup.glsl"
 #include "graphics/render/surface_outputs.glsl"
+#if !defined(WRITES_DEPTH) && !defined(WRITES_OBJECT)
+#define HAS_LIGHT
+#include "capture/trees/leaf_light.glsl"
+#endif
 
 layout(location = 0) in vec4 billboard_centre;  // in the world; w: share of the second photograph
-layout(location = 1) in vec3 half_right;        // in the world, metres
+layout(location = 1) in vec4 half_right;        // in the world, metres; w: mip level of the textures
 layout(location = 2) in vec3 half_up;
 layout(location = 3) in vec4 billboard_slants;  // of the cell's silhouette, billboard.glsl
 layout(location = 4) in vec4 base_colour_of_cell;
 layout(location = 5) in uvec3 tiles_and_thing;  // textures of the two photographs; number of the thing
-layout(location = 6) in float reach;            // of the quad, in half billboards
-// Factor from textures to albedo, shares of sun and sky that the crown lets through, metres toward the sun
-// beyond which the crown ends.
-layout(location = 7) in vec4 light_in_crown;
+layout(location = 6) in vec4 extent;            // of the quad, in half billboards: low and high corner
+layout(location = 7) in vec3 light_in_crown;    // factor from textures to albedo, shares of sun and sky
+layout(location = 9) in vec4 ways_out;          // of each corner: metres toward the sun to the crown's end
+layout(location = 8) in vec4 texture_scales;    // from the billboard to those of the two photographs
 
 flat out vec4 slants;
 flat out vec4 base_of_cell;  // sRGB and opacity, where a photograph has no texture
 flat out uvec2 tiles;
-flat out float second_share;
-flat out float albedo_factor;
+flat out vec4 scales;
+flat out vec3 share_level_factor;  // of the second photograph; mip level; factor from textures to albedo
+#ifdef HAS_LIGHT
+out vec3 highlight_of_leaves;  // LeafLight
+out vec3 radiance_per_albedo;
+#endif
 
 void surface_vertex() {
-  vec2 corner = reach * (vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0f - 1.0f);
-  position = billboard_centre.xyz + corner.x * half_right + corner.y * half_up;
-  vertex_normal = cross(half_right, half_up);
+  vec2 corner = mix(extent.xy, extent.zw, vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)));
+  position = billboard_centre.xyz + corner.x * half_right.xyz + corner.y * half_up;
+  vertex_normal = cross(half_right.xyz, half_up);
   uv = corner;
   slants = billboard_slants;
   base_of_cell = base_colour_of_cell;
   tiles = tiles_and_thing.xy;
-  second_share = billboard_centre.w;
-  vec3 facing = normalize(vertex_normal);
-  albedo_factor = light_in_crown.x;
-  // The crown's own shadow is its cells' share of the sun; the maps have that of all else.
-  leaf_sun = light_in_crown.y * visible_sun(position + light_in_crown.w * to_sun_at(position), facing);
-  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, facing),
-                              sky_share_beside_bodies(position, facing, int(tiles_and_thing.z)));
-  leaf_sky_cell = mix(vec4(0.5f, 0.5f, 0.5f, 0.0f), leaf_sky_cell, light_in_crown.z);
+  scales = texture_scales;
+  share_level_factor = vec3(billboard_centre.w, half_right.w, light_in_crown.x);
   object_of_surface = int(tiles_and_thing.z);
+#ifdef HAS_LIGHT
+  LeafLight light = light_of_leaves(position, normalize(vertex_normal), light_in_crown.yz,
+                                    ways_out[gl_VertexID], int(tiles_and_thing.z));
+  highlight_of_leaves = light.highlight;
+  radiance_per_albedo = light.per_albedo;
+#endif
 }

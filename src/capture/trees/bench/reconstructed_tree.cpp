@@ -99,7 +99,9 @@ Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, cons
   ViewErrors mean;
   double squares = 0.0;
   for (const TreeView& view : views) {
-    const Result<ViewErrors> one = judged(shown->picture(view.camera), view);
+    const Result<ImageF> picture = shown->picture(view.camera);
+    if (!picture) return picture.errors();
+    const Result<ViewErrors> one = judged(*picture, view);
     if (!one) return one.errors();
     mean += *one, squares += one->alpha_rmse * one->alpha_rmse;
   }

@@ -1,0 +1,66 @@
+// What billboards hide: whole and in part, from front to back.
+#include "capture/trees/crown_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace parvis::trees {
+namespace {
+
+/// A view to the north of 128x128 pixels, 90 degrees, and squares that face it.
+class CrownCoverTest : public testing::Test {
+ protected:
+  CrownCoverTest() {
+    Camera camera;
+    camera.world_from_camera = look_at({0, 0, 0}, {0, 1, 0});
+    camera.vertical_fov = 1.5707963f;
+    view_ = render::camera_view(camera, 0, 128, 128);
+  }
+  static CoveringBillboard square(float distance_m, float half_m, float x = 0.0f) {
+    return {{x, distance_m, 0}, {half_m, 0, 0}, {0, 0, half_m}, glm::vec4(0.0f)};
+  }
+  static OpacityMask mask_of(const std::array<std::uint8_t, 4>& opacities) { return {2, opacities}; }
+
+  render::View view_;
+  CrownCover cover_;
+};
+
+TEST_F(CrownCoverTest, AnOpaqueBillboardHidesWhatIsBehindIt) {
+  cover_.begin(view_, 0.01f);
+  EXPECT_TRUE(cover_.visible_part(square(20, 2)));
+  cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));
+  EXPECT_FALSE(cover_.visible_part(square(20, 2)));
+  EXPECT_TRUE(cover_.visible_part(square(20, 2, 12))) << "beside it";
+  EXPECT_TRUE(cover_.visible_part(square(20, 10))) << "larger than it";
+  EXPECT_TRUE(cover_.visible_part(square(-20, 2))) << "behind the eye nothing is known";
+}
+
+TEST_F(CrownCoverTest, HalfOpaqueOnesHideTogether) {
+  cover_.begin(view_, 0.01f);
+  int layers = 0;
+  for (; layers < 20 && cover_.visible_part(square(20, 2)); ++layers)
+    cover_.add(square(10, 4), mask_of({128, 128, 128, 128}), glm::vec2(1));
+  EXPECT_EQ(layers, 7) << "0.5^7 < 0.01";
+}
+
+TEST_F(CrownCoverTest, TheVisiblePartIsWhatIsNotCovered) {
+  cover_.begin(view_, 0.01f);
+  cover_.add(square(10, 4), mask_of({255, 0, 255, 0}), glm::vec2(1));  // its left half
+  const std::optional<glm::vec4> part = cover_.visible_part(square(20, 6));
+  ASSERT_TRUE(part);
+  EXPECT_LE(part->x, 0.01f);
+  EXPECT_GE(part->x, -0.5f) << "two squares of 4 pixels, of 19 in half a billboard";
+  EXPECT_GE(part->z, 1.0f);
+  EXPECT_LE(part->y, -1.0f);
+  EXPECT_GE(part->w, 1.0f);
+}
+
+TEST_F(CrownCoverTest, NothingIsHiddenWhereAllIsDrawn) {
+  cover_.begin(view_, 0.0f);
+  cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));
+  EXPECT_TRUE(cover_.visible_part(square(20, 2)));
+}
+
+}  // namespace
+}  // namespace parvis::trees
