@@ -1,9 +1,12 @@
 #include "graphics/gl/program.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "graphics/gl/shader_files.h"
 
@@ -104,13 +107,28 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
   return std::move(assembly.text);
 }
 
-Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
-                              std::span<const std::string> includes) {
-  std::vector<std::string> files;
-  const Result<std::string> text = shader_text(path, defines, dialect, files, includes);
-  if (!text) return text.errors();
+std::vector<DeclaredUniform> declared_uniforms(std::string_view text) {
+  // A declaration names its type, after a precision, and one or several uniforms, to its semicolon. A block
+  // has a brace before it.
+  static const std::regex comment(R"(//[^\n]*|#[^\n]*)");
+  static const std::regex declaration(R"(\buniform\s+(?:(?:low|medium|high)p\s+)?(\w+)\s+([^;{}]+);)");
+  static const std::regex name(R"(\s*(\w+)\s*(?:\[[^\]]*\])?\s*(?:,|$))");
+  const std::string code = std::regex_replace(std::string(text), comment, "");  // nor directives
+  std::vector<DeclaredUniform> uniforms;
+  for (std::sregex_iterator at(code.begin(), code.end(), declaration), end; at != end; ++at) {
+    const std::string names = (*at)[2];
+    for (std::sregex_iterator each(names.begin(), names.end(), name); each != end; ++each)
+      uniforms.push_back({(*each)[1], (*at)[1]});
+  }
+  return uniforms;
+}
+
+namespace {
+
+Result<GLuint> compile_text(GLenum stage, const std::string& path, const std::string& text,
+                            const std::vector<std::string>& files) {
   const GLuint shader = glCreateShader(stage);
-  const char* source = text->c_str();
+  const char* source = text.c_str();
   glShaderSource(shader, 1, &source, nullptr);
   glCompileShader(shader);
   GLint compiled = GL_FALSE;
@@ -121,20 +139,35 @@ Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defin
   return error("the shader {} does not compile:\n{}", path, with_file_names(log, files));
 }
 
+}  // namespace
+
+Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
+                              std::span<const std::string> includes) {
+  std::vector<std::string> files;
+  const Result<std::string> text = shader_text(path, defines, dialect, files, includes);
+  if (!text) return text.errors();
+  return compile_text(stage, path, *text, files);
+}
+
 Result<Program> Program::create(const std::string& vertex_path, const std::string& fragment_path,
                                 const Defines& defines, std::span<const std::string> fragment_includes) {
-  const Result<GLuint> vertex = compile_shader(GL_VERTEX_SHADER, vertex_path, defines, Dialect::desktop_450);
-  if (!vertex) return vertex.errors();
-  const Result<GLuint> fragment =
-      compile_shader(GL_FRAGMENT_SHADER, fragment_path, defines, Dialect::desktop_450, fragment_includes);
-  if (!fragment) {
-    glDeleteShader(*vertex);
-    return fragment.errors();
-  }
+  struct Stage {
+    GLenum stage;
+    const std::string& path;
+    std::span<const std::string> includes;
+  };
   Program program(glCreateProgram());
-  for (const GLuint shader : {*vertex, *fragment}) {
-    glAttachShader(program.name_, shader);
-    glDeleteShader(shader);  // lives as long as the program
+  std::vector<DeclaredUniform> declared;
+  for (const auto& [stage, path, includes] : {Stage{GL_VERTEX_SHADER, vertex_path, {}},
+                                              Stage{GL_FRAGMENT_SHADER, fragment_path, fragment_includes}}) {
+    std::vector<std::string> files;
+    const Result<std::string> text = shader_text(path, defines, Dialect::desktop_450, files, includes);
+    if (!text) return text.errors();
+    const Result<GLuint> shader = compile_text(stage, path, *text, files);
+    if (!shader) return shader.errors();
+    glAttachShader(program.name_, *shader);
+    glDeleteShader(*shader);  // lives as long as the program
+    std::ranges::move(declared_uniforms(*text), std::back_inserter(declared));
   }
   glLinkProgram(program.name_);
   GLint linked = GL_FALSE;
@@ -142,6 +175,9 @@ Result<Program> Program::create(const std::string& vertex_path, const std::strin
   if (!linked)
     return error("{} and {} do not link:\n{}", vertex_path, fragment_path,
                  info_log(program.name_, glGetProgramiv, glGetProgramInfoLog));
+  for (const DeclaredUniform& uniform : declared)
+    program.uniforms_[uniform.name] = {uniform.type,
+                                       glGetUniformLocation(program.name_, uniform.name.c_str())};
   return program;
 }
 
@@ -149,29 +185,42 @@ Program::~Program() {
   if (name_) glDeleteProgram(name_);
 }
 
+GLint Program::location(const char* uniform, std::string_view type) const {
+  const std::string_view name(uniform), array = name.substr(0, name.find('['));
+  const auto found = uniforms_.find(array);
+  if (found == uniforms_.end())
+    throw std::logic_error(fmt::format("no shader of the program declares the uniform {}", uniform));
+  const std::string& declared = found->second.type;
+  const bool takes_int = declared == "bool" || declared.find("sampler") != std::string::npos;
+  if (declared != type && !(type == "int" && takes_int))
+    throw std::logic_error(fmt::format("the uniform {} is {}, not {}", uniform, declared, type));
+  return name == array ? found->second.location : glGetUniformLocation(name_, uniform);
+}
+
 void Program::set(const char* uniform, int value) const {
-  glProgramUniform1i(name_, location(uniform), value);
+  glProgramUniform1i(name_, location(uniform, "int"), value);
 }
 void Program::set(const char* uniform, float value) const {
-  glProgramUniform1f(name_, location(uniform), value);
+  glProgramUniform1f(name_, location(uniform, "float"), value);
 }
 void Program::set(const char* uniform, glm::vec2 value) const {
-  glProgramUniform2fv(name_, location(uniform), 1, glm::value_ptr(value));
+  glProgramUniform2fv(name_, location(uniform, "vec2"), 1, glm::value_ptr(value));
 }
 void Program::set(const char* uniform, glm::vec3 value) const {
-  glProgramUniform3fv(name_, location(uniform), 1, glm::value_ptr(value));
+  glProgramUniform3fv(name_, location(uniform, "vec3"), 1, glm::value_ptr(value));
 }
 void Program::set(const char* uniform, glm::vec4 value) const {
-  glProgramUniform4fv(name_, location(uniform), 1, glm::value_ptr(value));
+  glProgramUniform4fv(name_, location(uniform, "vec4"), 1, glm::value_ptr(value));
 }
 void Program::set(const char* uniform, const glm::mat4& value) const {
-  glProgramUniformMatrix4fv(name_, location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+  glProgramUniformMatrix4fv(name_, location(uniform, "mat4"), 1, GL_FALSE, glm::value_ptr(value));
 }
 void Program::set(const char* uniform, std::span<const glm::vec3> values) const {
-  glProgramUniform3fv(name_, location(uniform), GLsizei(values.size()), glm::value_ptr(values.front()));
+  glProgramUniform3fv(name_, location(uniform, "vec3"), GLsizei(values.size()),
+                      glm::value_ptr(values.front()));
 }
 void Program::set(const char* uniform, std::span<const glm::mat4> values) const {
-  glProgramUniformMatrix4fv(name_, location(uniform), GLsizei(values.size()), GL_FALSE,
+  glProgramUniformMatrix4fv(name_, location(uniform, "mat4"), GLsizei(values.size()), GL_FALSE,
                             glm::value_ptr(values.front()));
 }
 

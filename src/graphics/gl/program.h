@@ -4,9 +4,12 @@
 
 #include <epoxy/gl.h>
 
+#include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,6 +36,15 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
 Result<GLuint> compile_shader(GLenum stage, const std::string& path, const Defines& defines, Dialect dialect,
                               std::span<const std::string> includes = {});
 
+/// A uniform that a shader's text declares outside blocks: `uniform mat4 world_from_object;`.
+struct DeclaredUniform {
+  std::string name;
+  std::string type;  ///< as GLSL writes it: "mat4", "sampler2DArray"; of an array that of its elements
+};
+
+/// The uniforms that `text` declares outside blocks, in order, in all branches of its preprocessor.
+std::vector<DeclaredUniform> declared_uniforms(std::string_view text);
+
 /// A linked program of a vertex and a fragment shader; owns its OpenGL name.
 class Program {
  public:
@@ -42,9 +54,11 @@ class Program {
                                 const Defines& defines = {},
                                 std::span<const std::string> fragment_includes = {});
   /// Takes over the OpenGL name; `other` is empty afterwards.
-  Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Program(Program&& other) noexcept
+      : name_(std::exchange(other.name_, 0)), uniforms_(std::move(other.uniforms_)) {}
   Program& operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
+    std::swap(uniforms_, other.uniforms_);
     return *this;
   }
   ~Program();
@@ -54,8 +68,12 @@ class Program {
   /// OpenGL's name of the program; 0 if it is empty.
   GLuint name() const { return name_; }
 
-  // Uniforms by name; the program need not be current. A name that the compiler has removed is ignored, as in
-  // OpenGL.
+  /// True if the text of one of its shaders declares that uniform, in whichever branch.
+  bool declares(std::string_view uniform) const { return uniforms_.contains(uniform); }
+
+  // Uniforms by name, elements of arrays as "name[3]"; the program need not be current. The text of its
+  // shaders must declare that name with that type (std::logic_error), in whichever branch; a uniform that the
+  // compiler has removed is ignored.
   void set(const char* uniform, int value) const;               ///< int, bool, or sampler (texture unit)
   void set(const char* uniform, float value) const;             ///< float
   void set(const char* uniform, glm::vec2 value) const;         ///< vec2
@@ -66,9 +84,15 @@ class Program {
   void set(const char* uniform, std::span<const glm::mat4> values) const;  ///< mat4[]; at least one value
 
  private:
+  struct Uniform {
+    std::string type;
+    GLint location = -1;  // -1: the compiler has removed it
+  };
+
   explicit Program(GLuint name) : name_(name) {}
-  GLint location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
+  GLint location(const char* uniform, std::string_view type) const;
   GLuint name_ = 0;
+  std::map<std::string, Uniform, std::less<>> uniforms_;  // by name
 };
 
 }  // namespace parvis::gl

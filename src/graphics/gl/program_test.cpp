@@ -31,6 +31,21 @@ TEST(ShaderText, AFileThatIsNotThereIsNamed) {
   EXPECT_NE(to_string(text.errors()).find("graphics/render/no_such.frag"), std::string::npos);
 }
 
+TEST(DeclaredUniforms, AreAllOutsideBlocks) {
+  const std::vector<DeclaredUniform> uniforms = declared_uniforms(
+      "uniform mat4 a;  // uniform float commented;\n"
+      "UNIFORM_BLOCK(Frame) { vec4 inside; };\n"
+      "layout(std140) uniform Block { vec4 inside; } block;\n"
+      "uniform vec3 b[16 * COUNT];\n"
+      "uniform highp sampler2D\n    c,\n    d;\n");
+  ASSERT_EQ(uniforms.size(), 4u);
+  const char* expected[][2] = {{"a", "mat4"}, {"b", "vec3"}, {"c", "sampler2D"}, {"d", "sampler2D"}};
+  for (std::size_t i = 0; i < uniforms.size(); ++i) {
+    EXPECT_EQ(uniforms[i].name, expected[i][0]);
+    EXPECT_EQ(uniforms[i].type, expected[i][1]);
+  }
+}
+
 class ProgramTest : public ContextTest {};
 
 TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
@@ -40,6 +55,15 @@ TEST_F(ProgramTest, AnErrorNamesTheFileAndTheLine) {
   ASSERT_FALSE(shader);
   const std::string message = to_string(shader.errors());
   EXPECT_NE(message.find("graphics/render/frame.glsl:"), std::string::npos) << message;
+}
+
+TEST_F(ProgramTest, AUniformIsSetByItsNameAndWithItsType) {
+  const Result<Program> program =
+      Program::create("graphics/render/whole_screen.vert", "graphics/render/display.frag");
+  ASSERT_TRUE(program) << to_string(program.errors());
+  EXPECT_NO_THROW(program->set("exposure", 2.0f));
+  EXPECT_THROW(program->set("exposure", 2), std::logic_error);
+  EXPECT_THROW(program->set("exposures", 2.0f), std::logic_error);
 }
 
 }  // namespace

@@ -29,13 +29,14 @@ enum TextureUnit : GLuint {
 enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_block_above };
 
 /// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
-/// sky_lookup.glsl or sun_lookup.glsl.
+/// sky_lookup.glsl or sun_lookup.glsl. What the program lacks of them is left out.
 inline void assign_bindings(const gl::Program& program) {
   constexpr const char* samplers[]{
       "base_colour_texture", "normal_texture", "surface_texture",        "emission_texture",
       "sky_texture",         "shadow_maps",    "sky_visibility_texture", "traced_sun_texture",
       "lamp_table",          "lamp_maps",      "bounced_light_texture",  "vertex_light_texture"};
-  for (GLuint unit = 0; unit < first_unit_above; ++unit) program.set(samplers[unit], int(unit));
+  for (GLuint unit = 0; unit < first_unit_above; ++unit)
+    if (program.declares(samplers[unit])) program.set(samplers[unit], int(unit));
   constexpr const char* blocks[]{"Frame", "Material", "Bodies"};
   for (GLuint binding = 0; binding < first_block_above; ++binding)
     if (const GLuint index = glGetUniformBlockIndex(program.name(), blocks[binding]);

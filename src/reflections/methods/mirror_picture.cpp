@@ -46,7 +46,7 @@ void MirrorPicture::resize(int width, int height) {
   if (width <= room_.x && height <= room_.y) return;
   room_ = glm::max(room_, glm::ivec2(width, height));
   starts_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
-  ways_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
+  directions_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
   depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
   base_light_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
   coat_light_ = gl::texture_2d(GL_R11F_G11F_B10F, room_.x, room_.y);
@@ -59,7 +59,7 @@ void MirrorPicture::resize(int width, int height) {
     glNamedFramebufferDrawBuffers(framebuffer.name(), 2, both);
     return framebuffer;
   };
-  rays_ = framebuffer_of(starts_, ways_);
+  rays_ = framebuffer_of(starts_, directions_);
   light_ = framebuffer_of(base_light_, coat_light_);
 }
 
@@ -76,8 +76,8 @@ void MirrorPicture::draw_rays(render::Renderer& renderer) {
 
 void MirrorPicture::bind_rays(const gl::Program& program) const {
   glBindTextureUnit(starts_unit, starts_.name());
-  glBindTextureUnit(directions_unit, ways_.name());
-  program.set("ray_starts", int(starts_unit));
+  glBindTextureUnit(directions_unit, directions_.name());
+  if (program.declares("ray_starts")) program.set("ray_starts", int(starts_unit));
   program.set("ray_directions", int(directions_unit));
 }
 
@@ -138,14 +138,14 @@ void MirrorPicture::read_rays(const render::Renderer& renderer,
   }
   rays.pixels = {low, glm::max(high - low, glm::ivec2(0))};
   const std::size_t count = std::size_t(rays.pixels.z) * std::size_t(rays.pixels.w);
-  rays.starts.resize(count), rays.ways.resize(count);
+  rays.starts.resize(count), rays.directions.resize(count);
   const auto read = [&](const gl::Texture& texture, std::vector<glm::vec4>& values) {
     glGetTextureSubImage(texture.name(), 0, rays.pixels.x, rays.pixels.y, 0, rays.pixels.z, rays.pixels.w, 1,
                          GL_RGBA, GL_FLOAT, GLsizei(values.size() * sizeof(glm::vec4)), values.data());
   };
   if (count == 0) return;
   read(starts_, rays.starts);
-  read(ways_, rays.ways);
+  read(directions_, rays.directions);
 }
 
 void MirrorPicture::put_light(const render::Renderer& renderer,

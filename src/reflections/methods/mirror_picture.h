@@ -20,7 +20,7 @@ struct MirrorRays {
   /// xyz: where the ray leaves, in the world; w: roughness of the base.
   std::vector<glm::vec4> starts;
   /// xy: direction (octahedral); z: roughness of the coat; w: the object's index and 1; 0: no ray.
-  std::vector<glm::vec4> ways;
+  std::vector<glm::vec4> directions;
 };
 
 /// Deferred reflection: ray picture in, light picture out.
@@ -63,7 +63,7 @@ class MirrorPicture {
   glm::ivec2 room_{0};  ///< of the textures, which never shrink
   render::SurfacePrograms ray_programs_;
   gl::Program spread_;
-  gl::Texture starts_, ways_, depth_;  ///< of rays; the nearest in each pixel
+  gl::Texture starts_, directions_, depth_;  ///< of rays; the nearest in each pixel
   gl::Texture base_light_, coat_light_;
   gl::Framebuffer rays_, light_;
   gl::VertexArray no_attributes_;

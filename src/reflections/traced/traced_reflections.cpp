@@ -42,8 +42,8 @@ void TracedReflections::update_maps(render::Renderer& renderer, const scene::Sce
   reference::trace_mirrors(rays_, scene, renderer.sky(), view.position_in_world, pixel_height_at_1m(view),
                            pixels_, options, light_);
 
-  base_.assign(drawn_.ways.size(), glm::vec4(0.0f));
-  coat_.assign(drawn_.ways.size(), glm::vec3(0.0f));
+  base_.assign(drawn_.directions.size(), glm::vec4(0.0f));
+  coat_.assign(drawn_.directions.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     if (!light_[i]) continue;
     base_[places_[i]] = glm::vec4(light_[i]->base, 1.0f);
@@ -70,8 +70,8 @@ void TracedReflections::smooth_rough_light() {
       for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
         for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u) {
           const std::size_t there = std::size_t(v) * std::size_t(width) + std::size_t(u);
-          const glm::vec2 turn(drawn_.ways[there] - drawn_.ways[here]);
-          if (drawn_.ways[there].w == drawn_.ways[here].w &&
+          const glm::vec2 turn(drawn_.directions[there] - drawn_.directions[here]);
+          if (drawn_.directions[there].w == drawn_.directions[here].w &&
               glm::length(turn) < float(radius) * turn_per_pixel)
             sum += base_[there];  // alpha counts them
         }
@@ -83,8 +83,8 @@ void TracedReflections::smooth_rough_light() {
 /// The pixels that show a mirror-like surface, row by row: rays of neighbours run alike.
 void TracedReflections::gather_pixels() {
   places_.clear(), pixels_.clear();
-  for (std::size_t i = 0; i < drawn_.ways.size(); ++i) {
-    const int object = int(drawn_.ways[i].w) - 1;
+  for (std::size_t i = 0; i < drawn_.directions.size(); ++i) {
+    const int object = int(drawn_.directions[i].w) - 1;
     if (object < 0) continue;
     const int x = drawn_.pixels.x + int(i % std::size_t(drawn_.pixels.z));
     const int y = drawn_.pixels.y + int(i / std::size_t(drawn_.pixels.z));

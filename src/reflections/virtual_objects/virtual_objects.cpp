@@ -7,6 +7,7 @@
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 #include "reflections/reflector_maps/settings.h"
+#include "reflections/virtual_objects/search_settings.h"
 
 namespace parvis::virtual_objects {
 namespace {
@@ -49,7 +50,7 @@ gl::Defines map_defines(const ReflectorsByModel& reflectors) {
 }
 
 /// For shaders with virtual_point.glsl.
-gl::Defines search_defines(const ReflectorsByModel& reflectors, const VirtualObjectSettings& settings) {
+gl::Defines search_defines(const ReflectorsByModel& reflectors, const SearchSettings& settings) {
   gl::Defines defines = map_defines(reflectors);
   if (settings.search == SearchMethod::midpoint)
     defines.emplace_back("MIDPOINT_ITERATIONS", std::to_string(settings.iterations));
@@ -62,6 +63,7 @@ void add_near_picture(render::SurfaceSource& surface) {
 }
 
 void bind_near_picture(const gl::Program& program, GLuint texture, float share) {
+  if (!program.declares("near_picture")) return;  // a program of surfaces that mirror nothing
   glBindTextureUnit(near_picture_unit, texture);
   program.set("near_picture", int(near_picture_unit));
   program.set("near_share", share);
@@ -89,7 +91,7 @@ Result<std::unique_ptr<VirtualObjects>> VirtualObjects::create(
   render::assign_bindings(*own_reflection);
   std::unique_ptr<MirrorsInMirrors> in_mirrors;
   ReflectorsByModel reflectors = reflectors_of(scene);
-  gl::Defines defines = search_defines(reflectors, virtual_settings(scene));
+  gl::Defines defines = search_defines(reflectors, search_settings(scene));
   Result<VertexSearch> vertex_search = VertexSearch::create(scene, renderer.gpu(), defines);
   if (!vertex_search) return vertex_search.errors();
   defines.emplace_back("IS_MIRRORED", "");
@@ -130,7 +132,7 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel refl
       in_mirrors_(std::move(in_mirrors)),
       uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       shows_all_(shows_all_objects(scene)),
-      within_m_(virtual_settings(scene).within_m) {
+      within_m_(near_object_settings(scene).within_m) {
   for (const scene::Object& object : scene.objects)
     model_of_object_.push_back(object.takes_reflection ? object.model.get() : nullptr);
 }
