@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "capture/facades/placed_facade.h"
+#include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/scene.h"
 
@@ -95,7 +96,6 @@ class FacadeDrawable final : public render::Drawable {
         new FacadeDrawable(first_thing, compared, held, *std::move(solid), *std::move(cutout)));
     if (Status status = made->load(scene); !status) return status.errors();
     made->update(scene);
-    made->change_ = {};
     return std::unique_ptr<render::Drawable>(std::move(made));
   }
 
@@ -104,35 +104,26 @@ class FacadeDrawable final : public render::Drawable {
     // nothing.
     if (!load(scene)) return;
     const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
-    change_ = {};
-    fixed_ = {};
-    chosen_.resize(facades.size());
-    for (std::size_t i = facades.size(); i < bounds_.size(); ++i)
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-    shown_.resize(facades.size()), bounds_.resize(facades.size()), is_newcomer_.assign(facades.size(), 0);
+    things_.begin_update(facades.size());
+    chosen_.resize(facades.size()), shown_.resize(facades.size());
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
       const LoadedFacade& loaded = *loaded_.at(placed.facade);
       shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure, placed.is_visible};
-      const Bounds all = transformed(placed.world_from_facade, loaded.bounds);
-      const Bounds bounds = placed.is_visible ? all : Bounds{};
-      fixed_.add(transformed(placed.world_from_facade, loaded.solid_bounds));
-      if (bounds.min == bounds_[i].min && bounds.max == bounds_[i].max) continue;
-      is_newcomer_[i] = !bounds.empty();
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-      if (!bounds.empty()) change_.come.push_back(bounds);
-      bounds_[i] = bounds;
+      things_.update(i, {&loaded, placed.world_from_facade, placed.is_visible,
+                         transformed(placed.world_from_facade, loaded.bounds),
+                         transformed(placed.world_from_facade, loaded.solid_bounds)});
     }
   }
 
-  Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+  Extents extents() const override { return things_.extents(); }
 
   void prepare(const View& view, const Culling& culling) override {
     std::vector<DrawnRange>& list = list_of(view);
     list.clear();
     for (std::size_t i = 0; i < shown_.size(); ++i) {
-      if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}) ||
-          !culling.may_see(bounds_[i]))
+      if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}) ||
+          !culling.may_see(things_.bounds(i)))
         continue;
       choose(i, view);
       for (const SurfaceRange& range : shown_[i].loaded->ranges) {
@@ -239,10 +230,7 @@ class FacadeDrawable final : public render::Drawable {
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
   std::vector<std::array<std::optional<ChosenForEye>, 2>> chosen_;  ///< per facade: main view, others
-  Bounds fixed_;
-  std::vector<Bounds> bounds_;
-  std::vector<std::uint8_t> is_newcomer_;
-  render::FixedChange change_;
+  render::StaticThings things_;
   std::vector<DrawnRange> main_list_, other_list_;
 };
 

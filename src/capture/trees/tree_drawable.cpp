@@ -17,6 +17,7 @@
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
 #include "graphics/render/bindings.h"
+#include "graphics/render/static_things.h"
 #include "graphics/render/stream_buffer.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/sun_shadows.h"
@@ -114,29 +115,17 @@ class TreeDrawable final : public render::Drawable {
     const std::vector<SceneTree>& trees = scene_trees(scene);
     detail_ = scene.data<TreeDetail>();
     sun_ = scene::sun_light(scene);
-    change_ = {};
-    fixed_ = {};
     if (const Status status = upload(scene); !status) fmt::print(stderr, "{}", to_string(status.errors()));
-    is_newcomer_.assign(trees.size(), 0);
-    for (std::size_t i = trees.size(); i < trees_.size(); ++i)
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-    const std::size_t before = trees_.size();
-    trees_.resize(trees.size()), bounds_.resize(trees.size());
+    things_.begin_update(trees.size());
+    trees_.resize(trees.size());
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const SceneTree& tree = trees[i];
       const Bounds all = transformed(tree.world_from_tree, tree.tree->box);
-      fixed_.add(all);
-      const bool is_same = i < before && trees_[i].tree == tree.tree &&
-                           trees_[i].is_visible == tree.is_visible &&
-                           trees_[i].world_from_tree == tree.world_from_tree;
-      if (is_same) continue;
-      if (i < before && !bounds_[i].empty()) change_.gone.push_back(bounds_[i]), change_.has_moved = true;
-      bounds_[i] = tree.is_visible ? all : Bounds();
-      if (tree.is_visible) change_.come.push_back(all), is_newcomer_[i] = 1;
+      things_.update(i, {tree.tree.get(), tree.world_from_tree, tree.is_visible, all, all});
       trees_[i] = tree;
     }
   }
-  render::Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+  render::Extents extents() const override { return things_.extents(); }
 
   void prepare(const View& view, const Culling& culling) override {
     DrawList& list = list_of(view);
@@ -144,9 +133,9 @@ class TreeDrawable final : public render::Drawable {
     std::vector<std::pair<float, std::size_t>> seen;
     for (std::size_t i = 0; i < trees_.size(); ++i)
       if (trees_[i].is_visible && atlas_.holds(trees_[i].tree.get()) &&
-          culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}) &&
-          culling.may_see(bounds_[i]) && !culling.is_hidden(bounds_[i]))
-        seen.emplace_back(glm::distance(bounds_[i].centre(), view.position_in_world), i);
+          culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}) &&
+          culling.may_see(things_.bounds(i)) && !culling.is_hidden(things_.bounds(i)))
+        seen.emplace_back(glm::distance(things_.bounds(i).centre(), view.position_in_world), i);
     std::ranges::sort(seen);
     const bool has_cover = view.kind == ViewKind::main || view.kind == ViewKind::cube_face;
     cover_.begin(view, has_cover ? detail_.min_visible : 0.0f);
@@ -222,12 +211,12 @@ class TreeDrawable final : public render::Drawable {
     const glm::mat3 turn(world_from_tree);
     const float scale = scale_of(world_from_tree);
     const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(view.position_in_world, 1.0f));
-    const SeenTree seen = seen_tree(placed, bounds_[i], view, culling);
+    const SeenTree seen = seen_tree(placed, things_.bounds(i), view, culling);
     const std::size_t level = level_for(*placed.tree, seen, detail_.limits);
     const BillboardTree& shown = placed.tree->levels[level];
     const float mip_level = TreeAtlas::mip_level(texel_size_m(shown) * seen.pixels_per_metre);
     order_.back_to_front(shown.grid, eye, cells_);
-    const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(bounds_[i].centre()));
+    const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(things_.bounds(i).centre()));
     const std::vector<float>& sun = crowns_.shares(*placed.tree, to_sun)[level];
     const std::vector<float>&albedo_factor = placed.tree->crown.albedo_factor[level],
           &sky = placed.tree->crown.sky[level];
@@ -295,10 +284,7 @@ class TreeDrawable final : public render::Drawable {
   TreeAtlas atlas_;
   std::vector<const TreeLevels*> uploaded_;
   std::vector<SceneTree> trees_;  // as of the last update
-  std::vector<Bounds> bounds_;
-  std::vector<std::uint8_t> is_newcomer_;
-  Bounds fixed_;
-  render::FixedChange change_;
+  render::StaticThings things_;
   // The main view's list and memory are its own: other views are drawn between its preparation and its
   // drawing.
   render::StreamBuffer main_stream_, other_stream_;

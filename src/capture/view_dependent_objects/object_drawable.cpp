@@ -4,6 +4,7 @@
 
 #include "capture/view_dependent_objects/object_textures.h"
 #include "capture/view_dependent_objects/placed_object.h"
+#include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/scene.h"
 
@@ -32,7 +33,6 @@ class ObjectDrawable final : public render::Drawable {
         new ObjectDrawable(first_thing, *std::move(solid), *std::move(cutout)));
     if (Status status = made->load(scene); !status) return status.errors();
     made->update(scene);
-    made->change_ = {};
     return std::unique_ptr<render::Drawable>(std::move(made));
   }
 
@@ -40,29 +40,21 @@ class ObjectDrawable final : public render::Drawable {
     if (!load(scene)) return;  // what is new shows nothing where graphics memory is full
     placed_ = scene.items<PlacedObject>();
     exposure_ = scene.exposure;
-    change_ = {}, fixed_ = {};
-    for (std::size_t i = placed_.size(); i < bounds_.size(); ++i)
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-    bounds_.resize(placed_.size()), is_newcomer_.assign(placed_.size(), 0);
+    things_.begin_update(placed_.size());
     for (std::size_t i = 0; i < placed_.size(); ++i) {
-      const Bounds all = transformed(placed_[i].world_from_object, placed_[i].model->bounds());
-      const Bounds bounds = placed_[i].is_visible ? all : Bounds{};
-      fixed_.add(all);
-      if (bounds.min == bounds_[i].min && bounds.max == bounds_[i].max) continue;
-      is_newcomer_[i] = !bounds.empty();
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-      if (!bounds.empty()) change_.come.push_back(bounds);
-      bounds_[i] = bounds;
+      const PlacedObject& object = placed_[i];
+      const Bounds all = transformed(object.world_from_object, object.model->bounds());
+      things_.update(i, {object.model.get(), object.world_from_object, object.is_visible, all, all});
     }
   }
 
-  Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+  Extents extents() const override { return things_.extents(); }
 
   void prepare(const View& view, const Culling& culling) override {
     std::vector<Shown>& list = list_of(view);
     list.clear();
     for (std::size_t i = 0; i < placed_.size(); ++i) {
-      if (!placed_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, is_newcomer_[i] != 0}))
+      if (!placed_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}))
         continue;
       for (const Piece& piece : placed_[i].model->pieces) {
         const Bounds bounds = transformed(placed_[i].world_from_object, piece.bounds);
@@ -132,10 +124,7 @@ class ObjectDrawable final : public render::Drawable {
   Loaded loaded_;
   std::vector<PlacedObject> placed_;  ///< as of the last update
   float exposure_ = 1.0f;
-  Bounds fixed_;
-  std::vector<Bounds> bounds_;
-  std::vector<std::uint8_t> is_newcomer_;
-  render::FixedChange change_;
+  render::StaticThings things_;
   std::vector<Shown> main_list_, other_list_;
 };
 

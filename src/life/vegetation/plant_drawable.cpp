@@ -11,6 +11,7 @@
 
 #include "graphics/render/bindings.h"
 #include "graphics/render/screen_scale.h"
+#include "graphics/render/static_things.h"
 #include "graphics/render/stream_buffer.h"
 #include "graphics/render/view_programs.h"
 #include "life/vegetation/bark.h"
@@ -105,26 +106,17 @@ class PlantDrawable final : public render::Drawable {
     const bool is_new_detail = !(detail_ == scene.data<PlantDetail>());  // kept shadow maps show another
     detail_ = scene.data<PlantDetail>();
     upload_shapes(plants);
-    change_ = {};
-    fixed_ = {};
-    for (std::size_t i = plants.size(); i < plants_.size(); ++i)
-      if (!bounds_[i].empty()) change_.gone.push_back(bounds_[i]);
-    const std::size_t before = plants_.size();
-    plants_.resize(plants.size()), bounds_.resize(plants.size());
+    things_.begin_update(plants.size(), !is_new_detail);
+    plants_.resize(plants.size());
     for (std::size_t i = 0; i < plants.size(); ++i) {
-      const PlacedPlant now = placed(plants[i], first_thing_ + int(i));
-      fixed_.add(now.is_visible ? now.bounds : transformed(now.world_from_plant, now.shape->bounds));
-      PlacedPlant& kept = plants_[i];
-      const bool is_same = !is_new_detail && i < before && kept.shape == now.shape &&
-                           kept.is_visible == now.is_visible && kept.world_from_plant == now.world_from_plant;
-      kept.is_newcomer = false;
-      if (is_same) continue;
-      if (i < before && !bounds_[i].empty()) change_.gone.push_back(bounds_[i]), change_.has_moved = true;
-      kept = now, bounds_[i] = now.bounds;
-      if (now.is_visible) change_.come.push_back(now.bounds), kept.is_newcomer = true;
+      const ScenePlant& plant = plants[i];
+      const Bounds all = transformed(plant.world_from_plant, plant.shape->bounds);
+      things_.update(i, {plant.shape.get(), plant.world_from_plant, plant.is_visible, all, all});
+      plants_[i] = placed(plant, first_thing_ + int(i));
+      plants_[i].is_newcomer = things_.is_newcomer(i);
     }
   }
-  render::Extents extents() const override { return {fixed_, {}, {}, bounds_, &change_}; }
+  render::Extents extents() const override { return things_.extents(); }
 
   void prepare(const View& view, const Culling& culling) override {
     DrawList& list = list_of(view);
@@ -252,9 +244,7 @@ class PlantDrawable final : public render::Drawable {
   PlantBuffers buffers_;
   PlantDetail detail_;
   std::vector<PlacedPlant> plants_;  // as of the last update
-  std::vector<Bounds> bounds_;
-  Bounds fixed_;
-  render::FixedChange change_;
+  render::StaticThings things_;
   DrawList main_list_, other_list_;
 };
 
