@@ -20,6 +20,7 @@
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/traffic_nodes.h"
+#include "life/vegetation/bench/vegetation_bench.h"
 #include "life/vegetation/room.h"
 #include "machines/bench/processes_bench.h"
 #include "places/dressing/room.h"
@@ -81,6 +82,7 @@ constexpr Furnish rooms[]{
     bench::furnish_multiple_environment_maps,
     bench::furnish_curved_reflectors,
     bench::furnish_light,
+    bench::furnish_vegetation,
     bench::furnish_facades,
     bench::furnish_trees,
 };

@@ -13,7 +13,6 @@
 #include "graphics/light/bench/bounced_bench.h"
 #include "graphics/light/bench/double_tracer.h"
 #include "graphics/light/bench/shadow_bench.h"
-#include "graphics/light/bench/vegetation_bench.h"
 #include "graphics/light/brute_force_sky.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/drawn_sky_check.h"
@@ -268,18 +267,9 @@ Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  for (const auto& measure :
-       {measure_sun, measure_brute_force, count_negatives, measure_gpu, measure_vegetation, measure_city})
+  for (const auto& measure : {measure_sun, measure_brute_force, count_negatives, measure_gpu, measure_city})
     if (Status status = measure(setup, report); !status) return status.errors();
-  return Done{};
-}
-
-/// The keys vegetation_* by themselves.
-Status measure_vegetation_alone(const BenchSetup& setup, Report& report) {
-  const Result<gl::Context> context = gl::Context::create_headless();
-  if (!context) return context.errors();
-  report.note("machine: " + gl::driver_name());
-  return measure_vegetation(setup, report);
+  return setup.house.get<Benches>().find("vegetation")->run(setup, report);
 }
 
 /// The keys shadow_* by themselves.
@@ -305,8 +295,6 @@ void furnish_light(House& house) {
   house.get<Benches>().add({"shadows", "shadows of each method against exact ones", measure_shadows_alone});
   house.get<Benches>().add(
       {"relighting", "light at the vertices of moved objects", measure_relighting_alone});
-  house.get<Benches>().add({"vegetation", "points and lines of grown plants against their real geometry",
-                            measure_vegetation_alone});
   house.get<Benches>().add(
       {"light", "sun, sky, shadows and hours of sun against their ground truths", measure});
 }
