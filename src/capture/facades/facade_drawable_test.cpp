@@ -9,6 +9,7 @@
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/sky.h"
 #include "graphics/shading/tone_curve.h"
@@ -39,9 +40,7 @@ class FacadeDrawableTest : public gl::ContextTest {
     Result<std::unique_ptr<render::Renderer>> renderer =
         render::Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    (*renderer)->begin_frame(scene_, camera_);
-    (*renderer)->prepare_main_view(camera_, width, height);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, width, height}));
     picked_ = (*renderer)->pick(camera_, width, height, true);
     return (*renderer)->read_radiance();
   }

@@ -82,7 +82,7 @@ class TreeDisplayTest : public gl::ContextTest {
     return *std::move(made);
   }
   Image8 drawn(render::Renderer& renderer) const {
-    EXPECT_TRUE(render::draw_frame(renderer, scene_, render::EyeView{camera_, width, height}));
+    EXPECT_TRUE(render::draw_frame(renderer, scene_, {camera_, width, height}));
     return shading::tone_mapped_picture(renderer.read_radiance(), 1.0f);
   }
   Image8 traced(render::Renderer& renderer, int samples) const {

@@ -16,6 +16,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/drawables.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_loader.h"
@@ -267,9 +268,7 @@ TEST_F(VdObject, IsDrawnAndTracedAlikeFromEverySide) {
     Camera camera;
     camera.world_from_camera = look_at({x, -5, 1.5f}, {1, 2, 1});
     camera.vertical_fov = 0.5f;
-    (*renderer)->begin_frame(scene, camera);
-    (*renderer)->prepare_main_view(camera, size, size);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(render::draw_frame(**renderer, scene, {camera, size, size}));
     const ImageF drawn = (*renderer)->read_radiance();
     const reference::RayScene rays(scene);
     const shading::SkyLight sky = shading::make_sky_light(scene.sky.picture, 1.0f, 0.0f);

@@ -10,6 +10,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
 
@@ -151,9 +152,7 @@ TEST_F(BouncedPicture, IsNearerToThePhotographThanTheConstant) {
     scene.data<scene::BouncedSettings>().is_on = is_bounced;
     auto renderer = render::Renderer::create(scene, {}, with_bounced_light(light::sun_and_sky));
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    (*renderer)->begin_frame(scene, camera);
-    (*renderer)->prepare_main_view(camera, size, size);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(render::draw_frame(**renderer, scene, {camera, size, size}));
     const ImageF picture = (*renderer)->read_radiance();
     double off = 0.0, sum = 0.0;
     for (int y = 0; y < size; ++y)

@@ -14,6 +14,7 @@
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_builder.h"
@@ -170,9 +171,7 @@ class LampPicture : public gl::ContextTest {
   }
   static constexpr int size = 160;
   static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene) {
-    renderer.begin_frame(scene, street_camera());
-    renderer.prepare_main_view(street_camera(), size, size);
-    renderer.draw_main_view();
+    EXPECT_TRUE(render::draw_frame(renderer, scene, {street_camera(), size, size}));
     return renderer.read_radiance();
   }
   /// Percent of the pixels that are off by more than a tenth.

@@ -9,6 +9,7 @@
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shadows/chosen_light.h"
 #include "graphics/shadows/near_map_fit.h"
@@ -149,9 +150,7 @@ class ChosenLightTest : public testing::Test {
     return *std::move(renderer);
   }
   static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene, int size) {
-    renderer.begin_frame(scene, street_camera());
-    renderer.prepare_main_view(street_camera(), size, size);
-    renderer.draw_main_view();
+    EXPECT_TRUE(render::draw_frame(renderer, scene, {street_camera(), size, size}));
     return renderer.read_radiance();
   }
   /// Percent of a picture's pixels whose light is off by more than a tenth from exact rays.

@@ -8,6 +8,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
 #include "life/vegetation/plant_drawable.h"
@@ -50,9 +51,7 @@ class PlantDisplay : public gl::ContextTest {
     return *std::move(made);
   }
   Image8 drawn(render::Renderer& renderer) const {
-    renderer.begin_frame(scene_, camera_);
-    renderer.prepare_main_view(camera_, width, height);
-    renderer.draw_main_view();
+    EXPECT_TRUE(render::draw_frame(renderer, scene_, {camera_, width, height}));
     return shading::tone_mapped_picture(renderer.read_radiance(), 1.0f);
   }
   /// With all geometry, whatever its size.
