@@ -98,7 +98,7 @@ TEST(LayerEdits, WhatNoLongerFitsIsReportedAndKept) {
   EXPECT_EQ(apply(all, rebuilt.layers(), "0001.jpg", rebuilt.pixels).applied, 81u);
 }
 
-TEST(LayerEdits, SurviveACameraThatIsCalibratedAnew) {
+TEST(LayerEdits, SurviveACameraThatIsCalibratedAgain) {
   Made m = made(before());
   const LayerEdits edits = painted(m);
   View moved = test_view(128, 128, {0.05, -0.1, 0.02});

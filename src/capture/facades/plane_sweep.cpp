@@ -269,10 +269,10 @@ void extend_path(const std::uint8_t* cost, const std::uint16_t* before, int heig
   }
   const int minimum = *std::min_element(before, before + heights);
   for (int h = 0; h < heights; ++h) {
-    int way = std::min<int>(before[h], minimum + large_step);
-    if (h > 0) way = std::min(way, before[h - 1] + small_step);
-    if (h + 1 < heights) way = std::min(way, before[h + 1] + small_step);
-    path[h] = std::uint16_t(int(cost[h]) + way - minimum);
+    int cheapest = std::min<int>(before[h], minimum + large_step);
+    if (h > 0) cheapest = std::min(cheapest, before[h - 1] + small_step);
+    if (h + 1 < heights) cheapest = std::min(cheapest, before[h + 1] + small_step);
+    path[h] = std::uint16_t(int(cost[h]) + cheapest - minimum);
   }
 }
 
@@ -303,11 +303,11 @@ std::vector<std::uint16_t> smoothed(const CostVolume& costs, int columns, int ro
             std::size_t(columns),
             [&](std::size_t column) {
               const int from = int(column) - across;
-              const std::uint16_t* way = k > 0 && from >= 0 && from < columns
-                                             ? before.data() + std::size_t(from) * heights
-                                             : nullptr;
+              const std::uint16_t* previous = k > 0 && from >= 0 && from < columns
+                                                  ? before.data() + std::size_t(from) * heights
+                                                  : nullptr;
               const std::size_t point = std::size_t(row) * std::size_t(columns) + column;
-              extend_path(costs.at(point), way, int(heights), now.data() + column * heights);
+              extend_path(costs.at(point), previous, int(heights), now.data() + column * heights);
               add(point, now.data() + column * heights);
             },
             16);
