@@ -1,5 +1,7 @@
 #include "graphics/reference/ray_scene.h"
 
+#include <embree3/rtcore.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>

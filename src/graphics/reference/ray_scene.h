@@ -4,8 +4,6 @@
 // single-sided ones, as the renderer draws them.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -18,6 +16,11 @@
 #include "graphics/reference/mip_texture.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
+
+// What Embree's handles point to.
+struct RTCDeviceTy;
+struct RTCGeometryTy;
+struct RTCSceneTy;
 
 namespace parvis::reference {
 
@@ -127,22 +130,23 @@ class RayScene {
   void forget_meshes_but_those_placed();
   void join(std::size_t place);
   void leave_joined(std::size_t place);
-  RTCGeometry triangles(const Mesh& mesh, const glm::mat4& transform, float margin, bool is_filtered) const;
+  RTCGeometryTy* triangles(const Mesh& mesh, const glm::mat4& transform, float margin,
+                           bool is_filtered) const;
   static void set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners);
   float margin_in_mesh(const glm::mat4& world_from_mesh) const;
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
-  RTCScene mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh);
+  RTCSceneTy* mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh);
   void deform(std::size_t place);
 
   scene::SunShadows shadows_;
-  RTCDevice device_;
-  RTCScene top_;
-  RTCScene joined_;  ///< triangles in the world, by place: the first instance of `top_`; places follow it
+  RTCDeviceTy* device_;
+  RTCSceneTy* top_;
+  RTCSceneTy* joined_;  ///< triangles in the world, by place: the first instance of `top_`; places follow it
   bool has_other_joined_ = true;                     ///< since it was committed
   std::unordered_map<const Mesh*, int> placed_;      ///< how many parts of objects have the mesh
   std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things
   std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
-  std::unordered_map<const Mesh*, RTCScene> mesh_scenes_;
+  std::unordered_map<const Mesh*, RTCSceneTy*> mesh_scenes_;
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::size_t triangle_count_ = 0;
