@@ -3,7 +3,8 @@
 #include "graphics/shading/recorded_light.glsl"
 #include "graphics/shading/view_blend.glsl"
 
-uniform highp sampler2D view_table;  // in rows of 1024
+#include "capture/view_dependent_objects/view_table_layout.glsl"
+uniform highp sampler2D view_table;
 uniform highp sampler2DArray view_pictures;
 uniform mat4 object_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
@@ -13,7 +14,9 @@ in vec3 position_in_object;
 in vec3 corner_weights;
 flat in int triangle_of_object;
 
-vec4 view_entry(int index) { return texelFetch(view_table, ivec2(index & 1023, index >> 10), 0); }
+vec4 view_entry(int index) {
+  return texelFetch(view_table, ivec2(index & (view_table_px - 1), index / view_table_px), 0);
+}
 vec4 view_picture(int layer, vec2 uv, vec2 along_x, vec2 along_y) {
   return textureGrad(view_pictures, vec3(uv, float(layer)), along_x, along_y);
 }

@@ -10,19 +10,19 @@
 namespace parvis::view_dependent_objects {
 namespace {
 
-constexpr int row_px = 1024;  // as object_surface.glsl has it
+#include "capture/view_dependent_objects/view_table_layout.glsl"
 
 struct Corner {
   glm::vec3 position, normal;
 };
 
 gl::Texture table_texture(std::vector<glm::vec4> table) {
-  const int rows = std::max(int((table.size() + row_px - 1) / row_px), 1);
-  table.resize(std::size_t(rows) * row_px, glm::vec4(0.0f));
-  gl::Texture texture = gl::texture_2d(GL_RGBA32F, row_px, rows);
+  const int rows = std::max(int((table.size() + view_table_px - 1) / view_table_px), 1);
+  table.resize(std::size_t(rows) * view_table_px, glm::vec4(0.0f));
+  gl::Texture texture = gl::texture_2d(GL_RGBA32F, view_table_px, rows);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, row_px, rows, GL_RGBA, GL_FLOAT, table.data());
+  glTextureSubImage2D(texture.name(), 0, 0, 0, view_table_px, rows, GL_RGBA, GL_FLOAT, table.data());
   return texture;
 }
 

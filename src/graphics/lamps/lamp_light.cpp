@@ -13,8 +13,7 @@
 namespace parvis::lamps {
 namespace {
 
-constexpr int table_px = 256;  // texels in a row, as lamp_lookup.glsl has it
-constexpr int texels_per_lamp = 4;
+#include "graphics/render/lamp_table_layout.glsl"
 
 bool is_same(const shading::Lamp& a, const shading::Lamp& b) {
   return a.place == b.place && glm::vec3(a.power) == glm::vec3(b.power) && a.axis == b.axis &&
@@ -120,8 +119,8 @@ void LampLight::show(std::vector<shading::Lamp> lamps) {
   table_ = shading::make_lamp_table(std::move(lamps));
   table_.depths = depths_;
   const std::size_t used = table_.near.size() + texels_per_lamp * table_.lamps.size();
-  const int rows = std::max(1, int((used + table_px - 1) / table_px));
-  texels_.assign(std::size_t(rows) * table_px, glm::uvec4(0u));
+  const int rows = std::max(1, int((used + lamp_table_px - 1) / lamp_table_px));
+  texels_.assign(std::size_t(rows) * lamp_table_px, glm::uvec4(0u));
   std::copy(table_.near.begin(), table_.near.end(), texels_.begin());
   static_assert(sizeof(shading::Lamp) == texels_per_lamp * sizeof(glm::uvec4));
   if (!table_.lamps.empty())
@@ -130,11 +129,11 @@ void LampLight::show(std::vector<shading::Lamp> lamps) {
   if (rows > table_rows_) {
     table_rows_ = rows;
     table_texture_ = gl::Texture::create(GLenum(GL_TEXTURE_2D));
-    glTextureStorage2D(table_texture_.name(), 1, GL_RGBA32UI, table_px, rows);
+    glTextureStorage2D(table_texture_.name(), 1, GL_RGBA32UI, lamp_table_px, rows);
     glTextureParameteri(table_texture_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(table_texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
-  glTextureSubImage2D(table_texture_.name(), 0, 0, 0, table_px, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+  glTextureSubImage2D(table_texture_.name(), 0, 0, 0, lamp_table_px, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                       texels_.data());
 }
 

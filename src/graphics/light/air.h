@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "graphics/light/spectrum.h"
+#include "graphics/shading/glsl.h"
 
 namespace parvis::light {
 
@@ -33,9 +34,11 @@ struct Air {
   bool operator==(const Air&) const = default;
 };
 
-/// Haze scatters mainly forward: asymmetry of the Henyey-Greenstein phase function, and the part of what it
-/// intercepts that it scatters (the rest is absorbed).
-inline constexpr float haze_asymmetry = 0.76f, haze_albedo = 0.92f;
+using shading::sqrt;
+#include "graphics/light/haze.glsl"
+
+/// The part of what haze intercepts that it scatters; the rest is absorbed.
+inline constexpr float haze_albedo = 0.92f;
 
 /// Per metre, where the densities are 1.
 struct AirCoefficients {
@@ -52,11 +55,6 @@ struct AirCoefficients {
 
 /// Per steradian, of the cosine between the directions before and after.
 inline float molecule_phase(float cosine) { return 0.05968310f * (1.0f + cosine * cosine); }
-/// Henyey-Greenstein, per steradian, of the same cosine.
-inline float haze_phase(float cosine) {
-  const float g = haze_asymmetry, base = 1.0f + g * g - 2.0f * g * cosine;
-  return 0.07957747f * (1.0f - g * g) / (base * std::sqrt(base));
-}
 
 /// How far a ray of unit direction cosine `mu` to the vertical runs from radius `r` to the top of the air, or
 /// to the ground.

@@ -35,7 +35,7 @@ std::array<float, 6> basis(float x, float z) {
 constexpr int order_of[6] = {0, 1, 1, 2, 2, 2};
 /// What a phase function leaves of a harmonic: of molecules 1, 0, 1/10; of Henyey and Greenstein g^order.
 constexpr float molecules_keep[3] = {1.0f, 0.0f, 0.1f};
-constexpr float haze_keep[3] = {1.0f, haze_asymmetry, haze_asymmetry* haze_asymmetry};
+const float haze_keep[3] = {1.0f, haze_asymmetry, haze_asymmetry* haze_asymmetry};
 
 /// The direction seen from a place: its cosine to the vertical, and along the horizon toward the sun.
 struct Local {

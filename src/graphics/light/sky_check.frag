@@ -9,6 +9,8 @@ out vec4 result;
 
 vec3 sky_view_texel(int layer, ivec2 place) { return texelFetch(sky_view_table, ivec3(place, layer), 0).rgb; }
 
+#include "graphics/light/haze.glsl"
+#include "graphics/light/sky_view_layout.glsl"
 #include "graphics/light/sky_view.glsl"
 
 void main() {

@@ -2,19 +2,18 @@
 // fills the table), the glare of the haze about the sun, and the sun's disc. Colours are CIE XYZ.
 //
 // Includers define sky_view_texel(int layer, ivec2 place): the table, 2 layers (what is scattered; haze that
-// scattered once, without its phase function) of 40 columns (azimuth from the sun, 0 to pi) and 64 rows (32
-// elevations above the horizon, then 32 below it).
+// scattered once, without its phase function) of the columns and rows of sky_view_layout.glsl.
 
 // Elevations lie close at the horizon (Hillaire 2020): row 0 is level, the last one vertical.
 GLSL_FUNCTION vec3 sky_view_lookup(int layer, vec3 direction, vec3 to_sun) {
-  float half_rows = 32.0f;
+  float half_rows = float(sky_view_rows / 2), last_column = float(sky_view_columns - 1);
   float elevation = asin(clamp(direction.z, -1.0f, 1.0f));
   float row = sqrt(abs(elevation) / 1.57079633f) * (half_rows - 1.0f);
   float first = direction.z < 0.0f ? half_rows : 0.0f;
   float level = length(vec2(direction.x, direction.y)) * length(vec2(to_sun.x, to_sun.y));
   float cosine = level > 1e-9f ? (direction.x * to_sun.x + direction.y * to_sun.y) / level : 1.0f;
-  float column = acos(clamp(cosine, -1.0f, 1.0f)) / 3.14159265f * 39.0f;
-  float left = min(floor(column), 38.0f);
+  float column = acos(clamp(cosine, -1.0f, 1.0f)) / 3.14159265f * last_column;
+  float left = min(floor(column), last_column - 1.0f);
   float below = min(floor(row), half_rows - 2.0f);
   ivec2 place = ivec2(int(left), int(first + below));
   float across = column - left;
@@ -24,18 +23,10 @@ GLSL_FUNCTION vec3 sky_view_lookup(int layer, vec3 direction, vec3 to_sun) {
   return mix(near, far, row - below);
 }
 
-// Henyey and Greenstein 1941, per steradian; the asymmetry of air.h.
-GLSL_FUNCTION float sky_haze_phase(float cosine) {
-  float g = 0.76f;
-  float base = 1.0f + g * g - 2.0f * g * cosine;
-  return 0.07957747f * (1.0f - g * g) / (base * sqrt(base));
-}
-
 // Without the sun's disc.
 GLSL_FUNCTION vec3 sky_view_radiance(vec3 direction, vec3 to_sun) {
   float cosine = clamp(dot(direction, to_sun), -1.0f, 1.0f);
-  return sky_view_lookup(0, direction, to_sun) +
-         sky_haze_phase(cosine) * sky_view_lookup(1, direction, to_sun);
+  return sky_view_lookup(0, direction, to_sun) + haze_phase(cosine) * sky_view_lookup(1, direction, to_sun);
 }
 
 // How bright the disc is there, relative to its mean, which is 1; 0 beside it. Darker toward the limb

@@ -8,11 +8,12 @@
 #include "graphics/shading/glsl.h"
 
 namespace parvis::light {
+#include "graphics/light/sky_view_layout.glsl"
 
 /// The sky over a place at sea level. Takes some 10 ms of a processor core.
 class SkyView {
  public:
-  static constexpr int columns = 40, rows = 64;  ///< as in sky_view.glsl
+  static constexpr int columns = sky_view_columns, rows = sky_view_rows;
 
   /// `to_sun` is a unit vector, x east, y north, z up.
   SkyView(const Atmosphere& atmosphere, glm::vec3 to_sun);

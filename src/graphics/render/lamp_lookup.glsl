@@ -8,7 +8,7 @@
 uniform highp usampler2D lamp_table;
 uniform highp sampler2DArrayShadow lamp_maps;
 
-const int lamp_table_px = 256;  // texels in a row
+#include "graphics/render/lamp_table_layout.glsl"
 
 uvec4 lamp_texel(int number) {
   return texelFetch(lamp_table, ivec2(number % lamp_table_px, number / lamp_table_px), 0);
@@ -22,7 +22,7 @@ uvec4 lamp_cell(vec3 position) {
 }
 
 Lamp lamp_of(int number) {
-  int first = int(frame_lamp_cells.z) + 4 * number;
+  int first = int(frame_lamp_cells.z) + texels_per_lamp * number;
   return Lamp(uintBitsToFloat(lamp_texel(first)), uintBitsToFloat(lamp_texel(first + 1)),
               uintBitsToFloat(lamp_texel(first + 2)), uintBitsToFloat(lamp_texel(first + 3)));
 }

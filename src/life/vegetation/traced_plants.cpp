@@ -15,6 +15,7 @@ namespace {
 
 namespace shared {
 using namespace parvis::shading;
+#include "life/vegetation/bark_layout.glsl"
 #include "life/vegetation/leaf_surface.glsl"
 }  // namespace shared
 
@@ -58,7 +59,8 @@ class WoodSurface final : public scene::TracedSurface {
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     static const reference::MipTexture bark(bark_texture(), false);
     const glm::vec3 texel(
-        bark.sample(2.0f * hit.uv, 2.0f * hit.width_m / (scale_ * city::bark_sheet_m) * bark.size().x));
+        bark.sample(shared::bark_repeats * hit.uv,
+                    shared::bark_repeats * hit.width_m / (scale_ * city::bark_sheet_m) * bark.size().x));
     const std::uint32_t* corner = shape_->wood.indices.data() + 3 * std::size_t(hit.triangle);
     const auto& openness = shape_->wood_openness;
     const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],

@@ -1,5 +1,6 @@
 // Wood of grown plants: tubes, or (IS_LINE) lines along their middles.
 #define IS_LEAF  // light is evaluated at the corners alone: surface_outputs.glsl
+#include "life/vegetation/bark_layout.glsl"
 #include "life/vegetation/plant_record.glsl"
 
 layout(location = 0) in vec3 wood_position;
@@ -17,7 +18,7 @@ void surface_vertex() {
   normal = normalize(to_viewer - normal * dot(normal, to_viewer) + 1e-4f * to_viewer);
 #endif
   vertex_normal = normal;
-  uv = 2.0f * wood_uv;  // finer than the trunks of the paper's city, as traced_plants.cpp
+  uv = bark_repeats * wood_uv;
   wood_openness = wood_normal.w;
   bark_colour = dark_colour.rgb;
 #ifdef IS_LINE

@@ -62,7 +62,7 @@ bool is_seen_through(vec3 point, vec4 place) {
 float hit_before(vec3 at, vec3 direction, float distance, vec4 place) {
   vec3 to_hit = at + distance * direction - place.xyz;
   float hit_m = length(to_hit);
-  bool may_be_hidden = distance > 0.99f * reach_m ||
+  bool may_be_hidden = distance > 0.99f * mirror_reach_m ||
                        seen_distance(to_hit / hit_m, place.w) < hit_m - slack_m(hit_m, height_grid.z);
   float near = 0.0f, far = first_step_m;
   bool was_before = true;

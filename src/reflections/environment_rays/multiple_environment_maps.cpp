@@ -85,7 +85,7 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
                                                  ReferenceMaps maps, MapRenewal renewal,
                                                  methods::MirrorPicture picture, Programs programs)
     : uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
-      details_(scene.objects.size(), all),
+      details_(scene.objects.size(), all_detail),
       budget_(double(methods::settings(scene).budget_ms)),
       picture_(std::move(picture)),
       programs_(std::move(programs)),
@@ -102,10 +102,9 @@ MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, cons
   renewal_.ask(maps_.places().size(), {});  // nothing is drawn yet
 }
 
-MultipleEnvironmentMaps::Detail MultipleEnvironmentMaps::best_detail_for(
-    const methods::VisibleReflector& reflector) const {
+int MultipleEnvironmentMaps::best_detail_for(const methods::VisibleReflector& reflector) const {
   constexpr float traced_from_px = 40.0f, all_from_px = 120.0f;
-  if (!uses_level_of_detail_ || reflector.size_px >= all_from_px) return all;
+  if (!uses_level_of_detail_ || reflector.size_px >= all_from_px) return all_detail;
   return reflector.size_px < traced_from_px ? nearest_map : one_map;
 }
 
@@ -125,13 +124,13 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
     const double pixels = std::min(shown_share * size_px * size_px, max_pixels);
     for (std::size_t detail = 0; detail < detail_count; ++detail)
       qualities_[i][detail] = {pixels * pixel_ms[detail], worths[detail]};
-    const Detail best = best_detail_for(reflectors[i]);
+    const int best = best_detail_for(reflectors[i]);
     wishes_.push_back({float(pixels * size_px), std::span(qualities_[i]).first(std::size_t(best) + 1),
                        std::min(details_[std::size_t(reflectors[i].object)], best)});
   }
   budget_.choose(wishes_);
   for (std::size_t i = 0; i < reflectors.size(); ++i)
-    details_[std::size_t(reflectors[i].object)] = Detail(wishes_[i].level);
+    details_[std::size_t(reflectors[i].object)] = int(wishes_[i].level);
 }
 
 /// A window renews its maps one per frame; a picture shows none that is out of date.

@@ -20,15 +20,13 @@ layout(location = 0) out vec4 base_radiance;  // alpha 1: the pixel reflects
 layout(location = 1) out vec3 coat_radiance;
 
 #include "reflections/environment_rays/map_uniforms.glsl"
+#include "reflections/environment_rays/ray_detail.glsl"
 
-const float reach_m = 1000.0f;
 const int max_cells_under = 8;  // maximum number of cells that a ray passes under a bridge or an arch
 #ifndef DETAIL
 #define DETAIL 2
 #endif
-const int detail = DETAIL;  // MultipleEnvironmentMaps::Detail
-const int one_map = 1;
-const int all_detail = 2;
+const int detail = DETAIL;
 const int max_maps = detail == all_detail ? 2 : 1;
 const float min_wide_lobe = 0.3f;  // roughness
 const float share_over_ground = 0.4f;
@@ -118,8 +116,8 @@ void look_into_maps(vec3 point, vec4 places[2], float weights[2]) {
 // A dynamic object in front of all that the maps show, or the surface that the best map has recorded at the
 // hit.
 void trace_mirror_ray(vec3 at, vec3 direction) {
-  BodyHit body = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
-  if (detail == all_detail) body = intersect_bodies(at, direction, reach_m);
+  BodyHit body = BodyHit(mirror_reach_m, -1, vec3(0.0f), vec3(0.0f));
+  if (detail == all_detail) body = intersect_bodies(at, direction, mirror_reach_m);
   vec4 places[2];
   float weights[2];
   HeightHit hit = hit_of_ray(at, direction, body.distance, places, weights);

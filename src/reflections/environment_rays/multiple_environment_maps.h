@@ -17,6 +17,7 @@
 #include "reflections/reference_maps/map_renewal.h"
 
 namespace parvis::environment_rays {
+#include "reflections/environment_rays/ray_detail.glsl"
 using namespace reference_maps;
 
 /// Creates the method for a scene. A reference map is read, or drawn if it is not baked, when a reflector
@@ -45,15 +46,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   const ReferenceMaps& maps() const { return maps_; }  ///< those that are held, each as drawn last
   std::size_t drawn_maps() const { return table_.drawn_layers().size(); }  ///< how many hold something
 
-  /// Level of detail of one reflector; the numbers are those of multiple_environment_maps.frag.
-  enum Detail : int {  // as multiple_environment_maps.frag has it
-    nearest_map,       ///< no ray: direct lookup in the nearest map, at the distance stored there
-    one_map,           ///< a ray against the static scene, looked up in the best map
-    all,
-    detail_count
-  };
-  /// Level of detail at which an object was shaded last.
-  Detail detail_of(int object) const { return details_[std::size_t(object)]; }
+  /// Level of detail (ray_detail.glsl) at which an object was shaded last.
+  int detail_of(int object) const { return details_[std::size_t(object)]; }
 
  private:
   /// A shader for each detail: software runs both sides of a branch.
@@ -62,7 +56,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, MapCache baked,
                           std::vector<glm::vec3> places, ReferenceMaps maps, MapRenewal renewal,
                           methods::MirrorPicture picture, Programs programs);
-  Detail best_detail_for(const methods::VisibleReflector& reflector) const;
+  int best_detail_for(const methods::VisibleReflector& reflector) const;
   void choose_details(const render::Renderer& renderer,
                       const std::vector<methods::VisibleReflector>& reflectors);
   void prepare(const gl::Program& program) const;
@@ -73,7 +67,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
                          const std::vector<methods::VisibleReflector>& reflectors);
 
   bool uses_level_of_detail_;
-  std::vector<Detail> details_;  ///< of each object
+  std::vector<int> details_;  ///< of each object
   render::QualityBudget budget_;
   std::vector<std::array<render::QualityLevel, detail_count>> qualities_;  ///< of each reflector
   std::vector<render::QualityWish> wishes_;

@@ -106,7 +106,7 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsTheSquareThatTheRayTracerShows) {
 }
 
 // No map shows dynamic objects; a mirror that passes over it stands at 0.112.
-TEST_F(EnvironmentMapsTest, AMirrorShowsWhatMovesBesideIt) {
+TEST_F(EnvironmentMapsTest, AMirrorShowsDynamicThingsBesideIt) {
   scene::Scene scene = tower_square();
   const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
   scene::add(scene, scene::model_of(van, scene::matt({0.85f, 0.1f, 0.05f})), true);
@@ -175,11 +175,11 @@ TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {
     (*renderer)->prepare_main_view(camera, test_width, test_height);
     (*made)->update(**renderer, scene, camera);
     const int detail = (*made)->detail_of(mirror);
-    EXPECT_EQ(detail == MultipleEnvironmentMaps::nearest_map, budget_ms == 0.001f);
+    EXPECT_EQ(detail == nearest_map, budget_ms == 0.001f);
     EXPECT_GE(detail, last_detail);
     last_detail = detail;
   }
-  EXPECT_EQ(last_detail, MultipleEnvironmentMaps::all);
+  EXPECT_EQ(last_detail, all_detail);
 }
 
 TEST_F(EnvironmentMapsTest, ASceneWithoutAnythingFixedStillReflectsItsSky) {

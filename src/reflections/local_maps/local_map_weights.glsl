@@ -5,8 +5,8 @@
 // and beyond either end the sum falls below 1 and to nothing one length on; here the point's projection is
 // clamped onto the segment, so that W_a + W_b = 1 everywhere, as the paper says it is.
 GLSL_FUNCTION vec2 projected_weights(vec3 met, vec3 place_a, vec3 place_b) {
-  vec3 way = place_b - place_a;
-  float along = clamp(dot(met - place_a, way) / max(dot(way, way), 1e-6f), 0.0f, 1.0f);
+  vec3 between = place_b - place_a;
+  float along = clamp(dot(met - place_a, between) / max(dot(between, between), 1e-6f), 0.0f, 1.0f);
   return vec2(1.0f - along, along);
 }
 

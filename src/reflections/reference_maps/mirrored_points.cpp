@@ -16,9 +16,8 @@ constexpr float bodywork_height_m = 1.0f;
 constexpr float steepest_rise = -0.35f;     // of rays, downward: sine of 20 degrees
 constexpr float vehicles_apart_m = 0.5f;    // of places that vehicles are drawn from
 constexpr float beside_lane_m = 1.0f;       // they do not all keep to its middle
-constexpr float reach_m = 1000.0f;          // of a mirror ray, as in multiple_environment_maps.frag
 constexpr float grazing_cosine = 0.05f;     // flatter surfaces are not measured: cells have no slopes
-constexpr float valid = 0.5f;               // of validity.glsl: most of the map's weight is left
+constexpr float valid = 0.5f;               // from here on a map keeps most of its weight
 constexpr std::size_t tries_per_point = 8;  // a place that is mostly sky gives fewer points
 
 /// Of the cell's side or top that a ray has met.
@@ -47,7 +46,7 @@ std::vector<MirroredPoint> mirrored_points(const scene::Scene& scene, const Heig
     const float turn = random.uniform(0.0f, 2.0f * std::numbers::pi_v<float>);
     const float across = std::sqrt(1.0f - rise * rise);
     const glm::vec3 direction(across * std::cos(turn), across * std::sin(turn), rise);
-    const HeightHit hit = heights.walk_by_levels(vehicle, direction, reach_m);
+    const HeightHit hit = heights.walk_by_levels(vehicle, direction, mirror_reach_m);
     if (hit.kind == HitKind::nothing) continue;
     MirroredPoint point{vehicle + hit.distance_m * direction, {}, 0.0f};
     point.normal = normal_of_hit(heights, hit, point.position, direction);
@@ -58,17 +57,17 @@ std::vector<MirroredPoint> mirrored_points(const scene::Scene& scene, const Heig
 }
 
 float footprint(glm::vec3 place, const MirroredPoint& point) {
-  const glm::vec3 way = place - point.position;
-  const float distance_m = std::max(glm::length(way), 1e-3f);
-  const float cosine = std::max(glm::dot(way, point.normal) / distance_m, grazing_cosine);
+  const glm::vec3 to_place = place - point.position;
+  const float distance_m = std::max(glm::length(to_place), 1e-3f);
+  const float cosine = std::max(glm::dot(to_place, point.normal) / distance_m, grazing_cosine);
   return distance_m / std::sqrt(cosine);
 }
 
 bool shows(const HeightPyramid& heights, glm::vec3 place, const MirroredPoint& point, float sharpness) {
   if (footprint(place, point) > sharpness * point.vehicle_footprint) return false;
-  const glm::vec3 way = point.position - place;
-  const float distance_m = std::max(glm::length(way), 1e-3f);
-  const HeightHit seen = heights.walk_by_levels(place, way / distance_m, distance_m);
+  const glm::vec3 to_point = point.position - place;
+  const float distance_m = std::max(glm::length(to_point), 1e-3f);
+  const HeightHit seen = heights.walk_by_levels(place, to_point / distance_m, distance_m);
   return validity(seen.distance_m, distance_m, heights.cell_m()) >= valid;
 }
 

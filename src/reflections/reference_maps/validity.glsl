@@ -2,6 +2,8 @@
 // Heights are known to a cell and distances to a share of themselves, so what lies a little behind still
 // counts, less and less.
 
+const float mirror_reach_m = 1000.0f;  // of a mirror ray: what lies beyond is sky
+
 // What a distance may be off.
 GLSL_FUNCTION float slack_m(float distance_m, float cell_m) { return 0.02f * distance_m + 0.75f * cell_m; }
 

@@ -6,18 +6,14 @@
 // patch's rim, where corners of triangles that reach over it lie. Required from the host:
 //   SearchStart search_start(int i)    the few starting points; those of the layers
 //   SearchStart further_start(int i)   the same, followed by all others
-// Needs newton_search.glsl and map_window.glsl.
+// Needs newton_search.glsl, map_window.glsl and search_limits.glsl.
 
-const int search_start_count = 16;
-const int starts_beside = 8;  // further ones near each of those
-const int all_start_count = 144;
 const int layer_count = search_start_count + 1;
 const int max_attempts = 16;
 const int newton_steps = 20;
 const int max_failures = 4;
-const float found_error = 2e-9f;    // 0.005 degrees: termination
-const float found_angle = 0.0035f;  // radians, 0.2 degrees: a point with a larger error is rejected
-const float second_turn = 16.0f;    // penalty of the opposite assumption: factor of the squared step
+const float found_error = 2e-9f;  // 0.005 degrees: termination
+const float second_turn = 16.0f;  // penalty of the opposite assumption: factor of the squared step
 const float no_turn = 1e12f;
 
 struct PatchKind {

@@ -7,6 +7,7 @@
 #include "reflections/reflection_search/map_window.h"
 
 namespace parvis::reflection_search {
+#include "reflections/reflection_search/search_limits.glsl"
 
 /// `Reflector::surface(vec3 direction)` gives position and unit normal where a ray from the centre meets the
 /// reflector, as `std::pair<vec3, vec3>`; or `Reflector::sample(vec3 direction)` also what is there. For

@@ -10,7 +10,9 @@
 namespace parvis::reflection_search {
 namespace {
 
-constexpr std::size_t start_count = 16;
+#include "reflections/reflection_search/search_limits.glsl"
+
+constexpr std::size_t start_count = search_start_count;
 
 /// Two ellipsoids, the second moved: the shaders' own search.
 struct Pair {
@@ -104,8 +106,7 @@ double share_found(Pair pair) {
         {glm::vec3(0.0f), path->vertex - pair.second_place, glm::vec3(0.0f)}, whole, -1);
     const float off = glm::distance(at.first.point.position, path->first) +
                       glm::distance(at.second.point.position + pair.second_place, path->second);
-    found +=
-        at.first.point.angle < pair.found_angle && at.second.point.angle < pair.found_angle && off < 2e-3f;
+    found += at.first.point.angle < found_angle && at.second.point.angle < found_angle && off < 2e-3f;
   }
   return double(found) / paths;
 }

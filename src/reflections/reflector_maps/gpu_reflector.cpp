@@ -5,7 +5,7 @@
 namespace parvis::reflector_maps {
 namespace {
 
-constexpr std::size_t starts_in_row = 8;  // as in virtual_point.glsl
+#include "reflections/reflector_maps/start_rows.glsl"
 
 /// A map's texels, and below them in rows its starts, four texels each: position, normal, axis, curvature.
 gl::Texture upload(const ReflectorMap& map) {
@@ -16,8 +16,8 @@ gl::Texture upload(const ReflectorMap& map) {
     for (const glm::vec3& value : {start.position, start.normal, start.u, start.curvature})
       starts.emplace_back(value, 0.0f);
   }
-  constexpr int width = 4 * starts_in_row, rows = start_count / starts_in_row;
-  static_assert(start_count % starts_in_row == 0);
+  constexpr int width = 4 * starts_in_row, rows = int(start_count) / starts_in_row;
+  static_assert(start_count % std::size_t(starts_in_row) == 0);
   gl::Texture texture = gl::texture_2d(GL_RGBA32F, std::max(texels.width, width), texels.height + rows);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -5,15 +5,17 @@
 #include <array>
 #include <glm/vec3.hpp>
 
+#include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/reflector_patches.h"
 
 namespace parvis::reflector_maps {
 
 struct ReflectorMap;
 
-inline constexpr std::size_t layer_start_count = 16, starts_beside = 8,
-                             start_count =
-                                 layer_start_count * (1 + starts_beside);  ///< as in patch_search.glsl
+/// Starting points of a map: those of the layers, as many near each of them, and all.
+inline constexpr std::size_t layer_start_count = reflection_search::search_start_count,
+                             starts_beside = reflection_search::starts_beside,
+                             start_count = reflection_search::all_start_count;
 
 /// A surface point and the curvature there, in the tangent plane spanned by `normal` and `u`
 /// (patch_search.glsl).

@@ -1,8 +1,6 @@
-// Which objects curved reflectors show by virtual objects: by images of their own, each vertex at its
-// reflection point.
+// Which objects curved reflectors show by images of their own, each vertex at its reflection point: in
+// mirrors as in glass.
 #pragma once
-
-#include <array>
 
 #include "reflections/methods/settings.h"
 
@@ -11,35 +9,24 @@ namespace parvis::reflector_maps {
 /// The method by which reflectors show all objects so.
 inline constexpr const char* virtual_objects_method = "virtual_objects";
 
-/// How the reflection point of a vertex is searched for.
-enum class SearchMethod : std::uint8_t { newton, midpoint };
-inline constexpr std::array search_method_names{"newton", "midpoint"};
-
-/// How virtual objects are shown, by the node `reflection`.
-struct VirtualObjectSettings {
-  static constexpr std::string_view name = "reflector_maps.virtual_objects";
+/// Which objects are shown so by other methods.
+struct NearObjectSettings {
+  static constexpr std::string_view name = "reflector_maps.near_objects";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
-  float within_m = 0.0f;    ///< by other methods: what stands wholly so near to a mirror is shown so, too
-  float grid_share = 1.0f;  ///< max. corners of a virtual grid, per vertex of its mesh; 1: each vertex itself
-  SearchMethod search = SearchMethod::newton;
-  int iterations = 9;  ///< of the midpoint search
+  float within_m = 0.0f;  ///< those that stand wholly so near to a mirror; 0: none
 
   /// Adds all of it.
-  void hash(ContentHash& hash) const {
-    for (const float value : {within_m, grid_share}) hash.add(value);
-    hash.add(search);
-    hash.add(iterations);
-  }
+  void hash(ContentHash& hash) const { hash.add(within_m); }
 };
 
 /// What the scene says, to be changed.
-inline VirtualObjectSettings& virtual_settings(scene::Scene& scene) {
-  return methods::own_settings<VirtualObjectSettings>(scene);
+inline NearObjectSettings& near_object_settings(scene::Scene& scene) {
+  return methods::own_settings<NearObjectSettings>(scene);
 }
 /// What the scene says.
-inline const VirtualObjectSettings& virtual_settings(const scene::Scene& scene) {
-  return methods::own_settings<VirtualObjectSettings>(scene);
+inline const NearObjectSettings& near_object_settings(const scene::Scene& scene) {
+  return methods::own_settings<NearObjectSettings>(scene);
 }
 
 /// Are all objects shown so?
@@ -48,7 +35,7 @@ inline bool shows_all_objects(const scene::Scene& scene) {
 }
 /// Are those that stand near, by another method?
 inline bool shows_near_objects(const scene::Scene& scene) {
-  return !shows_all_objects(scene) && virtual_settings(scene).within_m > 0.0f;
+  return !shows_all_objects(scene) && near_object_settings(scene).within_m > 0.0f;
 }
 
 }  // namespace parvis::reflector_maps

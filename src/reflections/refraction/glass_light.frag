@@ -1,6 +1,6 @@
 // Light of the surroundings through a body of solid glass: each pixel's ray is refracted into the body,
 // traced through its map, refracted out again, and looks up the cube map of the surroundings; so do the rays
-// that are reflected inside. `shown_share` selects the part that is drawn: virtual objects are drawn in
+// that are reflected inside. `shown_part` selects the part that is drawn: virtual objects are drawn in
 // between.
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/methods/cube_map_lookup.glsl"
@@ -14,15 +14,12 @@ uniform float glass_ior;
 uniform vec3 glass_absorption;  // of a unit of the reflector's frame
 uniform samplerCube surroundings;
 uniform float surroundings_levels;  // below 0: none, the sky stands for them
-uniform int shown_share;
+uniform int shown_part;
 
 in vec3 at_reflector;
 out vec4 radiance;
 
-const int behind_glass = 0;  // the light that hits the glass where the ray leaves it first
-const int let_through = 1;   // the share of it that gets to the viewer
-const int from_inside = 2;   // what gets there after reflections inside
-const int all_light = 3;
+#include "reflections/refraction/glass_light_part.glsl"
 const int inner_bounces = 3;
 
 vec3 light_from(vec3 place, vec3 direction) {
@@ -57,11 +54,11 @@ void main() {
     direction = reflect(direction, exit.normal);
     position = exit.position;
   }
-  if (shown_share == behind_glass)
+  if (shown_part == behind_glass)
     radiance = vec4(behind, 1.0f);
-  else if (shown_share == let_through)
+  else if (shown_part == let_through)
     radiance = vec4(let, 1.0f);
-  else if (shown_share == from_inside)
+  else if (shown_part == from_inside)
     radiance = vec4(inside, 1.0f);
   else
     radiance = vec4(let * behind + inside, 1.0f);

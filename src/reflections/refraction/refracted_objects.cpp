@@ -11,7 +11,8 @@
 namespace parvis::refraction {
 namespace {
 
-constexpr int layers = 3;  // refraction_layers of refraction_search.glsl
+#include "reflections/refraction/glass_light_part.glsl"
+
 constexpr float ways_apart =
     0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
 constexpr int pane_number = 255;        // of the stencil
@@ -61,7 +62,7 @@ RefractedObjects::RefractedObjects(const scene::Scene& scene, render::SurfacePro
       glass_light_(std::move(glass_light)),
       picture_(std::move(picture)),
       shows_all_(shows_all_objects(scene)),
-      within_m_(virtual_settings(scene).within_m) {
+      within_m_(near_object_settings(scene).within_m) {
   const ReflectorCache cache(scene);
   for (const scene::Object& object : scene.objects) {
     const scene::Model* model = object.model.get();
@@ -140,8 +141,8 @@ void RefractedObjects::find_bodies(const render::Renderer& renderer, int object,
 
 /// The pixels of one body: by virtual objects where they are wanted, before the cube map of its surroundings.
 void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, render::View view) {
-  if (!through_[i].shows_objects) return draw_light(view, i, Share::all_light);
-  draw_light(view, i, Share::behind_glass);
+  if (!through_[i].shows_objects) return draw_light(view, i, all_light);
+  draw_light(view, i, behind_glass);
   current_ = i;
   own_items_.clear();
   for (const std::size_t part : through_[i].glass->parts)
@@ -149,15 +150,15 @@ void RefractedObjects::draw_through(render::Renderer& renderer, std::size_t i, r
   view.left_out_items = own_items_;
   view.part = pixels_of(shown_[i], view);
   view.shown_objects = near_.list(shown_[i].near);
-  for (foci_ = 0; foci_ < layers; ++foci_) {
+  for (foci_ = 0; foci_ < refraction_layers; ++foci_) {
     renderer.draw_view(view);
     view.clears = false;
   }
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
-  draw_light(view, i, Share::let_through);
+  draw_light(view, i, let_through);
   glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
-  draw_light(view, i, Share::from_inside);
+  draw_light(view, i, from_inside);
   glDisable(GL_BLEND);
 }
 
@@ -196,7 +197,7 @@ void RefractedObjects::draw_panes(render::Renderer& renderer, render::View view)
   glDepthRange(0.0, 1.0);
 }
 
-void RefractedObjects::draw_light(const render::View& view, std::size_t i, Share share) const {
+void RefractedObjects::draw_light(const render::View& view, std::size_t i, int part) const {
   const ShownPatch& shown = shown_[i];
   const Glass& glass = *through_[i].glass;
   glDisable(GL_DEPTH_TEST);
@@ -212,7 +213,7 @@ void RefractedObjects::draw_light(const render::View& view, std::size_t i, Share
   glass_light_.set("viewer_in_reflector", shown.viewer);
   glass_light_.set("glass_ior", glass.ior);
   glass_light_.set("glass_absorption", glm::length(shown.world_from_reflector[0]) * glass.absorption_per_m);
-  glass_light_.set("shown_share", int(share));
+  glass_light_.set("shown_part", part);
   shown.reflector->draw(*shown.patch);
   glEnable(GL_DEPTH_TEST);
 }

@@ -53,7 +53,6 @@ class RefractedObjects final : public methods::Overlay, public render::VirtualVe
     bool shows_objects = false;                        ///< before the light of its surroundings
     std::array<glm::mat4, refraction_ray_count> rays;  ///< if it shows objects
   };
-  enum class Share { behind_glass, let_through, from_inside, all_light };  ///< as in glass_light.frag
 
   RefractedObjects(const scene::Scene& scene, render::SurfacePrograms programs, gl::Program patch_pixels,
                    gl::Program glass_light, VirtualPicture picture,
@@ -65,7 +64,7 @@ class RefractedObjects final : public methods::Overlay, public render::VirtualVe
   void find_bodies(const render::Renderer& renderer, int object, const std::vector<Glass>& bodies);
   void draw_through(render::Renderer& renderer, std::size_t i, render::View view);
   void draw_panes(render::Renderer& renderer, render::View view);
-  void draw_light(const render::View& view, std::size_t i, Share share) const;
+  void draw_light(const render::View& view, std::size_t i, int part) const;  // of glass_light_part.glsl
 
   std::unordered_map<const scene::Model*, std::vector<Glass>> glass_;
   std::vector<const scene::Model*> model_of_object_;

@@ -23,6 +23,6 @@ bool is_mirrored_here() {
   SurfacePoint entry = near_side(map_centre, map_size.z, viewer, seen);
   vec3 inside = refracted(seen, entry.normal, 1.0f / glass_ior);
   SurfacePoint exit = far_side(map_centre, map_size.z, entry.position, inside);
-  vec3 way = refracted(inside, -exit.normal, glass_ior);
-  return dot(way, normalize(point - exit.position)) > min_agreement;
+  vec3 outgoing = refracted(inside, -exit.normal, glass_ior);
+  return dot(outgoing, normalize(point - exit.position)) > min_agreement;
 }

@@ -21,17 +21,17 @@ static_assert(std::accumulate(rings.begin(), rings.end(), 0, [](int sum, const R
               }) == int(refraction_ray_count));
 
 struct TracedRay {
-  glm::vec3 entry, inside, exit, way;  ///< points, and unit directions behind them
+  glm::vec3 entry, inside, exit, outgoing;  ///< points, and unit directions behind them
 };
 
 /// Where neighbours of a ray come from a point and go on in a direction: how far ahead (or, below 0, behind)
 /// they meet it. The area between them vanishes there: det(apart + t turned) = 0. None: a distance that is
 /// reached nowhere.
-glm::vec2 foci_of(glm::vec3 way, const std::array<glm::vec3, 2>& points_apart,
+glm::vec2 foci_of(glm::vec3 outgoing, const std::array<glm::vec3, 2>& points_apart,
                   const std::array<glm::vec3, 2>& ways_apart) {
-  const glm::vec3 x =
-      glm::normalize(glm::cross(std::abs(way.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), way));
-  const glm::vec3 y = glm::cross(way, x);
+  const glm::vec3 x = glm::normalize(
+      glm::cross(std::abs(outgoing.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), outgoing));
+  const glm::vec3 y = glm::cross(outgoing, x);
   const auto across = [&](glm::vec3 d) { return glm::dvec2(glm::dot(d, x), glm::dot(d, y)); };
   const glm::dmat2 apart(across(points_apart[0]), across(points_apart[1]));
   const glm::dmat2 turned(across(ways_apart[0]), across(ways_apart[1]));
@@ -61,9 +61,9 @@ class ViewThrough {
     if (!entry) return std::nullopt;
     const glm::vec3 inside = refracted(direction, entry->second, 1.0f / body_.ior);
     const auto exit = search_.far_side(body_.centre, body_.reach, entry->first, inside);
-    const glm::vec3 way = refracted(inside, -exit.normal, body_.ior);
-    if (way == glm::vec3(0.0f)) return std::nullopt;
-    return TracedRay{entry->first, inside, exit.position, way};
+    const glm::vec3 outgoing = refracted(inside, -exit.normal, body_.ior);
+    if (outgoing == glm::vec3(0.0f)) return std::nullopt;
+    return TracedRay{entry->first, inside, exit.position, outgoing};
   }
 
   /// How far beside the centre the body reaches that way.
@@ -86,7 +86,7 @@ class ViewThrough {
     glm::vec2 foci(no_focus);
     const auto along_u = trace(beside + glm::vec2(off, 0.0f)), along_v = trace(beside + glm::vec2(0.0f, off));
     if (along_u && along_v) foci = foci_behind(ray, *along_u, *along_v);
-    return {glm::vec4(ray.entry, foci.x), glm::vec4(ray.exit, foci.y), glm::vec4(ray.way, 0.0f),
+    return {glm::vec4(ray.entry, foci.x), glm::vec4(ray.exit, foci.y), glm::vec4(ray.outgoing, 0.0f),
             glm::vec4(0.0f)};
   }
 
@@ -116,8 +116,8 @@ class ViewThrough {
   static glm::vec2 foci_behind(const TracedRay& ray, const TracedRay& u, const TracedRay& v) {
     const glm::vec2 within = foci_of(ray.inside, {u.entry - ray.entry, v.entry - ray.entry},
                                      {u.inside - ray.inside, v.inside - ray.inside});
-    glm::vec2 behind =
-        foci_of(ray.way, {u.exit - ray.exit, v.exit - ray.exit}, {u.way - ray.way, v.way - ray.way});
+    glm::vec2 behind = foci_of(ray.outgoing, {u.exit - ray.exit, v.exit - ray.exit},
+                               {u.outgoing - ray.outgoing, v.outgoing - ray.outgoing});
     const float length = glm::distance(ray.entry, ray.exit);
     int passed = 0;
     for (int k = 0; k < 2; ++k) passed += within[k] > 0.0f && within[k] < length ? 1 : 0;

@@ -17,8 +17,6 @@
 // Needs surface_point.glsl.
 #include "reflections/reflection_search/surface_curvature.glsl"
 
-const int refraction_start_count = 37;
-const int refraction_layers = 3;
 const int refraction_attempts = 3;
 const int refraction_steps = 14;
 const float refraction_found = 2e-4f;  // difference of the sides of Snell's law, about radians: termination

@@ -11,7 +11,8 @@
 namespace parvis::refraction {
 using namespace reflection_search;
 
-inline constexpr std::size_t refraction_ray_count = 37;  ///< as in refraction_search.glsl
+#include "reflections/refraction/refraction_limits.glsl"
+inline constexpr std::size_t refraction_ray_count = refraction_start_count;
 
 /// A convex body of glass: position and outward unit normal of the surface along a ray from its centre.
 struct GlassBody {

@@ -18,7 +18,7 @@ using glm::dvec2, glm::dvec3;
 /// A ray traced in double precision through an ellipsoid about the origin.
 struct ExactRay {
   bool gets_through = false;
-  dvec3 entry{0.0}, inside{0.0}, exit{0.0}, way{0.0};
+  dvec3 entry{0.0}, inside{0.0}, exit{0.0}, outgoing{0.0};
 };
 
 dvec3 bent(dvec3 d, dvec3 n, double ratio) {
@@ -40,8 +40,8 @@ ExactRay trace(dvec3 radii, double ior, dvec3 from, dvec3 toward) {
   ray.entry = from + near * d;
   ray.inside = bent(d, normal(ray.entry), 1.0 / ior);
   ray.exit = ray.entry + crossings(ray.entry, ray.inside).y * ray.inside;
-  ray.way = bent(ray.inside, -normal(ray.exit), ior);
-  ray.gets_through = ray.way != dvec3(0.0);
+  ray.outgoing = bent(ray.inside, -normal(ray.exit), ior);
+  ray.gets_through = ray.outgoing != dvec3(0.0);
   return ray;
 }
 
@@ -53,14 +53,16 @@ int foci_within(dvec3 radii, double ior, dvec3 from, dvec3 toward, double distan
   const ExactRay ray = trace(radii, ior, from, toward);
   const std::array<ExactRay, 2> beside{trace(radii, ior, from, toward + 1e-5 * u),
                                        trace(radii, ior, from, toward + 1e-5 * glm::cross(axis, u))};
-  const auto turns = [&](dvec3 ExactRay::*start, dvec3 ExactRay::*way, double length) {
+  const auto turns = [&](dvec3 ExactRay::*start, dvec3 ExactRay::*outgoing, double length) {
     const auto area = [&](double t) {
-      const dvec3 at = ray.*start + t * ray.*way;
+      const dvec3 at = ray.*start + t * ray.*outgoing;
       const auto off = [&](const ExactRay& other) {
         return other.*start +
-               glm::dot(at - other.*start, ray.*way) / glm::dot(other.*way, ray.*way) * (other.*way) - at;
+               glm::dot(at - other.*start, ray.*outgoing) / glm::dot(other.*outgoing, ray.*outgoing) *
+                   (other.*outgoing) -
+               at;
       };
-      return glm::dot(glm::cross(off(beside[0]), off(beside[1])), ray.*way);
+      return glm::dot(glm::cross(off(beside[0]), off(beside[1])), ray.*outgoing);
     };
     int count = 0;
     for (int i = 1; i <= 400; ++i)
@@ -68,7 +70,7 @@ int foci_within(dvec3 radii, double ior, dvec3 from, dvec3 toward, double distan
     return count;
   };
   return turns(&ExactRay::entry, &ExactRay::inside, glm::distance(ray.entry, ray.exit)) +
-         turns(&ExactRay::exit, &ExactRay::way, distance);
+         turns(&ExactRay::exit, &ExactRay::outgoing, distance);
 }
 
 dvec3 chance_point(Random& random, double size) {
@@ -101,7 +103,7 @@ Findings search_for_rays(const GlassBody& body, const Ellipsoid& ellipsoid, doub
       const ExactRay ray = trace(ellipsoid.radii, body.ior, viewer, toward);
       if (!ray.gets_through) continue;
       const double distance = near + (far - near) * double(random.uniform());
-      const dvec3 vertex = ray.exit + distance * ray.way;
+      const dvec3 vertex = ray.exit + distance * ray.outgoing;
       const int foci = foci_within(ellipsoid.radii, body.ior, viewer, ray.entry, distance);
       const auto point =
           search.refracted_vertex({glm::vec3(viewer), glm::vec3(vertex), body.centre, body.ior}, foci);
@@ -153,14 +155,14 @@ TEST(RefractionSearch, FindsThemInMaps) {
   EXPECT_LT(found.lost, found.tasks / 50);
 }
 
-TEST(RefractionSearch, WhatCannotBeSeenIsTold) {
+TEST(RefractionSearch, WhatCannotBeSeenIsReported) {
   const Ellipsoid ball;
   const GlassBody body = analytic(ball, 1.5f);
   const glm::vec3 viewer(0, 0, 4);
   Search search{body, refraction_rays(body, viewer)};
   for (const glm::vec3 vertex : {glm::vec3(0, 0, 2.5f), glm::vec3(3, 0, 3), glm::vec3(0.1f, 0.2f, 0.1f),
                                  viewer, glm::vec3(0.0f), glm::vec3(0, 0, 1)})
-    for (int foci = 0; foci < search.refraction_layers; ++foci) {
+    for (int foci = 0; foci < refraction_layers; ++foci) {
       const auto point = search.refracted_vertex({viewer, vertex, body.centre, body.ior}, foci);
       EXPECT_FALSE(search.is_refracted(point, foci)) << vertex.x << " " << vertex.y << " " << vertex.z;
     }

@@ -2,12 +2,9 @@
 // cells a metre, its count of cells, its corners (their count stands beside the origin), then the numbers of
 // the corners by their place in the grid's box, four to a texel; a place without a corner holds -1. Grids
 // that are all vertices of a mesh have corners alone.
-uniform highp sampler2D grid_table;
+#include "reflections/virtual_objects/grid_sizes.glsl"
 
-// Widths of the pictures, as VertexSearch makes them: constant powers of two, for software renderers divide
-// whole numbers one by one.
-const int table_width = 1024;
-const int results_width = 64;
+uniform highp sampler2D grid_table;
 
 vec4 grid_texel(int texel) {
   return texelFetch(grid_table, ivec2(texel & (table_width - 1), texel / table_width), 0);

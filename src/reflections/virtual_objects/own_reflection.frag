@@ -25,19 +25,19 @@ void main() {
   float step_m = 2.0f * map_size.z / float(walk_steps);
   float inside = 0.0f, outside = 0.0f;
   for (int i = 1; i <= walk_steps && outside == 0.0f; ++i) {
-    float way = step_m * float(i);
-    if (beyond(at.position + way * direction) < 0.0f)
-      inside = way;
+    float along = step_m * float(i);
+    if (beyond(at.position + along * direction) < 0.0f)
+      inside = along;
     else
-      outside = way;
+      outside = along;
   }
   if (inside == 0.0f || outside == 0.0f) discard;  // it leaves at once, or meets nothing
   for (int i = 0; i < halvings; ++i) {
-    float way = 0.5f * (inside + outside);
-    if (beyond(at.position + way * direction) < 0.0f)
-      inside = way;
+    float along = 0.5f * (inside + outside);
+    if (beyond(at.position + along * direction) < 0.0f)
+      inside = along;
     else
-      outside = way;
+      outside = along;
   }
   vec3 from_centre = at.position + outside * direction - map_centre;
   if (surface_kind(from_centre) == kind_closed) discard;  // out through the opening

@@ -3,6 +3,7 @@
 #include "reflections/methods/registry.h"
 #include "reflections/reflector_maps/settings.h"
 #include "reflections/virtual_objects/long_edges.h"
+#include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/virtual_objects.h"
 #include "scene/script/attribute.h"
 
@@ -16,7 +17,8 @@ namespace {
 using scene::AttributeSchema, scene::AttributeType;
 
 std::vector<AttributeSchema> virtual_object_attributes() {
-  const VirtualObjectSettings defaults;
+  const SearchSettings defaults;
+  const NearObjectSettings near;
   return {
       number("virtual_within",
              "people, trees, cars that stand wholly within this distance of a mirror are drawn as virtual "
@@ -24,7 +26,7 @@ std::vector<AttributeSchema> virtual_object_attributes() {
              "(virtual_objects draws everything so, whatever its distance.)")
           .in("m")
           .between(0, 1000)
-          .by_default(fmt::format("{}", defaults.within_m))
+          .by_default(fmt::format("{}", near.within_m))
           .live(),
       number("virtual_grid",
              "of virtual objects: reflection points are searched for the corners of a grid about each mesh, "
@@ -47,8 +49,8 @@ std::vector<AttributeSchema> virtual_object_attributes() {
 }
 
 void read_virtual_objects(const scene::Node& node, methods::Settings& settings) {
-  VirtualObjectSettings& own = settings.own.get<VirtualObjectSettings>();
-  own.within_m = float(node.number("virtual_within"));
+  settings.own.get<NearObjectSettings>().within_m = float(node.number("virtual_within"));
+  SearchSettings& own = settings.own.get<SearchSettings>();
   own.grid_share = float(node.number("virtual_grid"));
   for (std::size_t i = 0; i < search_method_names.size(); ++i)
     if (node.text("search") == search_method_names[i]) own.search = SearchMethod(i);

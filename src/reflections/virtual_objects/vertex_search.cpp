@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "reflections/reflector_maps/bindings.h"
-#include "reflections/reflector_maps/settings.h"
+#include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/virtual_grid.h"
 
 namespace parvis::virtual_objects {
@@ -12,11 +12,10 @@ using namespace reflector_maps;
 namespace {
 
 constexpr std::size_t min_vertices = 200;  // of a mesh: its coarsest grid has the corners of a cell
-constexpr int table_width = 1024, results_width = 64;  // as in grid_table.glsl
+#include "reflections/virtual_objects/grid_sizes.glsl"
 constexpr int min_result_rows = 256, max_result_rows = 16384;
 constexpr std::size_t max_in_table = std::size_t(table_width) * 4096;  // meshes beyond have no grid
 constexpr float stray_px = 0.3f;                                       // what of interpolation nobody sees
-constexpr int result_layers = 3;                                       // vertex_search.frag's
 
 int rows_of(std::size_t corners) { return int((corners + results_width - 1) / results_width); }
 
@@ -84,7 +83,7 @@ Result<VertexSearch> VertexSearch::create(const scene::Scene& scene, const rende
                           "reflections/virtual_objects/vertex_search.frag", defines);
   if (!program) return program.errors();
   const bool follows_area = methods::settings(scene).uses_level_of_detail;
-  const float grid_share = virtual_settings(scene).grid_share;
+  const float grid_share = search_settings(scene).grid_share;
   const std::vector<float> shares = shares_up_to(grid_share, follows_area);
   const std::vector<const Mesh*> meshes = meshes_of_parts(scene, gpu);
   std::vector<std::vector<VirtualGrid>> grids(meshes.size());
@@ -194,7 +193,8 @@ void VertexSearch::search(const std::function<void(const gl::Program&)>& bind_pa
 void VertexSearch::bind(const gl::Program& program) const {
   glBindTextureUnit(grid_table_unit, table_.name());
   glBindTextureUnit(grid_results_unit, results_.name());
-  program.set("grid_table", int(grid_table_unit));
+  if (program.declares("grid_table")) program.set("grid_table", int(grid_table_unit));
+  if (!program.declares("grid_results")) return;
   program.set("grid_results", int(grid_results_unit));
   program.set("max_stray_px", max_stray_px_);
 }

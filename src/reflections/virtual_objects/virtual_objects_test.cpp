@@ -6,6 +6,7 @@
 #include "graphics/render/golden.h"
 #include "reflections/reflector_maps/settings.h"
 #include "reflections/reflector_maps/test_boxes.h"
+#include "reflections/virtual_objects/search_settings.h"
 
 namespace parvis::virtual_objects {
 using namespace reflection_search;
@@ -31,7 +32,7 @@ class VirtualObjectsTest : public gl::ContextTest {};
 const glm::vec3 eye{2.4f, -5.2f, 2.6f}, target{0, 0, 1};
 
 // FLIP's floor here is what four samples per pixel and a mirror's rim of a pixel make of it.
-TEST_F(VirtualObjectsTest, ABallShowsWhatRaysMeet) {
+TEST_F(VirtualObjectsTest, ABallShowsWhatRaysHit) {
   const scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
   const Compared ball = draw(scene, eye, target);
   const double by_virtual_objects = ball.flip();
@@ -64,7 +65,7 @@ TEST_F(VirtualObjectsTest, AVirtualGridShowsTheSame) {
   EXPECT_LT(by_area_flip, 0.003);
   double last = 1.0;
   for (const float share : {0.01f, 0.041f, 0.143f}) {
-    virtual_settings(scene).grid_share = share;
+    search_settings(scene).grid_share = share;
     const Compared interpolated = draw(scene, eye, target);
     const double flip = reference::compare(interpolated.ours, searched.ours, searched.mirrors)->flip;
     EXPECT_GT(flip, 0.0) << "no grid was used";
@@ -77,10 +78,10 @@ TEST_F(VirtualObjectsTest, AVirtualGridShowsTheSame) {
 /// A search that may take one step alone ends beside the reflection points; nine are near them.
 TEST_F(VirtualObjectsTest, TheMidpointSearchComesNearerWithEachIteration) {
   scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
-  virtual_settings(scene).search = SearchMethod::midpoint;
-  virtual_settings(scene).iterations = 1;
+  search_settings(scene).search = SearchMethod::midpoint;
+  search_settings(scene).iterations = 1;
   const double one = draw(scene, eye, target).flip();
-  virtual_settings(scene).iterations = 9;
+  search_settings(scene).iterations = 9;
   EXPECT_LT(draw(scene, eye, target).flip(), 0.5 * one);
 }
 
@@ -143,7 +144,7 @@ TEST_F(VirtualObjectsTest, ARimThatFlaresShowsWhatReachesIt) {
 /// A ball beside a box, and a smaller ball before it, as the eye sees them, that has nothing near.
 scene::Scene two_balls(glm::vec3 box_colour, bool has_front) {
   scene::Scene scene;
-  virtual_settings(scene).within_m = 1.0f;
+  near_object_settings(scene).within_m = 1.0f;
   methods::settings(scene).uses_level_of_detail = false;
   scene::add(scene, scene::model_of(divided(scene::box({0.7f, -1.4f, 0.4f}, {1.6f, -0.7f, 1.8f}), 12),
                                     scene::matt(box_colour)));

@@ -1,6 +1,7 @@
 // Where one mirror shows a point of the scene (Estalella and others 2005, sections 3, 4 and 6.1). All in the
 // mirror's frame.
 #include "reflections/reflector_maps/patch_uniforms.glsl"
+#include "reflections/reflector_maps/start_rows.glsl"
 #include "reflections/reflection_search/newton_search.glsl"
 #include "reflections/virtual_objects/mirrored_triangle.glsl"
 
@@ -10,9 +11,9 @@ SearchStart search_start(int i) {
   return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_curvatures[16 * mirror + i]);
 }
 
-// Of the rows below the map, eight starts each (gpu_reflector.cpp).
+// Of the rows below the map (gpu_reflector.cpp).
 vec3 start_texel(int i, int vector) {
-  vec4 texel = reflector_texel(ivec2(4 * (i & 7) + vector, int(map_size.y) + (i >> 3)));
+  vec4 texel = reflector_texel(ivec2(4 * (i % starts_in_row) + vector, int(map_size.y) + i / starts_in_row));
   return texel.xyz;
 }
 
@@ -22,6 +23,7 @@ SearchStart further_start(int i) {
   return SearchStart(TangentPlane(at, axis, cross(normal, axis)), start_texel(i, 3));
 }
 
+#include "reflections/reflection_search/search_limits.glsl"
 #include "reflections/reflection_search/patch_search.glsl"
 #include "reflections/reflection_search/midpoint_search.glsl"
 

@@ -88,7 +88,7 @@ Status measure_bonnet(const BenchSetup& setup, Report& report) {
   if (!made) return made.errors();
   house::Stage& stage = **made;
   methods::Settings near = methods::settings(stage.scene());
-  near.own.get<reflector_maps::VirtualObjectSettings>().within_m = virtual_within_m;
+  near.own.get<reflector_maps::NearObjectSettings>().within_m = virtual_within_m;
   std::vector<JudgedMethod> methods;
   for (const auto& [name, reflection] :
        {std::pair{"with virtual objects", near}, {"maps", methods::settings(stage.scene())}}) {

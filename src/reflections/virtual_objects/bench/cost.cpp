@@ -7,8 +7,8 @@
 #include "graphics/render/test_room.h"
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/reflector_cache.h"
-#include "reflections/reflector_maps/settings.h"
 #include "reflections/reflector_maps/shown_patch.h"
+#include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/vertex_search.h"
 #include "reflections/virtual_objects/virtual_objects.h"
 
@@ -118,7 +118,7 @@ Status measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer
                                  const BenchSetup& setup, Report& report) {
   std::vector<SearchedShare> shares;
   for (const float share : {1.0f, 0.143f, grid10_share, 0.055f, 0.041f}) {
-    reflector_maps::virtual_settings(scene).grid_share = share;
+    virtual_objects::search_settings(scene).grid_share = share;
     Result<std::unique_ptr<methods::Reflections>> made = make_virtual_objects(scene, renderer);
     if (!made) return made.errors();
     shares.push_back({share, *std::move(made), {}});

@@ -78,7 +78,7 @@ std::vector<double> pixels_off(const ReflectorMap& map, const Mesh& mesh, std::s
       const MapSearch::ReflectionPoint found =
           search.search_patch({viewer, vertex, map.window.centre}, search.patch_kind(), -1).point;
       return std::pair(search.virtual_vertex(vertex, found.position, found.normal),
-                       found.angle < search.found_angle);
+                       found.angle < reflection_search::found_angle);
     };
     const auto [image_a, has_a] = image(a);
     const auto [image_b, has_b] = image(b);

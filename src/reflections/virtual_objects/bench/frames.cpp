@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "bench/judged_method.h"
-#include "reflections/reflector_maps/settings.h"
+#include "reflections/virtual_objects/search_settings.h"
 
 namespace parvis::bench {
 namespace {
@@ -20,15 +20,15 @@ std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const met
   every.uses_level_of_detail = false;
   baseline.method = "rerendered_cube_map";
   baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
-  std::vector<std::pair<std::string, methods::Settings>> ways{{"every vertex", every}};
+  std::vector<std::pair<std::string, methods::Settings>> variants{{"every vertex", every}};
   for (const float share : {0.143f, 0.096f, 0.055f, 0.041f}) {
     methods::Settings grid = every;
-    grid.own.get<reflector_maps::VirtualObjectSettings>().grid_share = share;
-    ways.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
+    grid.own.get<virtual_objects::SearchSettings>().grid_share = share;
+    variants.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
   }
-  ways.emplace_back("grids by area", by_area);
-  ways.emplace_back("re-rendered cube maps", baseline);
-  return ways;
+  variants.emplace_back("grids by area", by_area);
+  variants.emplace_back("re-rendered cube maps", baseline);
+  return variants;
 }
 
 Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,

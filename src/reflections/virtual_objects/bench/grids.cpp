@@ -28,7 +28,6 @@ constexpr int frames = 120;
 constexpr std::size_t stride = 20, quick_stride = 120;  // of the vertices whose flicker is measured
 constexpr int paper_iterations = 9, newton_steps = 12, exact_starts = 8;
 constexpr float search_ends = 2e-9f;    // error, 0.005 degrees
-constexpr float found_angle = 0.0035f;  // radians; as in patch_search.glsl
 constexpr float grid10_share = 0.096f;  // the paper's 9.6 %
 const Ellipsoid mirror{{1.0f, 0.6f, 0.8f}};
 
