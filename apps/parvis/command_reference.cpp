@@ -31,7 +31,7 @@ struct Arguments : SceneArguments {
 std::atomic<bool> is_interrupted = false;
 
 Status write_traced(const Arguments& arguments, const reference::TracedPicture& traced, float exposure) {
-  fmt::print("{:.1f} million rays in {:.1f} s: {:.2f} million a second\n", double(traced.rays) * 1e-6,
+  fmt::print("{:.1f} million rays in {:.1f} s: {:.2f} million per second\n", double(traced.rays) * 1e-6,
              traced.seconds, double(traced.rays) * 1e-6 / traced.seconds);
   if (!arguments.mask.empty())
     if (Status status = write_image(arguments.mask, traced.mirror_mask); !status) return status;

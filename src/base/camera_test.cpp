@@ -13,7 +13,7 @@ glm::vec3 random_point(Random& random) {
   return {random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(0, 20)};
 }
 
-TEST(Camera, LooksWhereItIsTold) {
+TEST(Camera, LooksWhereItShould) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const glm::vec3 eye = random_point(random), target = random_point(random);

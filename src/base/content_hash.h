@@ -1,4 +1,4 @@
-// A 64-bit number that stands for content: equal content, equal number, on every machine of this byte order.
+// A 64-bit hash of content: equal content, equal hash, on every machine of this byte order.
 // For recognising one's own files again, not for safety.
 #pragma once
 

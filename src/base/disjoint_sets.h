@@ -22,7 +22,7 @@ class DisjointSets {
     parents_.push_back(parents_.size());
     return parents_.back();
   }
-  /// The number that stands for the set of `i`. Halves the path on its way, so that long chains are walked
+  /// The representative of the set of `i`. Halves the path on its way, so that long chains are walked
   /// once.
   std::size_t root(std::size_t i) {
     while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];

@@ -171,7 +171,7 @@ TEST(ImageIo, EveryFormatThatIsWrittenIsRead) {
   }
 }
 
-TEST(ImageIo, NoFileTellsWhenItWasWritten) {
+TEST(ImageIo, NoFileSaysWhenItWasWritten) {
   const Result<std::string> bytes = encode_image(ImageF(2, 2, 3, 1.0f), "a.exr");
   ASSERT_TRUE(bytes);
   const std::size_t date = bytes->find("capDate");

@@ -32,7 +32,7 @@ TEST(Errors, PlacesLeaveOutWhatIsUnknown) {
   EXPECT_EQ(to_string(error("wrong {}", 1)), "wrong 1");
 }
 
-TEST(Errors, EachHasALineInTheOrderInWhichTheyWereMet) {
+TEST(Errors, EachHasALineInTheOrderOfTheirDiscovery) {
   EXPECT_EQ(to_string(Errors{error("one"), error_at({"b.xp", 2, 1}, "two")}), "one\nb.xp:2:1: two\n");
 }
 

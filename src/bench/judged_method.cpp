@@ -33,10 +33,12 @@ Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
                                    const methods::Settings& reflection) {
   scene::Scene scene = stage.scene();  // models are shared
   methods::settings(scene) = reflection;
-  Result<std::unique_ptr<methods::Reflections>> made =
-      stage.house().get<methods::Registry>().make(scene, stage.renderer());
+  const auto& registry = stage.house().get<methods::Registry>();
+  const Result<const methods::Method*> method = registry.method_of(scene);
+  if (!method) return method.errors();
+  Result<std::unique_ptr<methods::Reflections>> made = registry.make(scene, stage.renderer());
   if (!made) return made.errors();
-  return JudgedMethod{std::move(name), *std::move(made), reflection.method == "time_sliced_cube_map"};
+  return JudgedMethod{std::move(name), *std::move(made), (*method)->needs_earlier_frames};
 }
 
 Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {

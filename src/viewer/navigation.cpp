@@ -54,10 +54,10 @@ void Navigation::step(const Controls& controls, float seconds, const glm::mat4& 
       mode_ == Mode::walk ? glm::vec3(std::cos(heading_), std::sin(heading_), 0.0f) : looks();
   const glm::vec3 left(-std::sin(heading_), std::cos(heading_), 0.0f);
   const float climb = mode_ == Mode::walk ? 0.0f : controls.move.z;
-  const glm::vec3 way =
+  const glm::vec3 direction =
       controls.move.x * ahead + controls.move.y * left + climb * glm::vec3(0.0f, 0.0f, 1.0f);
-  const float length = glm::length(way);
-  if (length > 0.0f) position_ += way * (speed * seconds / std::max(length, 1.0f));
+  const float length = glm::length(direction);
+  if (length > 0.0f) position_ += direction * (speed * seconds / std::max(length, 1.0f));
 }
 
 Camera Navigation::camera() const {

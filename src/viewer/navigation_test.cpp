@@ -40,8 +40,8 @@ TEST(Navigation, FliesWhereItLooks) {
   controls.turn.y = 0.5f;
   controls.move.x = 1.0f;
   visitor.step(controls, 1.0f, nothing);
-  const glm::vec3 way = visitor.camera().position_in_world() - glm::vec3(0, 0, 1.6f);
-  EXPECT_NEAR(std::atan2(way.z, way.y), 0.5f, 1e-4f);
+  const glm::vec3 moved = visitor.camera().position_in_world() - glm::vec3(0, 0, 1.6f);
+  EXPECT_NEAR(std::atan2(moved.z, moved.y), 0.5f, 1e-4f);
 }
 
 TEST(Navigation, FollowedObjectStaysInTheMiddleOfThePicture) {

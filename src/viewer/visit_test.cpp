@@ -28,7 +28,7 @@ TEST_F(VisitTest, ScenariosAreSwitchedLive) {
   EXPECT_TRUE(holds(told(), "no scenario \"blue\"")) << told();
 }
 
-TEST_F(VisitTest, WhatANodeIsToldIsSeenAStepLater) {
+TEST_F(VisitTest, WhatANodeReceivesIsSeenAStepLater) {
   EXPECT_TRUE(visit_->tell(node("oak"), "position 1 2 0"));
   wait();
   for (const scene::Object& object : visit_->scene().objects)
@@ -46,7 +46,7 @@ TEST_F(VisitTest, BadValuesAreAnsweredByTheSchemaAndChangeNothing) {
   EXPECT_EQ(visit_->scene().sun.direction_to_sun, before);
 }
 
-TEST_F(VisitTest, WhatCannotBeBuiltIsToldAndTakenBack) {
+TEST_F(VisitTest, WhatCannotBeBuiltIsReportedAndTakenBack) {
   EXPECT_TRUE(visit_->tell(node("street"), "target -7 -11 1.7")) << "a right vector";
   wait();
   EXPECT_TRUE(holds(told(), "the target lies in the eye")) << told();

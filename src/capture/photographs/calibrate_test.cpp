@@ -76,7 +76,7 @@ TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
   EXPECT_GT(calibration_report(kept->set).size(), 200u);
 }
 
-TEST(Calibrate, TwoPlacesAreToldApart) {
+TEST(Calibrate, TwoPlacesAreDistinguished) {
   const TestFolder folder;
   if (!has_colmap(folder)) GTEST_SKIP() << "colmap is not installed";
   const auto pictures = folder.path() / "pictures";

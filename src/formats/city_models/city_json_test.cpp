@@ -116,7 +116,7 @@ TEST(CityJson, AShapeThatIsGivenTwiceIsReadOnce) {
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
 }
 
-TEST(CityJson, ASolidOfOneKindIsToldApartBySlope) {
+TEST(CityJson, ASolidOfOneKindIsDividedBySlope) {
   const std::string alike =
       with(house(), "\"lod\":\"2.2\"",
            R"("lod":"2.2","semantics":{"surfaces":[{"type":"WallSurface"}],"values":[[0,0,0,0,0,0]]})");

@@ -149,7 +149,7 @@ TEST(Osm, PartsStandInPlaceOfTheirOutline) {
   EXPECT_NEAR(bounds_of(*house.model, "RoofSurface").max.z, 8.0f, 1e-4f);
 }
 
-TEST(Osm, MissingNodesAreToldAndTheRestIsRead) {
+TEST(Osm, MissingNodesAreReportedAndTheRestIsRead) {
   const Read house = read(osm(way(100, "1 2 77 3 4 1", {{"building", "yes"}}) +
                               way(101, "11 12 78 13", {{"highway", "residential"}})));
   ASSERT_TRUE(house.model) << to_string(house.model.errors());

@@ -86,7 +86,7 @@ TEST_F(ModelNodes, TilesOfOneCityMeet) {
   EXPECT_EQ(glm::vec3(scene.objects[1].world_from_model[3]), glm::vec3(10.0f, 0.0f, 0.0f));
 }
 
-TEST_F(ModelNodes, ACityElsewhereIsPutBesideTheFirstAndTold) {
+TEST_F(ModelNodes, ACityElsewhereIsPutBesideTheFirstAndReported) {
   folder_.write("west.city.json", tile(80000));
   folder_.write("far.city.json", tile(2680000));
   const auto loaded = load("model(file=\"west.city.json\")\nmodel(file=\"far.city.json\")");
@@ -153,7 +153,7 @@ TEST_F(ModelNodes, OpenSolidGlassIsAPane) {
   expect_pane("model(file=window.glb)");
 }
 
-TEST_F(ModelNodes, BadTargetsMasksAndFilesAreTold) {
+TEST_F(ModelNodes, BadTargetsMasksAndFilesAreReported) {
   EXPECT_TRUE(
       holds(errors_of("model(file=two.glb) {\n material(target=\"bdy\") }"),
             "scene.xp:2:18: no object of the model is called \"bdy\"; did you mean \"body\"? It has "));

@@ -118,7 +118,7 @@ TEST(Terrain, OtherFilesAndEmptyGridsAreRefused) {
   EXPECT_NE(told(folder.path() / "holes.tif").find("all holes"), std::string::npos);
 }
 
-TEST(Terrain, TellsItsHeightAtPlacesOnTheMap) {
+TEST(Terrain, ReportsItsHeightAtPlacesOnTheMap) {
   const TestFolder folder;
   const double transform[]{600'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
   write_grid(folder.path() / "slope.tif", transform, 32631);

@@ -19,7 +19,7 @@ constexpr float pi_f = 3.14159265f;
 constexpr float max_cells = 150'000.0f;
 constexpr float cell_height_share = 0.75f;  // of the spacing from side to side: light changes most upward
 constexpr float patch_share = 0.75f;        // of the spacing: side of a patch
-constexpr float inside_share = 0.25f;       // of rays that meet backs: the place is inside of something
+constexpr float inside_share = 0.25f;       // of rays that hit backs: the place is inside of something
 constexpr std::size_t places_at_once = 4096;
 constexpr std::size_t points_per_patch = 16;  // where rays to the sky begin
 constexpr int ray_sets = 8;                   // neighbouring places look in other directions
@@ -263,12 +263,12 @@ void Transfer::gather(const std::vector<vec3>& radiance, shading::BouncedLight& 
       air_.size(),
       [&](std::size_t i) {
         const std::int32_t* seen = seen_.data() + i * std::size_t(rays_);
-        const vec3* ways = directions.data() + ray_set(air_[i]) * rays_;
+        const vec3* ray_directions = directions.data() + ray_set(air_[i]) * rays_;
         vec3 sum(0.0f), along(0.0f);
         for (int r = 0; r < rays_; ++r) {
           if (seen[r] < 0) continue;
           const vec3 from = radiance[std::size_t(seen[r])];
-          sum += from, along += luminance(from) * ways[r];
+          sum += from, along += luminance(from) * ray_directions[r];
         }
         const float brightness = luminance(sum);
         light.lobes[air_[i]] = vec4(2.0f * pi_f / float(rays_) * along, pi_f / float(rays_) * brightness);

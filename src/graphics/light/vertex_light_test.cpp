@@ -79,7 +79,7 @@ TEST(VertexLight, ConvergesOnManyRays) {
                 1e-3f * at_once.irradiance()[i].y + 1e-4f);
 }
 
-TEST(VertexLight, MovedObjectsAreLitAnew) {
+TEST(VertexLight, MovedObjectsAreLitAgain) {
   const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 5, 10});
   const reference::RayScene rays(scene);
   const SkyTable table{EvenSky()};

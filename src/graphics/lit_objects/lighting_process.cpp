@@ -1,6 +1,6 @@
 // After the thesis's xpLitVirtualObject and pfGroupVirtualObjs (appendix A.2.2): transforms are compared with
 // stored ones, and what moved is lit again. Departures: light is refined from frame to frame, neighbours of
-// what moved and all objects under a new sky are lit again, too, and rays that meet a surface bring the light
+// what moved and all objects under a new sky are lit again, too, and rays that hit a surface bring the light
 // that it gives back, where the thesis's sum has visibility alone.
 #include "graphics/lit_objects/lighting_process.h"
 

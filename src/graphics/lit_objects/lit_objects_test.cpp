@@ -15,6 +15,7 @@
 #include "graphics/lit_objects/room.h"
 #include "graphics/reference/frame.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/renderer.h"
 #include "scene/action/action_nodes.h"
@@ -159,7 +160,7 @@ TEST_F(LitObjects, HaveTheLightThatRandomRaysFind) {
   EXPECT_GT(100.0 * std::sqrt(dark_off * count) / mean, 50.0);
 }
 
-TEST_F(LitObjects, WhatMovesIsLitAgainFirstQuicklyThenBetter) {
+TEST_F(LitObjects, AMovedThingIsLitAgainFirstQuicklyThenBetter) {
   Running scene = run(street("rays=128, budget_ms=2"));
   const vec3 open = scene.mean("ball");
   scene.object("ball").world_from_model =
@@ -276,9 +277,7 @@ TEST_F(LitObjects, AreDrawnAndTracedAlike) {
   auto renderer = render::Renderer::create(scene.scene, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   const auto drawn = [&] {
-    (*renderer)->begin_frame(scene.scene, camera);
-    (*renderer)->prepare_main_view(camera, size, size);
-    (*renderer)->draw_main_view();
+    EXPECT_TRUE(render::draw_frame(**renderer, scene.scene, {camera, size, size}));
     return (*renderer)->read_radiance();
   };
   const auto traced = [&](const scene::Scene& of) {

@@ -104,7 +104,7 @@ scene::Material gloss(float metallic, float roughness, float coat) {
 
 const scene::Material materials[]{gloss(0, 1, 0), gloss(0, 0.4f, 0), gloss(1, 0.5f, 0), gloss(0.5f, 0.8f, 1)};
 
-/// A ray that meets the sphere of radius 1 about the origin at this angle to its normal, which is up.
+/// A ray that hits the sphere of radius 1 about the origin at this angle to its normal, which is up.
 Ray ray_to_top(double cosine) {
   const vec3 from = about_z(cosine, 0.3);
   return {vec3(0, 0, 1) + 5.0f * from, -from};

@@ -73,7 +73,7 @@ TEST(SkySampler, DirectionsAreAsDenseAsItSays) {
   EXPECT_NEAR(light, even_light, 0.01 * even_light);
 }
 
-TEST(SkySampler, ADarkSkyIsToldApart) {
+TEST(SkySampler, ADarkSkyIsDistinguished) {
   EXPECT_FALSE(SkySampler(shading::make_sky_light(ImageF(32, 16, 3, 0.0f), 1.0f, 0.0f)).shines());
   EXPECT_TRUE(SkySampler(patchy_sky(0.0f)).shines());
 }

@@ -21,7 +21,7 @@ TEST(Regions, ThoseThatTouchBecomeOne) {
   EXPECT_EQ(one[0].max, glm::vec3(6, 3, 1));
 }
 
-TEST(Regions, HeightsOfARegionMadeAnewAreThoseOfThePlaceAsItIs) {
+TEST(Regions, HeightsOfARebuiltRegionAreThoseOfThePlaceAsItIs) {
   const Bounds place{{-20, -20, 0}, {20, 20, 9}};
   const Mesh wide = scene::box({-15, -3, 0}, {15, 3, 4}), tower = scene::box({-2, -6, 0}, {5, 6, 9});
   shading::Heightfield with(place), without(place);

@@ -443,7 +443,7 @@ TEST_F(RendererTest, APlaceWithSunAndShadowIsGolden) {
   EXPECT_TRUE(status) << to_string(status.errors());
 }
 
-TEST_F(RendererTest, WhatMovesFarAwayTakesFewerTrianglesAndLooksTheSame) {
+TEST_F(RendererTest, ADynamicThingFarAwayTakesFewerTrianglesAndLooksTheSame) {
   scene::Scene scene;
   add(scene, model_of(sphere({0, 0, 0}, 1.0f, 100), matt(glm::vec3(0.6f))), true);
   const auto renderer = renderer_of(scene);

@@ -156,7 +156,7 @@ TEST(BodyShade, FarAwayAndWithoutBodiesAllIsOpen) {
             1.0f);
 }
 
-TEST(BodyShade, WhatNoBoxTellsIsNoBody) {
+TEST(BodyShade, WhatNoBoxDescribesIsNoBody) {
   EXPECT_FALSE(body_of(Bounds{}, {}, glm::mat4(1.0f), 0));
   EXPECT_FALSE(body_of({{-100, -1, 0}, {100, 1, 1}}, {}, glm::mat4(1.0f), 0));
   EXPECT_FALSE(body_of({{-1, -1, 0}, {1, 1, 1}}, {}, glm::mat4(0.0f), 0));

@@ -20,12 +20,12 @@ struct Groove {
 #include "graphics/shading/relief.glsl"
 };
 
-TEST(Relief, TheSurfaceItselfIsMetAtOnce) {
+TEST(Relief, TheSurfaceItselfIsHitAtOnce) {
   const vec3 hit = Groove().relief_hit(vec2(0.3f, 0.5f), vec2(0.5f, 0.0f));
   EXPECT_EQ(hit, vec3(0.3f, 0.5f, 0.0f));
 }
 
-TEST(Relief, AFloorIsMetWhereItsDepthSays) {
+TEST(Relief, AFloorIsHitWhereItsDepthSays) {
   const vec3 hit = Groove().relief_hit(vec2(0.45f, 0.5f), vec2(0.1f, 0.02f));
   EXPECT_NEAR(hit.x, 0.55f, 1e-5f);
   EXPECT_NEAR(hit.y, 0.52f, 1e-5f);

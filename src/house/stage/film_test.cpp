@@ -100,7 +100,7 @@ TEST_F(FilmTest, KeepsAnEarlierFilmUntilTheNewOneIsWhole) {
   EXPECT_EQ(*read_file(file), "the film of yesterday");
 }
 
-TEST_F(FilmTest, TellsOfAnEncoderThatFailsAndLeavesNothingBehind) {
+TEST_F(FilmTest, ReportsAnEncoderThatFailsAndLeavesNothingBehind) {
   const fs::path program =
       folder_.write("bin/ffmpeg", "#!/bin/sh\neval last=\\${$#}; touch \"${last#file:}\"; exit 1\n");
   fs::permissions(program, fs::perms::owner_all);

@@ -109,7 +109,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
     displays.push_back(shading::tone_mapped_picture(photograph->radiance, scene.exposure));
     if (Status status = write_photograph(*photograph, displays.back(), camera, job); !status) return status;
     const double millions = 1e-6 * double(photograph->rays);
-    fmt::print("{}: {:.1f} million rays in {:.1f} s, {:.2f} million a second\n", named.name, millions,
+    fmt::print("{}: {:.1f} million rays in {:.1f} s, {:.2f} million per second\n", named.name, millions,
                photograph->seconds, millions / photograph->seconds);
     taken.push_back({files_of(job.pictures.front(), job)[camera].filename().string(), named.camera, job.width,
                      job.height});

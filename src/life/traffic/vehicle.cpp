@@ -91,9 +91,9 @@ float Vehicle::steering(float back_m, std::span<const DrivingLane> lanes) const 
   constexpr float reach_m = 0.6f;  // over which the way's direction is taken: longer than a lane's chords
   const glm::vec3 front = front_axle(back_m, lanes), rear = rear_axle(back_m, lanes);
   const float behind_m = back_m + shape->front_overhang_m();
-  const glm::vec3 way = point_behind(behind_m - reach_m, lanes) - point_behind(behind_m + reach_m, lanes);
+  const glm::vec3 chord = point_behind(behind_m - reach_m, lanes) - point_behind(behind_m + reach_m, lanes);
   const glm::vec3 body = front - rear;
-  return std::atan2(scene::cross_in_plan(body, way), body.x * way.x + body.y * way.y);
+  return std::atan2(scene::cross_in_plan(body, chord), body.x * chord.x + body.y * chord.y);
 }
 
 }  // namespace parvis::traffic

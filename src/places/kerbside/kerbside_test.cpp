@@ -139,7 +139,7 @@ constexpr const char* map_of_a_tree =
     R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
     <node id="1" version="1" lat="48.0004" lon="11.0006"><tag k="natural" v="tree"/></node></osm>)";
 
-TEST_F(Kerbside, TreesOfAMapStayTakenWhenTheMapIsBuiltAgain) {
+TEST_F(Kerbside, TreesOfAMapStayTakenWhenTheMapIsRebuilt) {
   folder_.write("map.osm", map_of_a_tree);
   folder_.write("scene.xp", std::string(streets) +
                                 "model(name=\"map\", file=\"map.osm\", positions=\"0 0 0, 300 0 0\")\n"

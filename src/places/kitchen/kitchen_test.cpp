@@ -51,7 +51,7 @@ TEST(Kitchen, ItsGlassIsSolidAndStandsOnTheWorktop) {
 }
 
 /// A turned outline that runs upward shows its outside, one that runs downward its inside.
-TEST(Kitchen, TheMixingBowlHasAHollow) {
+TEST(Kitchen, TheMixingBowlIsConcave) {
   const std::vector<KitchenMirror> mirrors = kitchen_mirrors();
   for (const KitchenMirror& mirror : mirrors)
     for (const scene::Part& part : mirror.model.parts) {

@@ -131,12 +131,12 @@ void enter(const Face& face, int index, const Bounds& box, float reach_m, std::v
       for (int x = from.x; x <= to.x; ++x) {
         const vec3 middle = box.min + (vec3(x, y, z) + 0.5f) * cell_m;
         const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
-        const vec3 way = middle - face.at(shares);
-        const float distance_m = glm::length(way);
+        const vec3 offset = middle - face.at(shares);
+        const float distance_m = glm::length(offset);
         Nearest& known = cells[index_of(size, x, y, z)];
         constexpr float alike_m = 1e-4f;
         if (distance_m > known.distance_m + alike_m || distance_m > reach_m) continue;
-        const float facing = distance_m > 0.0f ? dot(way, face.normal) / distance_m : 1.0f;
+        const float facing = distance_m > 0.0f ? dot(offset, face.normal) / distance_m : 1.0f;
         // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
         const bool is_nearer = distance_m < known.distance_m - alike_m;
         if (is_nearer || std::abs(facing) > std::abs(known.facing))

@@ -1,4 +1,4 @@
-// The surface of a moving body in a box of cells, for rays that meet it (body_field.glsl): how far away it is
+// The surface of a moving body in a box of cells, for rays that hit it (body_field.glsl): how far away it is
 // and what colour it has there.
 #pragma once
 

@@ -40,7 +40,7 @@ scene::Model ball() {
   return model;
 }
 
-TEST(BodyField, RaysMeetABallWhereItIs) {
+TEST(BodyField, RaysHitABallWhereItIs) {
   const BodyField field = body_field(ball());
   const glm::vec3 centre(2, 3, 4);
   constexpr float cell_m = 2.0f / 17.0f;  // of the fewest cells

@@ -18,8 +18,8 @@ gl::Texture upload(const std::vector<BodyField>& fields) {
                      size.z * int(std::max(fields.size(), std::size_t{1})));
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(texture.name(), way, GL_CLAMP_TO_EDGE);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
   for (std::size_t i = 0; i < fields.size(); ++i)
     if (!fields[i].cells.empty())
       glTextureSubImage3D(texture.name(), 0, 0, 0, int(i) * size.z, size.x, size.y, size.z, GL_RGBA,

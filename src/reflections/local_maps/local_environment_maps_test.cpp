@@ -164,7 +164,7 @@ TEST_F(LocalMapsTest, AMirrorShowsTheSquareBetterThanSimplyBlendedMaps) {
   EXPECT_LT(flip_of(scene, make_simple_blend, eye), 0.1) << "nothing but sky";
 }
 
-TEST_F(LocalMapsTest, WhatMovesStandsInTheMapWhereNothingHidesIt) {
+TEST_F(LocalMapsTest, ADynamicThingStandsInTheMapWhereNothingHidesIt) {
   scene::Scene with_others = court();
   const auto add_other = [&](glm::vec3 at) {
     scene::add(with_others,

@@ -81,10 +81,10 @@ class FaceMesher {
     std::uint32_t& vertex = scratch().vertices[index(x, y)];
     if (vertex == no_vertex) {
       vertex = std::uint32_t(mesh_.vertices.size());
-      const glm::vec3 way = direction(x, y);
-      const float ahead_m = distance_m(x, y) / glm::length(way);
+      const glm::vec3 ray = direction(x, y);
+      const float ahead_m = distance_m(x, y) / glm::length(ray);
       mesh_.vertices.push_back({task_.corner + texel(x, y), ahead_m,
-                                2.0f / float(task_.tile - 2 * local_map_border), task_.centre + ahead_m * way,
+                                2.0f / float(task_.tile - 2 * local_map_border), task_.centre + ahead_m * ray,
                                 task_.map_pair});
     }
     return vertex;

@@ -12,7 +12,7 @@
 namespace parvis::local_maps {
 using namespace reference_maps;
 
-/// Where a ray that meets nothing is taken to end: so far that all maps see the same sky there.
+/// Where a ray that hits nothing is taken to end: so far that all maps see the same sky there.
 inline constexpr float sky_distance_m = 1e4f;
 
 /// Texels of a tile that show what lies beyond its face: half of one is left on the coarsest of

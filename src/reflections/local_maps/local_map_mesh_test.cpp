@@ -176,11 +176,11 @@ TEST(LocalMapMesh, CornersLieWhereTheirRaysEnd) {
   make_face_mesh(street(), task_of(2), mesh);
   float nearest_m = sky_distance_m;
   for (const LocalMapVertex& vertex : mesh.vertices) {
-    const glm::vec3 way = vertex.met - task_of(2).centre;
-    EXPECT_NEAR(way.y, vertex.ahead_m, 1e-4f * vertex.ahead_m) << "this face looks north";
-    nearest_m = std::min(nearest_m, glm::length(way));
+    const glm::vec3 from_centre = vertex.met - task_of(2).centre;
+    EXPECT_NEAR(from_centre.y, vertex.ahead_m, 1e-4f * vertex.ahead_m) << "this face looks north";
+    nearest_m = std::min(nearest_m, glm::length(from_centre));
     const glm::vec2 place = place_of_texel(vertex.texel, tile, local_map_border);
-    EXPECT_LT(glm::distance(way / vertex.ahead_m, direction_on_face(place, 2)), 1e-3f);
+    EXPECT_LT(glm::distance(from_centre / vertex.ahead_m, direction_on_face(place, 2)), 1e-3f);
     if (vertex.met.z < 4.0f && vertex.met.z > 0.5f) {
       EXPECT_NEAR(vertex.met.y, 6.0f, 1.0f) << "a wall";
     }

@@ -30,7 +30,8 @@ std::vector<AttributeSchema> common_attributes(const Registry& registry) {
           .by_default("0")
           .live(),
       integer("bounces",
-              "of virtual_objects and of the ray tracer: 2, what a mirror shows in a mirror is drawn, too; "
+              "of methods that draw virtual objects and of the ray tracer: 2, what a mirror shows in a "
+              "mirror is drawn, too; "
               "1: mirrors in mirrors show the sky")
           .between(1, 2)
           .by_default("1")
@@ -38,11 +39,12 @@ std::vector<AttributeSchema> common_attributes(const Registry& registry) {
 }
 
 scene::NodeSchema schema_of(const Registry& registry) {
-  scene::NodeSchema schema{.type = "reflection",
-                           .help = "How the mirror-like parts of moving things see their surroundings.",
-                           .attributes = common_attributes(registry),
-                           .example = "reflection(method=\"rerendered_cube_map\", resolution=128)",
-                           .is_unique = true};
+  scene::NodeSchema schema{
+      .type = "reflection",
+      .help = "How the mirror-like parts of moving things see their surroundings.",
+      .attributes = common_attributes(registry),
+      .example = fmt::format("reflection(method=\"{}\", resolution=128)", registry.name_of({})),
+      .is_unique = true};
   std::ranges::move(registry.attributes(), std::back_inserter(schema.attributes));
   return schema;
 }

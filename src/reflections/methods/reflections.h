@@ -52,7 +52,7 @@ class Reflections : public render::SurfaceShader {
   virtual const CubeMap* surroundings_of(int /*object*/) const { return nullptr; }
 
   /// What the last update took by the clock, and all the rest of its frame: for methods that hold a budget.
-  /// Told in windows alone, so that pictures and films can be repeated.
+  /// Called in windows alone, so that pictures and films can be repeated.
   virtual void frame_took(double /*update_ms*/, double /*rest_ms*/) {}
 
   /// Called in windows before each frame: what the method has not drawn yet may be spread over several

@@ -168,7 +168,7 @@ TEST_F(ReflectionsTest, TimeSlicingDrawsAFaceAFrameOnceMapsAreWhole) {
   for (int frame = 0; frame < 8; ++frame) EXPECT_EQ(show.draw(), 3) << "frame " << frame;
 }
 
-TEST_F(ReflectionsTest, TimeSlicingDrawsNoMoreFacesThanItIsTold) {
+TEST_F(ReflectionsTest, TimeSlicingDrawsNoMoreFacesThanItIsAllowed) {
   methods::Settings reflection{"time_sliced_cube_map", 32, false};
   for (const int faces : {1, 2, 5, 12}) {
     reflection.own.get<TimeSlicing>().faces_per_frame = faces;

@@ -91,7 +91,7 @@ TEST(HeightPyramid, WalksMeetWhatTryingEveryCellMeets) {
   }
 }
 
-TEST(HeightPyramid, TowersOnCellsAreMetWhereTheRayTracerMeetsThem) {
+TEST(HeightPyramid, TowersOnCellsAreHitWhereTheRayTracerHitsThem) {
   constexpr float cell_m = 2.0f;
   const Mesh mesh = towers(24, cell_m, 11);
   const HeightPyramid pyramid = pyramid_of(mesh, cell_m);
@@ -155,7 +155,7 @@ TEST(HeightPyramid, ARayAlongTheAxesOrOutOfThePlaceEnds) {
   EXPECT_EQ(pyramid.walk_by_levels({-50, -50, 3}, {-1, 0, 0}, reach_m).kind, HitKind::nothing);
 }
 
-TEST(HeightPyramid, AnEmptyPlaceIsMetNowhere) {
+TEST(HeightPyramid, AnEmptyPlaceIsHitNowhere) {
   const HeightPyramid pyramid{shading::Heightfield(Bounds{})};
   EXPECT_EQ(pyramid.walk_by_levels({0, 0, 1}, {1, 0, 0}, reach_m).kind, HitKind::nothing);
   EXPECT_EQ(pyramid.walk({0, 0, 1}, {0, 0, -1}, reach_m).kind, HitKind::nothing);

@@ -133,7 +133,7 @@ TEST_F(MapCacheTest, InterruptedBakingGoesOnWithTheMapsThatAreMissing) {
   EXPECT_TRUE(fs::exists(map_file(0)) && fs::exists(map_file(2)));
 }
 
-TEST_F(MapCacheTest, DamagedMapsAreDrawnAnewAndToldNeverShown) {
+TEST_F(MapCacheTest, DamagedMapsAreDrawnAgainAndReportedNeverShown) {
   const auto drawn = keep();
   for (std::size_t number = 0; number < 3; ++number) {
     fs::resize_file(map_file(number), 100);

@@ -35,10 +35,11 @@ MapChoice::MapChoice(const std::vector<glm::vec3>& places, const HeightPyramid& 
       std::array<std::pair<float, int>, looked_at> ranked;
       for (std::size_t i = 0; i < kept; ++i) {
         const glm::vec3 place = places[std::size_t(nearest[i])];
-        const glm::vec3 way = glm::vec3(middle, place.z) - place;
-        const float distance = glm::length(way);
-        const bool is_seen = distance < 1e-3f ||
-                             heights.walk_by_levels(place, way / distance, distance).kind == HitKind::nothing;
+        const glm::vec3 to_middle = glm::vec3(middle, place.z) - place;
+        const float distance = glm::length(to_middle);
+        const bool is_seen =
+            distance < 1e-3f ||
+            heights.walk_by_levels(place, to_middle / distance, distance).kind == HitKind::nothing;
         ranked[i] = {distance * (is_seen ? 1.0f : unseen_penalty), nearest[i]};
       }
       std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(kept));

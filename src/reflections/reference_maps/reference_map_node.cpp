@@ -16,7 +16,7 @@ scene::NodeSchema reference_maps_schema() {
   return {
       .type = "referenceMaps",
       .help =
-          "The maps that reflection(method=\"multiple_environment_maps\") looks into. Without places "
+          "The maps that reflection methods with reference maps look into. Without places "
           "they stand along the streets, where they show most of what vehicles mirror.",
       .attributes =
           {points("position", "where a map is taken, at the height of bodywork; may be repeated")
@@ -36,10 +36,10 @@ scene::NodeSchema reference_maps_schema() {
                .in("m")
                .between(0.05, 100)
                .by_default("1"),
-           number(
-               "memory",
-               "for the maps that multiple_environment_maps holds at once; of more maps those are held that "
-               "were looked into last")
+           number("memory",
+                  "for the maps that a method with a working set holds at once; of more maps those are held "
+                  "that "
+                  "were looked into last")
                .in("MB")
                .between(1, 65536)
                .by_default("1024"),

@@ -109,8 +109,7 @@ Result<ReferenceMaps> ReferenceMaps::create(std::vector<glm::vec3> places, int r
   if (count > max_count())
     return error(
         "{} reference maps of {} x {} texels: this method holds at most {} at once; ask for fewer "
-        "(referenceMaps(maps=...)), or take multiple_environment_maps, which keeps those that are looked "
-        "into",
+        "(referenceMaps(maps=...)), or take a method that keeps those that are looked into",
         count, resolution, resolution, max_count());
   gl::refused();  // what is left from before is not about these maps
   ReferenceMaps maps(std::move(places), resolution, is_compressed);

@@ -33,7 +33,7 @@ TEST(Heights, CellsAreAsWideAsTheSceneWants) {
   EXPECT_EQ(fitting_cell_m({0.0f, 0.0f}, 1.0f), 1.0f);
 }
 
-TEST(Heights, APlaceThatWouldNotFitIntoMemoryGetsWiderCellsAndItIsToldHowMuchItWouldTake) {
+TEST(Heights, APlaceThatWouldNotFitIntoMemoryGetsWiderCellsAndItIsReportedHowMuchItWouldTake) {
   testing::internal::CaptureStderr();
   EXPECT_LE(bytes_of({9000.0f, 5000.0f}, 0.5f), max_bytes);
   const std::string told = testing::internal::GetCapturedStderr();

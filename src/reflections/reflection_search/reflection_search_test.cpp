@@ -62,7 +62,7 @@ double share_over_1_degree(const Ellipsoid& ellipsoid, float reach, Find find) {
 }
 
 // Row E3, and equation 1 as floats can stand it: near the point, 1 - B.N is 0 long before the angle is.
-TEST(BisectorError, IsEquation1AndStillTellsSmallAngles) {
+TEST(BisectorError, IsEquation1AndStillReportsSmallAngles) {
   const Ellipsoid ball;
   Search search{ball};
   const vec3 n(0, 0, 1);
@@ -122,7 +122,7 @@ TEST(NewtonSearch, FindsTheShortestWayOverEllipsoids) {
       ASSERT_EQ(truth.size(), 1u);
       ++reflected;
       const Point point = newton(search, task);
-      if (point.angle > flag_angle) continue;  // told; how often is counted below
+      if (point.angle > flag_angle) continue;  // flagged; how often is counted below
       ASSERT_LT(glm::distance(glm::dvec3(point.position), truth[0]), 5e-3);
     }
     EXPECT_GT(reflected, 20);
@@ -276,10 +276,10 @@ TEST(MidpointSearch, TheBisectorLeadsNearerOnABallButNotAlways) {
       const Point r = newton(search, task);
       if (r.angle > flag_angle || dot(task.vertex - r.position, r.normal) < 0.1f) continue;
       const Search::SurfacePoint p = search.surface_at(r.position + 0.8f * chance_direction(random));
-      const float way = distance(p.position, r.position);
+      const float length_m = distance(p.position, r.position);
       const vec3 along = search.bisector(task.viewer, task.vertex, p) - p.normal;
-      const vec3 q = p.position + 0.9f * way * normalize(along);
-      away += distance(q, r.position) > way ? 1 : 0;
+      const vec3 q = p.position + 0.9f * length_m * normalize(along);
+      away += distance(q, r.position) > length_m ? 1 : 0;
     }
     return away;
   };

@@ -83,8 +83,8 @@ glm::vec3 curvature_around(const ReflectorMap& map, const Search::TangentPlane& 
   glm::dvec3 turned(0.0);
   int met = 0;
   for (int i = 0; i < curvature_probes; ++i) {
-    const float turn = 2.0f * pi * float(i) / curvature_probes, way = i % 2 ? reach : 0.5f * reach;
-    const glm::vec2 off = way * glm::vec2(std::cos(turn), std::sin(turn));
+    const float turn = 2.0f * pi * float(i) / curvature_probes, probe_distance = i % 2 ? reach : 0.5f * reach;
+    const glm::vec2 off = probe_distance * glm::vec2(std::cos(turn), std::sin(turn));
     const MapPoint at = map.sample(search.on_tangent_plane(plane, off) - map.window.centre);
     if (at.kind == kind_closed) continue;
     ++met;

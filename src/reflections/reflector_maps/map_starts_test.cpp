@@ -7,7 +7,7 @@ namespace parvis::reflector_maps {
 using namespace reflection_search;
 namespace {
 
-TEST(MapStarts, KnowHowTheSurfaceBends) {
+TEST(MapStarts, KnowHowTheSurfaceCurves) {
   const Reflector ball = reflector(ellipsoid_mesh(glm::vec3(2.0f)));
   for (std::size_t i = 0; i < start_count; ++i) {
     const MapStart start = ball.maps[0].starts[i];

@@ -159,7 +159,7 @@ TEST_F(ReflectorCacheTest, WhatCannotBeMadeIsNotAmongWhatIsBaked) {
   EXPECT_EQ(baked->files, std::set{file(mirror(0))});
 }
 
-TEST_F(ReflectorCacheTest, DamagedFilesAreMadeAnewAndOldOnesForgotten) {
+TEST_F(ReflectorCacheTest, DamagedFilesAreRebuiltAndOldOnesForgotten) {
   ASSERT_TRUE(bake_reflectors(scene_));
   const fs::path old_file = file(mirror(0));
   const std::string whole = *read_file(old_file);

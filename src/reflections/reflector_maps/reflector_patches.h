@@ -11,7 +11,7 @@ namespace parvis::reflector_maps {
 struct ReflectorPatch {
   std::vector<std::uint32_t> triangles;  ///< of the mesh
   std::vector<std::uint32_t> around;     ///< of neighbouring patches, as far as the centre sees them well
-  bool is_convex = true;                 ///< else the surface bends toward the side that it reflects
+  bool is_convex = true;                 ///< else the surface curves toward the side that it reflects
   bool shows_once = true;                ///< convex, and hardly anywhere a saddle: no vertex has two images
   glm::vec3 centre{0.0f};                ///< behind a convex patch, before a concave one
 };

@@ -24,7 +24,7 @@ GlassSource source_of(const Mesh& mesh) {
   return source;
 }
 
-TEST(GlassSources, OfHollowBodiesAreAsThickAsTheirWalls) {
+TEST(GlassSources, OfConcaveBodiesAreAsThickAsTheirWalls) {
   EXPECT_NEAR(source_of(scene::box({0, 0, 0}, {1, 1, 0.01f})).thickness, 0.01f, 3e-4f);
   for (const bool is_turned : {false, true}) {
     Mesh ball = scene::sphere(glm::vec3(0.0f), 0.1f, 32), inside = scene::sphere(glm::vec3(0.0f), 0.095f, 32);

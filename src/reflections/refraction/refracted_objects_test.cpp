@@ -114,7 +114,7 @@ TEST_F(RefractedObjectsTest, BodiesOfOneModelEachShowTheirOwn) {
 
 /// What light is not followed through is a pane: what stands behind it is seen as if there were no glass. (Of
 /// an index by which little is mirrored, but at rims: there FLIP is not 0.)
-TEST_F(RefractedObjectsTest, OpenHollowAndSqueezedBodiesArePanes) {
+TEST_F(RefractedObjectsTest, OpenConcaveAndSqueezedBodiesArePanes) {
   const glm::mat4 above = placed({0, 0, 1.1f});
   const auto expect_pane = [&](const Mesh& body, const glm::mat4& world_from_body) {
     scene::Scene scene = among_boxes(body, glass(1.001f), world_from_body);

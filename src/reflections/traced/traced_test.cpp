@@ -92,7 +92,7 @@ TEST_F(TracedReflectionsTest, AgreesWithTheReference) {
   }
 }
 
-TEST_F(TracedReflectionsTest, WhatMovesIsFollowed) {
+TEST_F(TracedReflectionsTest, ADynamicThingIsFollowed) {
   Show show(room_with_mirror());
   const ImageF before = show.draw();
   show.scene().objects.back().world_from_model = glm::translate(glm::mat4(1.0f), {-1.0f, -2.6f, 0.9f});

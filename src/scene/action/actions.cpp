@@ -197,9 +197,10 @@ void Actions::present(Scene&, double ahead_s) {
     if (is_camera && motion.target->gives("target")) continue;  // it keeps its eye on that
     float heading = key.heading, pitch = key.pitch;
     if (motion.looks_along) {
-      const glm::vec3 way = direction_at(motion.keys, time_s, motion.is_smooth);
-      heading = is_camera ? std::atan2(way.x, way.y) : motion.own_heading - std::atan2(way.y, way.x);
-      pitch = std::asin(std::clamp(way.z, -1.0f, 1.0f));
+      const glm::vec3 direction = direction_at(motion.keys, time_s, motion.is_smooth);
+      heading = is_camera ? std::atan2(direction.x, direction.y)
+                          : motion.own_heading - std::atan2(direction.y, direction.x);
+      pitch = std::asin(std::clamp(direction.z, -1.0f, 1.0f));
     }
     const auto set_angle = [&](const char* name, float angle) {
       live().set(*motion.target, name, double(angle));

@@ -165,7 +165,7 @@ TEST_F(ActionsTest, ATimerSendsAtItsTimesAgainAndAgain) {
   EXPECT_TRUE(sees("lamp"));
 }
 
-TEST_F(ActionsTest, ProximityTellsWhoComesAndWhoLeaves) {
+TEST_F(ActionsTest, ProximityReportsWhoComesAndWhoLeaves) {
   load(
       "model(name=tram, file=\"box.glb\", position=\"-20 0 0\")\n"
       "model(name=bell, file=\"box.glb\", visible=0) model(name=light, file=\"box.glb\", visible=0)\n"
@@ -249,7 +249,7 @@ TEST_F(ActionsTest, AToursViewPassesThroughItsCameras) {
   EXPECT_FALSE(actions().camera(scene_));
 }
 
-TEST_F(ActionsTest, AMessageTellsWhereToLookFrom) {
+TEST_F(ActionsTest, AMessageSaysWhereToLookFrom) {
   load("camera(name=a) camera(name=b, position=\"4 5 6\")\nkeys(onPress=\"f2, b, look\")");
   actions().press("f2");
   advance(step_s);
@@ -266,7 +266,7 @@ TEST_F(ActionsTest, ACircleOfMessagesIsCutAndNamed) {
   EXPECT_EQ(warnings(), "") << "told once";
 }
 
-TEST_F(ActionsTest, AStormSpreadsOverStepsAndIsTold) {
+TEST_F(ActionsTest, AStormSpreadsOverStepsAndIsReported) {
   std::string script = "model(name=lamp, file=\"box.glb\", visible=0)\nkeys(";
   for (int i = 0; i < 9'999; ++i) script += "onPress=\"a, lamp, toggle\",\n";
   load(script + "onPress=\"a, lamp, show\")");
@@ -306,7 +306,7 @@ TEST_F(ActionsTest, TheSameHappeningsGiveTheSameSceneAtAnyFrameRate) {
     }
 }
 
-TEST_F(ActionsTest, BadEventsAreToldAtLoadWithTheirPlaces) {
+TEST_F(ActionsTest, BadEventsAreReportedAtLoadWithTheirPlaces) {
   const std::string errors =
       errors_of(std::string(trees) +
                 "keys(onPress=\"button2, tree, show oaks\")\n"
@@ -330,7 +330,7 @@ TEST_F(ActionsTest, BadEventsAreToldAtLoadWithTheirPlaces) {
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
 
-TEST_F(ActionsTest, BadPathsAndToursAreToldAtLoad) {
+TEST_F(ActionsTest, BadPathsAndToursAreReportedAtLoad) {
   const std::string errors = errors_of(
       "group(name=g) { }\ncamera(name=c)\n"
       "path(of=g) { key(time_s=1, position=\"0 0 0\") key(time_s=1, position=\"1 0 0\") }\n"

@@ -16,7 +16,7 @@ namespace parvis::action {
 inline constexpr double step_s = 1.0 / 60.0;
 /// Messages of one step are delivered up to this number; the others wait for the next.
 inline constexpr std::size_t max_messages_per_step = 1'000;
-/// More do not wait: those that come then are lost, and told.
+/// More do not wait: those that come then are lost, and reported.
 inline constexpr std::size_t max_waiting_messages = 100'000;
 /// A message that causes one that causes one ... within the same step.
 inline constexpr int longest_chain = 32;

@@ -16,7 +16,7 @@ std::size_t segment_at(const std::vector<Keyframe>& keys, double time_s) {
   return std::min(std::size_t(std::max<std::ptrdiff_t>(after - keys.begin() - 1, 0)), keys.size() - 2);
 }
 
-/// Metres a second at a key: through its neighbours; at the ends of the motion, along the first and last
+/// Metres per second at a key: through its neighbours; at the ends of the motion, along the first and last
 /// part.
 glm::vec3 velocity_at(const std::vector<Keyframe>& keys, std::size_t i) {
   const Keyframe &before = keys[i == 0 ? 0 : i - 1], &after = keys[std::min(i + 1, keys.size() - 1)];

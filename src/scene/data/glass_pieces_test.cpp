@@ -18,7 +18,7 @@ Mesh without_top(Mesh mesh) {
   return mesh;
 }
 
-TEST(GlassPieces, OfAPartAreToldApartAndOpenOnesKnown) {
+TEST(GlassPieces, OfAPartAreDistinguishedAndOpenOnesKnown) {
   Mesh mesh = sphere({-2, 0, 0}, 0.5f, 8);
   append(mesh, without_top(sphere({2, 0, 0}, 0.5f, 8)));
   append(mesh, box({0, 0, 0}, {1, 1, 1}));  // each side has corners of its own
@@ -49,7 +49,7 @@ TEST(GlassPieces, MayBeOfSeveralPartsButOfOneGlass) {
   EXPECT_FALSE(glass_pieces(model)[0].is_closed);
 }
 
-TEST(GlassPieces, HollowsBelongToWhatTheyAreIn) {
+TEST(GlassPieces, CavitiesBelongToWhatTheyAreIn) {
   Mesh inside = sphere({0.1f, 0, 0}, 0.3f, 8), mesh = sphere({0, 0, 0}, 1.0f, 8);
   for (std::size_t i = 0; i < inside.indices.size(); i += 3)
     std::swap(inside.indices[i], inside.indices[i + 1]);
@@ -60,7 +60,7 @@ TEST(GlassPieces, HollowsBelongToWhatTheyAreIn) {
   EXPECT_GT(found[0].mesh.triangle_count(), 1.5 * double(found[1].mesh.triangle_count()));
 }
 
-TEST(GlassPieces, OfAnotherGlassAreNoHollows) {
+TEST(GlassPieces, OfAnotherGlassAreNoCavities) {
   Model model = *model_of(sphere({0, 0, 0}, 1.0f, 8), glass());
   model.parts.push_back({.object = "core", .mesh = sphere({0, 0, 0}, 0.3f, 8), .material = 1});
   model.materials.push_back(glass());
@@ -74,7 +74,7 @@ TEST(GlassPieces, OfAnotherGlassAreNoHollows) {
 }
 
 /// Whichever way round the cavity's triangles run.
-TEST(GlassPieces, HaveTheirGlassAsVolumeWithoutHollows) {
+TEST(GlassPieces, HaveTheirGlassAsVolumeWithoutCavities) {
   const auto cube = [](float half) { return box(glm::vec3(-half), glm::vec3(half)); };
   Mesh mesh = cube(0.5f), cavity = cube(1.0f);
   for (std::size_t i = 0; i < cavity.indices.size(); i += 3)

@@ -113,8 +113,8 @@ Path parallel(const Path& path, float distance_m) {
 }
 
 Path turning_curve(glm::vec3 start, glm::vec3 start_direction, glm::vec3 end, glm::vec3 end_direction) {
-  const glm::vec3 way = end - start;
-  const float distance = glm::length(way);
+  const glm::vec3 chord = end - start;
+  const float distance = glm::length(chord);
   const float sine = cross_in_plan(start_direction, end_direction);
   const float turn = std::atan2(std::abs(sine), glm::dot(in_plan(start_direction), in_plan(end_direction)));
 
@@ -122,8 +122,8 @@ Path turning_curve(glm::vec3 start, glm::vec3 start_direction, glm::vec3 end, gl
   // ahead of both (a sidestep), a third of the way.
   float start_handle = 0.4f * distance, end_handle = start_handle;
   if (turn > 0.05f && turn < 2.9f) {
-    const float to_meeting = cross_in_plan(way, end_direction) / sine;
-    const float from_meeting = cross_in_plan(start_direction, way) / sine;
+    const float to_meeting = cross_in_plan(chord, end_direction) / sine;
+    const float from_meeting = cross_in_plan(start_direction, chord) / sine;
     if (to_meeting > 0.0f && from_meeting > 0.0f && std::max(to_meeting, from_meeting) < 3.0f * distance) {
       const float factor = 4.0f / 3.0f * std::tan(0.25f * turn) / std::tan(0.5f * turn);
       start_handle = factor * to_meeting;

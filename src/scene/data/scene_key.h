@@ -1,4 +1,4 @@
-// A number that stands for all that a photograph of a scene depends on.
+// The hash of all that a photograph of a scene depends on.
 #pragma once
 
 #include <cstdint>

@@ -12,10 +12,11 @@ constexpr float min_cell_m = 16.0f;
 constexpr float aside = 0.3f;  // lane widths off the expected place
 
 /// Whether a segment of a lane passes within `reach_m` of `place` against the direction `way`.
-bool passes_against(const Lane& lane, std::size_t segment, glm::vec2 place, glm::vec2 way, float reach_m) {
+bool passes_against(const Lane& lane, std::size_t segment, glm::vec2 place, glm::vec2 direction,
+                    float reach_m) {
   const glm::vec2 a(lane.points[segment]), along = glm::vec2(lane.points[segment + 1]) - a;
   const float share = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0f, 1.0f);
-  return glm::distance(a + share * along, place) < reach_m && glm::dot(along, way) < 0.0f;
+  return glm::distance(a + share * along, place) < reach_m && glm::dot(along, direction) < 0.0f;
 }
 
 }  // namespace
@@ -48,8 +49,8 @@ void OppositeLanes::note(const Lane& lane, std::size_t segment) {
 bool OppositeLanes::has(const Lane& lane) const {
   const MeasuredPath path(lane.points);
   const float middle_m = 0.5f * path.length();
-  const glm::vec3 way = path.direction_at(middle_m);
-  const glm::vec2 expected(path.at(middle_m) - right_of(way) * lane.width_m);
+  const glm::vec3 direction = path.direction_at(middle_m);
+  const glm::vec2 expected(path.at(middle_m) - right_of(direction) * lane.width_m);
   const glm::ivec2 middle = cell_at(expected);
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
@@ -57,7 +58,7 @@ bool OppositeLanes::has(const Lane& lane) const {
       if (found == pieces_.end()) continue;
       for (const Piece& piece : found->second)
         if (piece.lane != &lane &&
-            passes_against(*piece.lane, piece.segment, expected, glm::vec2(way), aside * lane.width_m))
+            passes_against(*piece.lane, piece.segment, expected, glm::vec2(direction), aside * lane.width_m))
           return true;
     }
   return false;

@@ -16,15 +16,15 @@ namespace {
 bool has_opposite(const RoadGraph& roads, const Lane& lane) {
   const MeasuredPath path(lane.points);
   const float middle_m = 0.5f * path.length();
-  const glm::vec3 way = path.direction_at(middle_m);
-  const glm::vec2 expected(path.at(middle_m) - right_of(way) * lane.width_m);
+  const glm::vec3 direction = path.direction_at(middle_m);
+  const glm::vec2 expected(path.at(middle_m) - right_of(direction) * lane.width_m);
   return std::ranges::any_of(roads.lanes, [&](const Lane& other) {
     if (other.crossing >= 0 || &other == &lane) return false;
     for (std::size_t i = 0; i + 1 < other.points.size(); ++i) {
       const glm::vec2 a(other.points[i]), along = glm::vec2(other.points[i + 1]) - a;
       const float share = std::clamp(glm::dot(expected - a, along) / glm::dot(along, along), 0.0f, 1.0f);
       if (glm::distance(a + share * along, expected) < 0.3f * lane.width_m &&
-          glm::dot(along, glm::vec2(way)) < 0.0f)
+          glm::dot(along, glm::vec2(direction)) < 0.0f)
         return true;
     }
     return false;

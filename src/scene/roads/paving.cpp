@@ -188,8 +188,8 @@ void add_markings(Mesh& mesh, const Lane& lane, const Path& line, bool is_innerm
   const float lift = paint_lift_m;
   for (float from = 0.5f * dash_gap_m; is_innermost && from + dash_m < path.length();
        from += dash_m + dash_gap_m) {
-    const glm::vec3 way = path.direction_at(from);
-    if (way.x > 0.0f || (way.x == 0.0f && way.y > 0.0f))
+    const glm::vec3 direction = path.direction_at(from);
+    if (direction.x > 0.0f || (direction.x == 0.0f && direction.y > 0.0f))
       add_ribbon(mesh, path.part(from, from + dash_m), left_m - dash_half_width_m, left_m + dash_half_width_m,
                  ground, lift);
   }

@@ -131,11 +131,12 @@ Path smoothed(const Path& path, float deviation_m) {
 void simplify(const Path& path, std::size_t first, std::size_t last, Path& result) {
   std::size_t furthest = first;
   float largest = tolerance_m;
-  const glm::vec3 way = path[last] - path[first];
+  const glm::vec3 chord = path[last] - path[first];
   for (std::size_t i = first + 1; i < last; ++i) {
     const glm::vec3 away = path[i] - path[first];
-    const float share = std::clamp(glm::dot(away, way) / std::max(glm::dot(way, way), 1e-12f), 0.0f, 1.0f);
-    const float distance = glm::length(away - share * way);
+    const float share =
+        std::clamp(glm::dot(away, chord) / std::max(glm::dot(chord, chord), 1e-12f), 0.0f, 1.0f);
+    const float distance = glm::length(away - share * chord);
     if (distance > largest) largest = distance, furthest = i;
   }
   if (furthest == first) return result.push_back(path[last]);

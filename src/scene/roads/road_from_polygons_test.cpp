@@ -52,8 +52,8 @@ TEST(RoadFromPolygons, RoundaboutsAreDrivenAround) {
   ring.rings.resize(2);
   for (int i = 0; i < 48; ++i) {
     const float angle = 6.2831853f * float(i) / 48.0f;
-    const glm::vec3 way(std::cos(angle), std::sin(angle), 0.0f);
-    ring.rings[0].push_back(30.0f * way), ring.rings[1].push_back(24.0f * way);
+    const glm::vec3 outward(std::cos(angle), std::sin(angle), 0.0f);
+    ring.rings[0].push_back(30.0f * outward), ring.rings[1].push_back(24.0f * outward);
   }
   const std::vector<Road> roads = roads_from_polygons(std::vector{ring});
   ASSERT_EQ(roads.size(), 1u);

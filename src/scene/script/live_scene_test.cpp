@@ -183,7 +183,7 @@ TEST_F(LiveSceneTest, ANodeThatTheScriptLacksCanBeSet) {
   EXPECT_EQ(&live_.unique_node("air"), live_.find("%air")) << "it is made once";
 }
 
-TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreToldWithTheirPlaces) {
+TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreReportedWithTheirPlaces) {
   const std::string errors = errors_of(std::string(square) +
                                        "road(name=street, path=\"0 0, 100 0\")\n"
                                        "scenario(name=a) {\n"
@@ -220,7 +220,7 @@ TEST_F(LiveSceneTest, WhatASceneHasOnceDoesNotStandInAScenario) {
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
 }
 
-TEST_F(LiveSceneTest, AScenarioPaintsAModelAnew) {
+TEST_F(LiveSceneTest, AScenarioPaintsAModelAgain) {
   load(
       "model(name=house, file=\"small.glb\") { material(name=paint, colour=\"1 0 0\", roughness=0.5) }\n"
       "model(name=shed, file=\"small.glb\") { material(colour=\"1 0 0\", roughness=0.5) }\n"

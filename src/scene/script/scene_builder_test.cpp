@@ -179,7 +179,7 @@ TEST_F(SceneBuilderTest, AChangedPartBuildsTheNodeAroundItAgain) {
   EXPECT_EQ(heights(), (std::vector{1.0f, 7.0f, 3.0f, 4.0f}));
 }
 
-TEST_F(SceneBuilderTest, WhatCannotBeBuiltAgainStaysAsItWas) {
+TEST_F(SceneBuilderTest, WhatCannotBeRebuiltStaysAsItWas) {
   load(three);
   live_.set(live_.find("a")->children[1], "height", 0.0);
   const Errors errors = live_.refresh(scene_);

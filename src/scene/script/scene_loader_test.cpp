@@ -116,7 +116,7 @@ TEST_F(SceneLoader, SuggestsTheNearestNodeAttributeChoiceAndName) {
                     "no node of the scene has this name; did you mean \"square\"?"));
 }
 
-TEST_F(SceneLoader, TellsAllErrorsAtOnceWithTheirPlaces) {
+TEST_F(SceneLoader, ReportsAllErrorsAtOnceWithTheirPlaces) {
   const std::string errors = errors_of(
       "camera(position=\"1 2\")\nsun(elevation_deg=91)\nprint(resolution=12.5)\nsky(intensity=dark)\n"
       "group(scale=0)\nexposure(value=1e999)\nsun()\nair(haze_per_m=nan)");
@@ -187,7 +187,7 @@ TEST_F(SceneLoader, RoadsBecomeLanes) {
                     "did you mean \"vehicle"));
 }
 
-TEST_F(SceneLoader, BadRoadsAreToldAtTheirPath) {
+TEST_F(SceneLoader, BadRoadsAreReportedAtTheirPath) {
   EXPECT_TRUE(holds(errors_of("\nroad(path=\"1 1, 1 1\")"), "scene.xp:2:11:"));
   EXPECT_TRUE(holds(errors_of("road(path=\"1 1\")"), "two or more points"));
   EXPECT_TRUE(holds(errors_of("road(path=\"1 1, 2 x\")"), "two or more points"));
@@ -283,7 +283,7 @@ TEST_F(SceneLoader, AMissingOrUnreadableScriptIsAnError) {
   EXPECT_TRUE(holds(errors_of(std::string("sun()\n\0", 7)), "scene.xp:2:1: this is not a text file"));
 }
 
-TEST_F(SceneLoader, AnUnreadablePictureIsTold) {
+TEST_F(SceneLoader, AnUnreadablePictureIsReported) {
   folder_.write("sky.hdr", "no picture");
   EXPECT_TRUE(holds(errors_of("sky(file=\"sky.hdr\")"), "scene.xp:1:10: "));
 }

@@ -131,7 +131,7 @@ void NameResolver::resolve_event(const AttributeSchema& schema, const Event& eve
 void NameResolver::resolve_override(Node& node) {
   const std::string& by = node.schema->takes_attributes_of;
   const auto target = node.gives(by) ? nodes_.find(node.text(by)) : nodes_.end();
-  if (target == nodes_.end()) return;  // told already
+  if (target == nodes_.end()) return;  // reported already
   const NodeSchema& schema = *target->second->schema;
   const auto unexplained = names_.unexplained.find(place_of(node.where));
   if (unexplained == names_.unexplained.end()) return;

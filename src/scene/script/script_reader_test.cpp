@@ -59,7 +59,7 @@ TEST(ScriptReader, JoinsStringsAndResolvesEscapes) {
   EXPECT_EQ(nodes.at(0).attributes.at(1).value, "4");
 }
 
-TEST(ScriptReader, TellsSeveralErrorsWithTheirPlaces) {
+TEST(ScriptReader, ReportsSeveralErrorsWithTheirPlaces) {
   const Errors errors =
       errors_of("group(name=) {\n  model(file \"a\")\n  camera(name=\"b\" x=1)\n}\nsun(a=1)\nlamp\n");
   ASSERT_EQ(errors.size(), 4u) << to_string(errors);

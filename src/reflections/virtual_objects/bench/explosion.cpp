@@ -38,10 +38,10 @@ class ExplosionMap {
     for (std::size_t v = 0; v < exploded.size(); ++v) {
       const glm::vec3 to_viewer = glm::normalize(viewer - mesh.positions[v]);
       is_seen[v] = glm::dot(to_viewer, mesh.normals[v]) > 0.0f;
-      const glm::vec3 way = glm::reflect(-to_viewer, mesh.normals[v]), from = mesh.positions[v];
-      const float along = glm::dot(from, way);
+      const glm::vec3 reflected = glm::reflect(-to_viewer, mesh.normals[v]), from = mesh.positions[v];
+      const float along = glm::dot(from, reflected);
       const float length = std::sqrt(along * along - glm::dot(from, from) + sphere * sphere) - along;
-      exploded[v] = pixel_of(from + length * way);
+      exploded[v] = pixel_of(from + length * reflected);
     }
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
       const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t)];
@@ -117,9 +117,9 @@ std::vector<glm::vec3> shown_vertices(glm::vec3 viewer, Random& random) {
     const auto [at, normal] = ellipsoid.surface(chance_direction(random));
     const glm::vec3 to_viewer = glm::normalize(viewer - at);
     if (glm::dot(to_viewer, normal) < flattest) continue;
-    const glm::vec3 way = glm::reflect(-to_viewer, normal);
-    const float reach = random.uniform(1.1f, 4.0f), along = glm::dot(at, way);
-    shown.push_back(at + (std::sqrt(along * along - glm::dot(at, at) + reach * reach) - along) * way);
+    const glm::vec3 reflected = glm::reflect(-to_viewer, normal);
+    const float reach = random.uniform(1.1f, 4.0f), along = glm::dot(at, reflected);
+    shown.push_back(at + (std::sqrt(along * along - glm::dot(at, at) + reach * reach) - along) * reflected);
   }
   return shown;
 }
