@@ -178,9 +178,11 @@ class PlantDrawable final : public render::Drawable {
              std::size_t commands) const {
     const gl::Program* program = commands > 0 ? programs.use(view) : nullptr;
     if (!program) return false;
-    program->set("bark_texture", int(render::first_drawable_unit));
-    program->set("pixels_at_w_1", list.pixels_at_w_1);
-    program->set("min_point_px", view.kind == ViewKind::shadow ? 0.0f : 1.0f);
+    if (program->declares("bark_texture")) program->set("bark_texture", int(render::first_drawable_unit));
+    if (program->declares("pixels_at_w_1")) {  // of leaves
+      program->set("pixels_at_w_1", list.pixels_at_w_1);
+      program->set("min_point_px", view.kind == ViewKind::shadow ? 0.0f : 1.0f);
+    }
     glVertexArrayVertexBuffer(array, 1, list.record_store.name(), list.first_record, sizeof(PlantRecord));
     glBindVertexArray(array);
     return true;
