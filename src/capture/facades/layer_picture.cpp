@@ -10,7 +10,6 @@ namespace {
 void dilate(LayerPicture& picture) {
   const int width = picture.rgba.width, height = picture.rgba.height;
   const PixelBox box{0, 0, width, height};
-  std::vector<int> rim;
   for (int ring = 0; ring < dilation_rings; ++ring) {
     const std::vector<char> before = picture.is_covered;
     for (int y = 0; y < height; ++y)
@@ -87,8 +86,6 @@ std::vector<Image8> needed_pixels(const PlaceLayers& place,
   return needed;
 }
 
-/// The box with its left and top edges moved out to the photograph's grid of tiles, so that layers may share
-/// tiles.
 PixelBox on_tile_grid(const PixelBox& box) {
   const int x = box.x / tile_inner * tile_inner, y = box.y / tile_inner * tile_inner;
   return {x, y, box.x + box.width - x, box.y + box.height - y};

@@ -60,7 +60,7 @@ bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
   return candidate.place.casts_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
 }
 
-/// A ray to the sun meets from behind what the sun sees from the front; panes and solid glass cast no
+/// A ray to the sun hits from behind what the sun sees from the front; panes and solid glass cast no
 /// shadow.
 bool stops_as_drawn(const Candidate& candidate, bool is_shadow) {
   const scene::Material& material = *candidate.place.material;

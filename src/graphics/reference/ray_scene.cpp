@@ -21,18 +21,48 @@ constexpr float share_of_rounding = 4e-6f;
 /// No ray slips between two triangles, and queries bring filters of their own.
 const auto traced_flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
-/// How far from the origin anything lies.
+/// What a transform makes of a unit volume, negative if it mirrors; 0 if it leads nowhere finite.
+float volume_of(const glm::mat4& world_from_mesh) {
+  const float volume = glm::determinant(glm::mat3(world_from_mesh));
+  const glm::vec3 place(world_from_mesh[3]);
+  return std::isfinite(volume + place.x + place.y + place.z) ? volume : 0.0f;
+}
+
+/// How far from the origin anything lies that rays may hit. What has no finite place is left out.
+class Reach final : public scene::TracedScene {
+ public:
+  void add(const Bounds& bounds) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float reach = std::max(std::abs(bounds.min[axis]), std::abs(bounds.max[axis]));
+      if (bounds.min[axis] <= bounds.max[axis] && std::isfinite(reach)) reach_ = std::max(reach_, reach);
+    }
+  }
+  void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface>,
+           const glm::mat4& world_from_mesh, const scene::TracedPlacing&) override {
+    add(transformed(world_from_mesh, mesh->bounds()));
+  }
+  void add(std::shared_ptr<const scene::Model> model, const glm::mat4& world_from_model,
+           const scene::TracedPlacing&) override {
+    const std::vector<glm::mat4> pose = scene::rest_pose(*model);
+    for (const scene::Part& part : model->parts)
+      add(transformed(world_from_model * pose[std::size_t(part.node)], part.mesh.bounds()));
+  }
+  float value() const { return reach_; }
+
+ private:
+  float reach_ = 1.0f;
+};
+
 float reach_of(const scene::Scene& scene) {
-  Bounds bounds;
+  Reach reach;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (std::size_t p = 0; p < object.model->parts.size(); ++p)
-      bounds.add(transformed(object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
-                             object.mesh(p).bounds()));
+      reach.add(transformed(object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
+                            object.mesh(p).bounds()));
   }
-  if (bounds.empty()) return 1.0f;
-  const glm::vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-  return std::max({farthest.x, farthest.y, farthest.z});
+  scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int) { kind.trace(scene, reach); });
+  return reach.value();
 }
 
 }  // namespace
@@ -219,8 +249,7 @@ void RayScene::place(const PlacedPart& part, bool is_visible, bool may_join) {
   rtcAttachGeometryByID(top_, instance, instance_of(places_.size() - 1));
   rtcDisableGeometry(instance);
   rtcReleaseGeometry(instance);
-  const float volume = glm::determinant(glm::mat3(part.world_from_mesh));
-  if (may_join && is_visible && !part.mesh->indices.empty() && volume > 0.0f && std::isfinite(volume))
+  if (may_join && is_visible && !part.mesh->indices.empty() && volume_of(part.world_from_mesh) > 0.0f)
     return join(places_.size() - 1);
   move(places_.size() - 1, *part.mesh, part.world_from_mesh, is_visible);
 }
@@ -249,8 +278,7 @@ void RayScene::leave_joined(std::size_t place) {
 /// seen.
 bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible) {
   PlacedPart& part = *places_[number];
-  const float volume = glm::determinant(glm::mat3(world_from_mesh));
-  const bool is_seen = is_visible && !mesh.indices.empty() && volume != 0.0f && std::isfinite(volume);
+  const bool is_seen = is_visible && !mesh.indices.empty() && volume_of(world_from_mesh) != 0.0f;
   const bool is_same = part.world_from_mesh == world_from_mesh && part.mesh == &mesh;
   if (is_seen == part.is_traced && (is_same || !is_seen)) return false;
   if (part.is_joined) leave_joined(number);
@@ -263,7 +291,7 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   part.mesh = &mesh;
   part.world_from_mesh = world_from_mesh;
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
-  part.is_mirrored = volume < 0.0f;
+  part.is_mirrored = volume_of(world_from_mesh) < 0.0f;
   rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
   rtcEnableGeometry(instance);

@@ -175,8 +175,26 @@ TEST(RayScene, PacketsFindWhatSingleRaysFind) {
   EXPECT_GT(blocked, 300);
 }
 
+/// Margins follow how far from the origin things lie; a thing at no finite place is not among them.
+TEST(RayScene, AnObjectAtNoFinitePlaceLeavesExactRaysAlone) {
+  scene::Scene scene = three_things();
+  const RayScene without(scene, Precision::fine);
+  scene.objects.push_back(scene.objects.front());
+  scene.objects.back().world_from_model[3].x = std::numeric_limits<float>::infinity();
+  const RayScene with(scene, Precision::fine);
+  int hits = 0;
+  for (const FineRay& ray : parallel_rays()) {
+    FineHit expected, found;
+    without.nearest_hits({&ray, 1}, {&expected, 1});
+    with.nearest_hits({&ray, 1}, {&found, 1});
+    ASSERT_EQ(found.place != nullptr, expected.place != nullptr);
+    hits += found.place != nullptr;
+  }
+  EXPECT_GT(hits, 20);
+}
+
 /// Far from the origin a float is as coarse as 3e-5 m; these rays pass an edge at 1e-8 m on either side.
-TEST(RayScene, FineRaysTellTheSidesOfAnEdge) {
+TEST(RayScene, FineRaysKnowTheSidesOfAnEdge) {
   scene::Scene scene;
   const glm::vec3 a(401.3f, -377.7f, 3.1f), b(403.9f, -371.2f, 11.7f), c(389.4f, -380.6f, 9.2f);
   Mesh mesh = scene::quad(a, b, c, c);
