@@ -169,20 +169,17 @@ class FacadeDrawable final : public render::Drawable {
   Status load(const scene::Scene& scene) {
     Loaded kept;
     for (const PlacedFacade& placed : scene.items<PlacedFacade>()) {
-      if (kept.contains(placed.facade)) continue;
-      if (const auto known = loaded_.find(placed.facade); known != loaded_.end()) {
-        kept.emplace(placed.facade, std::move(known->second));
-        loaded_.erase(known);
-        continue;
-      }
+      if (kept.contains(placed.facade) || loaded_.contains(placed.facade)) continue;
       Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade, held_);
-      if (!textures) return textures.errors();
-      chosen_.clear();  // a new one may lie where one that is gone was chosen for
+      if (!textures) return textures.errors();  // nothing has changed: what is shown stays
       kept.emplace(placed.facade,
                    std::make_unique<LoadedFacade>(LoadedFacade{
                        *std::move(textures), ViewChooser(*placed.facade), ranges_of(*placed.facade),
                        placed.facade->bounds(), solid_bounds(*placed.facade), has_holes(*placed.facade)}));
     }
+    if (!kept.empty()) chosen_.clear();  // a new one may lie where one that is gone was chosen for
+    for (const PlacedFacade& placed : scene.items<PlacedFacade>())
+      if (auto known = loaded_.extract(placed.facade)) kept.insert(std::move(known));
     loaded_ = std::move(kept);
     return Done{};
   }

@@ -92,15 +92,13 @@ class ObjectDrawable final : public render::Drawable {
   Status load(const scene::Scene& scene) {
     Loaded kept;
     for (const PlacedObject& placed : scene.items<PlacedObject>()) {
-      if (kept.contains(placed.model)) continue;
-      if (auto known = loaded_.extract(placed.model)) {
-        kept.insert(std::move(known));
-        continue;
-      }
+      if (kept.contains(placed.model) || loaded_.contains(placed.model)) continue;
       Result<ObjectTextures> textures = ObjectTextures::create(*placed.model);
-      if (!textures) return textures.errors();
+      if (!textures) return textures.errors();  // nothing has changed: what is shown stays
       kept.emplace(placed.model, *std::move(textures));
     }
+    for (const PlacedObject& placed : scene.items<PlacedObject>())
+      if (auto known = loaded_.extract(placed.model)) kept.insert(std::move(known));
     loaded_ = std::move(kept);
     return Done{};
   }
