@@ -62,13 +62,13 @@ std::optional<glm::vec4> CrownCover::visible_part(const CoveringBillboard& billb
   if (low.x >= high.x) return std::nullopt;
   low -= around_squares, high += around_squares;
   const glm::mat2 billboard_from_squares = glm::inverse(placed.squares_from_billboard);
-  glm::vec2 least(all), most(-all);
+  glm::vec2 low_corner(all), high_corner(-all);
   for (int corner = 0; corner < 4; ++corner) {
     const glm::vec2 at(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y);
     const glm::vec2 q = billboard_from_squares * (at - placed.centre);
-    least = glm::min(least, q), most = glm::max(most, q);
+    low_corner = glm::min(low_corner, q), high_corner = glm::max(high_corner, q);
   }
-  return glm::vec4(least, most);
+  return glm::vec4(low_corner, high_corner);
 }
 
 void CrownCover::add(const CoveringBillboard& billboard, const OpacityMask& mask, glm::vec2 mask_scale) {

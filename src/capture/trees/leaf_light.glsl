@@ -17,8 +17,8 @@ struct LeafLight {
 };
 
 // `shares`: of sun and sky that the crown lets through to the billboard. `to_viewer`: unit, the billboard's
-// normal. `way_out_m`: metres toward the sun beyond which the crown ends.
-LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float way_out_m, int thing) {
+// normal. `exit_distance_m`: metres toward the sun beyond which the crown ends.
+LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float exit_distance_m, int thing) {
   SceneLight light;
   light.to_sun = to_sun_at(position);
   light.sun_irradiance = frame_sun_irradiance.rgb;
@@ -29,7 +29,7 @@ LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float way_
   light.bounced = bounced.front;
   light.bounced_behind = bounced.behind;
   // The crown's own shadow is its cells' share of the sun; the maps have that of all else.
-  float sun = shares.x * visible_sun(position + way_out_m * light.to_sun, to_viewer);
+  float sun = shares.x * visible_sun(position + exit_distance_m * light.to_sun, to_viewer);
   vec4 cell = shaded_cell(sky_visibility_cell(position, to_viewer),
                           sky_share_beside_bodies(position, to_viewer, thing));
   cell = mix(vec4(0.5f, 0.5f, 0.5f, 0.0f), cell, shares.y);

@@ -43,7 +43,7 @@ struct DrawnBillboard {
   glm::uvec3 tiles_and_thing;
   glm::vec4 extent;  ///< of the quad: what the textures show, with a margin
   glm::vec3 light_in_crown;
-  glm::vec4 ways_out;                       ///< of the quad's corners
+  glm::vec4 exit_distances;                 ///< of the quad's corners
   std::array<glm::vec2, 2> texture_scales;  ///< from the billboard to those of the photographs
 };
 
@@ -60,16 +60,16 @@ struct Extent {
 };
 
 /// For each corner of a quad how far the crown reaches toward the sun, in the tree's frame.
-glm::vec4 ways_out(const Bounds& box, glm::vec3 centre, const BillboardFrame& frame, glm::vec4 extent,
-                   glm::vec3 to_sun) {
-  glm::vec4 ways;
+glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFrame& frame, glm::vec4 extent,
+                         glm::vec3 to_sun) {
+  glm::vec4 distances;
   for (int corner = 0; corner < 4; ++corner) {
     const glm::vec2 place(corner & 1 ? extent.z : extent.x, corner & 2 ? extent.w : extent.y);
     const glm::vec2 m = place * frame.half_size_m;
     const glm::vec3 at = centre + m.x * frame.right + m.y * frame.up;
-    ways[corner] = way_out(box, glm::clamp(at, box.min, box.max), to_sun);
+    distances[corner] = way_out(box, glm::clamp(at, box.min, box.max), to_sun);
   }
-  return ways;
+  return distances;
 }
 
 /// A photograph that does not see a cell says nothing of it where another does: in large cells the mean
@@ -184,7 +184,7 @@ class TreeDrawable final : public render::Drawable {
     glVertexArrayAttribBinding(array, 5, 0);
     attribute(6, 4, offsetof(DrawnBillboard, extent));
     attribute(7, 3, offsetof(DrawnBillboard, light_in_crown));
-    attribute(9, 4, offsetof(DrawnBillboard, ways_out));
+    attribute(9, 4, offsetof(DrawnBillboard, exit_distances));
     attribute(8, 4, offsetof(DrawnBillboard, texture_scales));
     glVertexArrayBindingDivisor(array, 0, 1);
   }
@@ -265,7 +265,7 @@ class TreeDrawable final : public render::Drawable {
                  b.texture_scales[stronger]);
       b.tiles_and_thing.z = std::uint32_t(first_thing_) + std::uint32_t(i);
       b.light_in_crown = {albedo_factor[cell], sun[cell], sky[cell]};
-      b.ways_out = scale * ways_out(placed.tree->box, centre, frame, b.extent, to_sun);
+      b.exit_distances = scale * exit_distances(placed.tree->box, centre, frame, b.extent, to_sun);
     }
   }
 

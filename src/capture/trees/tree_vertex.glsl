@@ -14,7 +14,7 @@ layout(location = 4) in vec4 base_colour_of_cell;
 layout(location = 5) in uvec3 tiles_and_thing;  // textures of the two photographs; number of the thing
 layout(location = 6) in vec4 extent;            // of the quad, in half billboards: low and high corner
 layout(location = 7) in vec3 light_in_crown;    // factor from textures to albedo, shares of sun and sky
-layout(location = 9) in vec4 ways_out;          // of each corner: metres toward the sun to the crown's end
+layout(location = 9) in vec4 exit_distances;    // of each corner: metres toward the sun to the crown's end
 layout(location = 8) in vec4 texture_scales;    // from the billboard to those of the two photographs
 
 flat out vec4 slants;
@@ -40,7 +40,7 @@ void surface_vertex() {
   object_of_surface = int(tiles_and_thing.z);
 #ifdef HAS_LIGHT
   LeafLight light = light_of_leaves(position, normalize(vertex_normal), light_in_crown.yz,
-                                    ways_out[gl_VertexID], int(tiles_and_thing.z));
+                                    exit_distances[gl_VertexID], int(tiles_and_thing.z));
   highlight_of_leaves = light.highlight;
   radiance_per_albedo = light.per_albedo;
 #endif
