@@ -175,6 +175,7 @@ void Renderer::gather_extents() {
 }
 
 void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade) {
+  ++frames_begun_;
   for (Drawable* drawable : drawables_) drawable->update(scene);
   gather_extents();
   if (!fixed_change_.empty()) {

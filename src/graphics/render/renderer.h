@@ -80,6 +80,8 @@ class Renderer {
   /// How often fixed things have appeared, vanished or moved, or the sky has changed: what is kept of their
   /// pictures is then out of date.
   int fixed_changes() const { return fixed_changes_; }
+  /// How many frames have begun: all eyes of a frame see the same number.
+  int frames_begun() const { return frames_begun_; }
 
   // The light that the ray tracer needs to agree with the picture.
   const shading::SkyLight& sky() const { return light_->sky(); }  ///< sky of the present frame
@@ -113,6 +115,7 @@ class Renderer {
   float exposure_ = 1.0f;
   double budget_ms_ = 0.0;  ///< of a frame; 0: none
   int fixed_changes_ = 0;
+  int frames_begun_ = 0;
   SceneDrawable scene_;
   SceneOccluders occluders_;
   std::vector<std::unique_ptr<Drawable>> room_drawables_;

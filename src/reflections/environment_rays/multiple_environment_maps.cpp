@@ -1,6 +1,7 @@
 #include "reflections/environment_rays/multiple_environment_maps.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
@@ -142,12 +143,16 @@ void MultipleEnvironmentMaps::forget_surroundings() {
     table_.forget();
 }
 
+void MultipleEnvironmentMaps::begin_frame() {
+  wanted_.clear();
+  table_.begin_frame();
+  renews_one_ = true;
+}
+
 /// The largest reflectors come first.
 void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer,
                                                 const std::vector<methods::VisibleReflector>& reflectors) {
-  wanted_.clear();
   if (table_.is_complete()) return;
-  table_.begin_frame();
   for (const methods::VisibleReflector& reflector : reflectors)
     for (const std::size_t map :
          table_.look_within(renderer.gpu().object_bounds()[std::size_t(reflector.object)]))
@@ -181,7 +186,8 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   prepared_.clear();
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
   find_missing_maps(renderer, reflectors);
-  if (renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
+  if (std::exchange(renews_one_, false) &&
+      renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
     faces_drawn_ += 6;
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;

@@ -62,6 +62,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void prepare(const gl::Program& program) const;
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
+  void begin_frame() override;
   void forget_surroundings() override;
   void find_missing_maps(const render::Renderer& renderer,
                          const std::vector<methods::VisibleReflector>& reflectors);
@@ -83,7 +84,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   glm::ivec2 cells_;
   int top_level_;
   MapTable table_;
-  std::vector<std::size_t> wanted_;  ///< maps that the last frame looked into and that have no layer
+  std::vector<std::size_t> wanted_;  ///< maps that the last frame's eyes looked into and that have no layer
+  bool renews_one_ = false;          ///< no eye of this frame has renewed a map yet
   bool prefers_rate_ = false;        ///< draws at most one missing map per frame
   gl::Texture heights_;
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "base/random.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
@@ -155,6 +157,31 @@ TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
     frame = (*renderer)->read_radiance();
   }
   EXPECT_EQ(frames[0].pixels, frames[1].pixels);
+}
+
+// Of two eyes that see a mirror each, the second must not displace what the first found missing.
+TEST_F(EnvironmentMapsTest, EachEyeOfAFrameGetsTheMapsThatItLooksInto) {
+  scene::Scene scene = tower_square();
+  render::add_mirror(scene, {30.0f, -30.0f, 1.6f}, 1.2f);
+  const auto facing = [](glm::vec3 mirror) {
+    Camera camera;
+    camera.world_from_camera = look_at(mirror + glm::vec3(-4, -4, 0.6f), mirror);
+    camera.vertical_fov = 0.6f;
+    return render::EyeView{camera, 160, 120};
+  };
+  const render::EyeView first = facing({1.5f, 0.5f, 1.6f}), second = facing({30.0f, -30.0f, 1.6f});
+  const auto seen_first = [&](std::span<const render::EyeView> eyes) {
+    Result<std::unique_ptr<render::Renderer>> renderer =
+        render::Renderer::create(scene, {}, light::sun_and_sky);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    const auto reflections = make_multiple_environment_maps(scene, **renderer);
+    EXPECT_TRUE(reflections) << to_string(reflections.errors());
+    EXPECT_TRUE((*renderer)->set_reflection(reflections->get()));
+    EXPECT_TRUE(methods::draw_frame(**renderer, scene, reflections->get(), eyes));
+    (*renderer)->select_eye(0);
+    return (*renderer)->read_radiance().pixels;
+  };
+  EXPECT_EQ(seen_first(std::array{first, second}), seen_first(std::array{first}));
 }
 
 TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {

@@ -5,13 +5,13 @@
 namespace parvis::methods {
 
 Status draw_frame(render::Renderer& renderer, const scene::Scene& scene, Reflections* reflections,
-                  const render::EyeView& eye, render::FrameSteps steps) {
+                  std::span<const render::EyeView> eyes, render::FrameSteps steps) {
   steps.reflect = [&](const Camera& camera) {
     if (reflections) reflections->update(renderer, scene, camera);
   };
-  Status status = render::draw_frame(renderer, scene, eye, steps);
+  Status status = render::draw_frame(renderer, scene, eyes, steps);
   while (status && reflections && reflections->supply(renderer, scene))
-    status = render::draw_frame(renderer, scene, eye, steps);
+    status = render::draw_frame(renderer, scene, eyes, steps);
   return status;
 }
 

@@ -42,6 +42,8 @@ void Reflections::update(render::Renderer& renderer, const scene::Scene& scene, 
 void Reflections::update_for(render::Renderer& renderer, const scene::Scene& scene,
                              const std::vector<VisibleReflector>& reflectors) {
   faces_drawn_ = 0;
+  if (frame_ != renderer.frames_begun()) begin_frame();
+  frame_ = renderer.frames_begun();
   if (fixed_changes_ && fixed_changes_ != renderer.fixed_changes()) forget_surroundings();
   fixed_changes_ = renderer.fixed_changes();
   update_maps(renderer, scene, reflectors);

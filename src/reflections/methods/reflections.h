@@ -66,7 +66,9 @@ class Reflections : public render::SurfaceShader {
   int faces_drawn() const { return faces_drawn_; }
 
  protected:
-  /// `reflectors` are ordered from the largest on the screen to the smallest.
+  /// A frame begins: called before update_maps for the first of its eyes.
+  virtual void begin_frame() {}
+  /// Called for each eye of a frame. `reflectors` are ordered from the largest on the screen to the smallest.
   virtual void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                            const std::vector<VisibleReflector>& reflectors) = 0;
   /// The fixed surroundings are others now.
@@ -75,6 +77,7 @@ class Reflections : public render::SurfaceShader {
   int faces_drawn_ = 0;
 
  private:
+  std::optional<int> frame_;          ///< of the renderer, whose first eye has been updated; none: no frame
   std::optional<int> fixed_changes_;  ///< of the renderer, that the maps know of; none: they are new
   std::vector<VisibleReflector> reflectors_;
 };
