@@ -5,21 +5,21 @@
 #include "capture/trees/bench/trees_bench.h"
 #include "capture/trees/room.h"
 #include "capture/view_dependent_objects/room.h"
-#include "formats/city_models/city_formats.h"
-#include "formats/gltf/gltf_formats.h"
-#include "formats/ifc/ifc_formats.h"
-#include "formats/inventor/inventor_formats.h"
-#include "formats/meshes/mesh_nodes.h"
+#include "formats/city_models/room.h"
+#include "formats/gltf/room.h"
+#include "formats/ifc/room.h"
+#include "formats/inventor/room.h"
+#include "formats/meshes/room.h"
 #include "formats/readers/bench/import_export_bench.h"
-#include "formats/terrain/terrain_formats.h"
+#include "formats/terrain/room.h"
 #include "graphics/bounced_light/room.h"
 #include "graphics/lamps/room.h"
 #include "graphics/light/bench/light_bench.h"
-#include "graphics/light/light_nodes.h"
+#include "graphics/light/room.h"
 #include "graphics/lit_objects/room.h"
 #include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
-#include "life/traffic/traffic_nodes.h"
+#include "life/traffic/room.h"
 #include "life/vegetation/bench/vegetation_bench.h"
 #include "life/vegetation/room.h"
 #include "machines/bench/processes_bench.h"
@@ -36,9 +36,9 @@
 #include "reflections/traced/room.h"
 #include "reflections/virtual_objects/bench/curved_reflectors_bench.h"
 #include "reflections/virtual_objects/room.h"
-#include "scene/action/action_nodes.h"
-#include "scene/roads/road_nodes.h"
-#include "scene/script/script_nodes.h"
+#include "scene/action/room.h"
+#include "scene/roads/room.h"
+#include "scene/script/room.h"
 #include "viewer/bench/window_bench.h"
 
 namespace parvis::house {
@@ -46,17 +46,17 @@ namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
 constexpr Furnish rooms[]{
-    scene::furnish_script,
-    scene::furnish_gltf,
-    scene::furnish_city_models,
-    scene::furnish_ifc,
+    script::furnish,
+    gltf::furnish,
+    city_models::furnish,
+    ifc::furnish,
     inventor::furnish,
-    scene::furnish_terrain,
-    scene::furnish_meshes,
+    terrain::furnish,
+    meshes::furnish,
     dressing::furnish,  // before roads: see its docstring
-    scene::furnish_roads,
+    roads::furnish,
     traffic::furnish,
-    scene::furnish_light,
+    light::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
     shadows::furnish,        // after light, whose shadows it replaces

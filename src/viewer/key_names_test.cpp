@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scene/action/action_nodes.h"
+#include "scene/action/key_names.h"
 
 namespace parvis::viewer {
 namespace {

@@ -23,8 +23,8 @@
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::trees {
 namespace {
@@ -343,7 +343,7 @@ class TreeNodeTest : public testing::Test {
  protected:
   TreeNodeTest() {
     std::filesystem::create_directories(folder_);
-    scene::furnish_script(house_), furnish(house_);
+    script::furnish(house_), furnish(house_);
   }
   Result<scene::LoadedScene> load(const std::string& script) const {
     std::ofstream(folder_ / "scene.xp") << script;

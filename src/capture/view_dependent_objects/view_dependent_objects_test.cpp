@@ -9,9 +9,9 @@
 #include "capture/view_dependent_objects/placed_object.h"
 #include "capture/view_dependent_objects/room.h"
 #include "capture/view_dependent_objects/view_lookup.h"
-#include "formats/gltf/gltf_formats.h"
 #include "formats/gltf/gltf_writer.h"
-#include "formats/inventor/inventor_formats.h"
+#include "formats/gltf/room.h"
+#include "formats/inventor/room.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
@@ -19,8 +19,8 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
@@ -181,7 +181,7 @@ DEF body Separator {
 class VdObject : public gl::ContextTest {
  protected:
   VdObject() {
-    scene::furnish_script(house_), scene::furnish_gltf(house_), inventor::furnish(house_);
+    script::furnish(house_), gltf::furnish(house_), inventor::furnish(house_);
     view_dependent_objects::furnish(house_);
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "car.glb", *painted(wall(), red, "body")));
     folder_.write("car2.iv", thesis_inventor);

@@ -6,7 +6,7 @@
 
 #include "base/image_io.h"
 #include "base/test_folder.h"
-#include "formats/inventor/inventor_formats.h"
+#include "formats/inventor/room.h"
 #include "formats/inventor/test_files.h"
 
 namespace parvis::inventor {

@@ -1,14 +1,10 @@
-// What this room brings to the house: models, their materials and wheels; and the reader of meshes.
+// The node types of models, their materials and wheels.
 #pragma once
 
-#include "base/house.h"
 #include "formats/readers/readers.h"
 #include "scene/script/node_registry.h"
 
 namespace parvis::scene {
-
-/// model, object, material, wheels; the reader of every file that no other room reads.
-void furnish_meshes(House& house);
 
 // The node types, each with a file nodes_FAMILY.cpp. `readers` must outlive the registry.
 /// model.

@@ -9,7 +9,7 @@
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
-#include "graphics/light/light_nodes.h"
+#include "graphics/light/room.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/scene_lamps.h"
@@ -17,9 +17,9 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::lamps {
 namespace {
@@ -241,8 +241,8 @@ TEST_F(LampPicture, LampsOfMovingObjectsFollowThemAndArePartOfNoStillPicture) {
 class LampNode : public testing::Test {
  protected:
   LampNode() {
-    scene::furnish_script(house_);
-    scene::furnish_light(house_);
+    script::furnish(house_);
+    light::furnish(house_);
     add_lamp_node(house_.get<scene::NodeRegistry>());
   }
   Result<scene::LoadedScene> load(const std::string& script) {

@@ -10,10 +10,10 @@
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/cloud_cover.h"
-#include "graphics/light/light_nodes.h"
+#include "graphics/light/room.h"
 #include "scene/script/live_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::light {
 namespace {
@@ -21,8 +21,8 @@ namespace {
 const scene::NodeRegistry& registry() {
   static const House house = [] {
     House all;
-    scene::furnish_script(all);
-    scene::furnish_light(all);
+    script::furnish(all);
+    light::furnish(all);
     return all;
   }();
   return house.get<scene::NodeRegistry>();

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "graphics/light/day_light.h"
-#include "graphics/light/light_nodes.h"
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
+#include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/light/sky_picture.h"
 #include "graphics/light/sun_and_sky.h"
@@ -113,7 +113,10 @@ NodeSchema exposure_schema() {
 
 }  // namespace
 
-void furnish_light(House& house) {
+}  // namespace parvis::scene
+
+void parvis::light::furnish(House& house) {
+  using namespace parvis::scene;
   house.get<render::Lights>().make = light::sun_and_sky;
   NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(sun_schema(), build_sun);
@@ -129,5 +132,3 @@ void furnish_light(House& house) {
     builder.scene.exposure = day.chosen_exposure * day.adaptation;
   });
 }
-
-}  // namespace parvis::scene

@@ -5,11 +5,11 @@
 
 #include "base/random.h"
 #include "base/test_folder.h"
-#include "formats/gltf/gltf_formats.h"
 #include "formats/gltf/gltf_writer.h"
-#include "formats/meshes/mesh_nodes.h"
+#include "formats/gltf/room.h"
+#include "formats/meshes/room.h"
 #include "graphics/gl/test_context.h"
-#include "graphics/light/light_nodes.h"
+#include "graphics/light/room.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/lit_objects/lighting_process.h"
 #include "graphics/lit_objects/room.h"
@@ -18,11 +18,11 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/renderer.h"
-#include "scene/action/action_nodes.h"
+#include "scene/action/room.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::lit_objects {
 namespace {
@@ -57,8 +57,8 @@ struct Running {
 class LitObjects : public gl::ContextTest {
  protected:
   LitObjects() {
-    for (const auto furnish : {scene::furnish_script, scene::furnish_gltf, scene::furnish_meshes,
-                               scene::furnish_light, action::furnish, lit_objects::furnish})
+    for (const auto furnish : {script::furnish, gltf::furnish, meshes::furnish, light::furnish,
+                               action::furnish, lit_objects::furnish})
       furnish(house_);
     save("ground.glb", scene::ground(40));
     save("wall.glb", scene::box({-8, 2, 0}, {8, 3, 9}));

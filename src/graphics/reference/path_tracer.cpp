@@ -57,7 +57,7 @@ float PathTracer::weight(float density, float other_density, bool is_chosen_ligh
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// What a ray brings that meets nothing: sun and sky.
+/// The radiance along a ray that hits nothing: sun and sky.
 vec3 PathTracer::surroundings(const Path& path) const {
   const vec3 direction = path.ray.direction;
   const bool is_shared = path.density > 0.0f;  // chosen lights find it, too

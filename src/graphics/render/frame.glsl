@@ -5,7 +5,7 @@ const float max_radiance = 30000.0f;  // targets hold half floats
 UNIFORM_BLOCK(Frame) {
   mat4 clip_from_world;
   vec4 viewer_position;
-  vec4 frame_to_sun;  // w: haze a metre
+  vec4 frame_to_sun;  // w: haze per metre
   vec4 frame_sun_irradiance;
   vec4 frame_spot;  // where the sun's light comes from if it is a spot light; w: cosine of half its cone; -2:
                     // it is none

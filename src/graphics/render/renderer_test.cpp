@@ -103,7 +103,7 @@ TEST_F(RendererTest, AWallStandsWhereTrigonometrySays) {
   const auto renderer = renderer_of(scene);
   Camera camera;
   camera.world_from_camera = look_at({0, 0, 2}, {0, 10, 2});
-  camera.vertical_fov = 0.5f * pi;  // at 10 m, 20 m stand over 200 pixels: 10 a metre
+  camera.vertical_fov = 0.5f * pi;  // at 10 m, 20 m stand over 200 pixels: 10 per metre
   const ObjectPicture objects = renderer->pick(camera, 200, 200, false);
   const auto is_wall = [&](int x, int y) { return *objects.at(x, y) == 1u; };
   for (int y = 0; y < 200; ++y)
@@ -463,7 +463,7 @@ TEST_F(RendererTest, ADynamicThingFarAwayTakesFewerTrianglesAndLooksTheSame) {
   }
   EXPECT_LT(nearer, all / 20);
 
-  Camera camera;  // of so many pixels a metre, half a pixel beside its place is what no picture shows
+  Camera camera;  // of so many pixels per metre, half a pixel beside its place is what no picture shows
   camera.world_from_camera = look_at({0, -20, 0}, {0, 0, 0});
   camera.vertical_fov = 0.15f;
   draw(*renderer, scene, camera, 256, 256);

@@ -24,8 +24,8 @@ GLSL_FUNCTION vec3 octahedral_direction(vec2 uv) {
   return normalize(vec3(p.x, p.y, z));
 }
 
-// From the square without a border into a layer of `resolution` texels a side whose outermost `border` texels
-// repeat what lies across the sides, so that filters find their neighbours.
+// From the square without a border into a layer of `resolution` texels per side whose outermost `border`
+// texels repeat what lies across the sides, so that filters find their neighbours.
 GLSL_FUNCTION vec2 uv_in_layer(vec2 uv, float resolution, float border) {
   return (uv * (resolution - 2.0f * border) + vec2(border)) / resolution;
 }

@@ -8,8 +8,8 @@ namespace {
 constexpr int texels = 64;
 constexpr vec3 up{0, 0, 1};
 
-/// The sun in the zenith over 64 m x 64 m, a texel a metre: a map that covers [0, 64]^2 and depth 0 at 100 m
-/// of height, 1 at 0. West of x = 32 m stands a roof of 50 m.
+/// The sun in the zenith over 64 m x 64 m, one texel per metre: a map that covers [0, 64]^2 and depth 0 at
+/// 100 m of height, 1 at 0. West of x = 32 m stands a roof of 50 m.
 SunShadow roof_in_the_west() {
   SunShadow shadow;
   mat4 uvz_from_world(0.0f);

@@ -5,7 +5,7 @@
 
 #include "base/test_folder.h"
 #include "graphics/gl/context.h"
-#include "graphics/light/light_nodes.h"
+#include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/tracer.h"
@@ -15,9 +15,9 @@
 #include "graphics/shadows/near_map_fit.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::shadows {
 namespace {
@@ -210,8 +210,8 @@ TEST_F(ChosenLightTest, SpotLightsAndReceiversAgreeWithTheRayTracer) {
 class ShadowMapNode : public testing::Test {
  protected:
   ShadowMapNode() {
-    scene::furnish_script(house_);
-    scene::furnish_light(house_);
+    script::furnish(house_);
+    light::furnish(house_);
   }
   Result<scene::LoadedScene> load(const std::string& script) {
     folder_.write("scene.xp", script);

@@ -1,8 +1,7 @@
-#include "life/traffic/traffic_nodes.h"
-
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
+#include "life/traffic/room.h"
 #include "life/traffic/traffic_process.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"

@@ -6,15 +6,15 @@
 #include "life/vegetation/room.h"
 #include "life/vegetation/scene_plant.h"
 #include "scene/script/live_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::vegetation {
 namespace {
 
 class PlantNode : public testing::Test {
  protected:
-  PlantNode() { scene::furnish_script(house_), furnish(house_); }
+  PlantNode() { script::furnish(house_), furnish(house_); }
   Result<scene::LoadedScene> load(const std::string& script) {
     folder_.write("scene.xp", script);
     return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>(), {});

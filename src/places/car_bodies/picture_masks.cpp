@@ -14,7 +14,7 @@ namespace {
 
 constexpr float grey_tolerance = 0.085f;  // largest difference of the channels of a pane's colour
 constexpr float min_pane_share = 0.02f;   // of all panes' area: smaller regions are seals and shadows
-constexpr int grid = 128;                 // cells a side of the picture, in which regions are found
+constexpr int grid = 128;                 // cells per side of the picture, in which regions are found
 constexpr float margin = 0.006f;          // about a region, for texels of its edge
 
 /// A triangle with what its picture has at the middle.

@@ -5,7 +5,7 @@
 #include "places/dressing/ground_cover.h"
 #include "places/dressing/terrain_plane.h"
 #include "scene/data/surroundings.h"
-#include "scene/roads/road_nodes.h"
+#include "scene/roads/road_data.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::dressing {

@@ -9,7 +9,7 @@
 #include "graphics/render/surface_body.glsl"
 
 uniform highp sampler2D local_maps;
-uniform vec3 local_map;     // south-west corner in texels, texels a side of a tile; 0: there is none
+uniform vec3 local_map;     // south-west corner in texels, texels per side of a tile; 0: there is none
 uniform vec2 picture_size;  // of all local maps
 uniform float local_border;
 

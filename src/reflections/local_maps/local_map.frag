@@ -3,7 +3,7 @@
 #include "graphics/shading/octahedral.glsl"
 
 uniform highp sampler2DArray map_colours;
-uniform vec2 layer_size;  // texels a side, and of its border
+uniform vec2 layer_size;  // texels per side, and of its border
 
 in vec3 from_a;
 in vec3 from_b;

@@ -17,7 +17,7 @@ constexpr float blurs_from_px = 16.0f;  // a frame: an eye that stays sees no mo
 // The declared costs: of a map, and of each of its texels, mesh included.
 constexpr double map_ms = 0.1, texel_ms = 30e-6;
 constexpr double blend_ms = 0.01;
-// How much of the best a map of half or a quarter as many texels a side is worth, and simple blending.
+// How much of the best a map of half or a quarter as many texels per side is worth, and simple blending.
 constexpr std::array<double, LevelLadder::max_rungs> worths{0.4, 0.75, 0.9, 1.0};
 
 }  // namespace

@@ -31,7 +31,7 @@ struct MeshRule {
 struct FaceTask {
   glm::vec3 centre;        ///< of the reflector, in the world
   int face;                ///< in OpenGL's order
-  int tile;                ///< texels a side, border included
+  int tile;                ///< texels per side, border included
   glm::vec2 corner;        ///< of the tile in the picture of all maps, in texels
   std::uint32_t map_pair;  ///< the two reference maps: first | second << 16
   MeshRule rule;

@@ -4,7 +4,7 @@
 //   u64      key: what the map depends on (map_cache.h)
 //   u32      maps in all, and for each of them: 3 f32, its place, metres in the world
 //   u32      number of this map, from 0
-//   u32      texels a side of its layer
+//   u32      texels per side of its layer
 //   u32      textures, and for each of them: u32 size in bytes, then as many bytes as OpenGL gives and takes
 //   u64      checksum of all before it (base/content_hash.h)
 //

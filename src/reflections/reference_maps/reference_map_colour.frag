@@ -3,7 +3,7 @@
 #include "graphics/shading/octahedral.glsl"
 
 uniform highp samplerCube cube;
-uniform vec2 layer_size;  // texels a side, and of its border
+uniform vec2 layer_size;  // texels per side, and of its border
 in vec2 screen_uv;
 out vec4 radiance;
 

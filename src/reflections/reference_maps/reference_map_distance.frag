@@ -5,7 +5,7 @@
 uniform highp sampler2D face_depth;  // reversed: 1 at the near plane, 0 at the far one
 uniform mat4 clip_from_direction;    // of the face, seen from its centre
 uniform vec2 near_far;
-uniform vec2 layer_size;  // texels a side, and of its border
+uniform vec2 layer_size;  // texels per side, and of its border
 in vec2 screen_uv;
 out float distance_m;
 

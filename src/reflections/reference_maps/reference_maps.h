@@ -16,11 +16,11 @@ class ReferenceMaps {
   /// Texels that repeat what lies across a layer's sides, in its finest level.
   static constexpr int border = 4;
   static glm::ivec2 gloss_size();  ///< texels of a layer of `glosses`
-  /// Texels a side of a layer that is as sharp as cube maps with faces of `face_resolution`. 54 maps for
+  /// Texels per side of a layer that is as sharp as cube maps with faces of `face_resolution`. 54 maps for
   /// faces of 128 take 30 MB, compressed 14.
   static int layer_side(int face_resolution);
 
-  /// Graphics memory of one map with layers of `resolution` texels a side, all in all.
+  /// Graphics memory of one map with layers of `resolution` texels per side, all in all.
   static std::size_t bytes_per_map(int resolution, bool is_compressed = false);
   /// How many maps one set holds: OpenGL's layers per texture.
   static std::size_t max_count();
@@ -35,7 +35,7 @@ class ReferenceMaps {
                                     int face_resolution);
 
   const std::vector<glm::vec3>& places() const { return places_; }
-  int resolution() const { return resolution_; }      ///< texels a side of a layer
+  int resolution() const { return resolution_; }      ///< texels per side of a layer
   GLuint colours() const { return colours_.name(); }  ///< linear radiance, with mipmaps
   GLuint glosses() const { return glosses_.name(); }  ///< blurred for roughness, map_levels.glsl
   GLuint distances() const {

@@ -2,7 +2,7 @@
 // alone and mixed half and half. Wrong near by, where it shows everything twice; far away a body is too small
 // to tell. Needs octahedral.glsl.
 uniform highp sampler2DArray map_colours;
-uniform vec2 layer_size;  // texels a side, and of its border
+uniform vec2 layer_size;  // texels per side, and of its border
 uniform vec2 map_pair;
 
 const float layer_texel_rad =

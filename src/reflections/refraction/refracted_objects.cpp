@@ -13,10 +13,9 @@ namespace {
 
 #include "reflections/refraction/glass_light_part.glsl"
 
-constexpr float ways_apart =
-    0.45f;  // radians: how far a body may stand beside each traced ray and still be shown
-constexpr int pane_number = 255;        // of the stencil
-constexpr std::size_t max_shown = 254;  // other numbers
+constexpr float max_angle_from_ray = 0.45f;  // radians: a body farther beside each traced ray is not shown
+constexpr int pane_number = 255;             // of the stencil
+constexpr std::size_t max_shown = 254;       // other numbers
 
 /// A reflector's mesh as one patch, for drawing alone.
 Reflector surface_of(const Reflector& reflector) {
@@ -258,7 +257,7 @@ bool RefractedObjects::may_show(const Bounds& bounds) const {
       return false;
     if (distance <= radius) return true;
     const float angle = std::acos(std::clamp(glm::dot(to_centre, glm::vec3(ray[2])) / distance, -1.0f, 1.0f));
-    return angle < std::asin(radius / distance) + ways_apart;
+    return angle < std::asin(radius / distance) + max_angle_from_ray;
   });
 }
 

@@ -28,13 +28,13 @@ struct TracedRay {
 /// they meet it. The area between them vanishes there: det(apart + t turned) = 0. None: a distance that is
 /// reached nowhere.
 glm::vec2 foci_of(glm::vec3 outgoing, const std::array<glm::vec3, 2>& points_apart,
-                  const std::array<glm::vec3, 2>& ways_apart) {
+                  const std::array<glm::vec3, 2>& directions_apart) {
   const glm::vec3 x = glm::normalize(
       glm::cross(std::abs(outgoing.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), outgoing));
   const glm::vec3 y = glm::cross(outgoing, x);
   const auto across = [&](glm::vec3 d) { return glm::dvec2(glm::dot(d, x), glm::dot(d, y)); };
   const glm::dmat2 apart(across(points_apart[0]), across(points_apart[1]));
-  const glm::dmat2 turned(across(ways_apart[0]), across(ways_apart[1]));
+  const glm::dmat2 turned(across(directions_apart[0]), across(directions_apart[1]));
   const double a = glm::determinant(turned), c = glm::determinant(apart);
   const double b = apart[0][0] * turned[1][1] + turned[0][0] * apart[1][1] - apart[0][1] * turned[1][0] -
                    turned[0][1] * apart[1][0];

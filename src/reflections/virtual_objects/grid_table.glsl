@@ -1,6 +1,6 @@
 // All virtual grids of a scene in one texture, as VertexSearch lays them out: for each grid its origin, its
-// cells a metre, its count of cells, its corners (their count stands beside the origin), then the numbers of
-// the corners by their place in the grid's box, four to a texel; a place without a corner holds -1. Grids
+// cells per metre, its count of cells, its corners (their count stands beside the origin), then the numbers
+// of the corners by their place in the grid's box, four to a texel; a place without a corner holds -1. Grids
 // that are all vertices of a mesh have corners alone.
 #include "reflections/virtual_objects/grid_sizes.glsl"
 

@@ -31,7 +31,7 @@ void main() {
     else
       outside = along;
   }
-  if (inside == 0.0f || outside == 0.0f) discard;  // it leaves at once, or meets nothing
+  if (inside == 0.0f || outside == 0.0f) discard;  // it leaves at once, or hits nothing
   for (int i = 0; i < halvings; ++i) {
     float along = 0.5f * (inside + outside);
     if (beyond(at.position + along * direction) < 0.0f)

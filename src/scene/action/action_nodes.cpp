@@ -1,9 +1,9 @@
-#include "scene/action/action_nodes.h"
-
 #include <algorithm>
 
 #include "scene/action/actions.h"
 #include "scene/action/animation_process.h"
+#include "scene/action/key_names.h"
+#include "scene/action/room.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
-#include "scene/action/action_nodes.h"
+#include "scene/action/room.h"
 #include "scene/data/test_scene.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::action {
 namespace {
@@ -62,7 +62,7 @@ void furnish_bells(House& house) {
 
 class SceneClockTest : public testing::Test {
  protected:
-  SceneClockTest() { scene::furnish_script(house_), furnish(house_), furnish_bells(house_); }
+  SceneClockTest() { script::furnish(house_), furnish(house_), furnish_bells(house_); }
 
   void load(const std::string& script) {
     auto loaded = load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());

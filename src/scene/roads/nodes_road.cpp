@@ -7,8 +7,9 @@
 #include "scene/data/model_parts.h"
 #include "scene/roads/paving.h"
 #include "scene/roads/road_builder.h"
+#include "scene/roads/road_data.h"
 #include "scene/roads/road_from_polygons.h"
-#include "scene/roads/road_nodes.h"
+#include "scene/roads/room.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -163,12 +164,13 @@ void finish_roads(SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish_roads(House& house) {
+}  // namespace parvis::scene
+
+void parvis::roads::furnish(House& house) {
+  using namespace parvis::scene;
   NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(road_schema(), build_road);
   registry.add(streets_schema(), build_streets);
   registry.add(paving_schema(), build_paving);
   registry.add_finish_step(finish_roads);
 }
-
-}  // namespace parvis::scene

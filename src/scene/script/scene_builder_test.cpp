@@ -9,8 +9,8 @@
 #include "scene/script/attribute.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/placement.h"
+#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
-#include "scene/script/script_nodes.h"
 
 namespace parvis::scene {
 namespace {
@@ -106,7 +106,7 @@ void furnish(House& house) {
 
 class SceneBuilderTest : public testing::Test {
  protected:
-  SceneBuilderTest() { furnish_script(house_), furnish(house_); }
+  SceneBuilderTest() { script::furnish(house_), furnish(house_); }
 
   Result<LoadedScene> read(const std::string& script) {
     return load_scene(folder_.write("scene.xp", script), house_.get<NodeRegistry>());

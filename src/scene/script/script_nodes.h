@@ -1,13 +1,9 @@
-// What this room brings to the house: the node types that any scene has.
+// The node types that any scene has.
 #pragma once
 
-#include "base/house.h"
 #include "scene/script/node_registry.h"
 
 namespace parvis::scene {
-
-/// include, group; camera; scenario, override.
-void furnish_script(House& house);
 
 // Their families, each with a file nodes_FAMILY.cpp.
 void add_grouping_nodes(NodeRegistry& registry);  ///< include, group

@@ -1,22 +1,23 @@
 // The rooms of a scene, for tests of what they do together.
 #pragma once
 
-#include "formats/city_models/city_formats.h"
-#include "formats/gltf/gltf_formats.h"
-#include "formats/meshes/mesh_nodes.h"
-#include "formats/terrain/terrain_formats.h"
-#include "graphics/light/light_nodes.h"
-#include "life/traffic/traffic_nodes.h"
-#include "scene/action/action_nodes.h"
-#include "scene/roads/road_nodes.h"
-#include "scene/script/script_nodes.h"
+#include "formats/city_models/room.h"
+#include "formats/gltf/room.h"
+#include "formats/meshes/room.h"
+#include "formats/terrain/room.h"
+#include "graphics/light/room.h"
+#include "life/traffic/room.h"
+#include "scene/action/room.h"
+#include "scene/roads/room.h"
+#include "scene/script/room.h"
 
 namespace parvis::scene {
 
 inline House test_house() {
   House house;
-  for (const auto furnish : {furnish_script, furnish_gltf, furnish_city_models, furnish_terrain,
-                             furnish_meshes, furnish_roads, traffic::furnish, furnish_light, action::furnish})
+  for (const auto furnish :
+       {script::furnish, gltf::furnish, city_models::furnish, terrain::furnish, meshes::furnish,
+        roads::furnish, traffic::furnish, light::furnish, action::furnish})
     furnish(house);
   return house;
 }

@@ -10,7 +10,7 @@
 namespace parvis::bench {
 
 /// Adds the figure `key`: FLIP to the ray tracer's pictures inside what mirrors or refracts, by the stage's
-/// method over that by cube maps of 512 pixels a face with centres of their own, summed over views from
+/// method over that by cube maps of 512 pixels per face with centres of their own, summed over views from
 /// `cameras`.
 Status measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, int width,
                                  int height, const std::string& key, Report& report);

@@ -3,9 +3,9 @@
 
 #include "base/house.h"
 
-namespace parvis::scene {
+namespace parvis::ifc {
 
 /// Adds the reader of .ifc.
-void furnish_ifc(House& house);
+void furnish(House& house);
 
-}  // namespace parvis::scene
+}  // namespace parvis::ifc

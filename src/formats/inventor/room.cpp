@@ -1,4 +1,4 @@
-#include "formats/inventor/inventor_formats.h"
+#include "formats/inventor/room.h"
 
 #include "formats/inventor/inventor_reader.h"
 #include "formats/readers/isolated_reader.h"

@@ -1,4 +1,4 @@
-#include "formats/city_models/city_formats.h"
+#include "formats/city_models/room.h"
 
 #include "formats/city_models/city_gml.h"
 #include "formats/city_models/city_json.h"
@@ -7,35 +7,36 @@
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 
-namespace parvis::scene {
+namespace parvis::city_models {
 namespace {
 using formats::ModelReading;
+using scene::Model;
 namespace fs = std::filesystem;
 
 Result<Model> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return read_city_model(file, warnings, reading.max_detail);
+  return scene::read_city_model(file, warnings, reading.max_detail);
 }
 
 Result<Model> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return read_city_gml(file, warnings, reading.max_detail);
+  return scene::read_city_gml(file, warnings, reading.max_detail);
 }
 
 Result<Model> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return read_osm(file, warnings, reading.ground);
+  return scene::read_osm(file, warnings, reading.ground);
 }
 
 /// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
 Result<Model> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
   static const formats::ReadModel alone = formats::isolated<read_map>();
   if (!reading.ground) return alone(file, reading, warnings);
-  const Result<OsmFile> osm = read_osm_file_isolated(file, warnings);
+  const Result<scene::OsmFile> osm = scene::read_osm_file_isolated(file, warnings);
   if (!osm) return osm.errors();
-  return model_of_osm(*osm, file, warnings, reading.ground);
+  return scene::model_of_osm(*osm, file, warnings, reading.ground);
 }
 
 }  // namespace
 
-void furnish_city_models(House& house) {
+void furnish(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
   readers.add({".json", ".jsonl"}, formats::isolated<read_json>(), formats::looks_like_json);
   readers.add({".gml", ".citygml", ".xml"}, formats::isolated<read_gml>(), formats::looks_like_xml);
@@ -43,4 +44,4 @@ void furnish_city_models(House& house) {
   readers.add({".pbf"}, read_map_on_ground, formats::looks_like_osm_pbf);
 }
 
-}  // namespace parvis::scene
+}  // namespace parvis::city_models

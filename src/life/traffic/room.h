@@ -5,6 +5,7 @@
 
 namespace parvis::traffic {
 
+/// Adds the node type and the process.
 void furnish(House& house);
 
 }  // namespace parvis::traffic

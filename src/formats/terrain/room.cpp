@@ -1,14 +1,14 @@
-#include "formats/terrain/terrain_formats.h"
+#include "formats/terrain/room.h"
 
 #include "formats/readers/isolated_reader.h"
 #include "formats/terrain/terrain.h"
 
-namespace parvis::scene {
+namespace parvis::terrain {
 namespace {
 
-Result<Model> read_grid(const std::filesystem::path& file, const formats::ModelReading& reading,
-                        Errors& warnings) {
-  return read_terrain(file, reading.cell_m, warnings);
+Result<scene::Model> read_grid(const std::filesystem::path& file, const formats::ModelReading& reading,
+                               Errors& warnings) {
+  return scene::read_terrain(file, reading.cell_m, warnings);
 }
 
 /// TIFF and BigTIFF, of either byte order.
@@ -20,9 +20,9 @@ bool is_tiff(std::string_view front) {
 
 }  // namespace
 
-void furnish_terrain(House& house) {
+void furnish(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
   readers.add({".tif", ".tiff"}, formats::isolated<read_grid>(), is_tiff);
 }
 
-}  // namespace parvis::scene
+}  // namespace parvis::terrain

@@ -1,22 +1,23 @@
-#include "formats/gltf/gltf_formats.h"
+#include "formats/gltf/room.h"
 
 #include "formats/gltf/gltf_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 
-namespace parvis::scene {
+namespace parvis::gltf {
 namespace {
 
-Result<Model> read_model(const std::filesystem::path& file, const formats::ModelReading&, Errors& warnings) {
-  return read_gltf(file, warnings);
+Result<scene::Model> read_model(const std::filesystem::path& file, const formats::ModelReading&,
+                                Errors& warnings) {
+  return scene::read_gltf(file, warnings);
 }
 
 bool is_gltf(std::string_view front) { return front.starts_with("glTF") || formats::looks_like_json(front); }
 
 }  // namespace
 
-void furnish_gltf(House& house) {
+void furnish(House& house) {
   house.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf);
 }
 
-}  // namespace parvis::scene
+}  // namespace parvis::gltf

@@ -5,7 +5,7 @@
 
 namespace parvis::inventor {
 
-/// The reader of .iv and .wrl.
+/// Adds the reader of .iv and .wrl.
 void furnish(House& house);
 
 }  // namespace parvis::inventor

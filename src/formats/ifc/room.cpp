@@ -1,14 +1,14 @@
-#include "formats/ifc/ifc_formats.h"
+#include "formats/ifc/room.h"
 
 #include "formats/ifc/ifc_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 
-namespace parvis::scene {
+namespace parvis::ifc {
 namespace {
 
-Result<Model> read(const std::filesystem::path& file, const formats::ModelReading&, Errors& warnings) {
-  return read_ifc(file, warnings);
+Result<scene::Model> read(const std::filesystem::path& file, const formats::ModelReading&, Errors& warnings) {
+  return scene::read_ifc(file, warnings);
 }
 
 /// ISO 10303-21, the text form of STEP.
@@ -18,8 +18,8 @@ bool looks_like_step(std::string_view front) {
 
 }  // namespace
 
-void furnish_ifc(House& house) {
+void furnish(House& house) {
   house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step);
 }
 
-}  // namespace parvis::scene
+}  // namespace parvis::ifc

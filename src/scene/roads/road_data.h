@@ -1,15 +1,11 @@
-// What this room brings to the house: road, streets, paving; and what they keep in a scene.
+// What the nodes road, streets and paving keep in a scene.
 #pragma once
 
 #include "base/content_hash.h"
-#include "base/house.h"
 #include "scene/data/road.h"
 #include "scene/data/room_data.h"
 
 namespace parvis::scene {
-
-/// Adds the node types, and the step that makes lanes of roads.
-void furnish_roads(House& house);
 
 /// A road of the script, in the world. Its lanes are built by the finish step.
 struct PlannedRoad {

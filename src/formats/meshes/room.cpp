@@ -1,0 +1,19 @@
+#include "formats/meshes/room.h"
+
+#include "formats/meshes/mesh_formats.h"
+#include "formats/meshes/mesh_nodes.h"
+
+namespace parvis::meshes {
+
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+  formats::Readers& readers = house.get<formats::Readers>();
+  scene::add_model_node(registry, readers);
+  scene::add_object_node(registry, readers);
+  scene::add_material_nodes(registry);
+  scene::add_wheel_nodes(registry);
+  registry.allow(scene::include_type, "model");
+  scene::add_mesh_formats(readers);
+}
+
+}  // namespace parvis::meshes
