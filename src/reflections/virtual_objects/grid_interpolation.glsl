@@ -1,5 +1,7 @@
 // Virtual vertices out of the eight corners of their cell (Estalella and others 2005, section 5), trilinear.
 // Needs virtual_point.glsl and grid_table.glsl.
+#include "reflections/virtual_objects/grid_cells.glsl"
+
 uniform highp sampler2DArray grid_results;  // of vertex_search.frag
 
 // Of a corner, or of a vertex that is one, as it was searched for.
@@ -19,16 +21,15 @@ struct InterpolatedPoint {
 InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
   const float min_agreement = 0.95f;
   vec4 origin = grid_texel(grid);
-  vec3 place = (vertex - origin.xyz) * grid_texel(grid + 1).xyz;
+  vec3 place = position_in_cells(vertex, origin.xyz, grid_texel(grid + 1).xyz);
   ivec3 count = ivec3(grid_texel(grid + 2).xyz);
-  ivec3 cell = clamp(ivec3(floor(place)), ivec3(0), count - 1);
+  ivec3 cell = cell_around(place, count);
   vec3 part = place - vec3(cell);
   vec4 image = vec4(0.0f);
   vec3 seen_from = vec3(0.0f), shown_by = vec3(0.0f);
   for (int i = 0; i < 8; ++i) {
     ivec3 far = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-    ivec3 in_box = cell + far;
-    int corner = corner_at(grid, (in_box.z * (count.y + 1) + in_box.y) * (count.x + 1) + in_box.x);
+    int corner = corner_at(grid, index_in_box(cell + far, count));
     vec3 shares = mix(1.0f - part, part, vec3(far));
     float share = shares.x * shares.y * shares.z;
     VirtualPoint point = searched_point(corner, first_row);

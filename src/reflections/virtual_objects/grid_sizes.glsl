@@ -3,4 +3,6 @@
 
 const int table_width = 1024;
 const int results_width = 64;
-const int result_layers = 3;  // image, reflection point, normal there
+const int result_layers = 3;       // image, reflection point, normal there
+const int grid_header_texels = 3;  // before the corners: origin, cells per metre, count of cells
+const int numbers_per_texel = 4;   // of corners, by their place in the box

@@ -12,8 +12,9 @@ vec4 grid_texel(int texel) {
 
 int corner_count(int grid) { return int(grid_texel(grid).w); }
 
-vec3 corner_position(int grid, int corner) { return grid_texel(grid + 3 + corner).xyz; }
+vec3 corner_position(int grid, int corner) { return grid_texel(grid + grid_header_texels + corner).xyz; }
 
 int corner_at(int grid, int place_in_box) {
-  return int(grid_texel(grid + 3 + corner_count(grid) + place_in_box / 4)[place_in_box & 3]);
+  int numbers = grid + grid_header_texels + corner_count(grid);
+  return int(grid_texel(numbers + place_in_box / numbers_per_texel)[place_in_box & (numbers_per_texel - 1)]);
 }

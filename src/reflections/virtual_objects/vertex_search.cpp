@@ -32,7 +32,8 @@ std::vector<float> shares_up_to(float maximum, bool follows_area) {
 std::size_t texels_of(std::span<const VirtualGrid> grids) {
   std::size_t texels = 0;
   for (const VirtualGrid& grid : grids)
-    texels += 4 + grid.corners().size() + grid.numbers_in_box().size() / 4;
+    texels += std::size_t(grid_header_texels) + grid.corners().size() +
+              grid.numbers_in_box().size() / std::size_t(numbers_per_texel) + 1;
   return texels;
 }
 
@@ -46,8 +47,9 @@ int append(const VirtualGrid& grid, std::vector<glm::vec4>& table) {
   for (const glm::vec3& corner : grid.corners()) table.emplace_back(corner, 0.0f);
   const std::vector<std::uint32_t>& numbers = grid.numbers_in_box();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i % 4 == 0) table.emplace_back(-1.0f);
-    if (numbers[i] != VirtualGrid::no_corner) table.back()[int(i % 4)] = float(numbers[i]);
+    const int in_texel = int(i) % numbers_per_texel;
+    if (in_texel == 0) table.emplace_back(-1.0f);
+    if (numbers[i] != VirtualGrid::no_corner) table.back()[in_texel] = float(numbers[i]);
   }
   return first;
 }
@@ -56,7 +58,7 @@ int append(const VirtualGrid& grid, std::vector<glm::vec4>& table) {
 int append(std::span<const glm::vec3> vertices, std::vector<glm::vec4>& table) {
   const int first = int(table.size());
   table.emplace_back(0.0f, 0.0f, 0.0f, float(vertices.size()));
-  table.resize(table.size() + 2);
+  table.resize(table.size() + std::size_t(grid_header_texels - 1));
   for (const glm::vec3& vertex : vertices) table.emplace_back(vertex, 0.0f);
   return first;
 }
@@ -97,7 +99,8 @@ Result<VertexSearch> VertexSearch::create(const scene::Scene& scene, const rende
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     if (!meshes[p]) continue;
     const std::vector<glm::vec3>& vertices = meshes[p]->positions;
-    if (table.size() + texels_of(grids[p]) + 3 + vertices.size() > max_in_table) continue;
+    if (table.size() + texels_of(grids[p]) + std::size_t(grid_header_texels) + vertices.size() > max_in_table)
+      continue;
     of_part[p].vertex_count = vertices.size();
     of_part[p].first_vertex = gpu.parts()[p].base_vertex;
     of_part[p].vertices_in_table = append(vertices, table);

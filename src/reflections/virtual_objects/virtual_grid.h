@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "reflections/virtual_objects/grid_cells.h"
+
 namespace parvis::virtual_objects {
 
 /// Virtual position of a corner or vertex; lost ones are not drawn.
@@ -23,22 +25,16 @@ struct GridLayout {
   glm::vec3 origin{0.0f}, cell{1.0f};  ///< cell: lengths of its edges
   glm::ivec3 count{1};                 ///< number of cells
 
-  /// Position in cells from the origin: computed exactly as in grid_interpolation.glsl, to the last bit.
-  glm::vec3 place_of(glm::vec3 vertex) const { return (vertex - origin) * (1.0f / cell); }
+  /// Position in cells from the origin.
+  glm::vec3 place_of(glm::vec3 vertex) const { return position_in_cells(vertex, origin, 1.0f / cell); }
   /// The cell that contains a vertex.
-  glm::ivec3 cell_of(glm::vec3 vertex) const {
-    return glm::clamp(glm::ivec3(glm::floor(place_of(vertex))), glm::ivec3(0), count - 1);
-  }
+  glm::ivec3 cell_of(glm::vec3 vertex) const { return cell_around(place_of(vertex), count); }
   /// Number of corners of the whole box, used or not.
   std::size_t box_size() const {
     return std::size_t(count.x + 1) * std::size_t(count.y + 1) * std::size_t(count.z + 1);
   }
   /// Index of a corner in the box; x changes fastest.
-  std::size_t place_in_box(glm::ivec3 corner) const {
-    return (std::size_t(corner.z) * std::size_t(count.y + 1) + std::size_t(corner.y)) *
-               std::size_t(count.x + 1) +
-           std::size_t(corner.x);
-  }
+  std::size_t place_in_box(glm::ivec3 corner) const { return std::size_t(index_in_box(corner, count)); }
 };
 
 /// A sparse grid: the corners of those cells that contain a vertex.
