@@ -246,7 +246,7 @@ Status PartialFile::write(std::string_view bytes) const {
     is_written = count > 0;
     if (is_written) bytes.remove_prefix(std::size_t(count));
   }
-  const Status status = is_written ? Status(Done{}) : Status(cannot_write(file_));
+  Status status = is_written ? Status(Done{}) : Status(cannot_write(file_));
   if (close(file) != 0 && is_written) return cannot_write(file_);
   return status;
 }
@@ -255,7 +255,7 @@ Status PartialFile::sync() const {
   const int written = open(partial_.c_str(), O_RDONLY | O_CLOEXEC);
   if (written < 0) return cannot_write(file_);
   const bool is_on_disk = fsync(written) == 0;
-  const Status status = is_on_disk ? Status(Done{}) : Status(cannot_write(file_));
+  Status status = is_on_disk ? Status(Done{}) : Status(cannot_write(file_));
   close(written);
   return status;
 }

@@ -139,7 +139,7 @@ Status read_record(Reader& reader, LayerRecord& record, const std::string& name,
 bool unpack(std::span<const std::uint8_t> packed, std::uint8_t* out, std::size_t size) {
   std::size_t written = 0;
   for (std::size_t i = 0; i < packed.size();) {
-    const int count = std::int8_t(packed[i++]);
+    const int byte = packed[i++], count = byte < 128 ? byte : byte - 256;
     if (count == -128) continue;
     const std::size_t length = std::size_t(count < 0 ? 1 - count : 1 + count);
     if (written + length > size || i + (count < 0 ? 1 : length) > packed.size()) return false;
@@ -183,8 +183,8 @@ bool read_channel(Reader data, int bits, Image8& image, int channel) {
     if (raw.size() != samples.size()) return false;
     std::ranges::copy(raw, samples.begin());
   } else if (compression == 1) {
-    std::vector<std::size_t> lengths;
-    for (int y = 0; y < image.height; ++y) lengths.push_back(data.u16());
+    std::vector<std::size_t> lengths(std::size_t(image.height));
+    for (std::size_t& length : lengths) length = data.u16();
     for (int y = 0; y < image.height; ++y)
       if (!unpack(data.take(lengths[std::size_t(y)]), samples.data() + std::size_t(y) * row_bytes, row_bytes))
         return false;
