@@ -757,6 +757,43 @@ class Facades(InAFolder):
             self.assertEqual(done.returncode, 1, stage)
             self.assertIn("parvis facade model", done.stderr)
 
+    def panorama(self, name, width, height):
+        """A PNG whose rows differ, so that up and down do."""
+        row = lambda y: b"".join(bytes((x * 255 // width, y * 255 // height, 90)) for x in range(width))
+        rows = b"".join(b"\0" + row(y) for y in range(height))
+        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+        path = self.folder / name
+        path.write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        return path
+
+    def test_panoramas_become_a_place_that_is_packed_and_exported(self):
+        place = self.folder / "square"
+        for number, position in enumerate((("0", "0", "1.7"), ("0.5", "0", "1.7"))):
+            done = run("facade", "panorama", self.panorama(f"p{number}.png", 256, 128), "-o", place, "--position", *position)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("12 photographs", done.stdout)
+        wrong = run("facade", "panorama", self.panorama("strip.png", 300, 100), "-o", self.folder / "strip")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("strip", wrong.stderr)
+        document, data = triangle(positions=(-4, 3, -4, 4, 3, -4, 0, 3, 8))
+        document["nodes"][0]["rotation"] = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]  # z up, as the place is
+        (self.folder / "wall.gltf").write_text(gltf(document, data))
+        done = run("facade", "export", place, "-o", self.folder / "square.glb")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("parvis facade pack", done.stderr)
+        done = run("facade", "pack", place, "--model", self.folder / "wall.gltf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run("facade", "export", place, "-o", self.folder / "square.glb", "--texture-side", "512")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (self.folder / "square.xp").write_text('facade(file="square.glb", texture_mb=64)')
+        self.assertEqual(run("check", self.folder / "square.xp").returncode, 0)
+        done = run("facade", "figures", place, "--model", self.folder / "wall.gltf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((place / "figures" / "figure_3_14.png").exists())
+        self.assertEqual(run("facade", "figures", place, "--model", self.folder / "wall.gltf", "--photograph", "no").returncode, 1)
+
     def test_a_damaged_pack_is_named(self):
         (self.folder / "place.facade").write_bytes(b"PVFACE_1" + b"x" * 100)
         (self.folder / "place.xp").write_text('facade(file="place.facade")')

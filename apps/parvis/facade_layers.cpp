@@ -1,6 +1,7 @@
-// parvis facade layers, fill, pack, report: from a calibrated place with a model to a scene.
+// parvis facade layers, fill, pack, report, figures: from a calibrated place with a model to a scene.
 #include <memory>
 
+#include "capture/facades/place_figures.h"
 #include "capture/facades/place_report.h"
 #include "facade_place.h"
 #include "facade_stages.h"
@@ -11,7 +12,8 @@ namespace {
 Status write_layers(const PlaceArguments& arguments, bool fills) {
   const Result<facades::PlaceSource> source = open_place(arguments);
   if (!source) return source.errors();
-  const facades::PlaceSettings settings{.fills = fills};
+  facades::PlaceSettings settings = arguments.settings;
+  settings.fills = fills;
   const Result<facades::PlaceLayers> place = open_layers(*source, settings);
   if (!place) return place.errors();
   for (std::size_t i = 0; i < place->names.size(); ++i) {
@@ -54,12 +56,40 @@ Status fill(const FillArguments& arguments) {
 Status report(const PlaceArguments& arguments) {
   const Result<facades::PlaceSource> source = open_place(arguments);
   if (!source) return source.errors();
-  const Result<facades::PlaceLayers> place = open_layers(*source);
+  const Result<facades::PlaceLayers> place = open_layers(*source, arguments.settings);
   if (!place) return place.errors();
   const std::filesystem::path folder = arguments.folder / "report";
   if (Status status = facades::write_report(folder, *place, facades::packed_facade(*place)); !status)
     return status;
   fmt::print("written to {}\n", (folder / "index.html").string());
+  return Done{};
+}
+
+struct FigureArguments {
+  PlaceArguments place;
+  std::string photograph;
+  std::filesystem::path output;
+};
+
+Status draw_figures(const FigureArguments& arguments) {
+  const Result<facades::PlaceSource> source = open_place(arguments.place);
+  if (!source) return source.errors();
+  const Result<facades::PlaceLayers> place = open_layers(*source, arguments.place.settings);
+  if (!place) return place.errors();
+  const auto named = std::ranges::find(place->names, arguments.photograph);
+  if (!arguments.photograph.empty() && named == place->names.end())
+    return error("{}: there is no photograph {}", arguments.place.folder.string(), arguments.photograph);
+  const std::size_t photo = arguments.photograph.empty() ? facades::richest_photograph(*place)
+                                                         : std::size_t(named - place->names.begin());
+  const std::filesystem::path folder =
+      arguments.output.empty() ? arguments.place.folder / "figures" : arguments.output;
+  if (Status status = facades::write_figures(folder, *place, facades::packed_facade(*place), photo); !status)
+    return status;
+  const facades::Coverage coverage = facades::coverage_of(*place);
+  fmt::print(
+      "of photograph {}; three photographs see {:.1f} % of the common view, their layers hold {:.1f} %\n",
+      place->names[photo], coverage.seen_percent, coverage.layered_percent);
+  fmt::print("written to {}\n", folder.string());
   return Done{};
 }
 
@@ -87,6 +117,17 @@ void add_facade_pack(CLI::App& stage, Chosen& chosen) {
   arguments->add(stage);
   stage.footer("Example: parvis facade pack courtyard");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return finish_place(*arguments, false); }; });
+}
+
+void add_facade_figures(CLI::App& stage, Chosen& chosen) {
+  const auto arguments = std::make_shared<FigureArguments>();
+  arguments->place.add(stage);
+  stage.add_option("--photograph", arguments->photograph,
+                   "Whose layers are shown; where it is not given the one with the most layers");
+  stage.add_option("-o,--output", arguments->output,
+                   "Folder to write to; FOLDER/figures where it is not given");
+  stage.footer("Example: parvis facade figures courtyard --photograph 0004.jpg");
+  stage.callback([arguments, &chosen] { chosen = [arguments] { return draw_figures(*arguments); }; });
 }
 
 void add_facade_report(CLI::App& stage, Chosen& chosen) {

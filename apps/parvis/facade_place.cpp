@@ -38,17 +38,17 @@ Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
   const Result<facades::PlaceSource> source = open_place(arguments);
   if (!source) return source.errors();
   const std::string look = fmt::format("look: parvis view {}\n", (arguments.folder / "place.xp").string());
-  if (writes_pictures && facades::is_packed(*source)) {
+  if (writes_pictures && facades::is_packed(*source, arguments.settings)) {
     fmt::print("{} is packed as it is\n{}", arguments.folder.string(), look);
     return Done{};
   }
-  const Result<facades::PlaceLayers> place = open_layers(*source);
+  const Result<facades::PlaceLayers> place = open_layers(*source, arguments.settings);
   if (!place) return place.errors();
   if (writes_pictures)
     if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
   const Result<facades::PackedFacade> packed = facades::pack_place(*source, *place);
   if (!packed) return packed.errors();
-  if (Status status = facades::remember_packed(*source); !status) return status;
+  if (Status status = facades::remember_packed(*source, arguments.settings); !status) return status;
   fmt::print(
       "{} photographs, {} layers, {} surfaces; {:.1f} MB of textures, {:.1f} % of the photographs' RGBA\n",
       packed->photos.size(), packed->layers.size(), packed->surfaces.size(),

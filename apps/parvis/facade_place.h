@@ -13,15 +13,16 @@ namespace parvis {
 struct PlaceArguments {
   std::filesystem::path folder, model;
   std::vector<std::string> left_out;
+  facades::PlaceSettings settings;
 
-  /// FOLDER, --model and --leave-out.
+  /// FOLDER, --model, --leave-out and --flatten-shadows.
   void add(CLI::App& stage) {
     stage.add_option("folder", folder, "Folder of calibrated photographs")
         ->required()
         ->check(CLI::ExistingDirectory);
     add_choices(stage);
   }
-  /// --model and --leave-out: for a stage that knows the folder.
+  /// --model, --leave-out and --flatten-shadows: for a stage that knows the folder.
   void add_choices(CLI::App& stage) {
     stage
         .add_option(
@@ -29,6 +30,8 @@ struct PlaceArguments {
             "The place's model, in any format that scenes read; FOLDER/model.glb where it is not given")
         ->check(CLI::ExistingFile);
     stage.add_option("--leave-out", left_out, "A photograph that is not used, by its name; may repeat");
+    stage.add_flag("--flatten-shadows", settings.flattens_shadows,
+                   "Take out cast shadows that moved with the sun between photographs");
   }
 };
 
@@ -36,7 +39,7 @@ struct PlaceArguments {
 Result<facades::PlaceSource> open_place(const PlaceArguments& arguments);
 /// Its layers, filled, with choices and edits. Warnings are written to standard error.
 Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,
-                                         const facades::PlaceSettings& settings = {});
+                                         const facades::PlaceSettings& settings);
 /// Layers, pictures if asked for, pack and scene, with a line for each on standard output.
 Status finish_place(const PlaceArguments& arguments, bool writes_pictures);
 

@@ -51,10 +51,12 @@ struct LoadedFacade {
   std::vector<SurfaceRange> ranges;
   Bounds bounds, solid_bounds;  ///< of all, and without the backdrop
   bool has_holes = false;
+  std::uint64_t max_texture_bytes = 0;
+  unsigned residency = 0;  ///< counts the changes of what is resident
 };
 
 struct ShownFacade {
-  const LoadedFacade* loaded = nullptr;
+  LoadedFacade* loaded = nullptr;
   glm::mat4 world_from_facade{1.0f};
   float radiance_of_exposed = 1.0f;
   bool is_visible = true;
@@ -64,6 +66,7 @@ struct ShownFacade {
 struct ChosenForEye {
   const LoadedFacade* loaded = nullptr;
   glm::vec3 eye{0.0f};
+  unsigned residency = 0;  ///< of LoadedFacade, when they were chosen
   ChosenLists lists;
 };
 
@@ -108,7 +111,7 @@ class FacadeDrawable final : public render::Drawable {
     chosen_.resize(facades.size()), shown_.resize(facades.size());
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
-      const LoadedFacade& loaded = *loaded_.at(placed.facade);
+      LoadedFacade& loaded = *loaded_.at(placed.facade);
       shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure, placed.is_visible};
       things_.update(i, {&loaded, placed.world_from_facade, placed.is_visible,
                          transformed(placed.world_from_facade, loaded.bounds),
@@ -121,6 +124,7 @@ class FacadeDrawable final : public render::Drawable {
   void prepare(const View& view, const Culling& culling) override {
     std::vector<DrawnRange>& list = list_of(view);
     list.clear();
+    take_in_photographs(view);
     for (std::size_t i = 0; i < shown_.size(); ++i) {
       if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}) ||
           !culling.may_see(things_.bounds(i)))
@@ -168,20 +172,38 @@ class FacadeDrawable final : public render::Drawable {
   /// Facades that are new in the scene; those that left it are given back.
   Status load(const scene::Scene& scene) {
     Loaded kept;
-    for (const PlacedFacade& placed : scene.items<PlacedFacade>()) {
-      if (kept.contains(placed.facade) || loaded_.contains(placed.facade)) continue;
-      Result<FacadeTextures> textures = FacadeTextures::create(*placed.facade, held_);
+    std::map<std::shared_ptr<const PackedFacade>, std::uint64_t> max_bytes;  // the largest of all its nodes'
+    for (const PlacedFacade& placed : scene.items<PlacedFacade>())
+      max_bytes[placed.facade] = std::max(max_bytes[placed.facade], placed.max_texture_bytes);
+    for (const auto& [facade, max_texture_bytes] : max_bytes) {
+      const auto known = loaded_.find(facade);
+      if (known != loaded_.end() && known->second->max_texture_bytes == max_texture_bytes) continue;
+      Result<FacadeTextures> textures = FacadeTextures::create(*facade, held_, max_texture_bytes);
       if (!textures) return textures.errors();  // nothing has changed: what is shown stays
-      kept.emplace(placed.facade,
+      kept.emplace(facade,
                    std::make_unique<LoadedFacade>(LoadedFacade{
-                       *std::move(textures), ViewChooser(*placed.facade), ranges_of(*placed.facade),
-                       placed.facade->bounds(), solid_bounds(*placed.facade), has_holes(*placed.facade)}));
+                       *std::move(textures), ViewChooser(*facade), ranges_of(*facade), facade->bounds(),
+                       solid_bounds(*facade), has_holes(*facade), max_texture_bytes}));
     }
     if (!kept.empty()) chosen_.clear();  // a new one may lie where one that is gone was chosen for
-    for (const PlacedFacade& placed : scene.items<PlacedFacade>())
-      if (auto known = loaded_.extract(placed.facade)) kept.insert(std::move(known));
+    for (const auto& [facade, bytes] : max_bytes)
+      if (!kept.contains(facade)) kept.insert(loaded_.extract(facade));
     loaded_ = std::move(kept);
     return Done{};
+  }
+
+  /// The photographs nearest to the viewer become resident. Other views (shadows, reflections) use what is
+  /// there, unless nothing is.
+  void take_in_photographs(const View& view) {
+    for (const auto& [file, loaded] : loaded_) {
+      const bool is_empty = std::ranges::count(loaded->textures.resident(), 1) == 0;
+      if (view.kind != ViewKind::main && !is_empty) continue;
+      std::vector<glm::vec3> eyes;
+      for (const ShownFacade& shown : shown_)
+        if (shown.loaded == loaded.get() && shown.is_visible)
+          eyes.emplace_back(glm::inverse(shown.world_from_facade) * glm::vec4(view.position_in_world, 1.0f));
+      if (loaded->textures.follow(eyes)) ++loaded->residency;
+    }
   }
 
   std::optional<ChosenForEye>& chosen_for(std::size_t facade, const View& view) {
@@ -194,14 +216,16 @@ class FacadeDrawable final : public render::Drawable {
     std::optional<ChosenForEye>& chosen = chosen_for(facade, view);
     const glm::mat4 facade_from_world = glm::inverse(shown.world_from_facade);
     const glm::vec3 eye(facade_from_world * glm::vec4(view.position_in_world, 1.0f));
-    if (chosen && chosen->loaded == shown.loaded &&
+    if (chosen && chosen->loaded == shown.loaded && chosen->residency == shown.loaded->residency &&
         (view.kind == ViewKind::shadow || glm::distance(eye, chosen->eye) <= shown.loaded->chooser.step()))
       return;
     if (!chosen || chosen->loaded != shown.loaded)
-      chosen = ChosenForEye{shown.loaded, eye, shown.loaded->textures.chosen_lists()};
-    chosen->eye = eye;
+      chosen = ChosenForEye{shown.loaded, eye, 0, shown.loaded->textures.chosen_lists()};
+    chosen->eye = eye, chosen->residency = shown.loaded->residency;
     const ViewChooser& chooser = shown.loaded->chooser;
-    chosen->lists.set(compared_ == Compared::all ? chooser.all() : chooser.choice(eye, pixel_angle_of(view)));
+    chosen->lists.set(compared_ == Compared::all
+                          ? chooser.all()
+                          : chooser.choice(eye, pixel_angle_of(view), shown.loaded->textures.resident()));
   }
 
   static void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,

@@ -125,6 +125,65 @@ TEST_F(FacadeDrawableTest, BlocksAndDecodedTexelsShowTheSame) {
   EXPECT_LT(psnr(display(draw()), pictures[1]), 45.0);
 }
 
+TEST_F(FacadeDrawableTest, AWalkStaysWithinItsMemory) {
+  // Photographs of 3 x 2 tiles take a strip of 16 slots each; a page holds 16 strips, so eight copies of the
+  // row of four, side by side, need two pages.
+  PackedFacade row = *placed_.facade;
+  const std::size_t photos = row.photos.size(), layers = row.layers.size(), tiles = row.tiles.size();
+  const std::vector<std::uint16_t> depths = row.depths;
+  const std::vector<Bc7Block> blocks = row.blocks;
+  const std::uint32_t slots = std::uint32_t(row.slot_count());
+  for (std::uint32_t copy = 1; copy < 8; ++copy) {
+    for (std::size_t p = 0; p < photos; ++p) {
+      row.photos.push_back(row.photos[p]);
+      row.photos.back().view.centre.x += 100.0 * copy;
+    }
+    for (std::size_t l = 0; l < layers; ++l) {
+      row.layers.push_back(row.layers[l]);
+      row.layers.back().photo += copy * std::uint32_t(photos);
+      row.layers.back().first_tile += copy * std::uint32_t(tiles);
+    }
+    for (std::size_t t = 0; t < tiles; ++t)
+      row.tiles.push_back((row.tiles[t] & 3u) == 0 ? 0 : row.tiles[t] + (copy * slots << 2));
+    row.depths.insert(row.depths.end(), depths.begin(), depths.end());
+    row.blocks.insert(row.blocks.end(), blocks.begin(), blocks.end());
+  }
+  Result<FacadeTextures> textures = FacadeTextures::create(row, HeldTexels::decoded, 1);
+  ASSERT_TRUE(textures) << to_string(textures.errors());
+  const Result<FacadeTextures> whole = FacadeTextures::create(row, HeldTexels::decoded);
+  ASSERT_TRUE(whole) << to_string(whole.errors());
+  EXPECT_LT(textures->texture_bytes(), whole->texture_bytes());
+  EXPECT_EQ(std::ranges::count(textures->resident(), 1), 0);
+  const glm::vec3 begin(0.0f), end(700.0f, 0.0f, 0.0f);
+  EXPECT_TRUE(textures->follow({&begin, 1}));
+  EXPECT_TRUE(textures->resident()[1]);
+  EXPECT_FALSE(textures->resident()[29]);
+  EXPECT_TRUE(textures->follow({&end, 1}));
+  EXPECT_TRUE(textures->resident()[29]);
+  EXPECT_FALSE(textures->resident()[1]) << "the control: what is far behind was given up";
+  EXPECT_FALSE(textures->follow({&end, 1}));
+
+  // What is drawn at the beginning of the walk is the same with the memory for a part of it, and after a walk
+  // to its end and back.
+  PlacedFacade placed = placed_;
+  placed.facade = std::make_shared<const PackedFacade>(row);
+  place(placed);
+  const Image8 with_all = display(draw());
+  scene_.data<scene::ItemsOf<PlacedFacade>>().items[0].max_texture_bytes = 1;
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene_, drawables_, light::sun_and_sky);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto shown = [&] {
+    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, width, height}));
+    return display((*renderer)->read_radiance());
+  };
+  EXPECT_GT(psnr(shown(), with_all), 50.0);
+  look_from({700.4f, 0.5f, 0.2f});
+  shown();
+  look_from({0.4f, 0.5f, 0.2f});
+  EXPECT_GT(psnr(shown(), with_all), 50.0);
+}
+
 TEST_F(FacadeDrawableTest, ItsHashIsOfItsContent) {
   const auto hash_of = [](const PlacedFacade& placed) {
     ContentHash hash;

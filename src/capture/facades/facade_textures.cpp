@@ -78,8 +78,40 @@ gl::Texture photo_texture(const PackedFacade& facade) {
   return texture;
 }
 
-int pages_of(const PackedFacade& facade) {
-  return std::max(int((facade.slot_count() + slots_per_page - 1) / slots_per_page), 1);
+/// What is taken in and given up: a row of slots of a page.
+constexpr int slots_per_strip = slots_across, strips_per_page = slots_per_page / slots_per_strip;
+
+/// Per photograph: the slots of its tiles, ascending.
+std::vector<std::vector<std::uint32_t>> slots_of_photos(const PackedFacade& facade) {
+  std::vector<std::vector<std::uint32_t>> slots(facade.photos.size());
+  for (const PackedLayer& layer : facade.layers)
+    for (int i = 0; i < layer.across() * layer.down(); ++i)
+      if (const std::uint32_t tile = facade.tiles[layer.first_tile + std::size_t(i)]; (tile & 3u) != 0)
+        slots[layer.photo].push_back(tile >> 2);
+  for (std::vector<std::uint32_t>& list : slots) {
+    std::ranges::sort(list);
+    const auto repeated = std::ranges::unique(list);
+    list.erase(repeated.begin(), repeated.end());
+  }
+  return slots;
+}
+
+std::size_t strips_of(std::size_t slots) { return (slots + slots_per_strip - 1) / slots_per_strip; }
+
+/// Bytes of a page with its mipmaps.
+std::uint64_t page_bytes(bool decodes) {
+  return std::uint64_t(page_side) * page_side * 21 / 16 * (decodes ? 4 : 1);
+}
+
+/// Pages that hold all photographs, or as many as a budget has room for; the largest photograph always.
+int pages_of(const std::vector<std::size_t>& strips, bool decodes, std::uint64_t max_bytes) {
+  std::size_t all = 0, largest = 1;
+  for (const std::size_t count : strips) all += count, largest = std::max(largest, count);
+  const auto pages = [](std::size_t count) {
+    return std::uint64_t((count + strips_per_page - 1) / strips_per_page);
+  };
+  return int(
+      std::clamp(pages(all), pages(largest), std::max(max_bytes / page_bytes(decodes), pages(largest))));
 }
 
 /// A renderer in software decodes each block again for each texel that it reads, which takes ten times as
@@ -101,59 +133,127 @@ void upload_level(GLuint atlas, int slot, int level, const Bc7Block* blocks, boo
                                   GLsizei(side * side / 16 * int(bc7_block_bytes)), blocks);
 }
 
-gl::Texture atlas_texture(const PackedFacade& facade, bool decodes) {
+gl::Texture atlas_texture(int pages, bool decodes) {
   gl::Texture atlas = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
   const GLuint name = atlas.name();
   glTextureStorage3D(name, tile_levels, decodes ? GL_RGBA8 : GL_COMPRESSED_RGBA_BPTC_UNORM, page_side,
-                     page_side, pages_of(facade));
+                     page_side, pages);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  const Bc7Block* blocks = facade.blocks.data();
-  for (int slot = 0; slot < int(facade.slot_count()); ++slot)
-    for (int level = 0; level < tile_levels; ++level) {
-      upload_level(name, slot, level, blocks, decodes);
-      blocks += (tile_side >> level) * (tile_side >> level) / 16;
-    }
   return atlas;
 }
 
-Status check_limits(const PackedFacade& facade, bool decodes) {
+Status check_limits(const PackedFacade& facade, int pages, bool decodes) {
   GLint max_layers = 0, max_side = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_side);
   const std::size_t longest = std::max({facade.depths.size(), facade.tiles.size(), facade.layers.size(),
                                         facade.candidates.size() + max_chosen * facade.triangle_count()});
-  if (pages_of(facade) > max_layers || longest / list_width >= std::size_t(max_side) ||
+  if (pages > max_layers || longest / list_width >= std::size_t(max_side) ||
       facade.photos.size() > std::size_t(max_side))
     return error(
         "the captured facade needs {} pages of textures and tables of {} entries; this graphics hardware "
         "holds {} and {}. Divide the place, or pack fewer photographs",
-        pages_of(facade), longest, max_layers, std::size_t(max_side) * list_width);
-  const std::uint64_t bytes_per_texel = decodes ? 4 : 1;
-  return check_memory(checked_product({std::uint64_t(pages_of(facade)),
-                                       std::uint64_t(page_side) * page_side * 21 / 16, bytes_per_texel}),
+        pages, longest, max_layers, std::size_t(max_side) * list_width);
+  return check_memory(checked_product({std::uint64_t(pages), page_bytes(decodes)}),
                       "the textures of a captured facade");
 }
 
 }  // namespace
 
-Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade, HeldTexels held) {
+Result<FacadeTextures> FacadeTextures::create(const PackedFacade& facade, HeldTexels held,
+                                              std::uint64_t max_texture_bytes) {
   const bool decodes = is_decoded(held);
-  if (Status status = check_limits(facade, decodes); !status) return status.errors();
+  std::vector<std::vector<std::uint32_t>> slots = slots_of_photos(facade);
+  std::vector<std::size_t> strips;
+  std::vector<glm::vec3> centres;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    strips.push_back(strips_of(slots[i].size()));
+    centres.emplace_back(facade.photos[i].view.centre);
+  }
+  const int pages = pages_of(strips, decodes, max_texture_bytes);
+  if (Status status = check_limits(facade, pages, decodes); !status) return status.errors();
   std::vector<glm::uvec4> layers;
   for (const PackedLayer& layer : facade.layers) layers.push_back(layer_row(layer));
-  FacadeTextures made;
+  const std::size_t all_strips = std::size_t(pages) * strips_per_page;
+  FacadeTextures made(facade, decodes, PhotoResidency(std::move(centres), std::move(strips), all_strips));
+  made.slots_of_photo_ = std::move(slots);
+  made.strips_of_photo_.resize(facade.photos.size());
+  for (std::size_t strip = all_strips; strip > 0; --strip)
+    made.free_strips_.push_back(std::uint32_t(strip - 1));
+  made.resident_tiles_.assign(facade.tiles.size(), 0);
   made.corners_ = corners_of(facade);
   made.photos_ = photo_texture(facade);
   made.layers_ = list_texture(layers, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
   made.candidates_ = facade.candidates;
   made.triangles_ = facade.triangle_count();
-  made.tiles_ = list_texture(facade.tiles, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
+  made.tiles_ = list_texture(made.resident_tiles_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
   made.depths_ = list_texture(facade.depths, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT);
-  made.atlas_ = atlas_texture(facade, decodes);
+  made.atlas_ = atlas_texture(pages, decodes);
   return made;
+}
+
+bool FacadeTextures::follow(std::span<const glm::vec3> eyes) {
+  const ResidencyChange change = residency_.follow(eyes);
+  for (const std::uint32_t photo : change.leaving) give_up(photo);
+  for (const std::uint32_t photo : change.entering) take_in(photo);
+  return !change.empty();
+}
+
+void FacadeTextures::take_in(std::uint32_t photo) {
+  const std::vector<std::uint32_t>& slots = slots_of_photo_[photo];
+  std::vector<std::uint32_t>& strips = strips_of_photo_[photo];
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (i % slots_per_strip == 0) strips.push_back(free_strips_.back()), free_strips_.pop_back();
+    const int slot = int(strips.back()) * slots_per_strip + int(i % slots_per_strip);
+    const Bc7Block* blocks = facade_->blocks.data() + std::size_t(slots[i]) * blocks_per_slot;
+    for (int level = 0; level < tile_levels; ++level) {
+      upload_level(atlas_.name(), slot, level, blocks, decodes_);
+      blocks += (tile_side >> level) * (tile_side >> level) / 16;
+    }
+  }
+  upload_tiles(photo);
+}
+
+void FacadeTextures::give_up(std::uint32_t photo) {
+  free_strips_.insert(free_strips_.end(), strips_of_photo_[photo].begin(), strips_of_photo_[photo].end());
+  strips_of_photo_[photo].clear();
+  upload_tiles(photo);
+}
+
+/// Says where each tile of a photograph is; nowhere, while the photograph is not resident.
+void FacadeTextures::upload_tiles(std::uint32_t photo) {
+  const std::vector<std::uint32_t>&slots = slots_of_photo_[photo], &strips = strips_of_photo_[photo];
+  std::size_t low = resident_tiles_.size(), high = 0;
+  for (const PackedLayer& layer : facade_->layers) {
+    if (layer.photo != photo) continue;
+    const std::size_t first = layer.first_tile, last = first + std::size_t(layer.across() * layer.down());
+    low = std::min(low, first), high = std::max(high, last);
+    for (std::size_t t = first; t < last; ++t) {
+      const std::uint32_t tile = facade_->tiles[t];
+      resident_tiles_[t] = 0;
+      if (strips.empty() || (tile & 3u) == 0) continue;
+      const auto i = std::size_t(std::ranges::lower_bound(slots, tile >> 2) - slots.begin());
+      resident_tiles_[t] =
+          (tile & 3u) |
+          (strips[i / slots_per_strip] * std::uint32_t(slots_per_strip) + std::uint32_t(i % slots_per_strip))
+              << 2;
+    }
+  }
+  for (std::size_t row = low / list_width; row * list_width < high; ++row) {
+    const std::size_t begin = row * list_width,
+                      count = std::min<std::size_t>(list_width, resident_tiles_.size() - begin);
+    glTextureSubImage2D(tiles_.name(), 0, 0, int(row), int(count), 1, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        resident_tiles_.data() + begin);
+  }
+}
+
+std::uint64_t FacadeTextures::texture_bytes() const {
+  GLint pages = 0;
+  glGetTextureLevelParameteriv(atlas_.name(), 0, GL_TEXTURE_DEPTH, &pages);
+  return std::uint64_t(pages) * page_bytes(decodes_);
 }
 
 bool FacadeTextures::holds_blocks() const {

@@ -5,6 +5,8 @@
 
 #include "base/result.h"
 #include "capture/facades/packed_facade.h"
+#include "capture/facades/photo_residency.h"
+#include "capture/facades/placed_facade.h"
 #include "capture/facades/view_choice.h"
 #include "graphics/gl/objects.h"
 #include "graphics/gl/program.h"
@@ -33,12 +35,22 @@ class ChosenLists {
   std::size_t own_candidates_ = 0, first_chosen_ = 0;  ///< in the texture the chosen ones begin a new row
 };
 
-/// Geometry, tables and textures of one facade. Needs a current OpenGL 4.5 context as long as it lives.
+/// Geometry, tables and textures of one facade. Tiles are in graphics memory as far as a budget has room:
+/// those of the photographs nearest to the eye. Needs a current OpenGL 4.5 context as long as it lives; the
+/// facade must outlive it.
 class FacadeTextures {
  public:
-  /// Fails where the facade has more textures or longer tables than the graphics hardware holds.
-  static Result<FacadeTextures> create(const PackedFacade& facade,
-                                       HeldTexels held = HeldTexels::for_renderer);
+  /// `max_texture_bytes` bounds what the tiles take of graphics memory, rounded up to a page of 1024 x 1024
+  /// texels, and to what the largest photograph needs. Fails where the facade has more textures or longer
+  /// tables than the graphics hardware holds. No photograph is resident yet.
+  static Result<FacadeTextures> create(const PackedFacade& facade, HeldTexels held = HeldTexels::for_renderer,
+                                       std::uint64_t max_texture_bytes = PlacedFacade().max_texture_bytes);
+  /// Makes the photographs nearest to `eyes` (in the facade's frame) resident. True where that changed any.
+  bool follow(std::span<const glm::vec3> eyes);
+  /// Per photograph: 1 where its tiles are in graphics memory.
+  const std::vector<char>& resident() const { return residency_.resident(); }
+  /// Of the tiles, as OpenGL has allocated it.
+  std::uint64_t texture_bytes() const;
   /// Whether graphics memory holds tiles as blocks, as OpenGL says.
   bool holds_blocks() const;
 
@@ -50,10 +62,23 @@ class FacadeTextures {
   void draw(std::size_t first_triangle, std::size_t triangles) const;
 
  private:
+  FacadeTextures(const PackedFacade& facade, bool decodes, PhotoResidency residency)
+      : facade_(&facade), decodes_(decodes), residency_(std::move(residency)) {}
+  void take_in(std::uint32_t photo);
+  void give_up(std::uint32_t photo);
+  void upload_tiles(std::uint32_t photo);
+
+  const PackedFacade* facade_;
+  bool decodes_;
+  PhotoResidency residency_;  ///< in strips
   gl::Buffer corners_;
   gl::Texture photos_, layers_, tiles_, depths_, atlas_;
   std::vector<std::uint32_t> candidates_;
   std::size_t triangles_ = 0;
+  std::vector<std::vector<std::uint32_t>> slots_of_photo_;   ///< of the facade, ascending
+  std::vector<std::vector<std::uint32_t>> strips_of_photo_;  ///< that hold them; none: not resident
+  std::vector<std::uint32_t> free_strips_;
+  std::vector<std::uint32_t> resident_tiles_;  ///< PackedFacade::tiles with the slots that hold them now
 };
 
 }  // namespace parvis::facades

@@ -194,7 +194,8 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   figures.layers_s_per_photo = took.count() / double(place->names.size());
   figures.warnings = place->warnings;
-  const PackedFacade facade = packed_facade(*place);
+  figures.facade = std::make_shared<const PackedFacade>(packed_facade(*place));
+  const PackedFacade& facade = *figures.facade;
   figures.texture_share_percent = 100.0 * double(facade.texture_bytes()) / double(facade.photograph_bytes());
 
   std::vector<PreparedPhoto> prepared;

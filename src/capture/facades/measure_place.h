@@ -1,10 +1,11 @@
 // How well a captured place shows photographs that were held out, beside its baselines, and what it costs.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "capture/facades/place_layers.h"
+#include "capture/facades/packed_facade.h"
 
 namespace parvis::facades {
 
@@ -30,7 +31,8 @@ struct PlaceFigures {
   double own_viewpoint_covered_percent = 0.0;
   double aside_viewpoint_psnr_db = 0.0;  ///< a control: the same from 5 % of the way to the next photograph
   std::size_t psd_roundtrip_differing_px = 0;
-  std::size_t psd_changed_px = 0;  ///< a control: one pixel was changed before it was written
+  std::size_t psd_changed_px = 0;              ///< a control: one pixel was changed before it was written
+  std::shared_ptr<const PackedFacade> facade;  ///< what was judged
   Errors warnings;
 };
 

@@ -138,9 +138,14 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
   facade.blocks = taker.take_values<Bc7Block>();
   facade.depths = taker.take_values<std::uint16_t>();
   if (!taker.is_at_end()) return cut_short(file);
+  if (Status status = check_facade(facade, file); !status) return status.errors();
+  return facade;
+}
+
+Status check_facade(const PackedFacade& facade, const std::filesystem::path& file) {
   if (const std::string problem = problem_of(facade); !problem.empty())
     return error("{}: {}; pack the facade again (parvis facade pack)", file.string(), problem);
-  return facade;
+  return Done{};
 }
 
 std::uint16_t encoded_depth(double depth) {

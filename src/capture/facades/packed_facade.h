@@ -99,6 +99,9 @@ Result<PackedFacade> read_facade(const std::filesystem::path& file);
 /// The same of what the file's seal holds.
 Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::path& file);
 
+/// Whether its lists fit together, as both readers ask it: an error that names `file` and what does not.
+Status check_facade(const PackedFacade& facade, const std::filesystem::path& file);
+
 /// The rows of the tables that facade_lookup.glsl reads.
 using PhotoRow = std::array<glm::vec4, 7>;
 /// FacadePhoto of facade_photo.glsl, of a photograph whose depths begin at `first_depth`.

@@ -1,6 +1,9 @@
 #include "capture/facades/place_layers.h"
 
+#include <cmath>
+
 #include "base/colour.h"
+#include "capture/facades/moved_shadows.h"
 
 namespace parvis::facades {
 namespace {
@@ -9,6 +12,27 @@ Image8 srgb_of(const ImageF& colours) {
   ImageF rgba(colours.width, colours.height, 4, 1.0f);
   for (std::size_t i = 0; i < colours.pixels.size(); ++i) rgba.pixels[i / 3 * 4 + i % 3] = colours.pixels[i];
   return srgb8_from_linear(rgba);
+}
+
+/// Takes the shadows out of the photographs that are blended and filled from, and out of the layers' pixels.
+void flatten_shadows(std::vector<PreparedPhoto>& prepared, PlaceLayers& place) {
+  const std::vector<ImageF> gains = shadow_gains(prepared);
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    apply_gains(gains[i], prepared[i].colours);
+    for (std::size_t l = 0; l < place.layered[i].layers.size(); ++l) {
+      const PixelBox& box = place.layered[i].layers[l].box;
+      Image8& pixels = place.originals[i][l];
+      for (int y = 0; y < box.height; ++y)
+        for (int x = 0; x < box.width; ++x) {
+          const float gain = *gains[i].at(x + box.x, y + box.y);
+          for (int c = 0; c < 3; ++c) {
+            std::uint8_t& value = pixels.at(x, y)[c];
+            value = std::uint8_t(std::lround(
+                255.0f * srgb_from_linear(std::min(gain * linear_from_srgb(float(value) / 255.0f), 1.0f))));
+          }
+        }
+    }
+  }
 }
 
 }  // namespace
@@ -49,6 +73,7 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
 
   place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
   for (std::size_t i = 0; i < prepared.size(); ++i) apply(place.balances[i], prepared[i]);
+  if (settings.flattens_shadows && settings.balances_colours) flatten_shadows(prepared, place);
   if (settings.finds_occluders) find_occluders(prepared);
   for (std::size_t i = 0; i < prepared.size(); ++i)
     if (!prepared[i].trust.empty()) distrust(prepared[i].trust, place.layered[i]);

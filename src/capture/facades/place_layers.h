@@ -31,6 +31,7 @@ struct PlaceLayers {
 /// Which optional stages run.
 struct PlaceSettings {
   bool balances_colours = true, finds_occluders = true, fills = true;
+  bool flattens_shadows = false;  ///< see moved_shadows.h; only with balances_colours
 };
 
 /// Makes them. Photographs without pixels, of another size than their cameras, or with lens distortion are

@@ -23,11 +23,12 @@ std::string state_of(const fs::path& file) {
   return fmt::format("{} {} {}\n", file.filename().string(), bytes, time.time_since_epoch().count());
 }
 
-std::string recipe_of(const PlaceSource& source) {
+std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) {
   ContentHash hash;
   for (const NamedMesh& named : source.meshes)
     hash.add_text(named.name), hash.add(named.mesh.positions), hash.add(named.mesh.indices);
   std::string text = fmt::format("packing {}\n", packing_version);
+  if (settings.flattens_shadows) text += "shadows flattened\n";
   for (const photographs::Photograph& photo : source.photographs) {
     hash.add_text(photo.name), hash.add(photo.world_from_camera), hash.add(photo.gain);
     hash.add(int(photo.lens.model)), hash.add(photo.lens.parameters);
@@ -46,16 +47,16 @@ std::string recipe_of(const PlaceSource& source) {
 
 }  // namespace
 
-bool is_packed(const PlaceSource& source) {
+bool is_packed(const PlaceSource& source, const PlaceSettings& settings) {
   std::error_code code;
   if (!fs::exists(source.folder / "place.facade", code) || !fs::exists(source.folder / "place.xp", code))
     return false;
   const Result<std::string> known = read_file(recipe_file(source.folder), 1 << 24);
-  return known && *known == recipe_of(source);
+  return known && *known == recipe_of(source, settings);
 }
 
-Status remember_packed(const PlaceSource& source) {
-  return write_file(recipe_file(source.folder), recipe_of(source));
+Status remember_packed(const PlaceSource& source, const PlaceSettings& settings) {
+  return write_file(recipe_file(source.folder), recipe_of(source, settings));
 }
 
 }  // namespace parvis::facades

@@ -6,10 +6,10 @@
 namespace parvis::facades {
 
 /// Whether place.facade and place.xp are there, made of this source as it is now: model, cameras,
-/// photographs, masks, decisions about proposals, and layered pictures (an artist's edits).
-bool is_packed(const PlaceSource& source);
+/// photographs, masks, decisions about proposals, layered pictures (an artist's edits), and settings.
+bool is_packed(const PlaceSource& source, const PlaceSettings& settings);
 
 /// Keeps what the packed place was made of in the folder's packed.txt.
-Status remember_packed(const PlaceSource& source);
+Status remember_packed(const PlaceSource& source, const PlaceSettings& settings);
 
 }  // namespace parvis::facades

@@ -8,6 +8,7 @@
 #include "base/image_io.h"
 #include "base/progress.h"
 #include "capture/facades/item_buffer.h"
+#include "capture/facades/layer_colours.h"
 
 namespace parvis::facades {
 namespace fs = std::filesystem;
@@ -17,16 +18,6 @@ constexpr std::array<std::array<std::uint8_t, 3>, 6> source_colours{
     {{30, 30, 30}, {120, 120, 120}, {70, 130, 220}, {235, 150, 40}, {215, 50, 40}, {160, 70, 200}}};
 constexpr const char* source_names[] = {"nothing", "seen",   "other photographs",
                                         "patches", "smooth", "painted"};
-
-/// Colours that differ between neighbours in a list: the golden section turns the hue.
-std::array<std::uint8_t, 3> colour_of(std::size_t number) {
-  const double hue = 6.0 * (0.61803398875 * double(number) - std::floor(0.61803398875 * double(number)));
-  const auto channel = [&](double shift) {
-    const double h = std::fmod(hue + shift, 6.0);
-    return std::uint8_t(80.0 + 160.0 * std::clamp(std::abs(h - 3.0) - 1.0, 0.0, 1.0));
-  };
-  return {channel(0.0), channel(4.0), channel(2.0)};
-}
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -76,7 +67,7 @@ Image8 layer_map(const PlaceLayers& place, std::size_t photo) {
       const std::uint32_t l = place.layered[photo].layer_of_item[item_of[triangle]];
       const PixelBox& box = place.layered[photo].layers[l].box;
       const bool is_seen = place.layered[photo].masks[l].at(x - box.x, y - box.y)[1] != 0;
-      const std::array<std::uint8_t, 3> colour = colour_of(l);
+      const std::array<std::uint8_t, 3> colour = layer_colour(l);
       for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = std::uint8_t(is_seen ? colour[c] : colour[c] / 3);
     }
   return map;

@@ -23,6 +23,9 @@ struct PlacedFacade {
   glm::mat4 world_from_facade{1.0f};
   float brightness = 1.0f;  ///< 1: the display shows the photographs as they are, whatever the exposure
   bool is_visible = true;
+  /// What its tiles may take of graphics memory, bytes: see FacadeTextures. What is seen does not depend on
+  /// it as long as the nearest photographs fit.
+  std::uint64_t max_texture_bytes = std::uint64_t(1) << 30;
 
   void hash(ContentHash& hash) const;
 };

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "capture/facades/facade_drawable.h"
+#include "capture/facades/facade_gltf.h"
 #include "capture/facades/placed_facade.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
@@ -22,13 +23,19 @@ scene::NodeSchema facade_schema() {
       .help =
           "A captured place: surfaces that show photographs, chosen and blended by where they are seen from. "
           "The file is made by parvis facade pack.",
-      .attributes = {text("name", "by which other nodes refer to it"),
-                     file("file", "the packed layers (.facade)").required(),
-                     number("brightness",
-                            "of the photographs' light; 1: they are shown as they are, whatever the exposure")
-                         .between(0.0, 1000.0)
-                         .by_default("1")
-                         .live()},
+      .attributes =
+          {text("name", "by which other nodes refer to it"),
+           file("file", "the packed layers (.facade), or the same in a glTF file (.glb)").required(),
+           number("brightness",
+                  "of the photographs' light; 1: they are shown as they are, whatever the exposure")
+               .between(0.0, 1000.0)
+               .by_default("1")
+               .live(),
+           number("texture_mb",
+                  "graphics memory for its photographs, megabytes; where all do not fit the nearest to "
+                  "the viewer are held")
+               .between(1.0, 1048576.0)
+               .by_default("1024")},
       .stands_in = {scene::top_level, "group", "scenario"},
       .example = "facade(file=\"layers.facade\", position=\"0 0 0\")"};
   const std::vector<scene::AttributeSchema> placement = scene::placement_attributes();
@@ -47,7 +54,7 @@ class SharedFiles {
     Known& known = files_[file];
     if (std::shared_ptr<const PackedFacade> held = known.facade.lock(); held && known.written == written)
       return held;
-    Result<PackedFacade> facade = read_facade(file);
+    Result<PackedFacade> facade = file.extension() == ".glb" ? read_facade_gltf(file) : read_facade(file);
     if (!facade) return facade.errors();
     auto held = std::make_shared<const PackedFacade>(*std::move(facade));
     known = {held, written};
@@ -71,6 +78,7 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& f
   placed.file = node.file("file"), placed.facade = *std::move(facade);
   placed.world_from_facade = builder.world_from_parent() * scene::placement(node);
   placed.brightness = float(node.number("brightness"));
+  placed.max_texture_bytes = std::uint64_t(node.number("texture_mb") * 1048576.0);
   placed.is_visible = builder.is_visible() && node.flag("visible");
   builder.add(std::move(placed));
 }

@@ -83,6 +83,7 @@ Mesh mesh_of(const PackedFacade& facade) {
 
 void PlacedFacade::hash(ContentHash& hash) const {
   hash.add_text(called), hash.add(world_from_facade), hash.add(brightness), hash.add(is_visible);
+  hash.add(max_texture_bytes);
   if (!facade) return;
   hash.add(facade->corners), hash.add(facade->lists), hash.add(facade->tiles), hash.add(facade->blocks);
   for (const PackedPhoto& photo : facade->photos) {

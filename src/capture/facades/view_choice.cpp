@@ -48,7 +48,7 @@ std::size_t sample_points(Corners c, bool is_small, std::array<glm::vec3, 7>& po
 
 /// The layers that a triangle needs, appended to `chosen`; false where it needs its whole list.
 bool append_best(const PackedFacade& facade, FacadeLookup& lookup, std::size_t triangle, glm::vec3 eye,
-                 float pixel_angle, std::vector<std::uint32_t>& chosen) {
+                 float pixel_angle, std::span<const char> resident, std::vector<std::uint32_t>& chosen) {
   const Corners corners(facade.corners.data() + 3 * triangle, 3);
   const glm::uvec2 list = facade.lists[triangle];
   const glm::vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0f;
@@ -65,6 +65,7 @@ bool append_best(const PackedFacade& facade, FacadeLookup& lookup, std::size_t t
     best.fill({FacadeLookup::no_opinion, 0});
     for (std::uint32_t i = 0; i < list.y; ++i) {
       const std::uint32_t layer = facade.candidates[list.x + i];
+      if (!resident.empty() && !resident[facade.layers[layer].photo]) continue;
       std::pair<float, std::uint32_t> one(
           lookup.key(layer, points[p], off / distance, pixel_angle * distance), layer);
       for (auto& entry : best)
@@ -84,7 +85,7 @@ bool append_best(const PackedFacade& facade, FacadeLookup& lookup, std::size_t t
 ViewChooser::ViewChooser(const PackedFacade& facade)
     : facade_(facade), step_(step_share * spacing_of(facade.photos)) {}
 
-ViewChoice ViewChooser::choice(glm::vec3 eye, float pixel_angle) const {
+ViewChoice ViewChooser::choice(glm::vec3 eye, float pixel_angle, std::span<const char> resident) const {
   ViewChoice choice{facade_.lists, {}};
   const std::size_t tasks = (facade_.triangle_count() + triangles_per_task - 1) / triangles_per_task;
   std::vector<std::vector<std::uint32_t>> parts(tasks);
@@ -95,7 +96,7 @@ ViewChoice ViewChooser::choice(glm::vec3 eye, float pixel_angle) const {
     std::vector<std::uint32_t>& part = parts[task];
     for (std::size_t t = begin; t < end; ++t) {
       const std::size_t first = part.size();
-      if (append_best(facade_, lookup, t, eye, pixel_angle, part))
+      if (append_best(facade_, lookup, t, eye, pixel_angle, resident, part))
         choice.lists[t] = {std::uint32_t(first), std::uint32_t(part.size() - first) | is_chosen_bit};
       else
         part.resize(first);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "capture/facades/packed_facade.h"
@@ -28,7 +29,8 @@ class ViewChooser {
   /// For an eye in the facade's frame that sees `pixel_angle` radians per pixel. The best three photographs
   /// at a triangle's centre; of a large triangle, at points all over it; all where fewer than two show it, or
   /// where it fills much of the view.
-  ViewChoice choice(glm::vec3 eye, float pixel_angle) const;
+  /// `resident`: per photograph, 0 where its tiles are not at hand, so that it is not chosen; empty: all are.
+  ViewChoice choice(glm::vec3 eye, float pixel_angle, std::span<const char> resident = {}) const;
   /// All photographs that hold each triangle.
   ViewChoice all() const { return {facade_.lists, {}}; }
   /// How far the eye may move until photographs have to be chosen again.

@@ -23,8 +23,9 @@ constexpr Face faces[] = {{"north", {0, 1, 0}, {0, 0, 1}},  {"east", {1, 0, 0}, 
                           {"up", {0, 0, 1}, {0, -1, 0}},    {"down", {0, 0, -1}, {0, 1, 0}}};
 
 /// Where a direction appears in an equirectangular picture.
-glm::dvec2 panorama_pixel(const Image8& panorama, glm::dvec3 direction) {
-  const double heading = std::atan2(direction.x, direction.y);  // from north over east
+glm::dvec2 panorama_pixel(const Image8& panorama, glm::dvec3 direction, double middle_heading) {
+  const double heading = std::remainder(std::atan2(direction.x, direction.y) - middle_heading,
+                                        2.0 * std::numbers::pi);  // from the middle column over its right
   const double height = std::atan2(direction.z, std::hypot(direction.x, direction.y));
   return {(0.5 + heading / (2.0 * std::numbers::pi)) * panorama.width,
           (0.5 - height / std::numbers::pi) * panorama.height};
@@ -44,7 +45,7 @@ Photograph photograph_of(const Face& face, const std::string& name, int side, gl
 }  // namespace
 
 Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std::string& name,
-                                               glm::dvec3 position) {
+                                               glm::dvec3 position, double heading_deg) {
   if (panorama.channels != 4 || panorama.width < 8 || std::abs(panorama.width - 2 * panorama.height) > 2)
     return error("{}: {} x {} pixels are no full panorama; expected one twice as wide as high", name,
                  panorama.width, panorama.height);
@@ -57,8 +58,8 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
         [&](std::size_t y) {
           for (int x = 0; x < picture.image.width; ++x)
             if (const auto direction = direction_in_world(picture.photograph, {x + 0.5, double(y) + 0.5}))
-              sample_bicubic(panorama, panorama_pixel(panorama, *direction), Border::wraps_around,
-                             picture.image.at(x, int(y)));
+              sample_bicubic(panorama, panorama_pixel(panorama, *direction, glm::radians(heading_deg)),
+                             Border::wraps_around, picture.image.at(x, int(y)));
         },
         16);
     pictures.push_back(std::move(picture));
@@ -67,7 +68,7 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
 }
 
 Result<PhotographSet> split_panorama(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                     glm::dvec3 position) {
+                                     glm::dvec3 position, double heading_deg) {
   const Result<PictureHeader> header = read_picture_header(file);
   if (!header) return header.errors();
   Photograph whole;
@@ -76,7 +77,8 @@ Result<PhotographSet> split_panorama(const std::filesystem::path& file, const st
   whole.lens = pinhole_lens(header->width, header->height, 1.0, 1.0, 0.0, 0.0);
   const Result<Image8> panorama = read_picture(whole);
   if (!panorama) return panorama.errors();
-  Result<std::vector<Picture>> pictures = faces_of_panorama(*panorama, file.stem().string(), position);
+  Result<std::vector<Picture>> pictures =
+      faces_of_panorama(*panorama, file.stem().string(), position, heading_deg);
   if (!pictures) return pictures.errors();
   std::error_code code;
   std::filesystem::create_directories(folder, code);

@@ -11,16 +11,16 @@
 
 namespace parvis::photographs {
 
-/// The faces of an equirectangular picture (RGBA, twice as wide as high, its middle looks north, z up), each
-/// seeing 90 degrees, without distortion, at `position`: NAME_north, _east, _south, _west, _up, _down. A face
-/// has a quarter of the picture's width on a side: as many pixels per degree as the horizon has. Errors:
-/// another shape.
+/// The faces of an equirectangular picture (RGBA, twice as wide as high, z up; its middle column looks
+/// towards `heading_deg`, from north over east), each seeing 90 degrees, without distortion, at `position`:
+/// NAME_north, _east, _south, _west, _up, _down. A face has a quarter of the picture's width on a side: as
+/// many pixels per degree as the horizon has. Errors: another shape.
 Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std::string& name,
-                                               glm::dvec3 position);
+                                               glm::dvec3 position, double heading_deg = 0.0);
 
 /// Reads an equirectangular picture, writes its faces as NAME_*.png into `folder` and returns them as a set
 /// without points, whose files they are.
 Result<PhotographSet> split_panorama(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                     glm::dvec3 position);
+                                     glm::dvec3 position, double heading_deg = 0.0);
 
 }  // namespace parvis::photographs

@@ -52,6 +52,15 @@ TEST(Panorama, ItsFacesAreWhatCamerasThereSee) {
   EXPECT_GT((*faces)[1].photograph.forward_in_world().x, 0.999) << "east";
 }
 
+TEST(Panorama, ItsMiddleLooksWhereItIsSaidTo) {
+  const auto north = faces_of_panorama(test_panorama(256), "square", eye),
+             east = faces_of_panorama(test_panorama(256), "square", eye, 90.0);
+  ASSERT_TRUE(north);
+  ASSERT_TRUE(east);
+  EXPECT_EQ((*east)[1].image.pixels, (*north)[0].image.pixels) << "east now shows the middle";
+  EXPECT_NE((*east)[0].image.pixels, (*north)[0].image.pixels) << "the control";
+}
+
 TEST(Panorama, BecomesFilesWithCameras) {
   const TestFolder folder;
   ASSERT_TRUE(write_image(folder.path() / "square.png", test_panorama(64)));

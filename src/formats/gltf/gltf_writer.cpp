@@ -11,6 +11,7 @@
 #include "formats/gltf/gltf_chunk.h"
 #include "formats/gltf/gltf_material_writer.h"
 #include "formats/gltf/gltf_mesh_writer.h"
+#include "formats/gltf/gltf_own_data.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
@@ -85,6 +86,15 @@ class Writer {
     cameras_.push_back(gltf_camera(camera.name, camera.camera));
   }
 
+  Status add(const GltfOwnData& own) {
+    Json json = Json::parse(own.json, nullptr, false);
+    if (!json.is_object()) return error("the extension {} is no object of JSON", own.extension);
+    for (const auto& [name, bytes] : own.views)
+      if (!bytes.empty()) json["views"][name] = chunk_.add_bytes(bytes);  // glTF has no empty views
+    extensions_[own.extension] = std::move(json);
+    return Done{};
+  }
+
   Status write(const fs::path& file) const {
     Result<std::vector<PartialFile>> pictures = materials_.write_pictures(file);
     if (!pictures) return pictures.errors();
@@ -97,6 +107,8 @@ class Writer {
       if (!list->empty()) json[name] = *list;
     materials_.describe(json, file);
     chunk_.describe(json);
+    if (!extensions_.empty()) json["extensions"] = extensions_;
+    for (const auto& [name, own] : extensions_.items()) json["extensionsUsed"].push_back(name);
     return write_container(file, json, *pictures);
   }
 
@@ -140,7 +152,7 @@ class Writer {
   GltfChunk chunk_;
   std::map<const Model*, WrittenModel> models_;
   Json nodes_ = Json::array(), meshes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array(),
-       cameras_ = Json::array();
+       cameras_ = Json::array(), extensions_ = Json::object();
 };
 
 void append_word(std::string& bytes, std::size_t value) {
@@ -186,6 +198,13 @@ Status Writer::write_container(const fs::path& file, const Json& json,
 Status write_gltf(const fs::path& file, const Model& model) {
   Writer writer;
   if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  return writer.write(file);
+}
+
+Status write_gltf(const fs::path& file, const Model& model, const GltfOwnData& own) {
+  Writer writer;
+  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  if (Status status = writer.add(own); !status) return status;
   return writer.write(file);
 }
 

@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"
+#include "formats/gltf/gltf_own_data.h"
 #include "formats/gltf/gltf_reader.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/test_scene.h"
@@ -201,6 +202,24 @@ assert all(abs(a - b) < 1e-4 for a, b in zip(low, (0, 5, 0))), low
                               (folder.path() / "log").string() + "' 2>&1";
   const int status = std::system(command.c_str());
   EXPECT_EQ(status, 0) << *read_file(folder.path() / "log");
+}
+
+TEST(GltfWriter, OwnDataIsReadBackAndOthersSeeTheModel) {
+  const TestFolder folder;
+  const fs::path file = folder.path() / "own.glb";
+  const Model model = *model_of(quad({0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}), matt(glm::vec3(0.5f)));
+  const GltfOwnData own{"PARVIS_test", R"({"version":3})", {{"a", "five!"}, {"b", std::string("\0\1\2", 3)}}};
+  ASSERT_TRUE(write_gltf(file, model, own));
+  EXPECT_EQ(read(file).triangle_count(), 2u);
+  const Result<GltfOwnData> back = read_gltf_own_data(file, "PARVIS_test");
+  ASSERT_TRUE(back) << to_string(back.errors());
+  EXPECT_EQ(back->json, own.json);
+  EXPECT_EQ(back->views, own.views);
+  EXPECT_FALSE(read_gltf_own_data(file, "PARVIS_other"));
+  EXPECT_FALSE(write_gltf(file, model, {"PARVIS_test", "no object", {}}));
+  ASSERT_TRUE(write_gltf(file, model, {"PARVIS_test", R"({"views":{"a":99}})", {}}));
+  EXPECT_NE(to_string(read_gltf_own_data(file, "PARVIS_test").errors()).find("the view \"a\" is 99"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -19,9 +19,7 @@ struct BenchPlace {
 
 /// The castle with its mesh of 175,000 triangles.
 Result<BenchPlace> sceaux(const std::filesystem::path& folder);
-/// The same with 15,000 triangles, larger than pixels: for timing what pixels cost.
-Result<BenchPlace> sceaux_of_few_triangles(const std::filesystem::path& folder);
-/// The courtyard with a model proposed from its points alone.
+/// The courtyard with the model that `parvis facade model` proposes for the photographs that do not judge.
 Result<BenchPlace> courtyard(const std::filesystem::path& folder);
 
 }  // namespace parvis::bench

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <ctime>
 
-#include "base/test_data.h"
-#include "capture/facades/bench/bench_places.h"
 #include "capture/facades/bench/plain_texture.h"
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/placed_facade.h"
@@ -114,46 +112,28 @@ double shown_percent(const ImageF& picture, const ImageF& nothing) {
   return 100.0 * double(shown) / double(pixels);
 }
 
-Result<facades::PlacedFacade> facade_of_few_triangles(const BenchPlace& place) {
-  const facades::PlaceSettings settings{false, false, false};
-  const Result<facades::PlaceLayers> layers =
-      facades::place_layers(place.photographs, place.meshes, settings);
-  if (!layers) return layers.errors();
-  facades::PlacedFacade placed;
-  placed.facade = std::make_shared<const PackedFacade>(facades::packed_facade(*layers));
-  return placed;
-}
-
 }  // namespace
 
-Status measure_drawing(bool is_quick, Report& report) {
-  const auto folder = shared_data("photos_sceaux", std::filesystem::current_path());
-  if (!folder) {
-    report.skip("draw_over_plain_texture_time", "the shared photographs are absent");
-    return Done{};
-  }
+Status measure_drawing(std::shared_ptr<const PackedFacade> facade, const Camera& camera, bool is_quick,
+                       Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  const Result<BenchPlace> place = sceaux_of_few_triangles(*folder);
-  if (!place) return place.errors();
-  const Result<facades::PlacedFacade> placed = facade_of_few_triangles(*place);
-  if (!placed) return placed.errors();
-  facades::PlacedFacade hidden = *placed, without_photographs = *placed;
+  facades::PlacedFacade placed;
+  placed.facade = facade;
+  facades::PlacedFacade hidden = placed, without_photographs = placed;
   hidden.is_visible = false;
-  auto bare = std::make_shared<PackedFacade>(*placed->facade);
+  auto bare = std::make_shared<PackedFacade>(*facade);
   for (glm::uvec2& list : bare->lists) list.y = 0;
   without_photographs.facade = bare;
 
-  Result<TimedScene> ours = facade_scene(*placed, facades::Compared::chosen),
-                     all = facade_scene(*placed, facades::Compared::all),
+  Result<TimedScene> ours = facade_scene(placed, facades::Compared::chosen),
+                     all = facade_scene(placed, facades::Compared::all),
                      nothing = facade_scene(hidden, facades::Compared::chosen),
                      bare_colours = facade_scene(without_photographs, facades::Compared::all),
-                     lit = TimedScene::create(lit_scene(*placed->facade), {}),
-                     unlit = unlit_scene(placed->facade);
+                     lit = TimedScene::create(lit_scene(*facade), {}), unlit = unlit_scene(facade);
   for (const auto* scene : {&ours, &all, &nothing, &bare_colours, &lit, &unlit})
     if (!*scene) return scene->errors();
-  const Camera camera = photographs::camera_of(place->photographs[place->photographs.size() / 2]);
   Ratios ours_over, all_over, nothing_over, bare_over, lit_over;
   std::vector<double> plain_ms;
   for (int i = 0; i < (is_quick ? 9 : 31); ++i) {
