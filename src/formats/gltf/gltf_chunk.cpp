@@ -31,9 +31,16 @@ int GltfChunk::add_keys(const std::vector<float>& values, const char* type, int 
   return accessor;
 }
 
+int GltfChunk::add_bytes(std::string_view bytes) {
+  while (bytes_.size() % 4 != 0) bytes_.push_back(0);
+  views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  return int(views_.size()) - 1;
+}
+
 void GltfChunk::describe(Json& json) const {
   if (bytes_.empty()) return;
-  json["accessors"] = accessors_;
+  if (!accessors_.empty()) json["accessors"] = accessors_;
   json["bufferViews"] = views_;
   json["buffers"] = {{{"byteLength", (bytes_.size() + 3) / 4 * 4}}};
 }

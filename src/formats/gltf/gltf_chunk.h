@@ -46,6 +46,9 @@ class GltfChunk {
   /// Values of keyframes, `components` floats each.
   int add_keys(const std::vector<float>& values, const char* type, int components);
 
+  /// Appends bytes that no accessor reads, and returns their buffer view.
+  int add_bytes(std::string_view bytes);
+
   /// Writes accessors, views and the buffer, where there are any, into the JSON of the file.
   void describe(Json& json) const;
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }

@@ -110,15 +110,38 @@ Model read_model(const GltfFile& file, Errors& warnings) {
 
 }  // namespace
 
-Result<Model> read_gltf(const std::filesystem::path& file, Errors& warnings) {
+namespace {
+
+/// What `read` makes of the file; what it throws becomes an error.
+template <class T>
+Result<T> read_safely(const std::filesystem::path& file, const std::function<T(const GltfFile&)>& read) {
   const FileLocation where{file.string(), 0, 0};
   try {
-    return read_model(GltfFile(file), warnings);
+    return read(GltfFile(file));
   } catch (const GltfFile::GltfProblem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {
     return error_at(where, "a value is not of the kind that glTF asks for ({})", json_reason(problem.what()));
   }
+}
+
+}  // namespace
+
+Result<Model> read_gltf(const std::filesystem::path& file, Errors& warnings) {
+  return read_safely<Model>(file, [&](const GltfFile& gltf) { return read_model(gltf, warnings); });
+}
+
+Result<std::string> gltf_attachment(const std::filesystem::path& file, const std::string& extension) {
+  return read_safely<std::string>(file, [&](const GltfFile& gltf) {
+    const Json& all = gltf.json();
+    const auto extensions = all.find("extensions");
+    if (extensions == all.end() || !extensions->is_object() || !extensions->contains(extension))
+      gltf_fail("it has no extension {}", extension);
+    const int view = gltf.index((*extensions)[extension], "bufferView", "bufferViews");
+    if (view < 0) gltf_fail("its extension {} names no buffer view", extension);
+    const std::span<const std::uint8_t> bytes = gltf.buffer_view(view);
+    return std::string(bytes.begin(), bytes.end());
+  });
 }
 
 }  // namespace parvis::scene

@@ -85,6 +85,10 @@ class Writer {
     cameras_.push_back(gltf_camera(camera.name, camera.camera));
   }
 
+  void attach(const GltfAttachment& attachment) {
+    extensions_[attachment.extension] = {{"bufferView", chunk_.add_bytes(attachment.bytes)}};
+  }
+
   Status write(const fs::path& file) const {
     Result<std::vector<PartialFile>> pictures = materials_.write_pictures(file);
     if (!pictures) return pictures.errors();
@@ -97,6 +101,8 @@ class Writer {
       if (!list->empty()) json[name] = *list;
     materials_.describe(json, file);
     chunk_.describe(json);
+    if (!extensions_.empty()) json["extensions"] = extensions_;
+    for (const auto& extension : extensions_.items()) json["extensionsUsed"].push_back(extension.key());
     return write_container(file, json, *pictures);
   }
 
@@ -140,7 +146,7 @@ class Writer {
   GltfChunk chunk_;
   std::map<const Model*, WrittenModel> models_;
   Json nodes_ = Json::array(), meshes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array(),
-       cameras_ = Json::array();
+       cameras_ = Json::array(), extensions_ = Json::object();
 };
 
 void append_word(std::string& bytes, std::size_t value) {
@@ -186,6 +192,13 @@ Status Writer::write_container(const fs::path& file, const Json& json,
 Status write_gltf(const fs::path& file, const Model& model) {
   Writer writer;
   if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  return writer.write(file);
+}
+
+Status write_gltf(const fs::path& file, const Model& model, const GltfAttachment& attachment) {
+  Writer writer;
+  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  writer.attach(attachment);
   return writer.write(file);
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "base/result.h"
 #include "scene/data/scene.h"
@@ -14,6 +15,14 @@ namespace parvis::scene {
 /// Writes `file` (.glb) and its pictures NAME_TEXTURE.png or, where no alpha is used, .jpg for colour. Node 0
 /// of the file turns z up to y up, so that reading gives the model again under one more node.
 Status write_gltf(const std::filesystem::path& file, const Model& model);
+
+/// Data of a room in a glTF file: other programs show the model, and pass over it.
+struct GltfAttachment {
+  std::string extension;  ///< its name, such as "PARVIS_captured_tree"
+  std::string bytes;
+};
+/// The same with bytes of an extension of the file: {"bufferView": n} below its name in "extensions".
+Status write_gltf(const std::filesystem::path& file, const Model& model, const GltfAttachment& attachment);
 
 /// The same of objects, each on a node of its name; those of one model share its meshes. An object that plays
 /// an animation stands at rest and has all animations of its model; others stand as they are now.
