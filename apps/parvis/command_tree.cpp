@@ -23,6 +23,7 @@
 #include "graphics/gl/context.h"
 #include "strict_numbers.h"
 #include "tree_calibrate.h"
+#include "tree_products.h"
 
 namespace parvis {
 namespace {
@@ -390,6 +391,7 @@ void add_tree(CLI::App& app, Chosen& chosen) {
   add_on_file(*tree, chosen, "report", "Compares a tree with views of the real one", "The tree (.tree)",
               "Example: parvis tree report out/oak.tree out/oak/held_out --pictures out/pictures", report,
               true);
+  add_tree_products(*tree, chosen);
   tree->footer(
       "Example: parvis tree synthesize oak -o out/oak, then parvis tree reconstruct out/oak -o "
       "out/oak.volume");

@@ -20,11 +20,15 @@ std::uint64_t checksum(std::string_view bytes) {
 }  // namespace
 
 Status write_sealed(const std::filesystem::path& file, const SealedKind& kind, std::string_view content) {
+  return write_file(file, sealed_bytes(kind, content));
+}
+
+std::string sealed_bytes(const SealedKind& kind, std::string_view content) {
   assert(kind.magic.size() == magic_size);
   std::string bytes(kind.magic);
   bytes += content;
   append_value(bytes, checksum(bytes));
-  return write_file(file, bytes);
+  return bytes;
 }
 
 Error cut_short(const std::filesystem::path& file) {
@@ -32,19 +36,24 @@ Error cut_short(const std::filesystem::path& file) {
 }
 
 Result<std::string> read_sealed(const std::filesystem::path& file, const SealedKind& kind) {
-  Result<std::string> bytes = read_file(file);
+  const Result<std::string> bytes = read_file(file);
   if (!bytes) return bytes.errors();
-  if (!bytes->starts_with(kind.magic.substr(0, magic_size - 1)))
+  return opened_sealed(file, *bytes, kind);
+}
+
+Result<std::string> opened_sealed(const std::filesystem::path& file, std::string_view bytes,
+                                  const SealedKind& kind) {
+  if (!bytes.starts_with(kind.magic.substr(0, magic_size - 1)))
     return error("{}: is no {} of Parvis", file.string(), kind.name);
-  if (!bytes->starts_with(kind.magic))
+  if (!bytes.starts_with(kind.magic))
     return error("{}: is a {} of another version of Parvis ({}; this one reads {})", file.string(), kind.name,
-                 bytes->substr(0, magic_size), kind.magic);
+                 bytes.substr(0, magic_size), kind.magic);
   std::uint64_t sum = 0;
-  if (bytes->size() < magic_size + sizeof sum) return cut_short(file);
-  const std::size_t end = bytes->size() - sizeof sum;
-  std::memcpy(&sum, bytes->data() + end, sizeof sum);
-  if (checksum(std::string_view(*bytes).substr(0, end)) != sum) return cut_short(file);
-  return bytes->substr(magic_size, end - magic_size);
+  if (bytes.size() < magic_size + sizeof sum) return cut_short(file);
+  const std::size_t end = bytes.size() - sizeof sum;
+  std::memcpy(&sum, bytes.data() + end, sizeof sum);
+  if (checksum(bytes.substr(0, end)) != sum) return cut_short(file);
+  return std::string(bytes.substr(magic_size, end - magic_size));
 }
 
 std::string_view Taker::take_bytes(std::optional<std::uint64_t> size) {

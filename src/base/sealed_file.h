@@ -28,6 +28,11 @@ Status write_sealed(const std::filesystem::path& file, const SealedKind& kind, s
 /// Returns the content. Errors say whether the file is missing, foreign, of another version, truncated or
 /// damaged.
 Result<std::string> read_sealed(const std::filesystem::path& file, const SealedKind& kind);
+/// The bytes of such a file, for those that are kept within another file.
+std::string sealed_bytes(const SealedKind& kind, std::string_view content);
+/// The content of such bytes; errors as of read_sealed, under the name of `file`.
+Result<std::string> opened_sealed(const std::filesystem::path& file, std::string_view bytes,
+                                  const SealedKind& kind);
 /// The error for a file whose content ends early, for readers that find so while they parse it.
 Error cut_short(const std::filesystem::path& file);
 

@@ -12,6 +12,9 @@
 namespace parvis::trees {
 namespace {
 
+constexpr int fallback_height = 512;    // pixels of a picture of the model
+constexpr float fallback_far = 100.0f;  // heights of the tree: from there a view is nearly parallel
+
 glm::vec3 level_direction(glm::vec3 from, glm::vec3 to) {
   const glm::vec3 way(to.x - from.x, to.y - from.y, 0.0f);
   const float length = glm::length(way);
@@ -86,6 +89,66 @@ ImageF render_crossed_billboards(const CrossedBillboards& billboards, const Pinh
     }
   });
   return picture;
+}
+
+namespace {
+
+/// A view along a level direction that the tree's box fills, from far away.
+Pinhole far_camera(const Bounds& box, glm::vec3 to_camera, float half_width_m) {
+  Camera camera;
+  const float distance_m = fallback_far * box.size().z;
+  camera.world_from_camera = look_at(box.centre() + distance_m * to_camera, box.centre());
+  const int width = std::max(4, int(std::lround(2.0f * half_width_m / box.size().z * fallback_height)));
+  Pinhole pinhole = pinhole_of(camera, width, fallback_height);
+  pinhole.focal = glm::vec2(fallback_height / box.size().z * distance_m);
+  return pinhole;
+}
+
+scene::Texture texture_of(ImageF premultiplied, std::string name) {
+  for (std::size_t i = 0; i < premultiplied.pixels.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c)
+      premultiplied.pixels[i + c] /= std::max(premultiplied.pixels[i + 3], 1e-4f);
+  scene::Texture texture;
+  texture.name = std::move(name), texture.image = srgb8_from_linear(premultiplied), texture.repeats = false;
+  return texture;
+}
+
+}  // namespace
+
+scene::Model crossed_model(const BillboardTree& tree) {
+  scene::Model model;
+  model.name = "captured tree";
+  const Bounds box = tree.grid.box();
+  const auto facing = [&](std::size_t view) {
+    return level_direction(box.centre(), tree.views[view].camera.position_in_world);
+  };
+  std::size_t second = 0;
+  for (std::size_t i = 1; i < tree.views.size(); ++i)
+    if (std::abs(glm::dot(facing(0), facing(i))) < std::abs(glm::dot(facing(0), facing(second)))) second = i;
+  for (const std::size_t view : {std::size_t(0), second}) {
+    const glm::vec3 to_camera = tree.views.empty() ? glm::vec3(0, -1, 0) : facing(view);
+    const glm::vec3 right(-to_camera.y, to_camera.x, 0.0f), half = 0.5f * box.size();
+    const float half_width_m = std::abs(right.x) * half.x + std::abs(right.y) * half.y;
+    const int number = int(model.parts.size());
+    model.textures.push_back(texture_of(render_billboards(tree, far_camera(box, to_camera, half_width_m)),
+                                        fmt::format("tree_{}", number)));
+    scene::Material material;
+    material.name = fmt::format("tree {}", number), material.base_colour = glm::vec3(1.0f);
+    material.base_colour_texture = number, material.alpha_mode = scene::Alpha::cutout;
+    material.is_double_sided = true;
+    model.materials.push_back(material);
+    scene::Part part;
+    part.object = material.name, part.material = number;
+    for (int corner = 0; corner < 4; ++corner) {
+      const float x = corner & 1 ? 1.0f : -1.0f, y = corner & 2 ? 1.0f : -1.0f;
+      part.mesh.positions.push_back(box.centre() + x * half_width_m * right + glm::vec3(0, 0, y * half.z));
+      part.mesh.normals.push_back(to_camera);
+      part.mesh.uvs.emplace_back(0.5f + 0.5f * x, 0.5f - 0.5f * y);
+    }
+    part.mesh.indices = {0, 1, 3, 0, 3, 2};
+    model.parts.push_back(std::move(part));
+  }
+  return model;
 }
 
 }  // namespace parvis::trees

@@ -5,7 +5,9 @@
 #include <span>
 
 #include "base/bounds.h"
+#include "capture/trees/billboard_tree.h"
 #include "capture/trees/tree_view.h"
+#include "scene/data/model.h"
 
 namespace parvis::trees {
 
@@ -23,5 +25,9 @@ CrossedBillboards crossed_billboards(std::span<const TreeView> views, const Boun
 
 /// What a camera sees of them: RGBA, premultiplied, linear light.
 ImageF render_crossed_billboards(const CrossedBillboards& billboards, const Pinhole& camera);
+
+/// Two crossed billboards as a model that any program shows, in the tree's frame: what the tree itself shows
+/// from two of its photographs' places, as nearly at right angles as there are.
+scene::Model crossed_model(const BillboardTree& tree);
 
 }  // namespace parvis::trees

@@ -1,6 +1,7 @@
 // Captured trees that stand in a scene.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -20,10 +21,26 @@ struct SceneTree {
   std::uint64_t content = 0;               ///< hash of the file
   glm::mat4 world_from_tree{1.0f};         ///< from the frame of the photographs' cameras
   bool is_visible = true;
+  float sway_m = 0.0f;  ///< how far the top moves in the wind at most, in the world; 0: the tree stands still
+  glm::vec2 lean_m{0.0f};  ///< where its top is now beside its place at rest, in the tree's frame
 
-  /// Adds the contents of all files.
-  void hash(ContentHash& hash) const { hash.add(content), hash.add(world_from_tree), hash.add(is_visible); }
+  /// A tree that sways is a dynamic thing.
+  bool sways() const { return sway_m > 0.0f; }
+  /// As it leans now.
+  glm::mat4 world_from_leaning_tree() const;
+  /// Adds all but how it leans now.
+  void hash(ContentHash& hash) const {
+    hash.add(content), hash.add(world_from_tree), hash.add(is_visible), hash.add(sway_m);
+  }
 };
+
+inline glm::mat4 SceneTree::world_from_leaning_tree() const {
+  if (lean_m == glm::vec2(0.0f)) return world_from_tree;
+  const glm::vec2 lean = lean_m / std::max(tree->box.max.z - tree->foot.z, 1e-3f);
+  glm::mat4 shear(1.0f);
+  shear[2] = {lean, 1.0f, 0.0f}, shear[3] = {-tree->foot.z * lean, 0.0f, 1.0f};
+  return world_from_tree * shear;
+}
 
 using SceneTrees = scene::ItemsOf<SceneTree>;
 

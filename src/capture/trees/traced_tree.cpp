@@ -70,7 +70,7 @@ class TreeSurface final : public scene::TracedSurface {
   TreeSurface(const SceneTree& tree, std::shared_ptr<const MeanSky> sky, glm::vec3 to_sun)
       : tree_(tree.tree),
         sky_(std::move(sky)),
-        tree_from_world_(glm::inverse(tree.world_from_tree)),
+        tree_from_world_(glm::inverse(tree.world_from_leaning_tree())),
         to_sun_(to_sun) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
@@ -139,7 +139,7 @@ scene::TracedKind traced_trees() {
       std::shared_ptr<const Mesh>& mesh = meshes[tree.tree.get()];
       if (!mesh) mesh = std::make_shared<const Mesh>(boxes_of(tree.tree->levels.front().grid));
       traced.add(mesh, std::make_shared<const TreeSurface>(tree, sky, scene.sun.direction_to_sun),
-                 tree.world_from_tree, {thing++, false, tree.is_visible, true});
+                 tree.world_from_leaning_tree(), {thing++, tree.sways(), tree.is_visible, true});
     }
   };
   return kind;

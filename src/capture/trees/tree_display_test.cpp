@@ -15,6 +15,7 @@
 #include "capture/trees/test_volume.h"
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
+#include "capture/trees/wind.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
@@ -189,6 +190,43 @@ TEST_F(TreeDisplayTest, ItsShadowHasTheDensityOfItsCrown) {
   };
   EXPECT_LT(mean(shaded, width / 2 - 30), 0.8 * mean(open, width / 2 - 30));
   EXPECT_NEAR(mean(shaded, width / 2 + 60), mean(open, width / 2 + 60), 1.0) << "toward the sun";
+}
+
+TEST_F(TreeDisplayTest, ATreeThatSwaysIsDrawnAsRaysSeeIt) {
+  plant({0, 0, 0});
+  SceneTree& tree = scene_.data<SceneTrees>().items.front();
+  tree.sway_m = 1.0f;
+  const auto with = renderer();
+  action::SharedByProcesses shared;
+  WindProcess wind;
+  wind.begin(scene_, shared);
+  const Image8 first = drawn(*with);
+  for (int i = 0; i < 45; ++i) wind.step(scene_);
+  wind.present(scene_, 0.0);
+  EXPECT_EQ(wind.status(), "1 trees sway");
+  const Image8 later = drawn(*with);
+  const glm::mat4 leaning = tree.world_from_leaning_tree();
+  const glm::vec4 foot(ball_levels()->foot, 1.0f),
+      top(ball_levels()->foot.x, ball_levels()->foot.y, ball_levels()->box.max.z, 1.0f);
+  EXPECT_LT(glm::length(leaning * foot - tree.world_from_tree * foot), 1e-4f);
+  EXPECT_GT(glm::length(leaning * top - tree.world_from_tree * top), 0.1f);
+  EXPECT_LE(glm::length(leaning * top - tree.world_from_tree * top), 1.0f);
+  const double moved = flip(first, later), wrong = flip(later, traced(*with, 64));
+  EXPECT_LT(wrong, 0.06);
+  // The control: rays that see it as it stood before.
+  const Image8 sways = later;
+  tree.lean_m = glm::vec2(0.0f);
+  EXPECT_GT(flip(sways, traced(*with, 64)), 1.1 * wrong);
+  EXPECT_GT(moved, 0.01);
+}
+
+TEST(Wind, IsContinuousAndBounded) {
+  for (int i = 0; i < 2000; ++i) {
+    const double time_s = 0.05 * i;
+    EXPECT_LE(glm::length(lean_at(time_s, 0.4f)), 1.0f);
+    EXPECT_LT(glm::distance(lean_at(time_s, 0.4f), lean_at(time_s + 1.0 / 60.0, 0.4f)), 0.05f);
+  }
+  EXPECT_GT(glm::distance(lean_at(3.0, 0.0f), lean_at(3.0, 2.0f)), 0.05f) << "each in its own time";
 }
 
 TEST_F(TreeDisplayTest, HiddenAndPlantedTreesChangeThePicture) {
@@ -367,6 +405,14 @@ TEST_F(TreeNodeTest, ItsFootStandsWhereTheNodeSays) {
   EXPECT_LT(glm::distance(foot, glm::vec3(5, 2, 1)), 1e-4f);
   EXPECT_NEAR(transformed(trees[0].world_from_tree, trees[0].tree->box).max.z, 9.0f, 0.4f);
   EXPECT_FALSE(trees[1].is_visible);
+}
+
+TEST_F(TreeNodeTest, AGltfFileIsATreeAndMaySway) {
+  ASSERT_TRUE(write_tree(folder_ / "ball.glb", ball_tree()));
+  const Result<scene::LoadedScene> loaded = load("tree(file=\"ball.glb\", sway=0.3)\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  ASSERT_EQ(scene_trees(loaded->scene).size(), 1u);
+  EXPECT_TRUE(scene_trees(loaded->scene)[0].sways());
 }
 
 TEST_F(TreeNodeTest, ABadFileIsAnErrorAtItsPlace) {

@@ -117,15 +117,25 @@ class TreeDrawable final : public render::Drawable {
     sun_ = scene::sun_light(scene);
     if (const Status status = upload(scene); !status) fmt::print(stderr, "{}", to_string(status.errors()));
     things_.begin_update(trees.size());
-    trees_.resize(trees.size());
+    trees_ = trees, bounds_.resize(trees.size()), swaying_.clear();
     for (std::size_t i = 0; i < trees.size(); ++i) {
-      const SceneTree& tree = trees[i];
+      SceneTree& tree = trees_[i];
+      tree.world_from_tree = tree.world_from_leaning_tree(), tree.lean_m = glm::vec2(0.0f);
       const Bounds all = transformed(tree.world_from_tree, tree.tree->box);
-      things_.update(i, {tree.tree.get(), tree.world_from_tree, tree.is_visible, all, all});
-      trees_[i] = tree;
+      const bool is_static = !tree.sways();
+      // A tree that sways is no static thing, but keeps its number.
+      things_.update(
+          i, {is_static ? tree.tree.get() : nullptr, is_static ? tree.world_from_tree : glm::mat4(1.0f),
+              is_static && tree.is_visible, all, is_static ? all : Bounds()});
+      bounds_[i] = tree.is_visible ? all : Bounds();
+      if (!is_static && tree.is_visible) swaying_.push_back(all);
     }
   }
-  render::Extents extents() const override { return things_.extents(); }
+  render::Extents extents() const override {
+    render::Extents extents = things_.extents();
+    extents.moving = swaying_, extents.things = bounds_;
+    return extents;
+  }
 
   void prepare(const View& view, const Culling& culling) override {
     DrawList& list = list_of(view);
@@ -133,9 +143,9 @@ class TreeDrawable final : public render::Drawable {
     std::vector<std::pair<float, std::size_t>> seen;
     for (std::size_t i = 0; i < trees_.size(); ++i)
       if (trees_[i].is_visible && atlas_.holds(trees_[i].tree.get()) &&
-          culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}) &&
-          culling.may_see(things_.bounds(i)) && !culling.is_hidden(things_.bounds(i)))
-        seen.emplace_back(glm::distance(things_.bounds(i).centre(), view.position_in_world), i);
+          culling.shows(first_thing_ + int(i), {trees_[i].sways(), things_.is_newcomer(i)}) &&
+          culling.may_see(bounds_[i]) && !culling.is_hidden(bounds_[i]))
+        seen.emplace_back(glm::distance(bounds_[i].centre(), view.position_in_world), i);
     std::ranges::sort(seen);
     const bool has_cover = view.kind == ViewKind::main || view.kind == ViewKind::cube_face;
     cover_.begin(view, has_cover ? detail_.min_visible : 0.0f);
@@ -211,12 +221,12 @@ class TreeDrawable final : public render::Drawable {
     const glm::mat3 turn(world_from_tree);
     const float scale = scale_of(world_from_tree);
     const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(view.position_in_world, 1.0f));
-    const SeenTree seen = seen_tree(placed, things_.bounds(i), view, culling);
+    const SeenTree seen = seen_tree(placed, bounds_[i], view, culling);
     const std::size_t level = level_for(*placed.tree, seen, detail_.limits);
     const BillboardTree& shown = placed.tree->levels[level];
     const float mip_level = TreeAtlas::mip_level(texel_size_m(shown) * seen.pixels_per_metre);
     order_.back_to_front(shown.grid, eye, cells_);
-    const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(things_.bounds(i).centre()));
+    const glm::vec3 to_sun = glm::normalize(glm::inverse(turn) * to_sun_at(bounds_[i].centre()));
     const std::vector<float>& sun = crowns_.shares(*placed.tree, to_sun)[level];
     const std::vector<float>&albedo_factor = placed.tree->crown.albedo_factor[level],
           &sky = placed.tree->crown.sky[level];
@@ -284,7 +294,9 @@ class TreeDrawable final : public render::Drawable {
   TreeAtlas atlas_;
   std::vector<const TreeLevels*> uploaded_;
   std::vector<SceneTree> trees_;  // as of the last update
-  render::StaticThings things_;
+  render::StaticThings things_;   // those that stand still
+  std::vector<Bounds> bounds_;    // of each tree; empty while it is hidden
+  std::vector<Bounds> swaying_;   // of those that sway and are visible
   // The main view's list and memory are its own: other views are drawn between its preparation and its
   // drawing.
   render::StreamBuffer main_stream_, other_stream_;

@@ -7,12 +7,16 @@
 #include <set>
 
 #include "base/sealed_file.h"
+#include "capture/trees/crossed_billboards.h"
 #include "capture/trees/texture_blocks.h"
+#include "formats/gltf/gltf_own_data.h"
 
 namespace parvis::trees {
 namespace {
 
 constexpr SealedKind kind{"PVTREE_2", "captured tree"}, volume_kind{"PVTVOL_2", "tree volume"};
+const std::string gltf_extension = "PARVIS_captured_tree";
+const std::string gltf_view = "tree";
 constexpr int max_billboard_side = 256;  // finer billboards than this are smaller than pixels
 constexpr int max_texels_per_side = 64, max_views = 1024;
 
@@ -93,7 +97,10 @@ std::string grid_problem(const Bounds& box, int branching, int side, int max_sid
 
 }  // namespace
 
-Result<std::size_t> write_tree(const std::filesystem::path& file, const BillboardTree& tree) {
+namespace {
+
+/// The content of a tree's file. `file`: as errors call it.
+Result<std::string> content_of(const std::filesystem::path& file, const BillboardTree& tree) {
   if (tree.texels_per_side % 4 != 0 || tree.texels_per_side > max_texels_per_side)
     return error(
         "{}: textures of {} texels along a side cannot be written, expected a multiple of 4 up to {}",
@@ -117,17 +124,14 @@ Result<std::size_t> write_tree(const std::filesystem::path& file, const Billboar
     append_value(content, view.camera), append_values(content, bits_of(view.texture_of_cell));
     append_values(content, blocks_of(ordered, tree.texels_per_side));
   }
-  if (Status status = write_sealed(file, kind, content); !status) return status.errors();
-  return content.size() + kind.magic.size() + sizeof(std::uint64_t);
+  return content;
 }
 
-Result<BillboardTree> read_tree(const std::filesystem::path& file) {
-  const Result<std::string> content = read_sealed(file, kind);
-  if (!content) return content.errors();
+Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::string& content) {
   const auto wrong = [&](const std::string& what) {
     return error("{}: the captured tree is damaged: {}", file.string(), what);
   };
-  Taker taker(*content);
+  Taker taker(content);
   const auto box = taker.take<Bounds>();
   const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>(),
              texels = taker.take<std::int32_t>();
@@ -168,6 +172,33 @@ Result<BillboardTree> read_tree(const std::filesystem::path& file) {
   }
   if (!taker.is_at_end()) return wrong("bytes follow its end");
   return tree;
+}
+
+}  // namespace
+
+Result<std::size_t> write_tree(const std::filesystem::path& file, const BillboardTree& tree) {
+  const Result<std::string> content = content_of(file, tree);
+  if (!content) return content.errors();
+  if (file.extension() == ".glb") {
+    const scene::GltfOwnData own{gltf_extension, "{}", {{gltf_view, sealed_bytes(kind, *content)}}};
+    if (Status status = scene::write_gltf(file, crossed_model(tree), own); !status) return status.errors();
+  } else if (Status status = write_sealed(file, kind, *content); !status) {
+    return status.errors();
+  }
+  return content->size() + kind.magic.size() + sizeof(std::uint64_t);
+}
+
+Result<BillboardTree> read_tree(const std::filesystem::path& file) {
+  if (file.extension() != ".glb") {
+    const Result<std::string> content = read_sealed(file, kind);
+    return content ? tree_of(file, *content) : content.errors();
+  }
+  const Result<scene::GltfOwnData> own = scene::read_gltf_own_data(file, gltf_extension);
+  if (!own) return own.errors();
+  if (own->views.size() != 1 || own->views.front().first != gltf_view)
+    return error("{}: its extension {} does not hold one view \"{}\"", file.string(), gltf_extension, gltf_view);
+  const Result<std::string> content = opened_sealed(file, own->views.front().second, kind);
+  return content ? tree_of(file, *content) : content.errors();
 }
 
 Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume) {

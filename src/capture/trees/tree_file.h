@@ -9,12 +9,15 @@
 
 namespace parvis::trees {
 
-/// Writes the tree, whole or not at all. Returns the file's size in bytes. Errors: a texture side that is no
-/// multiple of 4; what the disk says.
+/// Writes the tree, whole or not at all. A file that ends in .glb is glTF 2.0: two crossed billboards for
+/// other programs, with the tree in the extension PARVIS_captured_tree (docs/trees.md). Returns the tree's
+/// size in bytes, without those two pictures. Errors: a texture side that is no multiple of 4; what the disk
+/// says.
 Result<std::size_t> write_tree(const std::filesystem::path& file, const BillboardTree& tree);
 
-/// Reads a tree as it is displayed, its textures decompressed. Every count is checked against the bytes that
-/// are left before memory is taken for it. Errors name the file and what is wrong.
+/// Reads a tree (.tree, or .glb with the extension) as it is displayed, its textures decompressed. Every
+/// count is checked against the bytes that are left before memory is taken for it. Errors name the file and
+/// what is wrong.
 Result<BillboardTree> read_tree(const std::filesystem::path& file);
 
 /// The volume that textures are made from, between two commands. Returns the file's size in bytes.

@@ -8,8 +8,11 @@
 #include "base/files.h"
 #include "base/sealed_file.h"
 #include "base/test_folder.h"
+#include "capture/trees/crossed_billboards.h"
 #include "capture/trees/test_volume.h"
 #include "capture/trees/texture_blocks.h"
+#include "formats/gltf/gltf_reader.h"
+#include "formats/gltf/gltf_writer.h"
 
 namespace parvis::trees {
 namespace {
@@ -81,6 +84,32 @@ TEST(TreeFile, ReturnsWhatWasWritten) {
     for (std::size_t i = 0; i < tree.views[v].texels.size(); ++i)
       ASSERT_NEAR(int(again->views[v].texels[i]), int(tree.views[v].texels[i]), 16);
   }
+}
+
+TEST(TreeFile, AsGltfItIsAModelForOthersAndTheSameTreeForUs) {
+  const TestFolder folder;
+  const BillboardTree tree = random_tree();
+  ASSERT_TRUE(write_tree(folder.path() / "a.tree", tree).ok());
+  ASSERT_TRUE(write_tree(folder.path() / "a.glb", tree).ok());
+  const Result<BillboardTree> again = read_tree(folder.path() / "a.glb"),
+                              plain = read_tree(folder.path() / "a.tree");
+  ASSERT_TRUE(again.ok()) << to_string(again.errors());
+  EXPECT_EQ(again->grid.cells(), plain->grid.cells());
+  for (std::size_t v = 0; v < tree.views.size(); ++v)
+    EXPECT_EQ(again->views[v].texels, plain->views[v].texels);
+  Errors warnings;
+  const Result<scene::Model> model = scene::read_gltf(folder.path() / "a.glb", warnings);
+  ASSERT_TRUE(model.ok()) << to_string(model.errors());
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(model->triangle_count(), 4u) << "two crossed billboards";
+  const Bounds box = scene::bounds(*model);
+  EXPECT_NEAR(box.min.z, tree.grid.box().min.z, 1e-3f);
+  EXPECT_NEAR(box.max.z, tree.grid.box().max.z, 1e-3f);
+  // A model without the extension is no tree.
+  ASSERT_TRUE(scene::write_gltf(folder.path() / "other.glb", crossed_model(tree)).ok());
+  const Result<BillboardTree> other = read_tree(folder.path() / "other.glb");
+  ASSERT_FALSE(other.ok());
+  EXPECT_NE(to_string(other.errors()).find("PARVIS_captured_tree"), std::string::npos);
 }
 
 TEST(TreeFile, ReturnsVolumes) {

@@ -6,6 +6,7 @@
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
+#include "capture/trees/wind.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -23,12 +24,21 @@ scene::NodeSchema tree_schema() {
       .help =
           "A real tree, captured from photographs (parvis tree): it is seen as the closest photographs saw "
           "it, "
-          "lit by the scene's sun and sky, and casts shadows. Its foot stands at position.",
+          "lit by the scene's sun and sky, and casts shadows. Its foot stands at position. A tree that sways "
+          "has no "
+          "part in what is baked.",
       .attributes = {text("name", "by which other nodes refer to it"),
-                     file("file", "the tree, from parvis tree texture (.tree)").required(),
+                     file("file",
+                          "the tree, from parvis tree texture (.tree, or .glb from parvis tree export)")
+                         .required(),
                      number("height", "of the whole tree; 0: as it was photographed")
                          .in("m")
                          .between(0, 1000)
+                         .by_default("0")
+                         .live(),
+                     number("sway", "how far its top moves in the wind, to each side; 0: it stands still")
+                         .in("m")
+                         .between(0, 5)
                          .by_default("0")
                          .live()},
       .example = "tree(file=\"oak.tree\", position=\"12 -4 0\", heading_deg=40)"};
@@ -82,6 +92,7 @@ void build_tree(const Node& node, SceneBuilder& builder) {
   tree.world_from_tree = glm::translate(
       glm::scale(builder.world_from_parent() * scene::placement(node), glm::vec3(scale)), -read->tree->foot);
   tree.is_visible = builder.is_visible() && node.flag("visible");
+  tree.sway_m = float(node.number("sway"));
   builder.add(std::move(tree));
 }
 
@@ -90,6 +101,7 @@ void build_tree(const Node& node, SceneBuilder& builder) {
 void furnish(House& house) {
   house.get<scene::NodeRegistry>().add(tree_schema(), build_tree);
   house.get<render::Drawables>().add(scene_trees_kind());
+  house.get<action::Processes>().add([] { return std::make_unique<WindProcess>(); });
 }
 
 }  // namespace parvis::trees

@@ -40,7 +40,7 @@ int GltfChunk::add_bytes(std::string_view bytes) {
 
 void GltfChunk::describe(Json& json) const {
   if (bytes_.empty()) return;
-  json["accessors"] = accessors_;
+  if (!accessors_.empty()) json["accessors"] = accessors_;
   json["bufferViews"] = views_;
   json["buffers"] = {{{"byteLength", (bytes_.size() + 3) / 4 * 4}}};
 }

@@ -1,0 +1,53 @@
+// Trunk, branches and leaves of a captured tree, distinguished by colour and by place; the trunk as geometry.
+//
+// Past the thesis, which keeps no meaning in its cells (003_d5b01da2d2f805f6, chapter 7, names a hybrid of
+// geometry and volume as future work). Leaves absorb red light more than green light, bark does not: the
+// ratio of the two separates them whatever the light's brightness. The trunk is followed upward from the foot
+// through what is no leaf.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "capture/trees/tree_volume.h"
+#include "scene/data/model.h"
+
+namespace parvis::trees {
+
+/// What a cell holds most of.
+enum class Organ : std::uint8_t { trunk, branch, leaf };
+
+/// A trunk as a stack of discs, from the foot upward.
+struct Trunk {
+  /// A horizontal disc of the trunk.
+  struct Ring {
+    glm::vec3 centre{0.0f};  ///< metres
+    float radius_m = 0.0f;
+  };
+  std::vector<Ring> rings;  ///< ascending; empty where no trunk was found
+
+  /// True within the trunk.
+  bool contains(glm::vec3 point) const;
+};
+
+/// The organs of a tree.
+struct Organs {
+  std::vector<Organ> of_cell;  ///< per cell of the volume
+  Trunk trunk;
+  float leaf_threshold = 0.0f;  ///< logarithm of green over red, linear light, above which a cell is a leaf
+
+  /// The share of the tree's extinction that is in cells of this organ, 0..1.
+  float share(const TreeVolume& volume, Organ organ) const;
+};
+
+/// Organs of a volume. A tree without leaves has none; a crown that reaches the ground has no trunk.
+Organs organs_of(const TreeVolume& volume);
+
+/// The cells that are of no such organ.
+TreeVolume without(const TreeVolume& volume, const Organs& organs, Organ organ);
+
+/// The trunk as a mesh with the photographs as its texture: each texel shows what the cameras see that look
+/// at it most directly and see no background there. Errors: there are fewer than two rings.
+Result<scene::Model> trunk_model(const Trunk& trunk, std::span<const TreeView> views);
+
+}  // namespace parvis::trees

@@ -1,0 +1,112 @@
+#include "capture/trees/organs.h"
+
+#include <gtest/gtest.h>
+
+#include "capture/trees/test_volume.h"
+
+namespace parvis::trees {
+namespace {
+
+const glm::vec3 bark(0.12f, 0.08f, 0.05f), green(0.05f, 0.11f, 0.03f);
+constexpr float trunk_radius_m = 0.06f, crown_from_m = 0.45f;
+
+/// A column of bark with a ball of leaves round its upper half, and a branch out of it.
+TreeVolume column_and_ball(glm::vec3 leaf_colour) {
+  constexpr int side = 27;
+  TreeVolume volume;
+  std::vector<glm::u16vec3> cells;
+  const Bounds box{{-0.5f, -0.5f, 0.0f}, {0.5f, 0.5f, 1.0f}};
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const glm::vec3 at = box.min + (glm::vec3(float(x), float(y), float(z)) + 0.5f) / float(side);
+        const bool is_trunk = glm::length(glm::vec2(at)) < trunk_radius_m && at.z < 0.8f;
+        const bool is_branch =
+            at.x > 0.0f && at.x < 0.3f && std::abs(at.y) < 0.03f && std::abs(at.z - 0.6f) < 0.03f;
+        const bool is_leaf = glm::distance(at, glm::vec3(0, 0, 0.72f)) < 0.27f;
+        if (!is_trunk && !is_branch && !is_leaf) continue;
+        cells.emplace_back(x, y, z);
+        volume.colour.push_back((is_trunk || is_branch ? bark : leaf_colour) * (0.7f + 0.5f * at.z));
+        volume.extinction_per_m.push_back(is_trunk ? 200.0f : is_branch ? 60.0f : 8.0f);
+      }
+  volume.grid = CellGrid(box, 3, side, std::move(cells));
+  return volume;
+}
+
+TEST(Organs, AreDistinguishedByColourAndPlace) {
+  const TreeVolume volume = column_and_ball(green);
+  const Organs organs = organs_of(volume);
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < volume.grid.size(); ++i) {
+    const bool is_green = volume.colour[i].y > volume.colour[i].x;
+    const bool is_in_trunk = glm::length(glm::vec2(volume.grid.centre(i))) < trunk_radius_m;
+    const Organ truth = is_green ? Organ::leaf : is_in_trunk ? Organ::trunk : Organ::branch;
+    right += organs.of_cell[i] == truth;
+  }
+  EXPECT_GT(double(right), 0.93 * double(volume.grid.size()));
+  EXPECT_GT(organs.share(volume, Organ::trunk), 0.4f);
+  EXPECT_NEAR(organs.share(volume, Organ::trunk) + organs.share(volume, Organ::branch) +
+                  organs.share(volume, Organ::leaf),
+              1.0f, 1e-4f);
+}
+
+TEST(Organs, TheTrunkIsFollowedFromTheFoot) {
+  const Trunk trunk = organs_of(column_and_ball(green)).trunk;
+  ASSERT_GE(trunk.rings.size(), 10u);
+  for (const Trunk::Ring& ring : trunk.rings) {
+    EXPECT_LT(glm::length(glm::vec2(ring.centre)), 0.03f);
+    EXPECT_NEAR(ring.radius_m, trunk_radius_m, 0.3f * trunk_radius_m);
+  }
+  EXPECT_NEAR(trunk.rings.front().centre.z, 0.0f, 0.01f);
+  EXPECT_GT(trunk.rings.back().centre.z, crown_from_m);
+  EXPECT_LT(trunk.rings.back().centre.z, 0.85f);
+}
+
+TEST(Organs, ABareTreeHasNoLeaves) {
+  TreeVolume volume = column_and_ball(green);
+  for (glm::vec3& colour : volume.colour) colour = bark;
+  const Organs organs = organs_of(volume);
+  EXPECT_EQ(organs.share(volume, Organ::leaf), 0.0f);
+  EXPECT_FALSE(organs.trunk.rings.empty());
+}
+
+TEST(Organs, ACrownOnTheGroundHasNoTrunk) {
+  TreeVolume volume = column_and_ball(green);
+  for (glm::vec3& colour : volume.colour) colour = green;
+  const Organs organs = organs_of(volume);
+  EXPECT_TRUE(organs.trunk.rings.empty());
+  EXPECT_FALSE(trunk_model(organs.trunk, {}));
+}
+
+TEST(Organs, WithoutTheTrunkTheRestIsLeft) {
+  const TreeVolume volume = column_and_ball(green);
+  const Organs organs = organs_of(volume);
+  const TreeVolume rest = without(volume, organs, Organ::trunk);
+  EXPECT_EQ(rest.grid.size(), std::size_t(std::ranges::count_if(
+                                  organs.of_cell, [](Organ organ) { return organ != Organ::trunk; })));
+  EXPECT_EQ(organs_of(rest).share(rest, Organ::trunk), 0.0f);
+}
+
+TEST(Organs, TheTrunkShowsItsPhotographs) {
+  // Photographs that are red from the east and blue from all other sides.
+  const Trunk trunk{{{{0, 0, 0.6f}, 0.3f}, {{0, 0, 1.0f}, 0.3f}, {{0, 0, 1.4f}, 0.25f}}};
+  std::vector<TreeView> views = TestVolume().ring(8, 64);
+  for (TreeView& view : views) {
+    const glm::vec3 eye = glm::normalize(view.camera.position_in_world);
+    for (std::size_t i = 0; i < view.picture.pixels.size(); i += 4) {
+      view.picture.pixels[i] = eye.x > 0.8f ? 220 : 20, view.picture.pixels[i + 1] = 30;
+      view.picture.pixels[i + 2] = eye.x > 0.8f ? 20 : 220, view.picture.pixels[i + 3] = 255;
+    }
+  }
+  const Result<scene::Model> model = trunk_model(trunk, views);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  const Image8& bark_picture = model->textures.front().image;
+  const int middle = bark_picture.height / 2;
+  EXPECT_GT(bark_picture.at(0, middle)[0], 180) << "texture coordinate 0 is in the east";
+  EXPECT_GT(bark_picture.at(bark_picture.width / 2, middle)[2], 180);
+  for (const glm::vec3& position : model->parts.front().mesh.positions)
+    EXPECT_LE(glm::length(glm::vec2(position)), 0.301f);
+}
+
+}  // namespace
+}  // namespace parvis::trees
