@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/file_front.h"
+#include "base/memory_budget.h"
 #include "base/partial_file.h"
 
 namespace parvis {
@@ -83,6 +84,8 @@ Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
   const Error too_large =
       error("{}: is larger than the {:.1f} MB that are read", file.string(), double(max_bytes) / 1e6);
   if (std::uint64_t(status.st_size) > max_bytes) return too_large;
+  if (Status enough = check_memory(std::uint64_t(status.st_size), file.string()); !enough)
+    return enough.errors();
   std::string text;
   text.reserve(std::size_t(status.st_size) + 1);
   // Files of /proc and those that grow have another size than they say: read to the end, one byte beyond the

@@ -10,13 +10,14 @@
 #include "base/files.h"
 #include "base/isolated_process.h"
 #include "base/memory_budget.h"
+#include "base/picture_decoder.h"
 
 namespace parvis {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// At the front of what a worker gives; pixels follow.
+/// At the front of what a worker returns; pixels follow.
 struct PictureHeader {
   int width, height, channels;
 };
@@ -25,37 +26,45 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+/// In the worker: decodes `bytes` into `output`, without another copy of the pixels.
 template <class T>
-Result<BasicImage<T>> decode(std::span<const std::uint8_t> bytes, const std::string& name) {
-  if constexpr (std::is_same_v<T, float>)
-    return decode_image_float(bytes, name);
-  else
-    return decode_image8(bytes, name);
-}
-
-/// In the worker. The input is the picture's name, a zero, and the file's bytes.
-template <class T>
-Status decode_in_worker(std::string_view input, IsolatedOutput& output) {
+Status decode_into(std::string_view bytes, const std::string& name, IsolatedOutput& output) {
   OIIO::attribute("threads", 1);  // the library's threads did not survive the fork
   OIIO::attribute("exr_threads", -1);
-  const std::string name(input.substr(0, input.find('\0')));
-  const Result<BasicImage<T>> image = decode<T>(bytes_of(input.substr(name.size() + 1)), name);
-  if (!image) return image.errors();
-  const PictureHeader header{image->width, image->height, image->channels};
-  const std::size_t pixel_bytes = image->pixels.size() * sizeof(T);
-  const std::span<std::byte> bytes = output.allocate(sizeof header + pixel_bytes);
-  if (bytes.empty())
-    return error("{}: there is no memory for {} x {} pixels", name, header.width, header.height);
-  std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, image->pixels.data(), pixel_bytes);
-  return Done{};
+  const PixelsFor<T> pixels_for = [&](int width, int height, int channels) -> Result<T*> {
+    const PictureHeader header{width, height, channels};
+    const std::size_t values = std::size_t(width) * std::size_t(height) * std::size_t(channels);
+    const std::span<std::byte> to = output.allocate(sizeof header + values * sizeof(T));
+    if (to.empty()) return error("{}: there is no memory for {} x {} pixels", name, width, height);
+    std::memcpy(to.data(), &header, sizeof header);
+    return reinterpret_cast<T*>(to.data() + sizeof header);
+  };
+  return decode_image<T>(bytes_of(bytes), name, pixels_for);
 }
 
+/// The work of a worker. The input is the picture's name, a zero, and the file's bytes.
 template <class T>
-Result<BasicImage<T>> decode_isolated(std::string_view file_bytes, const std::string& name) {
+Status decode_bytes(std::string_view input, IsolatedOutput& output) {
+  const std::string name(input.substr(0, input.find('\0')));
+  return decode_into<T>(input.substr(name.size() + 1), name, output);
+}
+
+/// The work of a worker. The input is the picture's name, a zero, and the path of its file, which the worker
+/// reads itself: its bytes take no way through the program.
+template <class T>
+Status decode_file(std::string_view input, IsolatedOutput& output) {
+  const std::string name(input.substr(0, input.find('\0')));
+  const Result<std::string> bytes = read_file(fs::path(input.substr(name.size() + 1)));
+  return bytes ? decode_into<T>(*bytes, name, output) : Status(bytes.errors());
+}
+
+/// The picture that `work` makes of a name and of what follows it.
+template <class T>
+Result<BasicImage<T>> decode_isolated(IsolatedWork work, const std::string& name, std::string_view rest,
+                                      const IsolationLimits& limits = {}) {
   std::string input = name + '\0';
-  input += file_bytes;
-  const Result<IsolatedBytes> made = run_isolated(decode_in_worker<T>, input, name);
+  input += rest;
+  const Result<IsolatedBytes> made = run_isolated(work, input, name, limits);
   if (!made) return made.errors();
   PictureHeader header{};
   const std::span<const std::byte> bytes = made->bytes();
@@ -69,9 +78,18 @@ Result<BasicImage<T>> decode_isolated(std::string_view file_bytes, const std::st
           check_memory(claimed, fmt::format("{}: its {} x {} pixels", name, header.width, header.height));
       !status)
     return status.errors();
-  BasicImage<T> image(header.width, header.height, header.channels, T{});
-  std::memcpy(image.pixels.data(), bytes.data() + sizeof header, image.pixels.size() * sizeof(T));
+  BasicImage<T> image;
+  image.width = header.width, image.height = header.height, image.channels = header.channels;
+  const T* const first = reinterpret_cast<const T*>(bytes.data() + sizeof header);
+  image.pixels.assign(first, first + *claimed / sizeof(T));
   return image;
+}
+
+template <class T>
+Result<BasicImage<T>> decode_isolated(const fs::path& file) {
+  std::error_code code;
+  const fs::path path = fs::absolute(file, code);
+  return decode_isolated<T>(decode_file<T>, file.string(), path.string(), {.readable = {path}});
 }
 
 /// How many values were replaced by finite ones.
@@ -96,20 +114,15 @@ Status write(const fs::path& file, const BasicImage<T>& image) {
 
 }  // namespace
 
-Result<Image8> read_image8(const fs::path& file) {
-  const Result<std::string> bytes = read_file(file);
-  if (!bytes) return bytes.errors();
-  return decode_isolated<std::uint8_t>(*bytes, file.string());
-}
+Result<Image8> read_image8(const fs::path& file) { return decode_isolated<std::uint8_t>(file); }
 
 Result<Image8> read_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return decode_isolated<std::uint8_t>({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
+  return decode_isolated<std::uint8_t>(decode_bytes<std::uint8_t>, name,
+                                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Result<ImageF> read_image_float(const fs::path& file, std::size_t* replaced) {
-  const Result<std::string> bytes = read_file(file);
-  if (!bytes) return bytes.errors();
-  Result<ImageF> image = decode_isolated<float>(*bytes, file.string());
+  Result<ImageF> image = decode_isolated<float>(file);
   if (!image) return image;
   const std::size_t count = make_finite(*image);
   if (replaced != nullptr) *replaced = count;

@@ -12,6 +12,7 @@
 #include "base/checked.h"
 #include "base/colour.h"
 #include "base/memory_budget.h"
+#include "base/picture_decoder.h"
 
 namespace parvis {
 namespace {
@@ -67,18 +68,14 @@ Status check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std
   return Done{};
 }
 
-/// Spreads 1 to n channels over 3 or 4: grey to RGB, missing alpha to `opaque`.
+/// Spreads `count` pixels of 1 to n channels over 3 or 4: grey to RGB, missing alpha to `opaque`.
 template <class T>
-BasicImage<T> with_channels(const std::vector<T>& source, int width, int height, int from, int to, T opaque) {
-  BasicImage<T> image(width, height, to, opaque);
-  const bool is_grey = from < 3;
-  for (std::size_t i = 0; i < std::size_t(width) * std::size_t(height); ++i) {
-    const T* in = source.data() + i * std::size_t(from);
-    T* out = image.pixels.data() + i * std::size_t(to);
+void spread_channels(const T* in, int from, std::size_t count, T* out, int to, T opaque) {
+  const bool is_grey = from < 3, has_alpha = from == 2 || from >= 4;
+  for (std::size_t i = 0; i < count; ++i, in += from, out += to) {
     for (int c = 0; c < 3; ++c) out[c] = in[is_grey ? 0 : c];
-    if (to == 4 && (from == 2 || from >= 4)) out[3] = in[is_grey ? 1 : 3];
+    if (to == 4) out[3] = has_alpha ? in[is_grey ? 1 : 3] : opaque;
   }
-  return image;
 }
 
 Error not_a_picture(const std::string& name, std::string reason) {
@@ -116,19 +113,29 @@ Result<OpenPicture> open_picture(std::span<const std::uint8_t> bytes, const std:
   return open;
 }
 
+/// Rows that are decoded at once where their channels have to be spread: they stay in the cache.
+constexpr int rows_at_once = 64;
+
+/// Reads all pixels into `out`, which has `channels` for each of them.
 template <class T>
-Result<BasicImage<T>> read_pixels(OIIO::ImageInput& input, const std::string& name, int channels, T opaque) {
+bool read_pixels(OIIO::ImageInput& input, T* out, int channels, T opaque) {
   const OIIO::ImageSpec& spec = input.spec();
-  const auto bytes = checked_product({std::uint64_t(spec.width), std::uint64_t(spec.height),
-                                      std::uint64_t(spec.nchannels + channels), sizeof(T)});
-  if (Status status =
-          check_memory(bytes, fmt::format("{}: its {} x {} pixels", name, spec.width, spec.height));
-      !status)
-    return status.errors();
-  std::vector<T> pixels(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, pixels.data()))
-    return error("{}: the picture is damaged or cut short ({})", name, input.geterror());
-  return with_channels(pixels, spec.width, spec.height, spec.nchannels, channels, opaque);
+  const OIIO::TypeDesc type = OIIO::BaseTypeFromC<T>::value;
+  if (spec.nchannels == channels) return input.read_image(0, 0, 0, channels, type, out);
+  const std::size_t width = std::size_t(spec.width), from = std::size_t(spec.nchannels);
+  const int rows = spec.tile_width > 0 ? spec.height : std::min(rows_at_once, spec.height);
+  std::vector<T> some(width * std::size_t(rows) * from);
+  for (int y = 0; y < spec.height; y += rows) {
+    const int end = std::min(y + rows, spec.height), first = spec.y + y;
+    const bool is_read = spec.tile_width > 0 ? input.read_image(0, 0, 0, spec.nchannels, type, some.data())
+                                             : input.read_scanlines(0, 0, first, spec.y + end, 0, 0,
+                                                                    spec.nchannels, type, some.data());
+    if (!is_read) return false;
+    const std::size_t count = width * std::size_t(end - y);
+    spread_channels(some.data(), spec.nchannels, count, out + width * std::size_t(y) * std::size_t(channels),
+                    channels, opaque);
+  }
+  return true;
 }
 
 template <class T>
@@ -151,6 +158,18 @@ Result<std::string> encode(const BasicImage<T>& image, const std::string& name) 
   return std::string(bytes.buffer().begin(), bytes.buffer().end());
 }
 
+/// The picture as an image of its own.
+template <class T>
+Result<BasicImage<T>> decoded(std::span<const std::uint8_t> bytes, const std::string& name) {
+  BasicImage<T> image;
+  const PixelsFor<T> pixels_for = [&](int width, int height, int channels) -> Result<T*> {
+    image = BasicImage<T>(width, height, channels);
+    return image.pixels.data();
+  };
+  if (Status status = decode_image<T>(bytes, name, pixels_for); !status) return status.errors();
+  return image;
+}
+
 }  // namespace
 
 const PictureFormat* picture_format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
@@ -167,20 +186,43 @@ const PictureFormat* picture_format_to_write(std::string_view name) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-Result<Image8> decode_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
+template <class T>
+Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
+                    const PixelsFor<T>& pixels_for) {
+  constexpr bool is_float = std::is_same_v<T, float>;
+  constexpr int channels = is_float ? 3 : 4;
   Result<OpenPicture> open = open_picture(bytes, name);
   if (!open) return open.errors();
-  return read_pixels<std::uint8_t>(*open->input, name, 4, 255);
+  OIIO::ImageInput& input = *open->input;
+  const OIIO::ImageSpec& spec = input.spec();
+  const auto needed = checked_product({std::uint64_t(spec.width), std::uint64_t(spec.height),
+                                       std::uint64_t(spec.nchannels + channels), sizeof(T)});
+  if (Status status =
+          check_memory(needed, fmt::format("{}: its {} x {} pixels", name, spec.width, spec.height));
+      !status)
+    return status;
+  const bool is_srgb = is_float && spec.format.basesize() == 1;
+  const std::size_t values = std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(channels);
+  const Result<T*> pixels = pixels_for(spec.width, spec.height, channels);
+  if (!pixels) return pixels.errors();
+  if (!read_pixels(input, *pixels, channels, T(is_float ? 1 : 255)))
+    return error("{}: the picture is damaged or cut short ({})", name, input.geterror());
+  if constexpr (is_float)
+    if (is_srgb)
+      for (float& value : std::span(*pixels, values)) value = linear_from_srgb(value);
+  return Done{};
+}
+
+template Status decode_image(std::span<const std::uint8_t>, const std::string&,
+                             const PixelsFor<std::uint8_t>&);
+template Status decode_image(std::span<const std::uint8_t>, const std::string&, const PixelsFor<float>&);
+
+Result<Image8> decode_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
+  return decoded<std::uint8_t>(bytes, name);
 }
 
 Result<ImageF> decode_image_float(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Result<OpenPicture> open = open_picture(bytes, name);
-  if (!open) return open.errors();
-  const bool is_srgb = open->input->spec().format.basesize() == 1;
-  Result<ImageF> image = read_pixels<float>(*open->input, name, 3, 1.0f);
-  if (image && is_srgb)
-    for (float& value : image->pixels) value = linear_from_srgb(value);
-  return image;
+  return decoded<float>(bytes, name);
 }
 
 Result<std::string> encode_image(const Image8& image, const std::string& name) { return encode(image, name); }

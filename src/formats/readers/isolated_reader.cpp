@@ -77,14 +77,12 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   const Result<scene::Model> model = read(file, reading, warnings);
   if (!model) return model.errors();
   const std::string front = bytes_of_warnings(warnings);
-  constexpr std::uint64_t copies = 2;  // in this process; the program makes two more
-  if (Status status = check_memory(copies * byte_count(*model), file.string() + ": its content"); !status)
-    return status;
-  const std::string back = bytes_of(*model);
-  const std::span<std::byte> bytes = output.allocate(front.size() + back.size());
-  if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), back.size());
+  const std::uint64_t size = byte_count(*model);
+  if (Status status = check_memory(size, file.string() + ": its content"); !status) return status;
+  const std::span<std::byte> bytes = output.allocate(front.size() + std::size_t(size));
+  if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), size);
   std::memcpy(bytes.data(), front.data(), front.size());
-  std::memcpy(bytes.data() + front.size(), back.data(), back.size());
+  put_bytes(*model, bytes.subspan(front.size()));
   return Done{};
 }
 

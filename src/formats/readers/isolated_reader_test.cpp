@@ -12,6 +12,12 @@
 namespace parvis::formats {
 namespace {
 
+std::string bytes_of(const scene::Model& model) {
+  std::string bytes(byte_count(model), '\0');
+  put_bytes(model, std::as_writable_bytes(std::span(bytes)));
+  return bytes;
+}
+
 /// A model with something in every list.
 scene::Model full_model() {
   scene::Model model;

@@ -1,6 +1,8 @@
 #include "formats/readers/model_bytes.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cstring>
 #include <type_traits>
 
 #include "base/checked.h"
@@ -11,19 +13,19 @@ namespace {
 
 using namespace scene;
 
-/// Writes each field that it is given.
+/// Writes each field that it is given, into memory that has room for all of them.
 class Putter {
  public:
-  explicit Putter(std::string& bytes) : bytes_(bytes) {}
+  explicit Putter(std::span<std::byte> to) : to_(to) {}
 
   template <class T>
   void value(const T& value) {
-    append_value(bytes_, value);
+    put(&value, sizeof value);
   }
   template <class T>
   void array(const T& values) {
     value(std::uint64_t(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
+    put(values.data(), values.size() * sizeof values[0]);
   }
   template <class T, class Each>
   void list(const std::vector<T>& items, const Each& each) {
@@ -32,7 +34,13 @@ class Putter {
   }
 
  private:
-  std::string& bytes_;
+  void put(const void* bytes, std::size_t size) {
+    assert(size <= to_.size());
+    if (size > 0) std::memcpy(to_.data(), bytes, size);
+    to_ = to_.subspan(size);
+  }
+
+  std::span<std::byte> to_;
 };
 
 /// Counts the bytes of each field that it is given.
@@ -77,8 +85,12 @@ class Filler {
     using Value = std::remove_cvref_t<decltype(values[0])>;
     const std::string_view bytes =
         taker_.take_bytes(checked_product({taker_.take<std::uint64_t>(), sizeof(Value)}));
-    values.resize(bytes.size() / sizeof(Value));
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+    if constexpr (sizeof(Value) == 1) {  // pixels: not filled with zeros first
+      values.assign(bytes.begin(), bytes.end());
+    } else {
+      values.resize(bytes.size() / sizeof(Value));
+      std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+    }
   }
   /// Grows item by item: a count that lies ends with the bytes.
   template <class T, class Each>
@@ -259,12 +271,9 @@ std::uint64_t byte_count(const Model& model) {
   return counter.bytes();
 }
 
-std::string bytes_of(const Model& model) {
-  std::string bytes;
-  bytes.reserve(byte_count(model));
-  Putter putter(bytes);
+void put_bytes(const Model& model, std::span<std::byte> to) {
+  Putter putter(to);
   transfer_model(putter, model);
-  return bytes;
 }
 
 Result<Model> model_of(std::string_view bytes, const std::string& subject) {

@@ -2,6 +2,7 @@
 
 #include "bench/benches.h"
 #include "formats/readers/bench/attack_bench.h"
+#include "formats/readers/bench/isolation_bench.h"
 #include "formats/readers/bench/photo_bench.h"
 #include "formats/readers/bench/places_bench.h"
 #include "formats/readers/bench/reading_bench.h"
@@ -17,7 +18,7 @@ Status measure(const BenchSetup& setup, Report& report) {
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
   for (const auto& measure : {measure_readers, measure_places, measure_scenarios, measure_photographs,
-                              measure_safety, measure_attacks})
+                              measure_safety, measure_isolation, measure_attacks})
     if (Status status = measure(setup, report); !status) return status.errors();
   return Done{};
 }
@@ -27,6 +28,8 @@ Status measure(const BenchSetup& setup, Report& report) {
 void furnish_import_export(House& house) {
   house.get<Benches>().add(
       {"import_export", "scripts, city models, scenarios, path-traced photographs, exported glTF", measure});
+  house.get<Benches>().add(
+      {"import_export_isolation", "of `import_export`: reading in child processes alone", measure_isolation});
 }
 
 }  // namespace parvis::bench
