@@ -27,11 +27,11 @@ Image8 projection_figure(const PlaceLayers& place, const PackedFacade& facade, s
 /// same for what their layers hold, filled parts included.
 Image8 coverage_figure(const PlaceLayers& place);
 
-/// Of the model's pixels in the common view of coverage_figure: what the three photographs see, and what
-/// their layers hold, percent.
+/// Shares of the model's pixels in the common view of coverage_figure, percent.
 struct Coverage {
   double seen_percent = 0.0, layered_percent = 0.0;
 };
+/// What the three photographs of coverage_figure see, and what their layers hold.
 Coverage coverage_of(const PlaceLayers& place);
 
 /// The photograph with the most image layers: the one whose figures show most.

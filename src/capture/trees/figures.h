@@ -22,11 +22,12 @@ Image8 opacity_slice(const CellGrid& grid, std::span<const float> extinction_per
 /// Pictures of the same height beside each other, with a white line between them; rows below each other.
 Image8 contact_sheet(const std::vector<std::vector<Image8>>& rows);
 
-/// Curves over the iterations as a chart, SVG, logarithmic upward (figure 4.8).
+/// A curve of a chart.
 struct Curve {
   std::string name;
   std::vector<double> values;  ///< of the iterations 1, 2, ...
 };
+/// Curves over the iterations as a chart, SVG, logarithmic upward (figure 4.8).
 std::string convergence_chart(std::span<const Curve> curves);
 
 /// What the figures are made of.

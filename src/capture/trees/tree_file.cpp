@@ -196,7 +196,8 @@ Result<BillboardTree> read_tree(const std::filesystem::path& file) {
   const Result<scene::GltfOwnData> own = scene::read_gltf_own_data(file, gltf_extension);
   if (!own) return own.errors();
   if (own->views.size() != 1 || own->views.front().first != gltf_view)
-    return error("{}: its extension {} does not hold one view \"{}\"", file.string(), gltf_extension, gltf_view);
+    return error("{}: its extension {} does not hold one view \"{}\"", file.string(), gltf_extension,
+                 gltf_view);
   const Result<std::string> content = opened_sealed(file, own->views.front().second, kind);
   return content ? tree_of(file, *content) : content.errors();
 }
