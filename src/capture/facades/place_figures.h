@@ -32,6 +32,7 @@ Image8 coverage_figure(const PlaceLayers& place);
 struct Coverage {
   double seen_percent = 0.0, layered_percent = 0.0;
 };
+/// Measured in the pixels of that view.
 Coverage coverage_of(const PlaceLayers& place);
 
 /// The photograph with the most image layers: the one whose figures show most.
