@@ -26,7 +26,8 @@ struct FacadeStage {
 
 inline constexpr FacadeStage facade_stages[] = {
     {"calibrate", "Find the cameras of photographs, and points of the place", add_facade_calibrate},
-    {"panorama", "Make a panorama six calibrated photographs", add_facade_panorama},
+    {"panorama", "Make a panorama, or photographs from one spot, six calibrated photographs",
+     add_facade_panorama},
     {"model", "Propose a coarse model: ground, walls and roofs as named planes", add_facade_model},
     {"layers", "Cut every photograph into layers, as PSD files for an image editor", add_facade_layers},
     {"fill", "Propose what photographs do not see of their layers; accept or refuse it", add_facade_fill},

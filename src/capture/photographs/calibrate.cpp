@@ -14,6 +14,7 @@
 #include "capture/photographs/alignment.h"
 #include "capture/photographs/camera_files.h"
 #include "capture/photographs/colmap_database.h"
+#include "capture/photographs/colmap_features.h"
 #include "capture/photographs/neighbours.h"
 #include "capture/photographs/picture.h"
 #include "capture/photographs/picture_header.h"
@@ -25,7 +26,6 @@ namespace parvis::photographs {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int max_side_px = 1600;  ///< of the pictures that features are found in; finer ones are halved
 constexpr std::size_t min_matches = 20;     ///< of a pair; COLMAP needs 15 that agree by one geometry
 constexpr const char* max_trials = "3000";  ///< to find a pair's geometry: enough where a third is right
 
@@ -85,8 +85,9 @@ Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFo
   std::error_code code;
   fs::create_directories(work.root, code);
   if (code) return error("{}: cannot be made ({})", work.root.string(), code.message());
-  const std::string inputs = fmt::format("{} {} {} {}\n{}\n{}", job.lens, job.one_lens_for_all,
-                                         job.max_features, max_side_px, job.cameras.string(), pictures.hash);
+  const std::string inputs =
+      fmt::format("{} {} {} {}\n{}\n{}", job.lens, job.one_lens_for_all, job.max_features,
+                  max_feature_side_px, job.cameras.string(), pictures.hash);
   const Result<std::string> before = read_file(work.inputs());
   if (before && *before == inputs) return Done{};
   for (const fs::path& old : {work.database(), work.sparse(), work.finished(), work.given()})
@@ -95,30 +96,6 @@ Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFo
   for (const std::string& name : pictures.names) list += name + "\n";
   if (Status status = write_file(work.list(), list); !status) return status;
   return write_file(work.inputs(), inputs);
-}
-
-/// Runs one stage of COLMAP with a bar that `done` moves.
-Status run_stage(const std::string& what, std::size_t total, const std::function<std::size_t()>& done,
-                 const std::vector<std::string>& arguments, const fs::path& log) {
-  Progress progress(what, total);
-  std::size_t counted = 0;
-  return run_program(arguments, log, [&] {
-    const std::size_t now = std::min(done(), total);
-    if (now > counted) progress.advance(now - counted);
-    counted = std::max(counted, now);
-  });
-}
-
-Status find_features(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
-  const bool one_lens = job.one_lens_for_all && pictures.are_alike;
-  return run_stage(
-      "finding features", pictures.names.size(), [&] { return colmap_progress(work.database()).pictures; },
-      {"colmap", "feature_extractor", "--database_path", work.database(), "--image_path", job.pictures,
-       "--image_list_path", work.list(), "--ImageReader.camera_model", job.lens,
-       "--ImageReader.single_camera", one_lens ? "1" : "0", "--SiftExtraction.use_gpu", "0",
-       "--SiftExtraction.max_image_size", std::to_string(max_side_px), "--SiftExtraction.max_num_features",
-       std::to_string(job.max_features)},
-      work.log("features"));
 }
 
 /// What two pictures have in common, as COLMAP imports it.
@@ -292,7 +269,11 @@ Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& picture
     given.set.points.clear();
   }
   if (std::error_code code; !fs::exists(work.finished(), code)) {
-    if (Status status = find_features(job, pictures, work); !status) return status.errors();
+    const FeatureJob features{
+        job.pictures,    work.list(), work.database(), job.lens, job.one_lens_for_all && pictures.are_alike,
+        job.max_features};
+    if (Status status = find_features(features, pictures.names.size(), work.log("features")); !status)
+      return status.errors();
     if (Status status = match(pictures, work); !status) return status.errors();
     const Status status =
         job.cameras.empty() ? find_cameras(job, pictures, work) : triangulate(job, given.set, work);

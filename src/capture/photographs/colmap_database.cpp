@@ -46,22 +46,31 @@ std::span<const std::uint8_t> bytes_of(sqlite3_stmt* row, int column) {
   return {bytes, bytes ? std::size_t(sqlite3_column_bytes(row, column)) : 0};
 }
 
-/// The sizes of keypoints: x, y, then size and angle, or an affine shape a11 a12 a21 a22.
-std::vector<float> sizes_of_keypoints(std::span<const std::uint8_t> bytes, std::size_t columns) {
+/// Where keypoints are, and their sizes.
+struct Keypoints {
+  std::vector<glm::vec2> pixels;
   std::vector<float> sizes;
-  if (columns != 4 && columns != 6) return sizes;
+};
+
+/// Of x, y, then size and angle, or an affine shape a11 a12 a21 a22.
+Keypoints keypoints_of(std::span<const std::uint8_t> bytes, std::size_t columns) {
+  Keypoints keypoints;
+  if (columns != 4 && columns != 6) return keypoints;
   for (std::size_t at = 0; at + columns * sizeof(float) <= bytes.size(); at += columns * sizeof(float)) {
     float k[6] = {};
     std::memcpy(k, bytes.data() + at, columns * sizeof(float));
-    sizes.push_back(columns == 4 ? k[2] : 0.5f * (std::hypot(k[2], k[4]) + std::hypot(k[3], k[5])));
+    keypoints.pixels.emplace_back(k[0], k[1]);
+    keypoints.sizes.push_back(columns == 4 ? k[2] : 0.5f * (std::hypot(k[2], k[4]) + std::hypot(k[3], k[5])));
   }
-  return sizes;
+  return keypoints;
 }
 
 /// Adds features, the largest first; none where the two lists differ in length.
-void add_features(const std::vector<float>& sizes, std::span<const std::uint8_t> descriptors,
+void add_features(const Keypoints& keypoints, std::span<const std::uint8_t> descriptors,
                   PictureFeatures& to) {
+  const std::vector<float>& sizes = keypoints.sizes;
   if (descriptors.size() != sizes.size() * descriptor_bytes) return;
+  to.pixels = keypoints.pixels;
   to.numbers.resize(sizes.size());
   std::iota(to.numbers.begin(), to.numbers.end(), 0u);
   std::ranges::stable_sort(to.numbers, std::greater{}, [&](std::uint32_t i) { return sizes[i]; });
@@ -90,9 +99,9 @@ std::vector<PictureFeatures> picture_features(const std::filesystem::path& datab
         [&](sqlite3_stmt* row) {
           const auto* name = sqlite3_column_text(row, 0);
           if (!name) return;
-          pictures.push_back({reinterpret_cast<const char*>(name), {}, {}});
+          pictures.push_back({reinterpret_cast<const char*>(name), {}, {}, {}});
           const std::size_t columns = std::size_t(std::max(sqlite3_column_int(row, 1), 0));
-          add_features(sizes_of_keypoints(bytes_of(row, 2), columns), bytes_of(row, 3), pictures.back());
+          add_features(keypoints_of(bytes_of(row, 2), columns), bytes_of(row, 3), pictures.back());
         });
   return pictures;
 }

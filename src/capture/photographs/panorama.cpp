@@ -67,6 +67,38 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
   return pictures;
 }
 
+std::vector<Photograph> face_cameras(const std::string& name, int side, glm::dvec3 position) {
+  std::vector<Photograph> cameras;
+  for (const Face& face : faces) cameras.push_back(photograph_of(face, name, side, position));
+  return cameras;
+}
+
+Result<PhotographSet> write_faces(std::vector<Picture> pictures, const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  PhotographSet set;
+  for (Picture& picture : pictures) {
+    const Image8& image = picture.image;
+    Image8 colours(image.width, image.height, 3), mask(image.width, image.height, 1);
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+      std::copy_n(image.pixels.data() + 4 * i, 3, colours.pixels.data() + 3 * i);
+      mask.pixels[i] = image.pixels[4 * i + 3], shown += mask.pixels[i] > 0;
+    }
+    if (shown == 0) continue;
+    picture.photograph.file = folder / picture.photograph.name;
+    if (Status status = write_image(picture.photograph.file, colours); !status) return status.errors();
+    if (shown < mask.pixels.size()) {
+      picture.photograph.mask = folder.parent_path() / "masks" / picture.photograph.name;
+      std::filesystem::create_directories(picture.photograph.mask.parent_path(), code);
+      if (Status status = write_image(picture.photograph.mask, mask); !status) return status.errors();
+    }
+    set.photographs.push_back(std::move(picture.photograph));
+  }
+  std::ranges::sort(set.photographs, {}, &Photograph::name);
+  return set;
+}
+
 Result<PhotographSet> split_panorama(const std::filesystem::path& file, const std::filesystem::path& folder,
                                      glm::dvec3 position, double heading_deg) {
   const Result<PictureHeader> header = read_picture_header(file);
@@ -80,16 +112,7 @@ Result<PhotographSet> split_panorama(const std::filesystem::path& file, const st
   Result<std::vector<Picture>> pictures =
       faces_of_panorama(*panorama, file.stem().string(), position, heading_deg);
   if (!pictures) return pictures.errors();
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  PhotographSet set;
-  for (Picture& picture : *pictures) {
-    picture.photograph.file = folder / picture.photograph.name;
-    if (Status status = write_image(picture.photograph.file, picture.image); !status) return status.errors();
-    set.photographs.push_back(std::move(picture.photograph));
-  }
-  std::ranges::sort(set.photographs, {}, &Photograph::name);
-  return set;
+  return write_faces(*std::move(pictures), folder);
 }
 
 }  // namespace parvis::photographs

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@ inline constexpr std::size_t descriptor_bytes = 128;
 struct PictureFeatures {
   std::string name;                       ///< of the picture
   std::vector<std::uint32_t> numbers;     ///< per feature: its number in COLMAP's lists
+  std::vector<glm::vec2> pixels;          ///< by a feature's number: where it is, from the top left corner
   std::vector<std::uint8_t> descriptors;  ///< SIFT as COLMAP keeps it: descriptor_bytes for each feature
 };
 

@@ -28,7 +28,7 @@ void add_feature(int feature, float noise, Random& photograph, PictureFeatures& 
 /// A photograph of features [first, last).
 PictureFeatures photograph_of(int first, int last, int number) {
   Random random(std::uint64_t(number) + 1);
-  PictureFeatures features{"p" + std::to_string(number), {}, {}};
+  PictureFeatures features{"p" + std::to_string(number), {}, {}, {}};
   for (int feature = first; feature < last; ++feature) add_feature(feature, 0.2f, random, features);
   return features;
 }
