@@ -1,5 +1,7 @@
 // Packets of rays in double precision: Embree finds candidates among triangles that are grown by more than
-// its error, along rays that begin earlier and end later by more than that; each candidate is decided here.
+// its error, along rays that begin earlier and end later by more than that. Candidates that are hit well
+// within their edges, from a side that is beyond doubt and at a distance that no other is near, are decided
+// in single precision; all others in double precision, here.
 #include "graphics/reference/ray_query.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ struct QueryContext {
   std::span<Passage> passages;  ///< of each ray; empty: rays see as the renderer draws
   std::span<const FineRay> fine_rays = {};
   std::span<FineHit> fine_hits = {};  ///< the nearest so far
+  std::uint32_t rough_hits = 0;  ///< a bit for each of them whose distance and weights are single precision
   float margin_m = 0.0f;
 
   QueryContext(const Places& all, std::span<Passage> of_rays) : places(all), passages(of_rays) {
@@ -70,14 +73,105 @@ bool stops_as_drawn(const Candidate& candidate, bool is_shadow) {
   return material.alpha_mode != scene::Alpha::cutout || alpha_of(candidate, is_shadow) >= 0.5f;
 }
 
-/// Where the ray itself crosses the triangle itself.
-std::optional<Crossing> fine_crossing(const FineRay& ray, const PlacedPart& place, std::uint32_t triangle) {
+/// Of a triangle in the world, as the float transform places them.
+std::array<glm::dvec3, 3> fine_corners(const PlacedPart& place, std::uint32_t triangle) {
   const glm::dmat4 world_from_mesh(place.world_from_mesh);
   const std::uint32_t* const index = place.mesh->indices.data() + 3 * std::size_t(triangle);
   std::array<glm::dvec3, 3> corners;
   for (std::size_t k = 0; k < 3; ++k)
     corners[k] = glm::dvec3(world_from_mesh * glm::dvec4(place.mesh->positions[index[k]], 1.0));
-  return crossing(ray, corners);
+  return corners;
+}
+
+/// Gives the nearest hit of a ray so far its distance and weights in double precision; `corners` are its
+/// triangle's.
+void refine_hit(QueryContext& context, unsigned ray, const std::array<glm::dvec3, 3>& corners) {
+  FineHit& hit = context.fine_hits[ray];
+  if (const auto found = crossing(context.fine_rays[ray], corners))
+    hit.distance_m = found->distance_m, hit.u = float(found->u), hit.v = float(found->v);
+  context.rough_hits &= ~(1u << ray);
+}
+
+/// The same of all rays. Those of a packet often hit the same triangle.
+void refine_hits(QueryContext& context) {
+  const PlacedPart* place = nullptr;
+  std::uint32_t triangle = 0;
+  std::array<glm::dvec3, 3> corners;
+  for (unsigned ray = 0; ray < context.fine_rays.size(); ++ray) {
+    if ((context.rough_hits >> ray & 1u) == 0) continue;
+    const FineHit& hit = context.fine_hits[ray];
+    if (hit.place != place || hit.triangle != triangle) {
+      place = hit.place, triangle = hit.triangle;
+      corners = fine_corners(*place, triangle);
+    }
+    refine_hit(context, ray, corners);
+  }
+}
+
+/// Where Embree's form of a fine ray begins.
+double begin_of(const FineRay& ray, float margin_m) {
+  return std::max(ray.min_m - double(margin_m), -4.0 * double(margin_m));
+}
+
+/// What single precision says of a candidate along a fine ray.
+enum class Verdict : unsigned char { passes, stops, unsure };
+
+/// `certain_share` is that of ray_scene.cpp: beyond it all weights lie within the triangle itself. Light
+/// that grazes a triangle is left to double precision.
+template <bool is_shadow>
+Verdict rough_verdict(QueryContext& context, const Candidate& candidate, glm::vec3 ng, float certain_share,
+                      unsigned ray, double distance_m) {
+  constexpr float min_cosine_squared = 0.01f;
+  const float cosine = glm::dot(ng, candidate.direction);
+  const bool knows_side = cosine * cosine > min_cosine_squared * glm::dot(ng, ng) *
+                                                glm::dot(candidate.direction, candidate.direction);
+  if (!knows_side || candidate.place.material->alpha_mode == scene::Alpha::cutout) return Verdict::unsure;
+  if (!stops_as_drawn(candidate, is_shadow)) return Verdict::passes;
+  const FineRay& fine = context.fine_rays[ray];
+  const double margin_m = double(context.margin_m);
+  const bool is_within =
+      std::min({candidate.u, candidate.v, 1.0f - candidate.u - candidate.v}) > certain_share &&
+      distance_m > fine.min_m + margin_m && distance_m < fine.max_m - margin_m;
+  if (!is_within) return Verdict::unsure;
+  if (is_shadow || !context.fine_hits[ray].place) return Verdict::stops;
+  const double behind_m = distance_m - context.fine_hits[ray].distance_m;
+  if (std::abs(behind_m) < 4.0 * margin_m) return Verdict::unsure;
+  return behind_m < 0.0 ? Verdict::stops : Verdict::passes;
+}
+
+/// The same in double precision, which replaces the candidate's weights and `distance_m`.
+template <bool is_shadow>
+bool fine_verdict(QueryContext& context, Candidate& candidate, unsigned ray, double& distance_m) {
+  if (!is_shadow && (context.rough_hits >> ray & 1u) != 0)
+    refine_hit(context, ray, fine_corners(*context.fine_hits[ray].place, context.fine_hits[ray].triangle));
+  const FineRay& fine = context.fine_rays[ray];
+  const auto found = crossing(fine, fine_corners(candidate.place, candidate.triangle));
+  const double max_m =
+      is_shadow || !context.fine_hits[ray].place ? fine.max_m : context.fine_hits[ray].distance_m;
+  if (!found || found->distance_m <= fine.min_m || found->distance_m >= max_m) return false;
+  distance_m = found->distance_m, candidate.u = float(found->u), candidate.v = float(found->v);
+  candidate.is_back = found->is_back != candidate.place.is_mirrored;
+  return stops_as_drawn(candidate, is_shadow);
+}
+
+/// Does a candidate stop a fine ray? It is then the nearest hit so far.
+template <bool is_shadow>
+bool stops_fine(QueryContext& context, const RTCFilterFunctionNArguments* arguments, unsigned lane,
+                Candidate& candidate, glm::vec3 ng) {
+  const unsigned n = arguments->N, ray = RTCRayN_id(arguments->ray, n, lane);
+  float& embree_distance_m = RTCRayN_tfar(arguments->ray, n, lane);
+  double distance_m = begin_of(context.fine_rays[ray], context.margin_m) + double(embree_distance_m);
+  const float certain_share =
+      static_cast<const float*>(arguments->geometryUserPtr)[3 * std::size_t(candidate.triangle)];
+  const Verdict verdict = rough_verdict<is_shadow>(context, candidate, ng, certain_share, ray, distance_m);
+  if (verdict == Verdict::passes) return false;
+  if (verdict == Verdict::unsure && !fine_verdict<is_shadow>(context, candidate, ray, distance_m))
+    return false;
+  if (is_shadow) return true;
+  context.fine_hits[ray] = {&candidate.place, candidate.triangle, distance_m, candidate.u, candidate.v};
+  if (verdict == Verdict::stops) context.rough_hits |= 1u << ray;
+  embree_distance_m += context.margin_m * 2.0f;  // candidates a little behind may yet prove to be nearer
+  return true;
 }
 
 /// Asks about the `lane`-th of the rays that a call is about.
@@ -97,25 +191,9 @@ bool stops(QueryContext& context, const RTCFilterFunctionNArguments* arguments, 
                       RTCHitN_v(arguments->hit, n, lane),
                       glm::dot(ng, direction) > 0.0f,  // mirroring exchanges nothing in the mesh's frame
                       direction};
-  double distance_m = 0.0;
-  if (!context.fine_rays.empty()) {
-    const FineRay& fine = context.fine_rays[ray];
-    const auto found = fine_crossing(fine, place, candidate.triangle);
-    const double max_m =
-        is_shadow || !context.fine_hits[ray].place ? fine.max_m : context.fine_hits[ray].distance_m;
-    if (!found || found->distance_m <= fine.min_m || found->distance_m >= max_m) return false;
-    distance_m = found->distance_m, candidate.u = float(found->u), candidate.v = float(found->v);
-    candidate.is_back = found->is_back != place.is_mirrored;
-  }
-  if (!(context.passages.empty() ? stops_as_drawn(candidate, is_shadow)
-                                 : stops_light(candidate, context.passages[ray], is_shadow)))
-    return false;
-  if (!is_shadow && !context.fine_rays.empty()) {
-    context.fine_hits[ray] = {&place, candidate.triangle, distance_m, candidate.u, candidate.v};
-    // candidates a little behind may yet prove to be nearer
-    RTCRayN_tfar(arguments->ray, n, lane) += context.margin_m * 2.0f;
-  }
-  return true;
+  if (!context.fine_rays.empty()) return stops_fine<is_shadow>(context, arguments, lane, candidate, ng);
+  return context.passages.empty() ? stops_as_drawn(candidate, is_shadow)
+                                  : stops_light(candidate, context.passages[ray], is_shadow);
 }
 
 template <bool is_shadow, bool is_of_context>
@@ -153,7 +231,7 @@ bool is_finite(const Ray& ray) {
 
 /// Begins and ends where single precision cannot miss what lies on the ray.
 Ray embree_ray_around(const FineRay& ray, float margin_m) {
-  const double before = std::max(ray.min_m - double(margin_m), -4.0 * double(margin_m));
+  const double before = begin_of(ray, margin_m);
   return {glm::vec3(ray.origin + before * ray.direction), glm::vec3(ray.direction), 0.0f,
           float(std::min(ray.max_m - before + double(margin_m), 1e30))};
 }
@@ -213,14 +291,16 @@ void RayScene::nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hi
   Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
   QueryContext context(places_, {});
   context.fine_rays = rays, context.fine_hits = hits, context.margin_m = margin_m_;
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(packet.valid, top_, &context.embree, &packet.rays);
+  refine_hits(context);
 }
 
 std::uint32_t RayScene::are_blocked(std::span<const FineRay> rays) const {
   assert(margin_m_ > 0.0f);
   Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
   QueryContext context(places_, {});
-  context.fine_rays = rays;
+  context.fine_rays = rays, context.margin_m = margin_m_;
   rtcOccluded16(packet.valid, top_, &context.embree, &packet.rays.ray);
   return packet.blocked();
 }

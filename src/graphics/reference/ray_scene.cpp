@@ -28,6 +28,18 @@ float volume_of(const glm::mat4& world_from_mesh) {
   return std::isfinite(volume + place.x + place.y + place.z) ? volume : 0.0f;
 }
 
+/// For each corner of triangles that were grown by `margin`, its triangle's share: a point whose barycentric
+/// weights are all larger lies within the triangle as it was, by as much again as it has been grown.
+void set_certain_shares(const glm::vec3* corners, std::size_t count, float margin, float* shares) {
+  for (std::size_t i = 0; i + 2 < count; i += 3) {
+    const glm::vec3 ab = corners[i + 1] - corners[i], ac = corners[i + 2] - corners[i];
+    const float longest = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
+    const float min_height = glm::length(glm::cross(ab, ac)) / longest;
+    const float share = 2.0f * margin / min_height;
+    shares[i] = shares[i + 1] = shares[i + 2] = share < 1.0f ? share : 1.0f;  // not a number: of no area
+  }
+}
+
 /// How far from the origin anything lies that rays may hit. What has no finite place is left out.
 class Reach final : public scene::TracedScene {
  public:
@@ -330,6 +342,13 @@ RTCGeometry RayScene::triangles(const Mesh& mesh, const glm::mat4& transform, fl
     std::iota(indices, indices + mesh.indices.size(), 0u);  // no triangle shares its grown corners
   else
     std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
+  if (margin > 0.0f) {
+    rtcSetGeometryVertexAttributeCount(geometry, 1);
+    auto* const shares = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, RTC_FORMAT_FLOAT, sizeof(float), corner_count));
+    set_certain_shares(corners, corner_count, margin, shares);
+    rtcSetGeometryUserData(geometry, shares);
+  }
   if (is_filtered) {
     rtcSetGeometryIntersectFilterFunction(geometry, filter_seen);
     rtcSetGeometryOccludedFilterFunction(geometry, filter_shadow);
@@ -361,8 +380,12 @@ void RayScene::deform(std::size_t place) {
   const glm::mat4& world_from_mesh = places_[place]->world_from_mesh;
   const RTCScene scene = mesh_scene(mesh, world_from_mesh);
   const RTCGeometry geometry = rtcGetGeometry(scene, 0);
-  void* const corners = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-  set_corners(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), static_cast<glm::vec3*>(corners));
+  auto* const corners =
+      static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+  const float margin = margin_in_mesh(world_from_mesh);
+  set_corners(mesh, glm::mat4(1.0f), margin, corners);
+  if (void* const shares = rtcGetGeometryUserData(geometry))
+    set_certain_shares(corners, mesh.indices.size(), margin, static_cast<float*>(shares));
   rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);

@@ -38,7 +38,9 @@ float visible_sun(vec3 position, vec3 normal) {
 // The same for the static scene alone, coarser.
 float visible_fixed_sun(vec3 position, vec3 normal) {
   ShadowMaps maps = frame_shadow_maps();
-  vec3 uvz = shadow_coordinates(maps, shadow_far_map, position, normal, frame_to_sun.xyz, maps.texel_m.x);
-  return is_inside_map(uvz, 2.0f * maps.texel_uv) ? filtered_shadow(shadow_far_map, uvz, maps.texel_uv)
-                                                  : 1.0f;
+  ShadowReceiver receiver = shadow_receiver(maps, shadow_far_map, vec4(1.0f, 1.0f, 0.0f, 0.0f), position,
+                                            normal, frame_to_sun.xyz, maps.texel_m.x);
+  return is_inside_map(receiver.uvz, 2.0f * maps.texel_uv)
+             ? filtered_shadow(shadow_far_map, receiver, maps.texel_uv)
+             : 1.0f;
 }

@@ -38,12 +38,60 @@ TEST(Shadow, LiesUnderTheRoofAndNotBesideIt) {
   EXPECT_EQ(sun_at(shadow, 20, 60), 1.0f) << "above the roof";
 }
 
-/// What faces the sun is looked up six tenths of a texel nearer to it.
+/// What faces the sun is looked up a seventh of a texel nearer to it.
 TEST(Shadow, ASurfaceDoesNotShadeItself) {
   const SunShadow shadow = roof_in_the_west();
   EXPECT_EQ(sun_at(shadow, 20, 50), 1.0f);
-  EXPECT_EQ(sun_at(shadow, 20, 49.5f), 1.0f);
-  EXPECT_EQ(sun_at(shadow, 20, 49.3f), 0.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.9f), 1.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.8f), 0.0f);
+}
+
+/// A plane under a sun that is `tangent` times as far away aside as it is high: its map holds the plane
+/// itself, and east of x = 40 m nothing.
+struct SlopingSun {
+  SunShadow shadow;
+  vec3 to_sun;
+
+  explicit SlopingSun(float tangent) : to_sun(glm::normalize(vec3(tangent, 0, 1))) {
+    // x and y where the line to the sun crosses the ground; depth falls toward the sun
+    mat4 uvz_from_world(0.0f);
+    uvz_from_world[0][0] = uvz_from_world[1][1] = 1.0f / texels;
+    uvz_from_world[2][0] = -tangent / texels;
+    uvz_from_world[0][2] = -0.01f * to_sun.x, uvz_from_world[2][2] = -0.01f * to_sun.z;
+    uvz_from_world[3] = vec4(0, 0, 0.8f, 1);
+    shadow.maps.uvz_from_world[0] = shadow.maps.uvz_from_world[1] = uvz_from_world;
+    shadow.maps.texel_m = vec2(to_sun.z);
+    shadow.maps.texel_uv = 1.0f / texels;
+    for (ImageF& depth : shadow.depth) {
+      depth = ImageF(texels, texels, 1, 1.0f);
+      for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < 40; ++x) *depth.at(x, y) = 0.8f - 0.01f * to_sun.x * (float(x) + 0.5f);
+    }
+  }
+  float at(vec3 position) const { return sun_visibility(shadow, position, up, to_sun); }
+};
+
+/// Each texel of the filter is compared with the depth of the receiver's plane there.
+TEST(Shadow, APlaneUnderALowSunDoesNotShadeItself) {
+  for (const float tangent : {0.0f, 1.0f, -1.0f, 5.0f, -5.0f, 12.0f}) {
+    const SlopingSun sun(tangent);
+    for (float x = 4.0f; x < 36.0f; x += 0.37f)
+      EXPECT_NEAR(sun.at({x, 20.3f, 0.0f}), 1.0f, 1e-5f) << "tangent " << tangent << " at " << x;
+  }
+}
+
+/// The lookup does not leave the surface by texels: what lies under the plane by little is in shadow, up to
+/// its edge.
+TEST(Shadow, EdgesStayInPlaceUnderALowSun) {
+  const float tangent = 3.0f;
+  const SlopingSun sun(tangent);
+  const float below_m = -8.0f;
+  const auto under = [&](float x) {
+    return sun.at({x + tangent * below_m, 20.3f, below_m});
+  };  // under (x, y, 0)
+  EXPECT_EQ(under(30.0f), 0.0f);
+  EXPECT_NEAR(under(40.0f), 0.5f, 0.15f);
+  EXPECT_EQ(under(42.0f), 1.0f);
 }
 
 TEST(Shadow, ItsEdgeIsATentOverThreeTexels) {

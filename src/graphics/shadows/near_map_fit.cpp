@@ -21,8 +21,10 @@ constexpr int resolution = light::SunShadowMaps::map_size;
 
 using light::ShadowMap;
 
-/// Steps of a quarter of an octave, so that maps keep their scale while the view changes a little.
-double stepped(double half) { return std::exp2(std::ceil(4.0 * std::log2(std::max(half, 1e-3))) / 4.0); }
+/// Steps of an eighth of an octave, so that maps keep their scale while the view changes a little.
+glm::dvec2 stepped(glm::dvec2 half) {
+  return glm::exp2(glm::ceil(8.0 * glm::log2(glm::max(half, glm::dvec2(1e-3)))) / 8.0);
+}
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -42,16 +44,25 @@ glm::dvec2 depth_range(const Bounds& casters, glm::dvec3 to_sun) {
   return {range.x - 1.0, range.y + moving_height_m};
 }
 
-/// Orthographic maps as quarters of one, the coarsest first. Squares of stepped size stand on whole texels of
-/// theirs: edges do not crawl when the viewer moves.
-light::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, const Bounds& casters) {
-  struct Square {
-    glm::dvec2 centre;
-    double half;
-  };
+/// Axes of a map across the sun: `forward` goes up in it, in steps of a 128th of a turn, so that maps keep
+/// their texels while the view turns a little. What a view shows is long in that direction.
+std::array<glm::dvec3, 2> map_axes(glm::dvec3 to_sun, glm::dvec3 forward) {
+  constexpr double steps = 128.0 / 6.283185307179586;
   const glm::dvec3 aside = std::abs(to_sun.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(aside, to_sun)), up = glm::cross(to_sun, right);
-  std::vector<Square> squares;
+  const double turn = std::round(steps * std::atan2(glm::dot(forward, right), glm::dot(forward, up))) / steps;
+  return {std::cos(turn) * right - std::sin(turn) * up, std::sin(turn) * right + std::cos(turn) * up};
+}
+
+/// Orthographic maps as quarters of one, the coarsest first. Rectangles of stepped size stand on whole texels
+/// of theirs: edges do not crawl when the viewer moves.
+light::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, glm::dvec3 forward,
+                         const Bounds& casters) {
+  struct Rectangle {
+    glm::dvec2 centre, half;
+  };
+  const auto [right, up] = map_axes(to_sun, forward);
+  std::vector<Rectangle> rectangles;
   for (auto map = maps.rbegin(); map != maps.rend(); ++map) {
     const glm::dmat4 world_from_map = glm::inverse(map->map_from_world);
     glm::dvec2 low(1e300), high(-1e300);
@@ -60,13 +71,15 @@ light::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, 
       const glm::dvec2 at(glm::dot(p, right), glm::dot(p, up));
       low = glm::min(low, at), high = glm::max(high, at);
     }
-    const double half = stepped(0.5 * std::max(high.x - low.x, high.y - low.y));
-    const double texel = 4.0 * half / resolution;
-    squares.push_back({glm::round(0.5 * (low + high) / texel) * texel, half});
+    // no thinner than an eighth of its length: texels stay compact
+    const glm::dvec2 longest(std::max(high.x - low.x, high.y - low.y));
+    const glm::dvec2 half = stepped(0.5 * glm::max(high - low, longest / 8.0));
+    const glm::dvec2 texel = 4.0 * half / double(resolution);
+    rectangles.push_back({glm::round(0.5 * (low + high) / texel) * texel, half});
   }
   glm::dvec2 low(1e300), high(-1e300);
-  for (const Square& square : squares)
-    low = glm::min(low, square.centre - square.half), high = glm::max(high, square.centre + square.half);
+  for (const Rectangle& each : rectangles)
+    low = glm::min(low, each.centre - each.half), high = glm::max(high, each.centre + each.half);
   const glm::dvec2 centre = 0.5 * (low + high);
   const double half = 0.5 * std::max(high.x - low.x, high.y - low.y);
 
@@ -77,15 +90,13 @@ light::NearMap tiled_map(const std::vector<ShadowMap>& maps, glm::dvec3 to_sun, 
   light::NearMap near;
   near.clip_from_world = glm::mat4(glm::transpose(rows));
   near.texel_m = float(2.0 * half / resolution);
-  near.tile_count = int(squares.size());
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    const double scale = 0.5 * half / squares[i].half;
-    const std::size_t column = i % 2, row = i / 2;
-    const glm::dvec2 corner(0.5 * double(column), 0.5 * double(row));
-    // the square's low corner in uv of the whole comes to the quarter's
-    const glm::dvec2 low_uv = 0.5 + 0.5 * (squares[i].centre - squares[i].half - centre) / half;
-    const glm::dvec2 offset = corner - scale * low_uv;
-    near.tiles[i] = glm::vec4(glm::dvec4(scale, scale, offset.x, offset.y));
+  near.tile_count = int(rectangles.size());
+  for (std::size_t i = 0; i < rectangles.size(); ++i) {
+    const glm::dvec2 scale = 0.5 * half / rectangles[i].half;
+    const glm::dvec2 corner(0.5 * double(i % 2), 0.5 * double(i / 2));
+    // the rectangle's low corner in uv of the whole comes to the quarter's
+    const glm::dvec2 low_uv = 0.5 + 0.5 * (rectangles[i].centre - rectangles[i].half - centre) / half;
+    near.tiles[i] = glm::vec4(glm::dvec4(scale, corner - scale * low_uv));
   }
   return near;
 }
@@ -192,7 +203,7 @@ light::NearMap fit_near_map(light::ShadowMethod method, const Camera& camera, gl
   const std::vector<ShadowMap> maps = light::fit_shadow_maps(method, camera, to_sun, seen, casters);
   if (maps.size() == 1 && !seen.positions.empty())
     return projective_map(maps.front(), glm::dvec3(to_sun), seen, casters);
-  light::NearMap near = tiled_map(maps, glm::dvec3(to_sun), casters);
+  light::NearMap near = tiled_map(maps, glm::dvec3(to_sun), glm::dvec3(camera.forward_in_world()), casters);
   if (maps.size() == 1) near.tile_count = 0, near.tiles = {};  // nothing is seen
   return near;
 }

@@ -29,95 +29,97 @@ bool has_jumped(const glm::mat4& before, const glm::mat4& now) {
 
 }  // namespace
 
-/// A picture in squares of pixels, each of which is one packet of rays.
-class TracedSun::Tiles {
- public:
+/// A square of pixels, which are one packet of rays.
+struct TracedSun::Tile {
   static constexpr int side = 4;
   static_assert(side * side == reference::RayScene::packet_size);
+  std::size_t count = 0;
+  std::array<std::size_t, reference::RayScene::packet_size> pixels;       ///< bottom row of the picture first
+  std::array<reference::FineRay, reference::RayScene::packet_size> seen;  ///< through their middles
+};
 
+/// A picture in tiles.
+class TracedSun::Tiles {
+ public:
   Tiles(const Camera& camera, glm::ivec2 size) : rays_(camera, size.x, size.y), size_(size) {}
 
-  std::size_t rows() const { return std::size_t((size_.y + side - 1) / side); }
+  std::size_t rows() const { return std::size_t((size_.y + Tile::side - 1) / Tile::side); }
 
-  /// Calls `body` with the pixels of each tile of a row: their indices, bottom row of the picture first.
+  /// Calls `body` with each tile of a row.
   template <class Body>
   void for_each(std::size_t row, const Body& body) const {
-    std::array<std::size_t, reference::RayScene::packet_size> pixels;
-    const int bottom = int(row) * side, top = std::min(bottom + side, size_.y);
-    for (int left = 0; left < size_.x; left += side) {
-      std::size_t count = 0;
+    const int bottom = int(row) * Tile::side, top = std::min(bottom + Tile::side, size_.y);
+    Tile tile;
+    for (int left = 0; left < size_.x; left += Tile::side) {
+      tile.count = 0;
       for (int y = bottom; y < top; ++y)
-        for (int x = left; x < std::min(left + side, size_.x); ++x)
-          pixels[count++] = std::size_t(y) * std::size_t(size_.x) + std::size_t(x);
-      body(std::span(pixels.data(), count));
+        for (int x = left; x < std::min(left + Tile::side, size_.x); ++x) {
+          tile.pixels[tile.count] = std::size_t(y) * std::size_t(size_.x) + std::size_t(x);
+          tile.seen[tile.count++] = ray_through(x, y);
+        }
+      body(tile);
     }
   }
 
+ private:
   /// Through a pixel's middle.
-  reference::FineRay ray_through(std::size_t pixel) const {
-    const int x = int(pixel) % size_.x, row = int(pixel) / size_.x;
+  reference::FineRay ray_through(int x, int row) const {
     const reference::Ray ray = rays_.through({float(x) + 0.5f, float(size_.y - row) - 0.5f});
     return {glm::dvec3(ray.origin), glm::normalize(glm::dvec3(ray.direction)), double(ray.min_m)};
   }
 
- private:
   reference::CameraRays rays_;
   glm::ivec2 size_;
 };
 
-void TracedSun::find_surfaces(const reference::RayScene& rays, const Tiles& tiles, std::size_t row) {
-  tiles.for_each(row, [&](std::span<const std::size_t> pixels) {
-    std::array<reference::FineRay, reference::RayScene::packet_size> seen;
-    std::array<reference::FineHit, reference::RayScene::packet_size> hits;
-    for (std::size_t k = 0; k < pixels.size(); ++k) seen[k] = tiles.ray_through(pixels[k]);
-    rays.nearest_hits({seen.data(), pixels.size()}, {hits.data(), pixels.size()});
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-      const std::size_t i = pixels[k];
-      surfaces_[i] = {};
-      if (hits[k].place) {
-        const glm::vec3 normal = reference::facet_normal(*hits[k].place, hits[k].triangle);
-        const bool is_back = glm::dot(normal, glm::vec3(seen[k].direction)) > 0.0f;
-        surfaces_[i] = {hits[k].distance_m, is_back ? -normal : normal};
-      }
-      pixels_[i] = glm::vec2(1.0f, float(surfaces_[i].distance_m));
-      lit_[i] = 0;
+void TracedSun::find_surfaces(const reference::RayScene& rays, const Tile& tile) {
+  std::array<reference::FineHit, reference::RayScene::packet_size> hits;
+  rays.nearest_hits({tile.seen.data(), tile.count}, {hits.data(), tile.count});
+  for (std::size_t k = 0; k < tile.count; ++k) {
+    const std::size_t i = tile.pixels[k];
+    surfaces_[i] = {};
+    if (hits[k].place) {
+      const glm::vec3 normal = reference::facet_normal(*hits[k].place, hits[k].triangle);
+      const bool is_back = glm::dot(normal, glm::vec3(tile.seen[k].direction)) > 0.0f;
+      surfaces_[i] = {hits[k].distance_m, is_back ? -normal : normal};
     }
-  });
+    pixels_[i] = glm::vec2(1.0f, float(surfaces_[i].distance_m));
+    lit_[i] = 0;
+  }
 }
 
 /// A direction for each pixel; sample -1 is the middle of the disc, which later ones replace. Surfaces that
 /// face away from it are dark without a ray.
-void TracedSun::add_sample(const reference::RayScene& rays, const Tiles& tiles, std::size_t row, int sample) {
+void TracedSun::add_sample(const reference::RayScene& rays, const Tile& tile, int sample) {
   const reference::SunDisc disc(view_.sun);
   const glm::dvec3 to_middle = glm::normalize(glm::dvec3(view_.sun.direction_to_sun));
-  tiles.for_each(row, [&](std::span<const std::size_t> pixels) {
-    std::array<reference::FineRay, reference::RayScene::packet_size> to_sun;
-    std::array<std::size_t, reference::RayScene::packet_size> asking;
-    std::size_t count = 0;
-    for (const std::size_t i : pixels) {
-      if (surfaces_[i].distance_m == 0.0) continue;
-      pixels_[i].x = sample > 0 ? float(lit_[i]) / float(sample + 1) : 0.0f;
-      const reference::FineRay seen = tiles.ray_through(i);
-      reference::FineRay ray{seen.origin + surfaces_[i].distance_m * seen.direction, to_middle};
-      if (view_.sun.spot) {
-        const glm::dvec3 to_light = glm::dvec3(view_.sun.spot->position) - ray.origin;
-        ray.max_m = glm::length(to_light);
-        ray.direction = to_light / ray.max_m;
-      } else if (sample >= 0) {
-        ray.direction = glm::normalize(glm::dvec3(disc.direction(on_disc(sample, std::uint32_t(i)))));
-      }
-      if (glm::dot(ray.direction, glm::dvec3(surfaces_[i].normal)) <= 0.0) continue;
-      to_sun[count] = ray, asking[count++] = i;
+  std::array<reference::FineRay, reference::RayScene::packet_size> to_sun;
+  std::array<std::size_t, reference::RayScene::packet_size> asking;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < tile.count; ++k) {
+    const std::size_t i = tile.pixels[k];
+    if (surfaces_[i].distance_m == 0.0) continue;
+    pixels_[i].x = sample > 0 ? float(lit_[i]) / float(sample + 1) : 0.0f;
+    const reference::FineRay& seen = tile.seen[k];
+    reference::FineRay ray{seen.origin + surfaces_[i].distance_m * seen.direction, to_middle};
+    if (view_.sun.spot) {
+      const glm::dvec3 to_light = glm::dvec3(view_.sun.spot->position) - ray.origin;
+      ray.max_m = glm::length(to_light);
+      ray.direction = to_light / ray.max_m;
+    } else if (sample >= 0) {
+      ray.direction = glm::normalize(glm::dvec3(disc.direction(on_disc(sample, std::uint32_t(i)))));
     }
-    if (count == 0) return;
-    const std::uint32_t blocked = rays.are_blocked(std::span<const reference::FineRay>(to_sun.data(), count));
-    for (std::size_t k = 0; k < count; ++k) {
-      if ((blocked >> k & 1u) != 0) continue;
-      const std::size_t i = asking[k];
-      lit_[i] = std::uint16_t(lit_[i] + (sample >= 0));
-      pixels_[i].x = sample >= 0 ? float(lit_[i]) / float(sample + 1) : 1.0f;
-    }
-  });
+    if (glm::dot(ray.direction, glm::dvec3(surfaces_[i].normal)) <= 0.0) continue;
+    to_sun[count] = ray, asking[count++] = i;
+  }
+  if (count == 0) return;
+  const std::uint32_t blocked = rays.are_blocked(std::span<const reference::FineRay>(to_sun.data(), count));
+  for (std::size_t k = 0; k < count; ++k) {
+    if ((blocked >> k & 1u) != 0) continue;
+    const std::size_t i = asking[k];
+    lit_[i] = std::uint16_t(lit_[i] + (sample >= 0));
+    pixels_[i].x = sample >= 0 ? float(lit_[i]) / float(sample + 1) : 1.0f;
+  }
 }
 
 void TracedSun::trace(const reference::RayScene& rays, std::uint64_t scene_version,
@@ -132,7 +134,9 @@ void TracedSun::trace(const reference::RayScene& rays, std::uint64_t scene_versi
   const Tiles tiles(camera, view.size);
   if (view == view_) {
     if (samples_ >= limit) return;
-    parallel_for(tiles.rows(), [&](std::size_t row) { add_sample(rays, tiles, row, samples_); });
+    parallel_for(tiles.rows(), [&](std::size_t row) {
+      tiles.for_each(row, [&](const Tile& tile) { add_sample(rays, tile, samples_); });
+    });
     ++samples_;
     return;
   }
@@ -143,9 +147,11 @@ void TracedSun::trace(const reference::RayScene& rays, std::uint64_t scene_versi
   pixels_.resize(count), surfaces_.resize(count), lit_.resize(count);
   samples_ = is_still ? limit : 0;
   parallel_for(tiles.rows(), [&](std::size_t row) {
-    find_surfaces(rays, tiles, row);
-    if (samples_ == 0) add_sample(rays, tiles, row, -1);
-    for (int sample = 0; sample < samples_; ++sample) add_sample(rays, tiles, row, sample);
+    tiles.for_each(row, [&](const Tile& tile) {
+      find_surfaces(rays, tile);
+      if (samples_ == 0) add_sample(rays, tile, -1);
+      for (int sample = 0; sample < samples_; ++sample) add_sample(rays, tile, sample);
+    });
   });
 }
 

@@ -44,8 +44,9 @@ class TracedSun {
     glm::vec3 normal{0.0f};   ///< of the triangle, toward the viewer; of any length
   };
   class Tiles;
-  void find_surfaces(const reference::RayScene& rays, const Tiles& tiles, std::size_t row);
-  void add_sample(const reference::RayScene& rays, const Tiles& tiles, std::size_t row, int sample);
+  struct Tile;
+  void find_surfaces(const reference::RayScene& rays, const Tile& tile);
+  void add_sample(const reference::RayScene& rays, const Tile& tile, int sample);
 
   View view_;
   std::vector<glm::vec2> pixels_;

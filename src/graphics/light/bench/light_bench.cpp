@@ -282,6 +282,38 @@ Status measure_shadows_alone(const BenchSetup& setup, Report& report) {
   return measure_shadows(setup, loaded->scene, report);
 }
 
+/// The time of exact shadows by itself.
+Status measure_shadow_times_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  const Result<scene::LoadedScene> loaded = load_city(setup);
+  if (!loaded) return loaded.errors();
+  return measure_shadow_times(loaded->scene, report);
+}
+
+/// The keys of bounced light by themselves.
+Status measure_bounced_light_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  const Result<scene::LoadedScene> loaded = load_city(setup);
+  if (!loaded) return loaded.errors();
+  return measure_bounced_light(setup, loaded->scene, report);
+}
+
+/// The keys sun_* and sky_* by themselves.
+Status measure_sun_and_sky_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  for (const auto& measure : {measure_sun, measure_brute_force, count_negatives, measure_gpu})
+    if (Status status = measure(setup, report); !status) return status;
+  const Result<scene::LoadedScene> loaded = load_city(setup);
+  if (!loaded) return loaded.errors();
+  return measure_sun_hours(setup, loaded->scene, report);
+}
+
 /// The keys relight_* by themselves.
 Status measure_relighting_alone(const BenchSetup& setup, Report& report) {
   const Result<scene::LoadedScene> loaded = load_city(setup);
@@ -295,6 +327,12 @@ void furnish_light(House& house) {
   house.get<Benches>().add({"shadows", "shadows of each method against exact ones", measure_shadows_alone});
   house.get<Benches>().add(
       {"relighting", "light at the vertices of moved objects", measure_relighting_alone});
+  house.get<Benches>().add(
+      {"shadow_times", "exact shadows of a picture beside its shadow maps", measure_shadow_times_alone});
+  house.get<Benches>().add(
+      {"bounced_light", "pictures with bounced light against photographs", measure_bounced_light_alone});
+  house.get<Benches>().add(
+      {"sun_and_sky", "sun, sky and hours of sun against their ground truths", measure_sun_and_sky_alone});
   house.get<Benches>().add(
       {"light", "sun, sky, shadows and hours of sun against their ground truths", measure});
 }

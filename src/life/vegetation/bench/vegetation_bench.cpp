@@ -25,6 +25,7 @@ using vegetation::PlantDetail, vegetation::PlantSelection, vegetation::PlantStat
 constexpr int width = 640, height = 360;
 constexpr int rows = 10, columns = 20, shapes = 4;
 constexpr float spacing_m = 11.0f;
+constexpr float closer = 0.4f;  // of a view's angle
 
 /// 200 oaks of four shapes on a lawn.
 Result<scene::Scene> make_grove(Report& report) {
@@ -119,7 +120,30 @@ Result<FrameTimes> frame_times(render::Renderer& renderer, const scene::Scene& s
   return times;
 }
 
-/// A grove of 200 oaks of a million triangles each.
+struct PicturesOfGrove {
+  double flip = 0.0, flip_thin = 0.0;  ///< against the real geometry; area not kept
+  double full_ms = 0.0;                ///< what that took
+};
+
+Result<PicturesOfGrove> compare_with_real_geometry(render::Renderer& renderer, scene::Scene& scene,
+                                                   const Camera& camera) {
+  PicturesOfGrove pictures;
+  Result<Image8> full = Image8();
+  pictures.full_ms = milliseconds([&] { full = drawn(renderer, scene, camera, {.is_full = true}); });
+  if (!full) return full.errors();
+  for (const auto& [detail, flip] :
+       {std::pair{PlantDetail{}, &pictures.flip}, {PlantDetail{.keeps_area = false}, &pictures.flip_thin}}) {
+    const Result<Image8> picture = drawn(renderer, scene, camera, detail);
+    if (!picture) return picture.errors();
+    const Result<reference::Difference> difference = reference::compare(*picture, *full);
+    if (!difference) return difference.errors();
+    *flip = difference->flip;
+  }
+  return pictures;
+}
+
+/// A grove of 200 oaks of a million triangles each. Quality is measured in the views whose cost is measured,
+/// and closer, where trees fill the picture.
 Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
@@ -134,7 +158,7 @@ Status measure(const BenchSetup& setup, Report& report) {
   if (!made) return made.errors();
   render::Renderer& renderer = **made;
 
-  std::vector<Camera> views = grove_views();
+  const std::vector<Camera> views = grove_views();
   std::vector<double> slowest, fulls;
   std::size_t maximum = 0, max_full = 0;
   double flip = 0.0, flip_thin = 0.0;
@@ -148,27 +172,23 @@ Status measure(const BenchSetup& setup, Report& report) {
     report.note(
         fmt::format("view {}: {} triangles, {} points, {} lines; {:.0f} ms per frame, {:.0f} ms of all cores",
                     v, count.triangles, count.points, count.lines, median(times->ms).value, times->cpu_ms));
-    if (setup.is_quick && v != 1) continue;
+    if (setup.is_quick && v == 2) continue;
     show_rows(setup.is_quick ? 2 : rows, scene);
-    views[v].vertical_fov *= 0.4f;  // trees fill the picture
-    const std::size_t all = counted(scene, views[v], {.is_full = true}).triangles;
-    Result<Image8> full = Image8();
-    fulls.push_back(milliseconds([&] { full = drawn(renderer, scene, views[v], {.is_full = true}); }));
-    if (!full) return full.errors();
-    const auto difference = [&](const PlantDetail& detail) -> Result<reference::Difference> {
-      const Result<Image8> picture = drawn(renderer, scene, views[v], detail);
-      if (!picture) return picture.errors();
-      return reference::compare(*picture, *full);
-    };
-    const auto points = difference({}), thin = difference({.keeps_area = false});
+    for (const float share_of_angle : {1.0f, closer}) {
+      if (setup.is_quick && v == 0 && share_of_angle == closer) continue;
+      Camera camera = views[v];
+      camera.vertical_fov *= share_of_angle;
+      const Result<PicturesOfGrove> pictures = compare_with_real_geometry(renderer, scene, camera);
+      if (!pictures) return pictures.errors();
+      fulls.push_back(pictures->full_ms);
+      flip = std::max(flip, pictures->flip), flip_thin = std::max(flip_thin, pictures->flip_thin);
+      report.note(
+          fmt::format("view {} at {} of its angle: FLIP {:.4f}, area not kept {:.4f}; real geometry: {} "
+                      "triangles in {:.1f} s",
+                      v, share_of_angle, pictures->flip, pictures->flip_thin,
+                      counted(scene, camera, {.is_full = true}).triangles, pictures->full_ms / 1e3));
+    }
     show_rows(rows, scene);
-    if (!points) return points.errors();
-    if (!thin) return thin.errors();
-    flip = std::max(flip, points->flip), flip_thin = std::max(flip_thin, thin->flip);
-    report.note(
-        fmt::format("view {} at 0.4 of its angle: FLIP {:.4f}, area not kept {:.4f}; real geometry: {} "
-                    "triangles in {:.1f} s",
-                    v, points->flip, thin->flip, all, fulls.back() / 1e3));
   }
   const Median frame = median(slowest);
   report.add("vegetation_fps_200_trees_1m_triangles", 1e3 / frame.value, Target{10.0, true});
@@ -177,7 +197,8 @@ Status measure(const BenchSetup& setup, Report& report) {
       fmt::format("slowest of {} views, {} x {} pixels, a walking viewer; 95 % interval {:.1f} to {:.1f} fps",
                   views.size(), width, height, 1e3 / frame.high, 1e3 / frame.low));
   report.note(
-      "vegetation_fps_real_geometry_control: one picture at 0.4 of the angle, its shadow maps included");
+      "vegetation_fps_real_geometry_control: one picture of the trees that are compared, its shadow maps "
+      "included");
   report.note(fmt::format("vegetation_flip must not pass where area is not kept: {}",
                           flip_thin > 0.05 ? "it does not" : "IT DOES"));
   report.add("vegetation_flip", flip, up_to(0.05));
