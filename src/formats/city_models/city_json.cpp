@@ -249,7 +249,10 @@ class Reader {
   }
 
   void add_surfaces() {
-    if (is_building(object_.type)) infer_semantics(surfaces_of_object_);
+    if (is_building(object_.type)) {
+      drop_implausible_semantics(surfaces_of_object_);
+      infer_semantics(surfaces_of_object_);
+    }
     for (const CitySurface& surface : surfaces_of_object_) city_.add(object_, surface);
   }
 

@@ -126,6 +126,24 @@ TEST(CityJson, ASolidOfOneKindIsDividedBySlope) {
   EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
 }
 
+TEST(CityJson, SurfacesOfOneKindAreDividedBySlope) {
+  std::string alike = house_in_three();
+  const std::string walls = R"("lod":2,"boundaries":[[[4,5,6,7],[8,11,10,9]]])";
+  for (const std::string& boundaries :
+       {walls, std::string(R"("lod":2,"boundaries":[[[0,1,2,3]]])"),
+        std::string(R"("lod":2,"boundaries":[[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]])")}) {
+    const std::string kinds = boundaries.ends_with("[[3,0,4,7]]]") ? "[0,0,0,0]" : "[0]";
+    alike = with(alike, boundaries,
+                 fmt::format(R"({},"semantics":{{"surfaces":[{{"type":"WallSurface"}}],"values":{}}})",
+                             boundaries, kinds));
+  }
+  const Result<Model> city = read(alike);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
+}
+
 TEST(CityJson, RoofsWithoutWallsAreAWarning) {
   const TestFolder folder;
   std::string roofs;

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double steep = 0.34;         // cosine of 70 degrees
 constexpr double share_of_foot = 0.1;  // of a building's height, in which level surfaces are its ground
+// Of the area of a building whose surfaces all have one kind: what sills, dormers and chimneys stay below.
+constexpr double max_level_walls = 0.1, max_steep_roofs = 1.0 / 3.0;
 
 struct Heights {
   double low = 1e300, high = -1e300;
@@ -20,13 +22,22 @@ struct Heights {
   }
 };
 
-/// The z of a ring's unit normal; about its first point, for far coordinates would cost the normal its
+/// A ring's normal as long as its area; about its first point, for far coordinates would cost the normal its
 /// digits.
-double up_of(std::vector<glm::dvec3> ring) {
+glm::dvec3 area_of(std::vector<glm::dvec3> ring) {
   const glm::dvec3 first = ring.front();
   for (glm::dvec3& point : ring) point -= first;
-  const glm::dvec3 area = newell_normal(ring);
+  return newell_normal(ring);
+}
+
+/// The z of a ring's unit normal.
+double up_of(const std::vector<glm::dvec3>& ring) {
+  const glm::dvec3 area = area_of(ring);
   return glm::length(area) > 0.0 ? area.z / glm::length(area) : 0.0;
+}
+
+bool has_ring(const CitySurface& surface) {
+  return !surface.rings.empty() && surface.rings.front().size() >= 3;
 }
 
 const char* name_of(const CitySurface& surface, const Heights& building) {
@@ -42,10 +53,25 @@ const char* name_of(const CitySurface& surface, const Heights& building) {
 
 }  // namespace
 
+void drop_implausible_semantics(std::vector<CitySurface>& surfaces) {
+  if (surfaces.size() < 2) return;
+  const std::string kind = surfaces.front().semantics;
+  double steep_m2 = 0.0, all_m2 = 0.0;
+  for (const CitySurface& surface : surfaces) {
+    if (surface.semantics != kind) return;
+    if (!has_ring(surface)) continue;
+    const glm::dvec3 area = area_of(surface.rings.front());
+    all_m2 += glm::length(area);
+    if (std::abs(area.z) <= steep * glm::length(area)) steep_m2 += glm::length(area);
+  }
+  const bool is_implausible = kind == "WallSurface" ? all_m2 - steep_m2 > max_level_walls * all_m2
+                                                    : (kind == "RoofSurface" || kind == "GroundSurface") &&
+                                                          steep_m2 > max_steep_roofs * all_m2;
+  if (is_implausible)
+    for (CitySurface& surface : surfaces) surface.semantics.clear();
+}
+
 void infer_semantics(std::vector<CitySurface>& surfaces) {
-  const auto has_ring = [](const CitySurface& surface) {
-    return !surface.rings.empty() && surface.rings.front().size() >= 3;
-  };
   Heights building;
   for (const CitySurface& surface : surfaces)
     if (has_ring(surface)) building.add(surface);

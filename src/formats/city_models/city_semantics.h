@@ -7,6 +7,11 @@
 
 namespace parvis::scene {
 
+/// Takes the kind away from the surfaces of one building that all have the same, if their slopes contradict
+/// it: walls that lie level over a tenth of their area, or roofs and floors that stand over a third of it.
+/// Kinds of a building that has several are left alone.
+void drop_implausible_semantics(std::vector<CitySurface>& surfaces);
+
 /// Names the surfaces of one building that have no semantics: level ones at its foot are its ground, others
 /// that are less steep than 70 degrees roofs (from below: the undersides of what juts out), the rest walls.
 /// The winding counts only for surfaces of a solid: other files wind them either way. Names given are left

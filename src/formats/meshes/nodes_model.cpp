@@ -7,6 +7,7 @@
 #include "formats/readers/readers.h"
 #include "formats/terrain/terrain_heights.h"
 #include "scene/data/object_animation.h"
+#include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -83,7 +84,8 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& p
   }
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
   if (object == builder.scene.objects.end()) {
-    builder.fail(error_at(node.where_of("ground"), "no model called \"{}\" stands before this node", name));
+    builder.fail(error_at(node.where_of("ground"), "no model called \"{}\" stands before this node{}", name,
+                          scene::object_names(builder.scene)));
     return {};
   }
   const auto heights = std::make_shared<const TerrainHeights>(*object->model);

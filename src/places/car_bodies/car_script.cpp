@@ -21,24 +21,27 @@ bool has_wheels(const scene::Model& model) {
   return std::ranges::any_of(model.nodes, is_wheel, &scene::ModelNode::name);
 }
 
+Errors lies_along_y(glm::vec3 size, const FileLocation& where) {
+  return {error_at(
+      where,
+      "the body lies along y ({:.2f} m), not along x ({:.2f} m): export it with x forward. A car with "
+      "wheels and materials of its own needs no script: traffic() {{ model(file=\"{}\", heading_deg=-90) "
+      "}} turns it",
+      size.y, size.x, where.file)};
+}
+
 Status check_size(const Bounds& bounds, const std::string& file) {
   const glm::vec3 size = bounds.size();
   const FileLocation where{file, 0, 0};
   if (bounds.empty() || size.x < min_length_m || size.x > max_length_m || size.z <= 0.0f || size.y <= 0.0f) {
-    if (!bounds.empty() && size.y >= min_length_m && size.y > size.x)
-      return error_at(where,
-                      "the body lies along y ({:.2f} m), not along x ({:.2f} m): export it with x forward",
-                      size.y, size.x);
+    if (!bounds.empty() && size.y >= min_length_m && size.y > size.x) return lies_along_y(size, where);
     return error_at(
         where,
         "the body is {:.2f} m long; a car is {} to {} m long, in metres with x forward: scale or turn "
         "the file",
         bounds.empty() ? 0.0f : size.x, min_length_m, max_length_m);
   }
-  if (size.y > size.x)
-    return error_at(where,
-                    "the body lies along y ({:.2f} m), not along x ({:.2f} m): export it with x forward",
-                    size.y, size.x);
+  if (size.y > size.x) return lies_along_y(size, where);
   return Done{};
 }
 

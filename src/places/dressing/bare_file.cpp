@@ -187,7 +187,7 @@ std::string bare_scene(const Model& model, const std::string& file) {
   const bool is_town = is_city(model), is_exhibit = !is_town && std::max(size.x, size.y) < exhibit_m;
   const bool is_alone = is_exhibit || (is_town && surfaces.empty() && std::max(size.x, size.y) < alone_m);
   const View street = is_alone ? outside_view(scene, place) : street_view(scene, place, surfaces);
-  const View above = overview(place, street);
+  const View above = overview(scene, place, street);
 
   std::string script = fmt::format("// Made up by parvis for {}; change it as you like.\n", file);
   script += fmt::format("model(name=\"place\", file={}{})", quoted(file), is_exhibit ? ", reflective=1" : "");

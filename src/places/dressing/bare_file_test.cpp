@@ -78,6 +78,23 @@ TEST(BareFile, TheStreetIsSeenAlong) {
   EXPECT_GT(std::abs(ahead.x), 0.9f) << "along them, not at them";
 }
 
+TEST(BareFile, ATowerIsSeenWholeFromAbove) {
+  Model model;
+  add_part(model, "WallSurface", scene::box({0, 0, 0}, {12, 10, 30}));
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = std::make_shared<const Model>(model);
+  const scene::PlaceHeights place(scene, {}, 60.0f);
+  const View view = overview(scene, place, outside_view(scene, place));
+  const glm::vec3 ahead = glm::normalize(view.target - view.eye);
+  for (const glm::vec3 corner :
+       {glm::vec3(0, 0, 30), glm::vec3(12, 10, 30), glm::vec3(0, 0, 0), glm::vec3(12, 0, 0)}) {
+    const float angle = std::acos(glm::dot(ahead, glm::normalize(corner - view.eye)));
+    EXPECT_LT(angle, 0.5f) << "of half a picture's width of 0.57";
+  }
+  EXPECT_LT(glm::distance(view.eye, view.target), 120.0f) << "and no farther than that takes";
+}
+
 TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   const TestFolder folder;
   std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",

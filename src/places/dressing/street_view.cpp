@@ -210,10 +210,33 @@ Extent extent_of(const Bounds& bounds, glm::vec3 eye) {
   return extent;
 }
 
+constexpr float half_width = 0.5f, half_height = 0.3f;  // radians: of 65 degrees at 16:9, less a margin
+
+/// True if a box is in the picture of a camera with the usual field of view.
+bool fits(const Bounds& bounds, const View& view) {
+  const glm::vec3 ahead = glm::normalize(view.target - view.eye),
+                  right = glm::normalize(glm::cross(ahead, glm::vec3(0, 0, 1))),
+                  up = glm::cross(right, ahead);
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 to = glm::vec3(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+                                   i & 4 ? bounds.max.z : bounds.min.z) -
+                         view.eye;
+    const float along = glm::dot(to, ahead);
+    if (along <= 0.0f || std::abs(glm::dot(to, right)) > std::tan(half_width) * along ||
+        std::abs(glm::dot(to, up)) > std::tan(half_height) * along)
+      return false;
+  }
+  return true;
+}
+
+/// From the south-west, down onto a spot.
+View view_from_above(glm::vec3 spot, float radius_m) {
+  return {spot + radius_m * glm::vec3(-0.62f, -1.15f, 0.75f), spot};
+}
+
 /// From so far away in this direction that the whole, from its foot to its top, is in the picture of a camera
 /// with the usual field of view.
 View facing_view(const Bounds& bounds, glm::vec2 toward, const scene::PlaceHeights& place) {
-  constexpr float half_width = 0.5f, half_height = 0.3f;  // radians: of 65 degrees at 16:9, less a margin
   constexpr float step = 1.06f, max_radii = 12.0f;
   const float radius_m = std::max(0.25f, bounds.radius());
   View view;
@@ -262,18 +285,26 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
   return view_of(*chosen, place);
 }
 
-View overview(const scene::PlaceHeights& place, const View& street) {
+View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const View& street) {
   const scene::GroundGrid& plan = place.heights();
   Bounds built;
   for (int y = 0; y < plan.height; ++y)
     for (int x = 0; x < plan.width; ++x)
       if (place.built().at(x, y)) built.add(glm::vec3(plan.centre_of({x, y}), place.heights().at(x, y)));
   if (built.empty()) built.add(street.target);
+  constexpr float smallest_m = 4.0f;
   const float whole_m = 0.5f * glm::length(glm::vec2(built.size()));
-  const bool is_whole = whole_m <= overview_radius_m;
-  const glm::vec3 middle = is_whole ? built.centre() : street.target;
-  const float radius_m = std::clamp(whole_m, 4.0f, overview_radius_m);
-  return {middle + radius_m * glm::vec3(-0.62f, -1.15f, 0.75f), middle};
+  if (whole_m > overview_radius_m) return view_from_above(street.target, overview_radius_m);
+  for (const scene::Object& object : scene.objects)  // towers are higher than their plan is wide
+    built.max.z =
+        std::max(built.max.z, transformed(object.world_from_model, scene::bounds(*object.model)).max.z);
+  View view;
+  for (float radius_m = std::max(whole_m, smallest_m); radius_m < 4.0f * overview_radius_m;
+       radius_m *= 1.06f) {
+    view = view_from_above(built.centre(), radius_m);
+    if (fits(built, view)) break;
+  }
+  return view;
 }
 
 std::vector<scene::Road> road_surfaces(const scene::Model& model) {

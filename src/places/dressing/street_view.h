@@ -22,8 +22,9 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
 /// Of a house or a thing that stands alone: from its sunny side, so far away that it is seen whole.
 View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place);
 
-/// From above the surroundings of `street` (at most 130 m), or the whole place where it is smaller.
-View overview(const scene::PlaceHeights& place, const View& street);
+/// From above the surroundings of `street` (130 m around), or the whole place where it is smaller, from its
+/// foot to its top.
+View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const View& street);
 
 /// Carriageways that a model has as surfaces ("Road"), as centre lines; empty where it has none.
 std::vector<scene::Road> road_surfaces(const scene::Model& model);

@@ -14,6 +14,7 @@
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 #include "scene/data/object_animation.h"
+#include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -156,8 +157,8 @@ void plant_map_trees(scene::SceneBuilder& builder) {
       return scene::matches(planned.of, object.name);
     });
     if (first == builder.scene.objects.end())
-      return builder.fail(
-          error_at(planned.where_of, "no object is called \"{}\"; give the model that name", planned.of));
+      return builder.fail(error_at(planned.where_of, "no object is called \"{}\"; give the model that name{}",
+                                   planned.of, scene::object_names(builder.scene)));
     if (replace(planned, builder) == 0)
       builder.warn(error_at(planned.where_target, "nothing that matches \"{}\" is a tree; the model has {}",
                             planned.target, scene::part_names(*first->model)));

@@ -5,6 +5,7 @@
 #include "base/house.h"
 #include "base/memory_budget.h"
 #include "scene/data/model_parts.h"
+#include "scene/data/object_names.h"
 #include "scene/roads/paving.h"
 #include "scene/roads/road_builder.h"
 #include "scene/roads/road_data.h"
@@ -106,8 +107,8 @@ void build_streets(const Node& node, SceneBuilder& builder) {
   const std::string name = node.text("of");
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
   if (object == builder.scene.objects.end())
-    return builder.fail(
-        error_at(node.where_of("of"), "no model called \"{}\" stands before this node", name));
+    return builder.fail(error_at(node.where_of("of"), "no model called \"{}\" stands before this node{}",
+                                 name, scene::object_names(builder.scene)));
   if (!object->model->roads.empty()) return add_given_roads(*object, builder);
 
   std::vector<RoadPolygon> polygons;

@@ -23,11 +23,20 @@ Status measure(const BenchSetup& setup, Report& report) {
   return Done{};
 }
 
+Status measure_places_alone(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  report.note("machine: " + gl::driver_name());
+  return measure_places(setup, report);
+}
+
 }  // namespace
 
 void furnish_import_export(House& house) {
   house.get<Benches>().add(
       {"import_export", "scripts, city models, scenarios, path-traced photographs, exported glTF", measure});
+  house.get<Benches>().add(
+      {"import_export_places", "of `import_export`: from bare files to streets", measure_places_alone});
   house.get<Benches>().add(
       {"import_export_isolation", "of `import_export`: reading in child processes alone", measure_isolation});
 }

@@ -13,8 +13,9 @@
 #include "base/test_data.h"
 #include "bench/scratch_folder.h"
 #include "formats/city_models/osm_file.h"
-#include "formats/terrain/ground_heights.h"
+#include "formats/terrain/place_heights.h"
 #include "graphics/reference/camera_ray.h"
+#include "house/stage/place_check.h"
 #include "house/stage/stage.h"
 #include "places/dressing/bare_file.h"
 #include "scene/data/surroundings.h"
@@ -27,8 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr int views = 50;  // of each place
 
-/// A town of `side` times `side` houses with streets between them.
-std::string town_xml(int side) {
+/// Streets for a town of `side` times `side` houses, of which the map holds the first `houses`.
+std::string town_xml(int side, int houses) {
   std::string text = "<osm version=\"0.6\">\n", ways;
   int id = 0;
   const auto node = [&](double x, double y) {
@@ -37,7 +38,7 @@ std::string town_xml(int side) {
     return id;
   };
   for (int row = 0; row < side; ++row)
-    for (int column = 0; column < side; ++column) {
+    for (int column = 0; column < side && row * side + column < houses; ++column) {
       const double x = 24.0 * column, y = 40.0 * row;
       const int a = node(x, y), b = node(x + 14, y), c = node(x + 14, y + 11), d = node(x, y + 11);
       ways += fmt::format(
@@ -71,14 +72,18 @@ Status write_pbf(const fs::path& xml, const fs::path& pbf) {
 
 Status measure_pbf(const BenchSetup& setup, const fs::path& folder, Report& report) {
   const fs::path xml = folder / "big.osm", pbf = folder / "big.osm.pbf";
-  if (Status status = write_file(xml, town_xml(setup.is_quick ? 120 : 250)); !status) return status;
+  const int side = setup.is_quick ? 120 : 250;
+  if (Status status = write_file(xml, town_xml(side, side * side)); !status) return status;
   if (Status status = write_pbf(xml, pbf); !status) return status;
   std::vector<double> mb_s;
   for (int i = 0; i < (setup.is_quick ? 3 : 7); ++i) {
     Status read = Done{};
     const double ms = milliseconds([&] {
       Errors warnings;
-      if (const auto osm = scene::read_osm_file(pbf, warnings); !osm) read = osm.errors();
+      const auto osm = scene::read_osm_file(pbf, warnings);
+      if (!osm) read = osm.errors();
+      if (osm && osm->ways.size() < std::size_t(side * side))
+        read = error("{}: houses are missing", pbf.string());
     });
     if (!read) return read;
     mb_s.push_back(1e-3 * double(fs::file_size(pbf)) / ms);
@@ -87,27 +92,37 @@ Status measure_pbf(const BenchSetup& setup, const fs::path& folder, Report& repo
   return Done{};
 }
 
-/// Where somebody stands on a lane of the place, or near its first view where it has none.
-glm::vec3 eye_on_street(const scene::Scene& scene, const Camera& first, Random& random) {
+/// Where somebody stands: on a lane of the place, or, where it has none, anywhere outside of its houses.
+glm::vec3 eye_in(const scene::Scene& scene, const scene::PlaceHeights& place, Random& random) {
   constexpr float eye_m = 1.7f;
   const std::vector<scene::Lane>& lanes = scene.roads.lanes;
-  if (lanes.empty())
-    return first.position_in_world() +
-           glm::vec3(random.uniform(-3.0f, 3.0f), random.uniform(-3.0f, 3.0f), 0.0f);
-  const scene::Lane& lane = lanes[std::size_t(random.index(int(lanes.size())))];
-  const auto at = std::size_t(random.index(int(lane.points.size())));
-  return lane.points[at] + glm::vec3(0.0f, 0.0f, eye_m);
+  if (!lanes.empty()) {
+    const scene::Lane& lane = lanes[std::size_t(random.index(int(lanes.size())))];
+    const auto at = std::size_t(random.index(int(lane.points.size())));
+    return lane.points[at] + glm::vec3(0.0f, 0.0f, eye_m);
+  }
+  constexpr int max_tries = 1000;
+  const scene::GroundGrid& plan = place.heights();
+  glm::ivec2 cell(0);
+  for (int i = 0; i < max_tries; ++i) {
+    cell = {random.index(plan.width), random.index(plan.height)};
+    if (!place.built().at(cell.x, cell.y)) break;
+  }
+  const glm::vec2 spot = plan.centre_of(cell);
+  return {spot, place.at(spot) + eye_m};
 }
 
 /// Pixels of the lower halves of street views that show no ground within a camera's far plane, per cent.
 double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) {
   constexpr int width = 64, height = 36;
+  constexpr float margin_m = 20.0f;
   const reference::RayScene rays(scene);
+  const scene::PlaceHeights place(scene, {}, margin_m);
   const Camera& first = street.camera;
   Random random(15);
   std::size_t open = 0, all = 0;
   for (int view = 0; view < views; ++view) {
-    const glm::vec3 eye = view == 0 ? first.position_in_world() : eye_on_street(scene, first, random);
+    const glm::vec3 eye = view == 0 ? first.position_in_world() : eye_in(scene, place, random);
     const float heading = 2.0f * 3.14159265f * float(view) / float(views);
     Camera camera = first;
     camera.world_from_camera = look_at(eye, eye + glm::vec3(std::sin(heading), std::cos(heading), 0.0f));
@@ -121,6 +136,29 @@ double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) 
   return 100.0 * double(open) / double(all);
 }
 
+/// Pixels of a picture that show the place: neither sky nor the land around it, per cent.
+double shown_percent(const scene::Scene& scene, const Camera& camera) {
+  constexpr int width = 64, height = 36;
+  const reference::RayScene rays(scene);
+  int shown = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto hit = rays.nearest_hit(reference::camera_ray(camera, width, height, glm::vec2(x, y) + 0.5f));
+      if (!hit) continue;
+      const auto object = std::size_t(hit->place->object);
+      shown += object >= scene.objects.size() || (scene.objects[object].name != "terrain" &&
+                                                  !scene::surrounds_place(scene, scene.objects[object]));
+    }
+  return 100.0 * double(shown) / double(width * height);
+}
+
+/// The same camera, turned round and to the clouds.
+Camera turned_away(Camera camera) {
+  const glm::vec3 eye = camera.position_in_world(), ahead = -glm::vec3(camera.world_from_camera[2]);
+  camera.world_from_camera = look_at(eye, eye + glm::vec3(-ahead.x, -ahead.y, 1.5f));
+  return camera;
+}
+
 scene::Scene without_plane(scene::Scene scene) {
   std::erase_if(scene.objects, [&](const scene::Object& object) {
     return object.name == "terrain" || scene::surrounds_place(scene, object);
@@ -128,30 +166,25 @@ scene::Scene without_plane(scene::Scene scene) {
   return scene;
 }
 
-/// Static triangles but trees, and those of buildings.
-struct Counts {
+/// Static triangles of a place without the land around it, by those of its dressed buildings.
+double triangles_over_buildings(const scene::Scene& scene) {
   double all = 0.0, buildings = 0.0;
-};
-
-Counts counts_of(const scene::Scene& scene) {
-  Counts counts;
-  for (const scene::Object& object : scene.objects)
+  for (const scene::Object& object : scene.objects) {
+    if (scene::surrounds_place(scene, object)) continue;
     for (const scene::Part& part : object.model->parts) {
       const double triangles = double(part.mesh.triangle_count());
-      const std::string& material = object.model->materials[std::size_t(part.material)].name;
-      const bool is_tree = part.object == "trees" || material == "leaves" || material == "bark" ||
-                           part.object == "SolitaryVegetationObject";
-      const bool is_building =
-          part.object == "facade" || part.object == "WallSurface" || part.object == "RoofSurface";
-      if (!is_tree) counts.all += triangles;
-      if (is_building) counts.buildings += triangles;
+      all += triangles;
+      if (part.object == "facade" || part.object == "WallSurface" || part.object == "RoofSurface")
+        buildings += triangles;
     }
-  return counts;
+  }
+  return all / std::max(buildings, 1.0);
 }
 
 struct Totals {
   std::map<std::string, double> minutes_of;  ///< by kind of file
   double minutes = 0.0, warnings = 0.0, gap = 0.0, gap_without = 100.0, osm_ratio = 0.0;
+  double shown = 100.0, shown_away = 0.0;
 };
 
 /// Kind of a model file: "cityjson", "citygml", "osm", "ifc".
@@ -161,13 +194,24 @@ std::string kind_of(const fs::path& file) {
   return file.extension().string().substr(1);
 }
 
-/// A warning is explained if it says where and what to do: those of the file's own defects name an object.
+/// A warning is explained if it names the file and says, after a semicolon or a colon, what to do; what a
+/// made-up script itself does wrong is not.
 bool is_unexplained(const Error& warning) {
-  return warning.where.file.empty() || warning.message.find("nothing that matches") != std::string::npos;
+  const std::string& text = warning.message;
+  return warning.where.file.empty() || text.find("nothing that matches") != std::string::npos ||
+         (text.find("; ") == std::string::npos && text.find(": ") == std::string::npos);
+}
+
+double unexplained_of(const scene::LoadedScene& loaded, Report& report) {
+  Errors warnings = loaded.warnings;
+  for (const Error& warning : house::check_place(loaded.scene)) warnings.push_back(warning);
+  for (const Error& warning : warnings) report.note("warning: " + to_string(warning));
+  return double(std::ranges::count_if(warnings, is_unexplained));
 }
 
 /// Unexplained warnings of a made-up script that is wrong: it dresses what the file does not have. A control.
-Result<double> unexplained_of_wrong_script(const House& house, const fs::path& folder, const fs::path& town) {
+Result<double> unexplained_of_wrong_script(const House& house, const fs::path& folder, const fs::path& town,
+                                           Report& report) {
   const fs::path script = folder / "wrong.xp";
   const Status written = write_file(
       script, fmt::format("model(name=\"place\", file=\"{}\") {{ facades(target=\"TINRelief\") }}\n"
@@ -176,10 +220,11 @@ Result<double> unexplained_of_wrong_script(const House& house, const fs::path& f
   if (!written) return written.errors();
   const Result<scene::LoadedScene> loaded = scene::load_scene(script, house.get<scene::NodeRegistry>(), {});
   if (!loaded) return loaded.errors();
-  return double(std::ranges::count_if(loaded->warnings, is_unexplained));
+  return unexplained_of(*loaded, report);
 }
 
-Status measure_place(const House& house, const fs::path& file, const fs::path& folder, Totals& totals) {
+Status measure_place(const House& house, const fs::path& file, const fs::path& folder, Totals& totals,
+                     Report& report) {
   Status done = Done{};
   std::optional<dressing::WrittenScene> written;
   const double ms = milliseconds([&] {
@@ -203,15 +248,31 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
   const Result<scene::LoadedScene> loaded =
       scene::load_scene(written->script, house.get<scene::NodeRegistry>(), {&written->data_folder, 1});
   if (!loaded) return loaded.errors();
-  for (const Error& warning : loaded->warnings) totals.warnings += is_unexplained(warning);
+  totals.warnings += unexplained_of(*loaded, report);
   const scene::NamedCamera* street = loaded->scene.find_camera("street");
+  const double shown = shown_percent(loaded->scene, street->camera);
+  totals.shown = std::min(totals.shown, shown);
+  totals.shown_away = std::max(totals.shown_away, shown_percent(loaded->scene, turned_away(street->camera)));
+  report.note(fmt::format("{}: {:.2f} s to the picture, {:.0f} % of which show the place",
+                          file.filename().string(), 1e-3 * ms, shown));
   totals.gap = std::max(totals.gap, gap_percent(loaded->scene, *street));
   totals.gap_without = std::min(totals.gap_without, gap_percent(without_plane(loaded->scene), *street));
-  if (file.extension() == ".osm") {
-    const Counts counts = counts_of(loaded->scene);
-    totals.osm_ratio = std::max(totals.osm_ratio, counts.all / std::max(counts.buildings, 1.0));
-  }
+  if (file.extension() == ".osm")
+    totals.osm_ratio = std::max(totals.osm_ratio, triangles_over_buildings(loaded->scene));
   return Done{};
+}
+
+/// Of the streets of a town with a single house. A control.
+Result<double> ratio_of_lone_house(const House& house, const fs::path& folder) {
+  const fs::path file = folder / "lone.osm";
+  if (Status status = write_file(file, town_xml(16, 1)); !status) return status.errors();
+  const Result<dressing::WrittenScene> written =
+      dressing::write_bare_scene(file, house.get<formats::Readers>(), folder);
+  if (!written) return written.errors();
+  const Result<scene::LoadedScene> loaded =
+      scene::load_scene(written->script, house.get<scene::NodeRegistry>(), {});
+  if (!loaded) return loaded.errors();
+  return triangles_over_buildings(loaded->scene);
 }
 
 /// Time to read an IFC file, in a child process as always.
@@ -222,7 +283,9 @@ Status measure_ifc(const BenchSetup& setup, const fs::path& file, Report& report
     Status read = Done{};
     ms.push_back(milliseconds([&] {
       Errors warnings;
-      if (const auto model = readers.read(file, {}, warnings); !model) read = model.errors();
+      const auto model = readers.read(file, {}, warnings);
+      if (!model) read = model.errors();
+      if (model && model->parts.empty()) read = error("{}: nothing was read", file.string());
     }));
     if (!read) return read;
   }
@@ -230,8 +293,11 @@ Status measure_ifc(const BenchSetup& setup, const fs::path& file, Report& report
   return Done{};
 }
 
+/// Height of the hill without any street.
+float hill_m(float x, float y) { return 0.03f * x + 1.5f * std::sin(0.02f * x) + 0.02f * y; }
+
 /// A street over a hill with things on it that are no ground, or with a slab on it that is.
-scene::Scene street_with_things(bool has_slab, bool has_things) {
+scene::Scene street_with_things(bool has_slab) {
   scene::Scene scene;
   const auto add = [&](const Mesh& mesh, const scene::Material& material, const char* name) {
     auto model = std::make_shared<scene::Model>();
@@ -240,14 +306,13 @@ scene::Scene street_with_things(bool has_slab, bool has_things) {
     model->parts.back().mesh = mesh, model->parts.back().object = name;
     scene.objects.emplace_back().model = model;
   };
-  const auto ground_m = [](float x, float y) { return 0.03f * x + 1.5f * std::sin(0.02f * x) + 0.02f * y; };
   const auto sheet = [&](glm::vec2 low, glm::vec2 high, float step_m, float lift_m) {
     Mesh mesh;
     const glm::ivec2 cells(glm::max(glm::round((high - low) / step_m), glm::vec2(1.0f)));
     for (int y = 0; y <= cells.y; ++y)
       for (int x = 0; x <= cells.x; ++x) {
         const glm::vec2 p = low + (high - low) * glm::vec2(x, y) / glm::vec2(cells);
-        mesh.positions.emplace_back(p, ground_m(p.x, p.y) + lift_m);
+        mesh.positions.emplace_back(p, hill_m(p.x, p.y) + lift_m);
       }
     const std::uint32_t row = std::uint32_t(cells.x) + 1;
     for (std::uint32_t y = 0; y < std::uint32_t(cells.y); ++y)
@@ -260,40 +325,35 @@ scene::Scene street_with_things(bool has_slab, bool has_things) {
   add(sheet({-30, -60}, {230, 60}, 5.0f, 0.0f), {}, "hill");
   scene::Material leaves;
   leaves.alpha_mode = scene::Alpha::cutout;
-  if (has_things) {
-    for (float x = 0.0f; x < 200.0f; x += 17.0f) add(sheet({x, 3}, {x + 8, 11}, 2.0f, 2.2f), leaves, "crown");
-    for (float x = 5.0f; x < 200.0f; x += 23.0f)
-      add(sheet({x, 1.5f}, {x + 4.5f, 3.3f}, 1.0f, 1.45f), {}, "van");
-    for (float x = 9.0f; x < 200.0f; x += 31.0f)
-      add(sheet({x, -5}, {x + 1.8f, -4.4f}, 0.6f, 0.45f), {}, "bench");
-  }
+  for (float x = 0.0f; x < 200.0f; x += 17.0f) add(sheet({x, 3}, {x + 8, 11}, 2.0f, 2.2f), leaves, "crown");
+  for (float x = 5.0f; x < 200.0f; x += 23.0f)
+    add(sheet({x, 1.5f}, {x + 4.5f, 3.3f}, 1.0f, 1.45f), {}, "van");
+  for (float x = 9.0f; x < 200.0f; x += 31.0f)
+    add(sheet({x, -5}, {x + 1.8f, -4.4f}, 0.6f, 0.45f), {}, "bench");
   if (has_slab) add(sheet({40, -30}, {140, 30}, 5.0f, 1.0f), {}, "slab");
   scene::Road road;
-  for (float x = 0.0f; x <= 200.0f; x += 20.0f) road.path.emplace_back(x, 0.0f, ground_m(x, 0.0f));
+  for (float x = 0.0f; x <= 200.0f; x += 20.0f) road.path.emplace_back(x, 0.0f, hill_m(x, 0.0f));
   scene.roads = *scene::build_road_graph(std::vector{road});
   scene::pave(scene);
   return scene;
 }
 
-/// 99th percentile of how far the carriageway of the second scene lies off that of the first, along the
-/// lanes.
-double paving_error_m(const scene::Scene& bare, const scene::Scene& judged) {
-  const auto rays_down = [](const scene::Scene& scene) {
-    scene::Scene paving;
-    paving.objects.push_back(scene.objects.back());
-    return paving;
-  };
-  const scene::Scene a = rays_down(bare), b = rays_down(judged);
-  const reference::RayScene of_bare(a), of_judged(b);
+/// 99th percentile of how far what is paved lies below the bare hill, or above it by more than the layers of
+/// asphalt and paint are thick. Where a carriageway has a gap, this is a metre.
+double paving_error_m(const scene::Scene& scene) {
+  constexpr float thickness_m = 0.07f, half_carriageway_m = 2.5f;
+  scene::Scene paving;
+  paving.objects.push_back(scene.objects.back());
+  const reference::RayScene rays(paving);
   std::vector<double> errors;
   for (float x = 1.0f; x < 199.0f; x += 0.5f)
     for (float y = -6.0f; y <= 6.0f; y += 0.5f) {
-      const reference::Ray down{{x, y, 100.0f}, {0.0f, 0.0f, -1.0f}};
-      const auto first = of_bare.nearest_hit(down), second = of_judged.nearest_hit(down);
-      if (first && second) errors.push_back(std::abs(double(first->distance_m - second->distance_m)));
+      const auto hit = rays.nearest_hit({{x, y, 100.0f}, {0.0f, 0.0f, -1.0f}});
+      const float above_m = hit ? 100.0f - hit->distance_m - hill_m(x, y) : 1.0f;
+      if (hit || std::abs(y) < half_carriageway_m)
+        errors.push_back(std::max({-above_m, above_m - thickness_m, 0.0f}));
     }
-  std::ranges::sort(errors);
-  return errors.empty() ? 1e3 : errors[errors.size() * 99 / 100];
+  return percentile(errors, 0.99);
 }
 
 }  // namespace
@@ -304,7 +364,7 @@ Status measure_places(const BenchSetup& setup, Report& report) {
   fs::create_directories(folder.path, code);
   std::vector<fs::path> files;
   const fs::path town = folder.path / "town.osm";
-  if (Status status = write_file(town, town_xml(16)); !status) return status;
+  if (Status status = write_file(town, town_xml(16, 16 * 16)); !status) return status;
   files.push_back(town);
   for (const char* name : {"scenes/crossroads.osm", "scenes/canal.osm", "scenes/pavilion.ifc"})
     if (const fs::path map = fs::current_path() / name; fs::exists(map)) files.push_back(map);
@@ -312,20 +372,24 @@ Status measure_places(const BenchSetup& setup, Report& report) {
     if (const auto file = shared_data(name, fs::current_path())) files.push_back(*file);
   Totals totals;
   for (const fs::path& file : files)
-    if (Status status = measure_place(setup.house, file, folder.path, totals); !status) return status;
-  report.add("minutes_to_first_street", totals.minutes);
+    if (Status status = measure_place(setup.house, file, folder.path, totals, report); !status) return status;
+  report.add("minutes_to_first_street", totals.minutes, up_to(1.0));
   for (const auto& [kind, minutes] : totals.minutes_of)
     report.add("minutes_to_first_street_" + kind, minutes);
-  report.add("warnings_unexplained", totals.warnings);
-  const Result<double> unexplained = unexplained_of_wrong_script(setup.house, folder.path, town);
+  report.add("first_street_shown_percent", totals.shown);
+  report.add("first_street_shown_percent_turned_away", totals.shown_away);
+  report.add("warnings_unexplained", totals.warnings, up_to(0.0));
+  const Result<double> unexplained = unexplained_of_wrong_script(setup.house, folder.path, town, report);
   if (!unexplained) return unexplained.errors();
   report.add("warnings_unexplained_of_a_wrong_script", *unexplained);
-  report.add("osm_triangles_over_buildings", totals.osm_ratio);
-  report.add("ground_gap_percent", totals.gap);
+  report.add("osm_triangles_over_buildings", totals.osm_ratio, up_to(20.0));
+  const Result<double> lone = ratio_of_lone_house(setup.house, folder.path);
+  if (!lone) return lone.errors();
+  report.add("osm_triangles_over_buildings_of_a_lone_house", *lone);
+  report.add("ground_gap_percent", totals.gap, up_to(0.0));
   report.add("ground_gap_percent_without_plane", totals.gap_without);
-  const scene::Scene bare = street_with_things(false, false);
-  report.add("paving_height_error_m", paving_error_m(bare, street_with_things(false, true)));
-  report.add("paving_height_error_m_on_a_slab", paving_error_m(bare, street_with_things(true, true)));
+  report.add("paving_height_error_m", paving_error_m(street_with_things(false)), up_to(0.05));
+  report.add("paving_height_error_m_on_a_slab", paving_error_m(street_with_things(true)));
   if (const fs::path pavilion = fs::current_path() / "scenes/pavilion.ifc"; fs::exists(pavilion)) {
     if (Status status = measure_ifc(setup, pavilion, report); !status) return status;
   } else {
