@@ -141,10 +141,6 @@ GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int 
   float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);
   float of_second = second.confidence * max(blend_weight(second.penalty, max_penalty), 1e-6f);
   float share = of_second / (of_best + of_second);
-  if (share >= 0.004f) {
-    vec4 other = facade_colour_of(second);
-    vec3 difference = abs(vec3(other) - vec3(colour));
-    colour = mix(colour, other, decided_share(share, max(difference.x, max(difference.y, difference.z))));
-  }
+  if (share >= 0.004f) colour = mix(colour, facade_colour_of(second), share);
   return vec4(mix(fallback, vec3(colour), known), colour.w);
 }

@@ -32,17 +32,6 @@ GLSL_FUNCTION float blend_weight(float penalty, float max_penalty) {
   return max(1.0f - penalty / max_penalty, 0.0f) / penalty;
 }
 
-// The share of the second photograph in a blend of two whose colours differ by `difference` (sRGB, by the
-// channel that differs most): the more they contradict each other from 0.6 on, because the surface is
-// elsewhere or glossy, the more the better one is shown alone instead of a double image. 0 and 1 stay, and so
-// does 1/2: nothing jumps when the better one changes.
-GLSL_FUNCTION float decided_share(float share, float difference) {
-  float power = 1.0f + 7.0f * smoothstep(0.6f, 1.0f, difference);
-  float of_second = pow(clamp(share, 0.0f, 1.0f), power),
-        of_best = pow(clamp(1.0f - share, 0.0f, 1.0f), power);
-  return of_second / max(of_best + of_second, 1e-20f);
-}
-
 // 0 at the border of a picture of `size` pixels, 1 at `feather` pixels from it.
 GLSL_FUNCTION float border_feather(vec2 pixel, vec2 size, float feather) {
   vec2 inside = min(pixel, size - pixel);
