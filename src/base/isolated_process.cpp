@@ -1,15 +1,12 @@
 #include "base/isolated_process.h"
 
 #include <fcntl.h>
-#include <linux/landlock.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -18,43 +15,31 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <new>
 #include <stdexcept>
 
+#include "base/descriptor.h"
 #include "base/memory_budget.h"
+#include "base/process_limits.h"
 
 namespace parvis {
 namespace {
 
-/// A file descriptor, closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  int get() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-  explicit operator bool() const { return number_ >= 0; }
-
- private:
-  int number_;
+enum class Outcome : char {
+  has_inner_work = 'i',  ///< sent before any other: the work has called run_isolated
+  done = 'd',
+  failed = 'f',
+  gave_up = 'g',
+  out_of_memory = 'm'
 };
-
-enum class Outcome : char { done = 'd', failed = 'f', gave_up = 'g', out_of_memory = 'm' };
 
 /// A request as it travels to the server, with three descriptors: input, output, status.
 struct Request {
   IsolatedWork work;
   std::uint64_t memory_bytes;
   double seconds;
+  bool isolates_inner_work;      ///< in processes of its own; else it runs in the worker
   std::uint32_t readable_bytes;  ///< of the input's front: paths that may be read, each ended by a zero
 };
 
@@ -103,54 +88,6 @@ bool receive_request(int socket, Request& request, Descriptors& descriptors) {
   return true;
 }
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool has_shadow_memory = true;  // of terabytes: the address space cannot be limited
-#elif defined(__has_feature)
-constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
-#else
-constexpr bool has_shadow_memory = false;
-#endif
-
-std::uint64_t address_space_bytes() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * std::uint64_t(sysconf(_SC_PAGESIZE));
-}
-
-/// The address space holds more than memory: stacks of threads, and arenas that are never filled.
-constexpr std::uint64_t empty_address_space_bytes = std::uint64_t{1} << 29;
-
-void limit_memory(std::uint64_t bytes) {
-  if (has_shadow_memory) return;
-  const rlim_t all = address_space_bytes() + bytes + empty_address_space_bytes;
-  const rlimit limit{all, all};
-  setrlimit(RLIMIT_AS, &limit);
-}
-
-/// Lets the worker open files for reading below `paths` alone. Older kernels lack Landlock: then the limits
-/// and the readers' own checks of paths remain.
-void limit_files(const std::vector<std::string>& paths) {
-#if defined(SYS_landlock_create_ruleset)
-  landlock_ruleset_attr rules{};
-  rules.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;  // all rights of Landlock's first version
-  const Descriptor ruleset(int(syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0)));
-  if (!ruleset) return;
-  for (const std::string& path : paths) {
-    const Descriptor place(open(path.c_str(), O_PATH | O_CLOEXEC));
-    if (!place) continue;
-    struct stat status {};
-    fstat(place.get(), &status);
-    landlock_path_beneath_attr rule{};
-    rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
-    if (S_ISDIR(status.st_mode)) rule.allowed_access |= LANDLOCK_ACCESS_FS_READ_DIR;
-    rule.parent_fd = place.get();
-    syscall(SYS_landlock_add_rule, ruleset.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
-  }
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  syscall(SYS_landlock_restrict_self, ruleset.get(), 0);
-#endif
-}
-
 std::string_view map_whole(int file) {
   struct stat status {};
   if (fstat(file, &status) != 0 || status.st_size == 0) return {};
@@ -190,20 +127,22 @@ Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& out
   }
 }
 
-/// Whether this process is a worker: it has no server, and forks workers of its own for work inside work.
+/// Whether this process is a worker: it has no server, and forks workers of its own where inner work is
+/// isolated.
 bool is_worker = false;
+bool isolates_inner_work = true;
+int status_of_worker = -1;  ///< where the worker writes its outcome
+
+/// Of a thread that measures what isolation costs.
+thread_local int without_isolation = 0;
 
 [[noreturn]] void be_worker(const Request& request, const Descriptors& descriptors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  is_worker = true;
+  is_worker = true, isolates_inner_work = request.isolates_inner_work, status_of_worker = descriptors[2];
   const Started started{getpid()};
   if (write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
   std::atexit([] { _exit(1); });  // a reader that calls exit must not run into the program's destructors
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  const auto seconds = rlim_t(request.seconds) + 1;
-  const rlimit processor_time{seconds * 64, seconds * 64};  // of all threads; the caller watches the clock
-  setrlimit(RLIMIT_CPU, &processor_time);
+  limit_time(request.seconds);    // the caller watches the clock
 
   const std::string_view all = map_whole(descriptors[0]);
   std::vector<std::string> readable;
@@ -220,6 +159,25 @@ bool is_worker = false;
   _exit(written == ssize_t(sizeof outcome) ? 0 : 1);  // no destructors: they are the program's
 }
 
+/// Forks a worker that waits for its request on the socket whose other end is returned; none where it cannot
+/// be forked. It ends with the server, whose own socket it does not keep.
+Descriptor forked_spare(int server_socket) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return Descriptor();
+  Descriptor server_end(ends[0]);
+  const Descriptor worker_end(ends[1]);
+  const pid_t child = fork();
+  if (child < 0) return Descriptor();
+  if (child > 0) return server_end;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  close(server_socket);
+  server_end = Descriptor();
+  Request request{};
+  Descriptors descriptors{};
+  if (!receive_request(worker_end.get(), request, descriptors)) _exit(0);
+  be_worker(request, descriptors);
+}
+
 [[noreturn]] void be_server(int socket) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGCHLD, SIG_IGN);  // workers leave no zombies
@@ -232,12 +190,15 @@ bool is_worker = false;
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing.get(), stream);
   Request request{};
   Descriptors descriptors{};
+  Descriptor spare = forked_spare(socket);
   while (receive_request(socket, request, descriptors)) {
-    if (fork() == 0) {
-      close(socket);
-      be_worker(request, descriptors);
+    if (!spare || !send_request(spare.get(), request, descriptors)) {  // none, or somebody has ended it
+      spare = forked_spare(socket);
+      if (spare) send_request(spare.get(), request, descriptors);
     }
     for (const int descriptor : descriptors) close(descriptor);  // no worker: the caller reads an end of file
+    spare = Descriptor();
+    spare = forked_spare(socket);  // while the other one works
   }
   _exit(0);
 }
@@ -277,14 +238,6 @@ bool start_worker(const Request& request, const Descriptors& descriptors) {
   if (child == 0) be_worker(request, descriptors);
   return child > 0;
 }
-
-#if defined(SYS_landlock_create_ruleset)
-bool has_landlock() {
-  return syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 0;
-}
-#else
-bool has_landlock() { return false; }
-#endif
 
 /// Once: the readers' own checks of paths still hold.
 void warn_without_landlock() {
@@ -335,6 +288,97 @@ Errors errors_of(std::span<const std::byte> bytes, const std::string& subject) {
   return errors;
 }
 
+/// How a run of some work has ended.
+enum class End { whole, crashed, late, not_started };
+
+struct Attempt {
+  End end = End::not_started;
+  Outcome outcome{};  ///< of one that is whole
+  bool has_inner_work = false;
+  Descriptor made;  ///< the file in memory with its output
+  std::uint64_t memory_bytes = 0;
+  int cause = 0;  ///< errno of one that was not started
+};
+
+/// In this process.
+Attempt run_here(IsolatedWork work, std::string_view input) {
+  Attempt attempt;
+  attempt.memory_bytes = memory_left();
+  attempt.made = memory_file("output");
+  attempt.cause = errno;
+  if (!attempt.made) return attempt;
+  IsolatedOutput output(attempt.made.get());
+  attempt.outcome = carry_out(work, input, output);
+  attempt.end = End::whole;
+  return attempt;
+}
+
+/// In a worker, whose own calls of run_isolated start workers, too, where `isolates_inner`.
+Attempt run_in_worker(IsolatedWork work, std::string_view input, const IsolationLimits& limits,
+                      bool isolates_inner) {
+  start_isolation();
+  Attempt attempt;
+  attempt.memory_bytes = std::min(limits.memory_bytes, memory_left());
+  std::string readable;
+  for (const std::filesystem::path& path : limits.readable) readable += path.string() + '\0';
+  const Descriptor given = memory_file("input");
+  attempt.made = memory_file("output");
+  std::array<int, 2> status{-1, -1};
+  const bool has_pipe = pipe2(status.data(), O_CLOEXEC) == 0;
+  const Descriptor status_out(status[0]);
+  Descriptor status_in(status[1]);
+  const Request request{work, attempt.memory_bytes, limits.seconds, isolates_inner,
+                        std::uint32_t(readable.size())};
+  warn_without_landlock();
+  if (!given || !attempt.made || !has_pipe || !write_all(given.get(), readable) ||
+      !write_all(given.get(), input) ||
+      !start_worker(request, {given.get(), attempt.made.get(), status_in.get()})) {
+    attempt.cause = errno;
+    return attempt;
+  }
+  status_in = Descriptor();  // so that the worker's end is the last one
+
+  const auto deadline =
+      std::chrono::steady_clock::now() +
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(limits.seconds));
+  bool is_late = false;
+  Started started{};
+  const bool has_started = receive(status_out.get(), started, deadline, is_late);
+  bool has_ended = has_started && receive(status_out.get(), attempt.outcome, deadline, is_late);
+  while (has_ended && attempt.outcome == Outcome::has_inner_work) {
+    attempt.has_inner_work = true;
+    has_ended = receive(status_out.get(), attempt.outcome, deadline, is_late);
+  }
+  attempt.end = has_ended ? End::whole : is_late ? End::late : End::crashed;
+  if (is_late && has_started) kill(started.worker, SIGKILL);
+  return attempt;
+}
+
+/// What the caller gets of it.
+Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject, const IsolationLimits& limits) {
+  if (attempt.end == End::not_started)
+    return error("{}: no child process can be started for its reader ({})", subject,
+                 std::strerror(attempt.cause));
+  if (attempt.end == End::late)
+    return error("{}: its reader took more than {:.0f} s and was ended", subject, limits.seconds);
+  if (attempt.end == End::crashed)
+    return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
+  if (attempt.outcome == Outcome::out_of_memory)
+    return error(
+        "{}: reading it needs more than {:.1f} GB of memory; use a smaller one, or allow more with "
+        "--max-memory",
+        subject, double(attempt.memory_bytes) / 1e9);
+  IsolatedBytes result(attempt.made.release());
+  if (attempt.outcome == Outcome::gave_up) {
+    const std::string_view reason(reinterpret_cast<const char*>(result.bytes().data()),
+                                  result.bytes().size());
+    return error("{}: its reader gave up{}{}; the file is damaged", subject, reason.empty() ? "" : ": ",
+                 reason);
+  }
+  if (attempt.outcome == Outcome::failed) return errors_of(result.bytes(), subject);
+  return result;
+}
+
 }  // namespace
 
 IsolatedOutput::~IsolatedOutput() {
@@ -363,6 +407,8 @@ IsolatedBytes::~IsolatedBytes() {
   if (file_ >= 0) close(file_);
 }
 
+bool is_in_worker() { return is_worker; }
+
 std::uint64_t begun_workers() { return worker_count(); }
 
 void start_isolation() {
@@ -371,51 +417,23 @@ void start_isolation() {
 
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits) {
-  start_isolation();
-  std::string readable;
-  for (const std::filesystem::path& path : limits.readable) readable += path.string() + '\0';
-  Descriptor given = memory_file("input"), made = memory_file("output");
-  std::array<int, 2> status{};
-  if (!given || !made || pipe2(status.data(), O_CLOEXEC) != 0)
-    return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
-  const Descriptor status_out(status[0]);
-  Descriptor status_in(status[1]);
-  if (!write_all(given.get(), readable) || !write_all(given.get(), input))
-    return error("{}: there is no memory to hand it to its reader ({})", subject, std::strerror(errno));
-  const std::uint64_t memory_bytes = std::min(limits.memory_bytes, memory_left());
-  const Request request{work, memory_bytes, limits.seconds, std::uint32_t(readable.size())};
-  warn_without_landlock();
-  if (!start_worker(request, {given.get(), made.get(), status_in.get()}))
-    return error("{}: no child process can be started for its reader ({})", subject, std::strerror(errno));
-  status_in = Descriptor();  // so that the worker's end is the last one
-
-  const auto deadline =
-      std::chrono::steady_clock::now() +
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(limits.seconds));
-  bool is_late = false;
-  Started started{};
-  Outcome outcome{};
-  const bool has_started = receive(status_out.get(), started, deadline, is_late);
-  if (!has_started || !receive(status_out.get(), outcome, deadline, is_late)) {
-    if (is_late && has_started) kill(started.worker, SIGKILL);
-    if (is_late)
-      return error("{}: its reader took more than {:.0f} s and was ended", subject, limits.seconds);
-    return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
+  Attempt attempt;
+  if (without_isolation > 0) {
+    attempt = run_here(work, input);
+  } else if (is_worker && !isolates_inner_work) {
+    const Outcome note = Outcome::has_inner_work;
+    if (write(status_of_worker, &note, sizeof note) == ssize_t(sizeof note)) attempt = run_here(work, input);
+  } else {
+    attempt = run_in_worker(work, input, limits, false);
+    // The reader of a model is not lost with one of its pictures: once more, each picture in its own process.
+    if (attempt.has_inner_work && attempt.end != End::late && attempt.outcome != Outcome::done &&
+        attempt.outcome != Outcome::failed)
+      attempt = run_in_worker(work, input, limits, true);
   }
-  if (outcome == Outcome::out_of_memory)
-    return error(
-        "{}: reading it needs more than {:.1f} GB of memory; use a smaller one, or allow more with "
-        "--max-memory",
-        subject, double(memory_bytes) / 1e9);
-  IsolatedBytes result(made.release());
-  if (outcome == Outcome::gave_up) {
-    const std::string_view reason(reinterpret_cast<const char*>(result.bytes().data()),
-                                  result.bytes().size());
-    return error("{}: its reader gave up{}{}; the file is damaged", subject, reason.empty() ? "" : ": ",
-                 reason);
-  }
-  if (outcome == Outcome::failed) return errors_of(result.bytes(), subject);
-  return result;
+  return result_of(std::move(attempt), subject, limits);
 }
+
+WithoutIsolation::WithoutIsolation() { ++without_isolation; }
+WithoutIsolation::~WithoutIsolation() { --without_isolation; }
 
 }  // namespace parvis

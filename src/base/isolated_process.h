@@ -2,7 +2,8 @@
 // takes all memory there is becomes an error of ours.
 //
 // A small server process is forked before the program has threads (start_isolation, at the head of main) and
-// forks a worker for each call, so that no worker inherits a lock that another thread holds. A worker has
+// forks the workers, so that none inherits a lock that another thread holds. One worker is always forked
+// already and waits: a call does not wait for the copy of the page tables. A worker has
 // limits on memory and time and, where the kernel has Landlock, opens no file except below the folders that
 // the call names.
 #pragma once
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,10 +72,38 @@ using IsolatedWork = Status (*)(std::string_view input, IsolatedOutput& output);
 void start_isolation();
 
 /// Runs `work` on `input` in a worker process and returns its output. Work that runs in a worker may call it,
-/// too: a model's reader has its pictures decoded by workers of its own. Errors are those of `work`, or say
-/// that the reader of `subject` (a file's name) crashed, took too long or needed too much memory.
+/// too, as a model's reader does for each picture: that inner work runs in the same worker, and if the worker
+/// does not survive it, all is done once more with workers for the inner work, so that a model is not lost
+/// with one of its pictures. Errors are those of `work`, or say that the reader of `subject` (a file's name)
+/// crashed, took too long or needed too much memory.
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
+
+/// While one exists, the work of its thread runs in this very process: a baseline for measurements of what
+/// isolation costs, and for nothing else.
+class WithoutIsolation {
+ public:
+  WithoutIsolation();
+  ~WithoutIsolation();
+  WithoutIsolation(const WithoutIsolation&) = delete;
+  WithoutIsolation& operator=(const WithoutIsolation&) = delete;
+};
+
+/// Whether this process is a worker, which ends without destructors.
+bool is_in_worker();
+
+/// Deletes, but in a worker: its memory ends with it, and taking a large document apart takes nearly as long
+/// as reading it.
+template <class T>
+struct DeleteOutsideWorkers {
+  void operator()(T* value) const {
+    if (!is_in_worker()) delete value;
+  }
+};
+
+/// Owns a large value of a reader: in a worker the value stays until the process ends.
+template <class T>
+using LeftInWorker = std::unique_ptr<T, DeleteOutsideWorkers<T>>;
 
 /// Workers that this program has begun so far, those that its workers began included: the control of what
 /// measures them.

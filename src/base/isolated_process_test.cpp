@@ -64,17 +64,46 @@ TEST(IsolatedProcess, GivesWhatTheWorkMade) {
   EXPECT_TRUE(nothing->bytes().empty());
 }
 
-Status repeat_in_worker(std::string_view input, IsolatedOutput&) {
+Status repeat_in_worker(std::string_view input, IsolatedOutput& output) {
   const Result<IsolatedBytes> inside = run_isolated(repeat_backwards, input, "inside");
-  return inside ? Status(Done{}) : Status(inside.errors());
+  if (!inside) return inside.errors();
+  const std::span<std::byte> bytes = output.allocate(inside->bytes().size());
+  std::memcpy(bytes.data(), inside->bytes().data(), bytes.size());
+  return Done{};
 }
 
-TEST(IsolatedProcess, CountsItsWorkersAndThoseInsideThem) {
+TEST(IsolatedProcess, InnerWorkRunsInItsWorker) {
   const std::uint64_t before = begun_workers();
-  ASSERT_TRUE(run_isolated(repeat_backwards, "parvis", "x"));
+  EXPECT_EQ(text_of(run_isolated(repeat_in_worker, "parvis", "x")), "sivrap");
   EXPECT_EQ(begun_workers(), before + 1);
-  ASSERT_TRUE(run_isolated(repeat_in_worker, "parvis", "x"));
-  EXPECT_EQ(begun_workers(), before + 3);
+  const WithoutIsolation here;
+  EXPECT_EQ(text_of(run_isolated(repeat_in_worker, "parvis", "x")), "sivrap");
+  EXPECT_EQ(begun_workers(), before + 1);
+}
+
+/// Its inner work does not survive; it does.
+Status outlive(std::string_view input, IsolatedOutput& output) {
+  const IsolatedWork inner = input == "crash" ? crash : input == "leave" ? leave : give_up;
+  const Result<IsolatedBytes> inside = run_isolated(inner, "", "inside");
+  const std::string said = inside ? "" : to_string(inside.errors());
+  const std::span<std::byte> bytes = output.allocate(said.size());
+  std::memcpy(bytes.data(), said.data(), said.size());
+  return Done{};
+}
+
+TEST(IsolatedProcess, AWorkerIsNotLostWithItsInnerWork) {
+  const std::uint64_t before = begun_workers();
+  for (const char* end : {"crash", "leave"}) {
+    const Result<IsolatedBytes> made = run_isolated(outlive, end, "outside");
+    EXPECT_NE(text_of(made).find("inside: its reader crashed"), std::string::npos) << text_of(made);
+  }
+  EXPECT_EQ(begun_workers(), before + 6) << "one that did not survive, and one with a worker of its own";
+}
+
+TEST(IsolatedProcess, AWorkerThatCrashesWithoutInnerWorkIsNotTriedAgain) {
+  const std::uint64_t before = begun_workers();
+  EXPECT_FALSE(run_isolated(crash, "", "x"));
+  EXPECT_EQ(begun_workers(), before + 1);
 }
 
 TEST(IsolatedProcess, HandsOnEveryError) {

@@ -9,6 +9,7 @@
 
 #include "base/checked.h"
 #include "base/files.h"
+#include "base/isolated_process.h"
 #include "base/json_guard.h"
 #include "base/memory_budget.h"
 #include "formats/city_models/city_assembly.h"
@@ -439,10 +440,10 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
   const bool is_sequence = file.extension().string().size() > 5;  // ".jsonl" in any case, against ".json"
   if (Status depth = check_json_depth(*bytes, file.string()); !depth && !is_sequence) return depth.errors();
   try {
-    const Result<Json> json =
-        is_sequence ? city_json_of_sequence(file, *bytes) : Result<Json>(Json::parse(*bytes));
-    if (!json) return json.errors();
-    return Reader(file, *json, warnings, max_detail).read();
+    const LeftInWorker<const Result<Json>> json(
+        new Result<Json>(is_sequence ? city_json_of_sequence(file, *bytes) : Json::parse(*bytes)));
+    if (!*json) return json->errors();
+    return Reader(file, **json, warnings, max_detail).read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {

@@ -16,6 +16,7 @@
 #include "base/exception_reason.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/isolated_process.h"
 #include "scene/data/placeholder.h"
 
 namespace parvis::scene {
@@ -193,7 +194,8 @@ Result<Model> read_with_assimp(const fs::path& file, formats::UpAxis up, Errors&
   const bool is_z_up_format = extension == ".ply" || extension == ".stl";
   const bool is_y_up = up == formats::UpAxis::y || (up == formats::UpAxis::file && !is_z_up_format);
   try {
-    Assimp::Importer importer;
+    const LeftInWorker<Assimp::Importer> owned(new Assimp::Importer);
+    Assimp::Importer& importer = *owned;
     keep_importers_of(extension.substr(std::min<std::size_t>(1, extension.size())), importer);
     importer.SetIOHandler(new RootedFiles(file.parent_path()));  // the importer deletes it
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);

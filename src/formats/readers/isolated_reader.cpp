@@ -74,7 +74,9 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   if (order.has_cell) reading.cell_m = order.cell_m;
   const fs::path file = take_text(taker);
   Errors warnings;
-  const Result<scene::Model> model = read(file, reading, warnings);
+  const LeftInWorker<const Result<scene::Model>> read_model(
+      new Result<scene::Model>(read(file, reading, warnings)));
+  const Result<scene::Model>& model = *read_model;
   if (!model) return model.errors();
   const std::string front = bytes_of_warnings(warnings);
   const std::uint64_t size = byte_count(*model);
