@@ -56,7 +56,8 @@ std::string type_name(const std::string& object_type) {
 }  // namespace
 
 bool is_building(const std::string& object_type) {
-  return object_type.find("Building") != std::string::npos || object_type == "OtherConstruction";
+  return (object_type.find("Building") != std::string::npos && object_type != "BuildingFurniture") ||
+         object_type == "OtherConstruction";
 }
 
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up) {

@@ -229,9 +229,9 @@ bool fits(const Bounds& bounds, const View& view) {
   return true;
 }
 
-/// From the south-west, down onto a spot.
-View view_from_above(glm::vec3 spot, float radius_m) {
-  return {spot + radius_m * glm::vec3(-0.62f, -1.15f, 0.75f), spot};
+/// From this direction in plan, down onto a spot.
+View view_from_above(glm::vec3 spot, glm::vec2 toward, float radius_m) {
+  return {spot + radius_m * glm::vec3(1.3f * toward, 0.75f), spot};
 }
 
 /// From so far away in this direction that the whole, from its foot to its top, is in the picture of a camera
@@ -294,14 +294,20 @@ View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const
   if (built.empty()) built.add(street.target);
   constexpr float smallest_m = 4.0f;
   const float whole_m = 0.5f * glm::length(glm::vec2(built.size()));
-  if (whole_m > overview_radius_m) return view_from_above(street.target, overview_radius_m);
+  if (whole_m > overview_radius_m)
+    return view_from_above(street.target, glm::normalize(to_sun), overview_radius_m);
   for (const scene::Object& object : scene.objects)  // towers are higher than their plan is wide
     built.max.z =
         std::max(built.max.z, transformed(object.world_from_model, scene::bounds(*object.model)).max.z);
+  // Who looks at a house from outside has chosen its richest side.
+  const glm::vec3 eye = street.eye;
+  const bool is_outside =
+      eye.x < built.min.x || eye.x > built.max.x || eye.y < built.min.y || eye.y > built.max.y;
+  const glm::vec2 toward = glm::normalize(is_outside ? glm::vec2(eye - built.centre()) : to_sun);
   View view;
   for (float radius_m = std::max(whole_m, smallest_m); radius_m < 4.0f * overview_radius_m;
        radius_m *= 1.06f) {
-    view = view_from_above(built.centre(), radius_m);
+    view = view_from_above(built.centre(), toward, radius_m);
     if (fits(built, view)) break;
   }
   return view;
