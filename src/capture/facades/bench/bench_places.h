@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/scratch_folder.h"
 #include "capture/facades/layer_model.h"
 #include "capture/photographs/photograph.h"
 
@@ -15,11 +17,13 @@ struct BenchPlace {
   std::vector<photographs::Photograph> photographs;
   std::vector<facades::NamedMesh> meshes;
   std::vector<std::string> held_out;
+  std::shared_ptr<const ScratchFolder> files;  ///< the photographs', where they are copies
 };
 
 /// The castle with its mesh of 175,000 triangles.
-Result<BenchPlace> sceaux(const std::filesystem::path& folder);
-/// The courtyard with the model that `parvis facade model` proposes for the photographs that do not judge.
-Result<BenchPlace> courtyard(const std::filesystem::path& folder);
+Result<BenchPlace> sceaux(const std::filesystem::path& folder, bool is_quick);
+/// The courtyard with the model that `parvis facade model` proposes for the photographs that do not judge;
+/// quickly with pictures of half the width and height.
+Result<BenchPlace> courtyard(const std::filesystem::path& folder, bool is_quick);
 
 }  // namespace parvis::bench

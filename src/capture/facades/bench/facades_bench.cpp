@@ -42,13 +42,13 @@ void tell_costs(const facades::PlaceFigures& figures, Report& report) {
 }
 
 Status measure_place(const std::string& name, const std::string& data,
-                     Result<BenchPlace> (*load)(const fs::path&), bool is_quick, Report& report) {
+                     Result<BenchPlace> (*load)(const fs::path&, bool), bool is_quick, Report& report) {
   const auto folder = shared_data(data, fs::current_path());
   if (!folder) {
     report.skip(name + "_psnr_cc_db", "the shared photographs are absent");
     return Done{};
   }
-  const Result<BenchPlace> place = load(*folder);
+  const Result<BenchPlace> place = load(*folder, is_quick);
   if (!place) return place.errors();
   const facades::MeasureOptions options{is_quick ? 40 : 200, true};
   const Result<facades::PlaceFigures> figures =
@@ -73,7 +73,7 @@ Status measure_drawings(const BenchSetup& setup, Report& report) {
     report.skip("draw_over_plain_texture_time", "the shared photographs are absent");
     return Done{};
   }
-  const Result<BenchPlace> place = sceaux(*folder);
+  const Result<BenchPlace> place = sceaux(*folder, setup.is_quick);
   if (!place) return place.errors();
   const Result<facades::PlaceLayers> layers = facades::place_layers(place->photographs, place->meshes);
   if (!layers) return layers.errors();
