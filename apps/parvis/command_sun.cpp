@@ -11,6 +11,7 @@
 #include "graphics/light/day_light.h"
 #include "graphics/light/sun_study.h"
 #include "house/stage/film.h"
+#include "machines/processes.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -65,17 +66,24 @@ Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Sc
 }
 
 Status study(const Arguments& arguments) {
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
   const Result<house::Play> play = arguments.scene.open_play();
   if (!play) return play.errors();
   const Result<light::SunPeriod> period = read_period(arguments, play->scene);
   if (!period) return period.errors();
-  light::SunStudyOptions options{
-      .period = *period, .cell_m = arguments.cell_m, .area = {}, .has_facades = !arguments.is_ground_only};
+  light::SunStudyOptions options{.period = *period,
+                                 .cell_m = arguments.cell_m,
+                                 .area = {},
+                                 .has_facades = !arguments.is_ground_only,
+                                 .processes = *processes};
   if (!arguments.area.empty())
     options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
   const Result<light::SunStudy> result = light::study_sun(play->scene, options);
   if (!result) return result.errors();
-  if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
+  if (processes->is_first())
+    if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
+  processes->leave();
 
   fmt::print("hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
              arguments.output.string(), arguments.is_ground_only ? "" : ", .glb");
@@ -132,7 +140,13 @@ Status film_day(const Arguments& arguments) {
 Status run(const Arguments& arguments) {
   if (arguments.film.empty() == arguments.output.empty())
     return error("give either -o PREFIX for hours of sun, or --film FILE for the shadows of the day");
-  return arguments.film.empty() ? study(arguments) : film_day(arguments);
+  if (arguments.film.empty()) return study(arguments);
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
+  if (processes->is_first())
+    if (Status status = film_day(arguments); !status) return status;
+  processes->leave();
+  return Done{};
 }
 
 }  // namespace
@@ -170,7 +184,8 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   command->footer(
       "Example: parvis sun out/paper/paper_day.xp --from 2026-03-21 --area -120 -120 120 120 -o out/sun\n"
-      "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4");
+      "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4\n"
+      "Started by mpirun, several processes or machines divide the hours of sun: the same files, sooner.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

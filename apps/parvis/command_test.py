@@ -395,6 +395,11 @@ class SeveralProcesses(BeforeAMirror):
         self.expect_same(picture, "reference", scene, *options, "-o", picture)
         self.assertEqual([name for name in self.files() if "checkpoint" in name], [])
 
+    def test_hours_of_sun(self):
+        plan = self.folder / "out.csv"
+        options = ["--place", "43.7", "7.27", "--from", "2026-03-21", "--area", "-4", "-4", "4", "4", "--cell", "0.2"]
+        self.expect_same(plan, "sun", self.write_place(), *options, "--ground-only", "-o", self.folder / "out")
+
     def test_baked_maps(self):
         scene = self.write_place('referenceMaps(position="0 -3 1.2", position="0 -9 1.2", position="4 -9 1.2")')
         told = [self.expect_done("bake", scene).stdout]

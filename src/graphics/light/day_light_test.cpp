@@ -123,6 +123,40 @@ TEST(DayLightNode, TheScriptsExposureMultiplies) {
   EXPECT_FLOAT_EQ(without->scene.exposure, 2.0f);
 }
 
+TEST(SunPathNode, ArcsStandWhereTheSunGoes) {
+  const TestFolder folder;
+  const auto loaded = load(folder,
+                           "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, timeOfDay=15)\n"
+                           "sunPath(julianDay=172, radius=10, position=\"5 0 0\")\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  ASSERT_EQ(loaded->scene.objects.size(), 1u);
+  const scene::Object& path = loaded->scene.objects.front();
+  const Mesh& arc = path.model->parts.front().mesh;
+  EXPECT_FALSE(path.model->parts.front().casts_shadow);
+  float nearest_m = 1e9f, top_m = 0.0f;
+  for (const glm::vec3 p : arc.positions) {
+    EXPECT_NEAR(glm::length(p), 10.0f, 0.2f);
+    nearest_m = std::min(nearest_m, glm::distance(p, 10.0f * loaded->scene.sun.direction_to_sun));
+    top_m = std::max(top_m, p.z);
+  }
+  EXPECT_LT(nearest_m, 0.2f) << "the bead at 15 o'clock";
+  EXPECT_NEAR(top_m, 10.0f * std::sin(glm::radians(69.74f)), 0.2f) << "midsummer's noon";
+  EXPECT_EQ(path.world_from_model[3].x, 5.0f);
+}
+
+TEST(SunPathNode, PolarNightHasTheHorizonAloneAndWrongDaysAreNamed) {
+  const TestFolder folder;
+  const auto dark = load(folder, "dayLight(latitude=80, longitude=20)\nsunPath(julianDay=355)\n");
+  ASSERT_TRUE(dark) << to_string(dark.errors());
+  EXPECT_EQ(dark->scene.objects.front().model->parts.size(), 1u);
+  const auto without = load(folder, "sunPath()\n");
+  ASSERT_FALSE(without);
+  EXPECT_NE(to_string(without.errors()).find("needs a dayLight before it"), std::string::npos);
+  const auto late = load(folder, "dayLight(year=2026)\nsunPath(julianDay=366)\n");
+  ASSERT_FALSE(late);
+  EXPECT_NE(to_string(late.errors()).find("365"), std::string::npos);
+}
+
 TEST(SkyDome, CloudsOfThePhotographStandInTodaysLight) {
   // A dome of blue with one grey patch in the south, half way up; land below.
   auto dome = std::make_shared<ImageF>(128, 64, 3);

@@ -5,6 +5,7 @@
 #include "graphics/light/day_light.h"
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
+#include "graphics/light/nodes_sun_path.h"
 #include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/light/sky_picture.h"
@@ -123,6 +124,7 @@ void parvis::light::furnish(House& house) {
   registry.add(sky_schema(), build_sky);
   light::add_day_light_nodes(registry);
   light::add_shadow_map_node(registry);
+  light::add_sun_path_node(registry);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.scene.haze_per_m = float(node.number("haze_per_m"));
   });

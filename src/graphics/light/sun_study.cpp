@@ -135,6 +135,21 @@ Status gather_surfaces(const scene::Scene& scene, const SunStudyOptions& options
   return Done{};
 }
 
+/// Hours of all points: each process finds those of its blocks.
+std::vector<float> divided_hours(const reference::RayScene& rays, const std::vector<SunPoint>& points,
+                                 const SunStudyOptions& options) {
+  constexpr std::size_t block = 1024;
+  std::vector<SunPoint> own;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (options.processes.has(i / block)) own.push_back(points[i]), places.push_back(i);
+  const std::vector<float> found = sun_hours(rays, own, options.period);
+  std::vector<float> hours(points.size(), 0.0f);
+  for (std::size_t k = 0; k < places.size(); ++k) hours[places[k]] = found[k];
+  options.processes.sum(hours);  // of one number and noughts: the same bits in any order
+  return hours;
+}
+
 }  // namespace
 
 Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options) {
@@ -160,7 +175,7 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
         {study.surfaces.positions[i] + lift_m * study.surfaces.normals[i], study.surfaces.normals[i]});
   study.rays_from = points.size();
   points.push_back({{0.0f, 0.0f, bounds.max.z + 1.0f}, {0, 0, 1}});  // nothing stands higher
-  const std::vector<float> hours = sun_hours(rays, points, options.period);
+  const std::vector<float> hours = divided_hours(rays, points, options);
   study.max_hours = std::max(double(hours.back()), 1e-3);
   for (std::size_t i = 0; i < study.cells.size(); ++i) study.cells[i].hours = hours[i];
   for (std::size_t i = 0; i < study.surfaces.uvs.size(); ++i)

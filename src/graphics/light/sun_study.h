@@ -10,6 +10,7 @@
 #include "base/image.h"
 #include "base/mesh.h"
 #include "graphics/light/sun_hours.h"
+#include "machines/processes.h"
 #include "scene/data/scene.h"
 
 namespace parvis::light {
@@ -20,6 +21,7 @@ struct SunStudyOptions {
   /// x and y of two corners of what is studied; absent: all that stands still.
   std::optional<glm::dvec4> area;
   bool has_facades = true;
+  machines::Processes processes = {};  ///< that divide the points among them; all call and all get the study
 };
 
 /// A cell of the plan.
