@@ -171,6 +171,17 @@ TEST(ImageIo, EveryFormatThatIsWrittenIsRead) {
   }
 }
 
+TEST(ImageIo, HdrHasNoAlphaAndIsWrittenWithoutIt) {
+  const TestFolder folder;
+  const fs::path file = folder.path() / "picture.hdr";
+  const Image8 picture(7, 5, 4, 128);
+  ASSERT_TRUE(write_image(file, picture));
+  const Result<Image8> back = read_image8(file);
+  ASSERT_TRUE(back);
+  for (std::size_t i = 0; i < back->pixels.size(); ++i)
+    EXPECT_NEAR(back->pixels[i], i % 4 == 3 ? 255 : 128, 1);
+}
+
 TEST(ImageIo, NoFileSaysWhenItWasWritten) {
   const Result<std::string> bytes = encode_image(ImageF(2, 2, 3, 1.0f), "a.exr");
   ASSERT_TRUE(bytes);

@@ -146,14 +146,18 @@ Result<std::string> encode(const BasicImage<T>& image, const std::string& name) 
                  name);
   const auto output = OIIO::ImageOutput::create(std::string(format->name));
   OIIO::Filesystem::IOVecOutput bytes;
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::BaseTypeFromC<T>::value);
+  const int channels =
+      format->name == "hdr"sv ? std::min(image.channels, 3) : image.channels;  // it has no alpha
+  OIIO::ImageSpec spec(image.width, image.height, channels, OIIO::BaseTypeFromC<T>::value);
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("CompressionQuality", 92);
   // The library would write the clock's: the same command gives the same bytes.
   if (format->name == "openexr"sv) spec.attribute("DateTime", "2003:01:01 00:00:00");
   const std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
   if (!output || !output->set_ioproxy(&bytes) || !output->open(file_name, spec) ||
-      !output->write_image(OIIO::BaseTypeFromC<T>::value, image.pixels.data()) || !output->close())
+      !output->write_image(OIIO::BaseTypeFromC<T>::value, image.pixels.data(),
+                           OIIO::stride_t(image.channels) * OIIO::stride_t(sizeof(T))) ||
+      !output->close())
     return error("{}: cannot be encoded ({})", name, output ? output->geterror() : OIIO::geterror());
   return std::string(bytes.buffer().begin(), bytes.buffer().end());
 }

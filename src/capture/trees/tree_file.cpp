@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <set>
 
+#include "base/checked.h"
+#include "base/memory_budget.h"
 #include "base/sealed_file.h"
 #include "capture/trees/crossed_billboards.h"
 #include "capture/trees/texture_blocks.h"
@@ -152,6 +154,12 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::stri
     return wrong(fmt::format("{} views, at most {} are possible", view_count, max_views));
   const std::size_t cell_count = cells.size(),
                     blocks_per_texture = std::size_t(texels / 4) * std::size_t(texels / 4);
+  // Of a view the file has a bit per cell, and memory four bytes.
+  if (Status enough =
+          check_memory(checked_product({view_count, cell_count, sizeof(std::int32_t)}),
+                       fmt::format("{}: its {} views of {} cells", file.string(), view_count, cell_count));
+      !enough)
+    return enough.errors();
   tree.grid = CellGrid(box, branching, side, std::move(cells)), tree.texels_per_side = texels;
   for (std::uint32_t v = 0; v < view_count; ++v) {
     BillboardTextures view;
@@ -167,6 +175,10 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::stri
       view.texture_of_cell.push_back(bits[i / 8] >> (i % 8) & 1 ? next++ : -1);
     if (blocks.size() != std::size_t(next) * blocks_per_texture)
       return wrong("a view's textures do not match its cells");
+    if (Status enough = check_memory(checked_product({blocks.size(), std::tuple_size_v<BlockTexels>}),
+                                     file.string() + ": the textures of a view");
+        !enough)
+      return enough.errors();
     view.texels = texels_of(blocks, texels);
     tree.views.push_back(std::move(view));
   }

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 /// What reading a file in a child takes beyond reading it here.
 struct Overhead {
   Median ms;
-  double of_least_ms =
-      0.0;  ///< of the shortest reading in a child and the shortest one here: what load adds least to
+  double min_ms = 0.0;  ///< between the shortest readings, in a child and here
   bool is_read = true;
   std::uint64_t workers_isolated = 0, workers_here = 0;  ///< that one reading began
 };
@@ -36,16 +35,16 @@ Overhead overhead(const std::function<bool()>& isolated, const std::function<boo
     return ms;
   };
   std::vector<double> samples;
-  double least_there_ms = std::numeric_limits<double>::max(), least_here_ms = least_there_ms;
+  double min_there_ms = std::numeric_limits<double>::max(), min_here_ms = min_there_ms;
   for (int i = 0; i < repeats; ++i) {
     const double there_ms = read_ms(isolated, measured.workers_isolated);
     const WithoutIsolation baseline;  // of the pictures of models, too
     const double here_ms = read_ms(here, measured.workers_here);
-    least_there_ms = std::min(least_there_ms, there_ms), least_here_ms = std::min(least_here_ms, here_ms);
+    min_there_ms = std::min(min_there_ms, there_ms), min_here_ms = std::min(min_here_ms, here_ms);
     samples.push_back(there_ms - here_ms);
   }
   measured.ms = median(samples);
-  measured.of_least_ms = least_there_ms - least_here_ms;
+  measured.min_ms = min_there_ms - min_here_ms;
   return measured;
 }
 
@@ -101,7 +100,7 @@ Status measure_isolation(const BenchSetup& setup, Report& report) {
                   "(medians of {} pairs; the one in the middle counts)",
                   of_hague.ms.value, of_car.ms.value, of_picture.ms.value, repeats));
   report.note(fmt::format("shortest readings: {:.1f}, {:.1f} and {:.1f} ms longer in a child than here",
-                          of_hague.of_least_ms, of_car.of_least_ms, of_picture.of_least_ms));
+                          of_hague.min_ms, of_car.min_ms, of_picture.min_ms));
   return Done{};
 }
 
