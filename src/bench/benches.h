@@ -2,7 +2,9 @@
 // calls; `parvis bench NAME` runs one.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +18,21 @@ namespace parvis::bench {
 struct BenchSetup {
   const House& house;     ///< all rooms: node types, drawables, methods of the scenes that are measured
   bool is_quick = false;  ///< fewer repetitions and views, every key all the same
+  std::string part;       ///< the only part to measure (Bench::parts); empty: all
+  /// Where a bench keeps what takes long to prepare, so that the next run of one of its parts finds it;
+  /// empty: a folder of its own, which is removed at its end.
+  std::filesystem::path kept;
 };
+
+/// One part of a bench, which can be run alone.
+struct BenchPart {
+  std::string name;
+  std::function<Status()> run;
+};
+
+/// Runs the parts in their order, or the one that `setup` names; with a progress bar. The first error ends
+/// it.
+Status run_parts(const BenchSetup& setup, std::span<const BenchPart> parts);
 
 /// One bench.
 struct Bench {
@@ -25,6 +41,7 @@ struct Bench {
   /// Adds every figure to the report. An error ends the bench; figures that this machine cannot measure are
   /// skipped.
   std::function<Status(const BenchSetup&, Report&)> run;
+  std::vector<std::string> parts = {};  ///< that it can be asked for alone; empty: it runs as a whole
 };
 
 /// All benches, in the order in which rooms have added them.

@@ -18,11 +18,12 @@ double finished_ms(const std::function<void()>& work) {
 Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
-                                                     Frames frames) {
+                                                     Frames frames, double step_s) {
   std::vector<ReflectionCost> costs(methods.size());
   std::vector<double> passes_ms(methods.size()), cars_ms(methods.size());
   render::Renderer& renderer = stage.renderer();
   for (int repeat = -1; repeat < repeats; ++repeat) {  // the first makes what is made once
+    if (step_s > 0.0) stage.play().advance(step_s);
     renderer.begin_frame(stage.scene(), camera);
     for (std::size_t turn = 0; turn < methods.size(); ++turn) {
       const std::size_t m = repeat % 2 == 0 ? turn : methods.size() - 1 - turn;

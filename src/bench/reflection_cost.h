@@ -24,11 +24,12 @@ struct ReflectionCost {
 enum class Frames : bool { left_out, whole };
 
 /// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn, after a
-/// turn that is not timed; the first must be the method without reflections, whose cost is nothing.
+/// turn that is not timed; the first must be the method without reflections, whose cost is nothing. Before
+/// each turn the scene plays `step_s` on: what methods keep between frames counts as it does in motion.
 Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,
-                                                     Frames frames);
+                                                     Frames frames, double step_s = 0.0);
 
 /// Ratio of two medians; its interval is the widest that both of theirs allow.
 Median ratio(const Median& over, const Median& under);

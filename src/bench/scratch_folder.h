@@ -1,4 +1,4 @@
-// A folder that goes when the bench does.
+// A folder that goes when the bench does, unless it is to be kept.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,12 +9,17 @@
 namespace parvis::bench {
 
 struct ScratchFolder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("parvis-bench-{}", getpid());
+  std::filesystem::path path;
+  bool is_kept;
 
-  ScratchFolder() = default;
+  /// `kept`: the folder to use and to keep; empty: a new one, which is removed.
+  explicit ScratchFolder(const std::filesystem::path& kept = {})
+      : path(kept.empty() ? std::filesystem::temp_directory_path() / fmt::format("parvis-bench-{}", getpid())
+                          : kept),
+        is_kept(!kept.empty()) {}
   ScratchFolder(const ScratchFolder&) = delete;
   ~ScratchFolder() {
+    if (is_kept) return;
     std::error_code code;
     std::filesystem::remove_all(path, code);
   }

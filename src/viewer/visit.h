@@ -30,8 +30,8 @@ class Visit {
   /// The stage must outlive the visit.
   Visit(house::Stage& stage, const Camera& start, PicturePlace pictures);
 
-  /// Advances scene and visitor by `passed_s`, but at most by a tenth of a second: after a pause of the
-  /// program the scene continues where it stopped.
+  /// Advances the scene by `passed_s`, but at most by a second: after a pause of the program it continues
+  /// where it stopped. The visitor moves for a tenth of a second at most.
   void step(const Controls& controls, float passed_s);
   Camera camera() const { return navigation_.camera(); }  ///< the visitor's present view
 

@@ -29,4 +29,6 @@ glm::ivec2 PictureScale::drawn_size(int width, int height) const {
   return {drawn(width), drawn(height)};
 }
 
+bool PictureScale::is_smallest() const { return pixels_ <= min_pixels; }
+
 }  // namespace parvis::render

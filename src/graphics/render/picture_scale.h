@@ -14,6 +14,8 @@ class PictureScale {
 
   /// The size at which a picture of this size is drawn: at least one pixel.
   glm::ivec2 drawn_size(int width, int height) const;
+  /// Are pictures drawn as small as they become?
+  bool is_smallest() const;
 
  private:
   double pixels_ = 1.0;  ///< the share of them that is drawn

@@ -37,7 +37,9 @@ class QualityBudget {
   /// model.
   void frame_took(double chosen_ms, double rest_ms);
 
-  double budget_ms() const { return budget_ms_; }  ///< as given
+  /// Another budget from the next choice on; what is known of costs stays.
+  void set_budget(double budget_ms) { budget_ms_ = budget_ms; }
+  double budget_ms() const { return budget_ms_; }  ///< as given last
   /// Predicted time of the whole frame after the last choice, milliseconds.
   double planned_ms() const { return rest_ms_ + scale_ * planned_cost_ms_; }
 

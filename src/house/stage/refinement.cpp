@@ -9,9 +9,10 @@ constexpr int samples_per_round = 16;  // spread evenly over each pixel, as thos
 
 }  // namespace
 
-Refinement::Refinement(const scene::Scene& scene, const shading::SkyLight& sky, shading::DrawnLight light,
-                       const Camera& camera, int width, int height, int bounces)
-    : scene_(scene),
+Refinement::Refinement(KeptRays& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+                       shading::DrawnLight light, const Camera& camera, int width, int height, int bounces)
+    : rays_(rays),
+      scene_(scene),
       sky_(sky),
       light_(std::move(light)),
       camera_(camera),
@@ -28,7 +29,12 @@ Refinement::~Refinement() {
 }
 
 void Refinement::run() {
-  const reference::RayScene rays(scene_);
+  using namespace std::chrono_literals;
+  std::optional<KeptRays::Moment> moment;
+  while (!moment) {
+    if (is_interrupted_) return;
+    moment = rays_.of(scene_, 10ms);
+  }
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_round;
   options.drawn_light = &light_;
@@ -39,7 +45,7 @@ void Refinement::run() {
     options.seed = 1 + std::uint64_t(sample / samples_per_round);
     options.only_sample = sample % samples_per_round;
     const reference::TracedPicture traced =
-        reference::trace_picture(rays, scene_, sky_, camera_, width_, height_, options);
+        reference::trace_picture(*moment->rays, *moment->scene, sky_, camera_, width_, height_, options);
     if (is_interrupted_) return;
     add(traced.radiance);
   }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "graphics/reference/tracer.h"
+#include "house/stage/kept_rays.h"
 #include "scene/data/scene.h"
 
 namespace parvis::house {
@@ -18,12 +19,12 @@ class Refinement {
  public:
   static constexpr int max_samples = 256;  ///< per pixel; then the picture counts as finished
 
-  /// Begins. `bounces`: after as many mirrors, mirrors show the sky.
-  Refinement(const scene::Scene& scene, const shading::SkyLight& sky, shading::DrawnLight light,
-             const Camera& camera, int width, int height, int bounces);
+  /// Begins. `rays`: of the scenes that were refined before; no other refinement uses them at the same time.
+  /// `bounces`: after as many mirrors, mirrors show the sky.
+  Refinement(KeptRays& rays, const scene::Scene& scene, const shading::SkyLight& sky,
+             shading::DrawnLight light, const Camera& camera, int width, int height, int bounces);
   Refinement(const Refinement&) = delete;
-  /// Waits for the row of the picture that is traced, or for the hierarchy of the scene, which is built
-  /// first.
+  /// Waits for the row of the picture that is traced, not for a hierarchy that is being built.
   ~Refinement();
 
   /// The picture so far, linear RGB: the mean of `samples()` samples of each pixel; nothing where it has no
@@ -36,6 +37,7 @@ class Refinement {
   void run();
   void add(const ImageF& sample);
 
+  KeptRays& rays_;
   scene::Scene scene_;
   const shading::SkyLight& sky_;
   shading::DrawnLight light_;

@@ -116,12 +116,16 @@ void Stage::follow_clock(double frame_ms) {
   for (const gl::PassTime& pass : pass_times_.latest())
     (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;
   if (pass_times_.latest().empty()) return;
-  reflections_->frame_took(update_ms, rest_ms);
+  const bool goes_by_frames = gl::is_software() && held_ms_ > 0.0;
+  if (!goes_by_frames) reflections_->frame_took(update_ms, rest_ms);
   constexpr double held_share = 0.93;  // of a held frame's time: frames differ, and all of them count
   const double own_ms = double(methods::settings(play_.scene).budget_ms), held_ms = held_share * held_ms_;
   const double budget_ms =
       own_ms > 0.0 && held_ms > 0.0 ? std::min(own_ms, held_ms) : std::max(own_ms, held_ms);
-  scale_.frame_took(gl::is_software() && held_ms_ > 0.0 ? frame_ms : update_ms + rest_ms, budget_ms);
+  scale_.frame_took(goes_by_frames ? frame_ms : update_ms + rest_ms, budget_ms);
+  // Fewer pixels come first: they make all of the frame cheaper. Reflections are lowered where none are left.
+  constexpr double reflections_share = 0.3;  // of a held frame
+  reflections_->hold(held_ms > 0.0 && scale_.is_smallest() ? reflections_share * budget_ms : own_ms);
 }
 
 double Stage::drawn_share() const {
@@ -145,9 +149,11 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
 void Stage::refine(const Camera& camera, int width, int height) {
   if (!refinement_) {
     const glm::ivec2 size(width, height);
+    reflections_->hold(double(methods::settings(play_.scene).budget_ms));
     if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
-    refinement_ = std::make_unique<Refinement>(play_.scene, renderer_->sky(), renderer_->drawn_light(),
-                                               camera, width, height, methods::settings(play_.scene).bounces);
+    refinement_ =
+        std::make_unique<Refinement>(kept_rays_, play_.scene, renderer_->sky(), renderer_->drawn_light(),
+                                     camera, width, height, methods::settings(play_.scene).bounces);
   }
   if (refinement_->samples() < render::samples_per_pixel) return;
   if (std::optional<ImageF> radiance = refinement_->take()) {

@@ -85,7 +85,8 @@ class Stage {
     held_ms_ = frames_per_second > 0.0 ? 1e3 / frames_per_second : 0.0;
   }
   /// Keeps frames within the budget of the held rate and the scene's, whichever is less, through the
-  /// resolution of the picture and, for the scene's, the levels of detail of reflections. By measured times
+  /// resolution of the picture and, for the scene's or where the resolution is at its lowest, the levels of
+  /// detail of reflections. By measured times
   /// of the passes; on a software renderer, whose passes tell nothing, by `frame_ms`: what the last frame
   /// took by the clock, all of it. For windows: the result depends on the machine.
   void follow_clock(double frame_ms);
@@ -138,6 +139,7 @@ class Stage {
   int width_ = 0, height_ = 0;
   ShownRadiance refined_;
   int refined_samples_ = 0;
+  KeptRays kept_rays_;                      ///< of the pictures at rest
   std::unique_ptr<Refinement> refinement_;  ///< last: it reads the renderer's light
 };
 

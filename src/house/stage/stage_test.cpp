@@ -12,6 +12,7 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/rooms.h"
+#include "house/stage/kept_rays.h"
 #include "house/stage/stillness.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/object_animation.h"
@@ -208,6 +209,32 @@ TEST_F(StageTest, AtRestThePictureBecomesTheReferencePicture) {
              at_first, at_rest);
   EXPECT_LT(at_rest, 0.5 * at_first);
   EXPECT_LT(at_rest, 0.25 * by_drawing);
+}
+
+/// What is built for the first picture at rest follows what has moved, appeared and changed its shape since.
+TEST(KeptRaysTest, FollowTheScene) {
+  scene::Scene scene;
+  const auto board = model_of(quad({0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {0, 0, 3}), matt({0.7f, 0.2f, 0.1f}));
+  board->materials[0].is_double_sided = true;
+  add(scene, model_of(ground(4), matt(glm::vec3(0.25f))));
+  add(scene, board);
+  scene.objects.back().is_dynamic = true;
+  KeptRays kept;
+  const auto hit_at = [&]() -> float {
+    std::optional<KeptRays::Moment> moment;
+    while (!moment) moment = kept.of(scene, std::chrono::milliseconds(100));
+    const auto hit = moment->rays->nearest_hit({{3.0f, 1.0f, 1.0f}, {-1.0f, 0.0f, 0.0f}});
+    return hit ? hit->distance_m : -1.0f;
+  };
+  EXPECT_NEAR(hit_at(), 3.0f, 1e-4f);
+  scene.objects[1].world_from_model[3].x = 1.0f;
+  EXPECT_NEAR(hit_at(), 2.0f, 1e-4f);
+  scene.objects[1].is_visible = false;
+  EXPECT_EQ(hit_at(), -1.0f);
+  scene.objects[1].is_visible = true;
+  scene.objects.push_back(scene.objects[1]);  // other objects: it is a new one is built
+  scene.objects[2].world_from_model[3].x = 2.0f;
+  EXPECT_NEAR(hit_at(), 1.0f, 1e-4f);
 }
 
 TEST(StillnessTest, EndsWhenViewOrSceneChange) {

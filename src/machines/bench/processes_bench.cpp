@@ -2,6 +2,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <array>
+
 #include "base/files.h"
 #include "bench/benches.h"
 #include "bench/own_program.h"
@@ -11,6 +13,8 @@
 namespace parvis::bench {
 namespace {
 namespace fs = std::filesystem;
+
+constexpr std::array part_names{"photograph", "bake"};
 
 // One core for each process is one thread for each; so it is for OpenGL in software.
 constexpr const char* alone = "env LP_NUM_THREADS=1 taskset -c 0";
@@ -67,25 +71,33 @@ Status measure(const BenchSetup& setup, Report& report) {
     report.skip("speedup_2_processes", "needs two cores and the programs mpirun and taskset");
     return Done{};
   }
-  const ScratchFolder folder;
+  const ScratchFolder folder(setup.kept);
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
   if (Status status = write_file(folder.path / "some.xp", script_with_maps(setup.is_quick ? 40 : 160));
       !status)
     return status;
-  if (Status status = report_speedup(
-          "speedup_2_processes_photograph",
-          [&](const char* before) { return photograph_s(before, folder.path, setup.is_quick); }, report);
-      !status)
-    return status;
-  return report_speedup(
-      "speedup_2_processes_bake", [&](const char* before) { return bake_s(before, folder.path); }, report);
+  const BenchPart parts[]{
+      {part_names[0],
+       [&] {
+         return report_speedup(
+             "speedup_2_processes_photograph",
+             [&](const char* before) { return photograph_s(before, folder.path, setup.is_quick); }, report);
+       }},
+      {part_names[1], [&] {
+         return report_speedup(
+             "speedup_2_processes_bake", [&](const char* before) { return bake_s(before, folder.path); },
+             report);
+       }}};
+  return run_parts(setup, parts);
 }
 
 }  // namespace
 
 void furnish_processes(House& house) {
-  house.get<Benches>().add(
-      {"processes", "how much sooner two processes bake and take a photograph than one", measure});
+  house.get<Benches>().add({"processes",
+                            "how much sooner two processes bake and take a photograph than one",
+                            measure,
+                            {part_names.begin(), part_names.end()}});
 }
 
 }  // namespace parvis::bench

@@ -20,9 +20,12 @@ float field_distance(vec3 cell, int field) {
   return (2.0f * field_texel(cell, field).a - 1.0f) * field_reach_now_m;
 }
 
+const float own_from_cells = 1.0f, own_whole_cells = 3.0f;
+
 struct BodyHit {
   float distance;  // the length of the search where no body was hit
   int body;        // below 0: none
+  float share;     // of what is reflected, that the body is: see own_share
   vec3 normal;     // in the world, unit
   vec3 base_colour;
 };
@@ -50,9 +53,15 @@ void look_up_surface(inout BodyHit hit, vec3 at, vec3 direction) {
   hit.normal = normalize(normal - 1e-4f * direction);
 }
 
+// A field is too coarse to say what a body reflects of its own surface close by: there its reflection of
+// itself fades.
+float own_share(float distance_m, vec3 half_size_m) {
+  return smoothstep(own_from_cells, own_whole_cells, distance_m * field_reach / field_reach_m(half_size_m));
+}
+
 // First body that a ray from the drawn body hits.
 BodyHit intersect_bodies(vec3 at, vec3 direction, float reach_m) {
-  BodyHit hit = BodyHit(reach_m, -1, vec3(0.0f), vec3(0.0f));
+  BodyHit hit = BodyHit(reach_m, -1, 1.0f, vec3(0.0f), vec3(0.0f));
   if (reflecting_body < 0) return hit;
   uvec4 near = mirrored_bodies[reflecting_body].near;
   for (int i = 0; i < 16; ++i) {
@@ -66,7 +75,9 @@ BodyHit intersect_bodies(vec3 at, vec3 direction, float reach_m) {
     field_reach_now_m = field_reach_m(body.half_size_m.xyz);
     float distance_m = distance_to_body(origin, along, body.half_size_m.xyz, int(body.half_size_m.w),
                                         hit.distance, index == reflecting_body);
-    if (distance_m < hit.distance) hit.distance = distance_m, hit.body = index;
+    if (distance_m >= hit.distance) continue;
+    hit.distance = distance_m, hit.body = index;
+    hit.share = index == reflecting_body ? own_share(distance_m, body.half_size_m.xyz) : 1.0f;
   }
   if (hit.body >= 0) look_up_surface(hit, at, direction);
   return hit;

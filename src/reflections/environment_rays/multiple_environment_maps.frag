@@ -39,12 +39,12 @@ struct Reflected {
   float map[2];
   float weight[2];
   float distance;
-  vec3 across;     // major axis of the pixel's footprint at the hit, metres
-  float narrow;    // length of its minor axis, metres
-  vec3 direction;  // of the mirror ray
-  bool is_ground;  // the ray hits the top of a cell
-  vec3 shade;      // fraction of its light that dynamic objects leave
-  bool is_body;    // the ray hits a dynamic object, which no map shows
+  vec3 across;       // major axis of the pixel's footprint at the hit, metres
+  float narrow;      // length of its minor axis, metres
+  vec3 direction;    // of the mirror ray
+  bool is_ground;    // the ray hits the top of a cell
+  vec3 shade;        // fraction of its light that dynamic objects leave
+  float body_share;  // of a dynamic object, which no map shows: 1 where the ray hits one
   vec3 body_radiance;
 };
 Reflected reflected;
@@ -116,16 +116,17 @@ void look_into_maps(vec3 point, vec4 places[2], float weights[2]) {
 // A dynamic object in front of all that the maps show, or the surface that the best map has recorded at the
 // hit.
 void trace_mirror_ray(vec3 at, vec3 direction) {
-  BodyHit body = BodyHit(mirror_reach_m, -1, vec3(0.0f), vec3(0.0f));
+  BodyHit body = BodyHit(mirror_reach_m, -1, 1.0f, vec3(0.0f), vec3(0.0f));
   if (detail == all_detail) body = intersect_bodies(at, direction, mirror_reach_m);
   vec4 places[2];
   float weights[2];
-  HeightHit hit = hit_of_ray(at, direction, body.distance, places, weights);
-  reflected.is_body = hit.kind == hit_nothing && body.body >= 0;
-  if (reflected.is_body) {
-    vec3 point = at + hit.distance * direction;
+  bool is_whole = body.share == 1.0f;
+  HeightHit hit = hit_of_ray(at, direction, is_whole ? body.distance : mirror_reach_m, places, weights);
+  if (body.body >= 0 && (is_whole ? hit.kind == hit_nothing : hit.distance > body.distance)) {
+    vec3 point = at + body.distance * direction;
     reflected.body_radiance = radiance_of_body(body, point, direction, places[0].w);
-    return;
+    reflected.body_share = body.share;
+    if (is_whole) return;
   }
 
   reflected.distance = hit.distance;
@@ -154,7 +155,8 @@ vec3 change_of_direction(vec3 direction, ivec2 here, ivec2 step) {
 
 // Fills `reflected` for the mirror ray from `at`.
 void look_along(vec3 at, vec3 direction) {
-  reflected.is_body = false;
+  reflected.body_share = 0.0f;
+  reflected.body_radiance = vec3(0.0f);
   reflected.is_ground = false;
   reflected.direction = direction;
   reflected.shade = vec3(1.0f);
@@ -178,7 +180,7 @@ void look_along(vec3 at, vec3 direction) {
 // the ground hit by its centre, to surfaces behind it.
 vec3 reflected_radiance(float roughness, float over_ground) {
   vec3 sum = vec3(0.0f);
-  for (int k = 0; k < max_maps; ++k) {
+  for (int k = 0; k < max_maps && reflected.body_share < 1.0f; ++k) {
     if (reflected.weight[k] == 0.0f) continue;
     // A lobe that hits near the reflector is narrow as seen from a map farther away.
     float seen_roughness = roughness * sqrt(min(reflected.distance / length(reflected.from_map[k]), 1.0f));
@@ -189,7 +191,7 @@ vec3 reflected_radiance(float roughness, float over_ground) {
       seen = mix(seen, glossy_radiance(k, normalize(to_hit + reflected.direction), roughness), over_ground);
     sum += reflected.weight[k] * seen;
   }
-  return min(reflected.is_body ? reflected.body_radiance : reflected.shade * sum, vec3(max_radiance));
+  return min(mix(reflected.shade * sum, reflected.body_radiance, reflected.body_share), vec3(max_radiance));
 }
 
 void main() {

@@ -40,6 +40,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   }
   void frame_took(double update_ms, double rest_ms) override { budget_.frame_took(update_ms, rest_ms); }
   void prefer_rate() override { prefers_rate_ = true; }
+  void hold(double budget_ms) override { budget_.set_budget(budget_ms); }
   bool supply(render::Renderer& renderer, const scene::Scene& scene) override;
   void bind(const gl::Program& program, int object) override;
 

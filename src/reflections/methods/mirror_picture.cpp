@@ -163,8 +163,13 @@ void MirrorPicture::put_light(const render::Renderer& renderer,
 void MirrorPicture::bind(const gl::Program& program, GLuint first_unit) const {
   glBindTextureUnit(first_unit, base_light_.name());
   glBindTextureUnit(first_unit + 1, coat_light_.name());
+  glBindTextureUnit(first_unit + 2, starts_.name());
+  glBindTextureUnit(first_unit + 3, directions_.name());
   program.set("base_light", int(first_unit));
   program.set("coat_light", int(first_unit + 1));
+  if (!program.declares("ray_starts")) return;
+  program.set("ray_starts", int(first_unit + 2));
+  program.set("ray_directions", int(first_unit + 3));
 }
 
 }  // namespace parvis::methods

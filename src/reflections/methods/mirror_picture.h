@@ -47,7 +47,7 @@ class MirrorPicture {
                  const MirrorRays& rays, std::span<const glm::vec4> base,
                  std::span<const glm::vec3> coat) const;
 
-  /// For programs with mirror_picture.frag; takes two texture units.
+  /// For programs with mirror_picture.frag; takes four texture units.
   void bind(const gl::Program& program, GLuint first_unit) const;
 
  private:

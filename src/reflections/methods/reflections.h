@@ -58,6 +58,9 @@ class Reflections : public render::SurfaceShader {
   /// Called in windows before each frame: what the method has not drawn yet may be spread over several
   /// frames. Pictures and films are drawn whole, so that they can be repeated.
   virtual void prefer_rate() {}
+  /// Another time budget of a frame, milliseconds, than the scene's from the next frame on; 0: none. What a
+  /// method does for it is its own affair.
+  virtual void hold(double /*budget_ms*/) {}
   /// Called after a frame: draws surroundings that the frame was found to lack, each in a frame of its own
   /// light. True: the frame is to be drawn again.
   virtual bool supply(render::Renderer& /*renderer*/, const scene::Scene& /*scene*/) { return false; }
@@ -100,6 +103,9 @@ class Overlay : public Reflections {
   }
   void prefer_rate() override {
     if (below_) below_->prefer_rate();
+  }
+  void hold(double budget_ms) override {
+    if (below_) below_->hold(budget_ms);
   }
   bool supply(render::Renderer& renderer, const scene::Scene& scene) override {
     return below_ && below_->supply(renderer, scene);

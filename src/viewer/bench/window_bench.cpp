@@ -86,7 +86,7 @@ Status measure(const BenchSetup& setup, Report& report) {
     report.skip("view_fps_software", "needs a software renderer and the program xvfb-run");
     return Done{};
   }
-  const ScratchFolder folder;
+  const ScratchFolder folder(setup.kept);
   const std::filesystem::path script = folder.path / "walk.xp";
   if (Status written = city::write_paper_city(folder.path, 1); !written) return written.errors();
   if (Status status = write_file(script, walk); !status) return status;

@@ -4,8 +4,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/reflection_cost.h"
+#include "graphics/reference/metrics.h"
+#include "graphics/shading/tone_curve.h"
 #include "life/traffic/demand.h"
-#include "places/paper_city/mirror_bodies.h"
 #include "reflections/environment_rays/bench/near_views.h"
 #include "reflections/reference_maps/map_cache.h"
 #include "reflections/reference_maps/scene_maps.h"
@@ -17,8 +18,10 @@ namespace {
 namespace maps = reference_maps;
 
 constexpr int width = 1280, height = 720;
-constexpr int balls_per_side = 10, rings_of_one = 160;
-constexpr float ahead_m = 5.5f, ball_radius_m = 1.4f;
+constexpr int cars_per_side = 10;
+constexpr float ahead_m = 5.5f;
+constexpr int judged_views = 3, judged_width = 640, judged_height = 360, samples_per_pixel = 16;
+constexpr double max_ratio_100 = 1.5, max_ratio_city = 1.2, max_flip_ratio_city = 1.1;
 constexpr float tile_m = 1000.0f;  // a side of the city
 constexpr int tiles_east = 5, tiles_north = 2, middle_tile = tiles_east / 2;
 
@@ -35,23 +38,27 @@ Result<Camera> street_camera(const scene::Scene& scene) {
   return scene.camera_now(*named);
 }
 
-/// Adds mirror balls across the view, `count` a side, together as large and as finely made as one.
-void add_balls(scene::Scene& scene, const Camera& camera, int count) {
-  const auto model = std::make_shared<const scene::Model>(city::make_ball(rings_of_one / count));
-  const float radius_m = ball_radius_m / float(count);
-  const glm::vec3 right(camera.world_from_camera[0]), up(camera.world_from_camera[1]);
-  const glm::vec3 middle = camera.position_in_world() + ahead_m * camera.forward_in_world();
+/// Adds cars across the view, seen from the side, `count` a side, which together cover what one does: the
+/// same model, a `count`th as large.
+void add_cars(scene::Scene& scene, const Camera& camera, int count) {
+  const std::shared_ptr<const scene::Model> model = scene.data<traffic::TrafficDemand>().models.front();
+  const Bounds box = scene::bounds(*model);
+  const float scale = 1.0f / float(count);
+  const glm::vec3 right(camera.world_from_camera[0]), up(camera.world_from_camera[1]),
+      ahead = camera.forward_in_world();
+  const glm::vec3 middle = camera.position_in_world() + ahead_m * ahead;
   const float half = 0.5f * float(count - 1);
   for (int i = 0; i < count * count; ++i) {
-    const int column = i % count, row = i / count;
-    const float across = float(column) - half, above = float(row) - half;
-    scene::Object ball;
-    ball.model = model;
-    ball.is_dynamic = ball.takes_reflection = true;
-    ball.world_from_model =
-        glm::scale(glm::translate(glm::mat4(1.0f), middle + 2.0f * radius_m * (across * right + above * up)),
-                   glm::vec3(radius_m));
-    scene.objects.push_back(std::move(ball));
+    const float across = (float(i % count) - half) * scale * box.size().x,
+                above = (float(i / count) - half) * scale * box.size().z;
+    scene::Object car;
+    car.model = model;
+    car.is_dynamic = car.takes_reflection = true;
+    car.world_from_model =
+        glm::mat4(glm::vec4(scale * right, 0.0f), glm::vec4(scale * ahead, 0.0f), glm::vec4(scale * up, 0.0f),
+                  glm::vec4(middle + across * right + above * up, 1.0f)) *
+        glm::translate(glm::mat4(1.0f), -box.centre());
+    scene.objects.push_back(std::move(car));
   }
 }
 
@@ -124,6 +131,42 @@ Status copy_maps(const maps::MapCache& of_one, std::size_t count, const scene::S
   return Done{};
 }
 
+/// `city_10km2_flip_over_1km2`, each city against its own ray-traced pictures; the control has no
+/// reflections.
+Status compare_cities(Timed& here, Timed& there, Report& report) {
+  NearViews views(*here.stage, judged_width, judged_height);
+  double flip_here = 0.0, flip_there = 0.0, flip_none = 0.0;
+  for (int i = 0; i < judged_views; ++i) {
+    const Result<NearView> view = views.next();
+    if (!view) return view.errors();
+    const auto flip = [&](Timed& timed, std::size_t method) -> Result<double> {
+      const reference::TracedPicture truth =
+          timed.stage->trace(view->camera, judged_width, judged_height, samples_per_pixel, view->window);
+      const Result<Image8> picture = picture_of(*timed.stage, timed.methods[method], view->camera,
+                                                judged_width, judged_height, view->window);
+      if (!picture) return picture.errors();
+      const Result<reference::Difference> difference = reference::compare(
+          *picture, shading::tone_mapped_picture(truth.radiance, timed.stage->scene().exposure),
+          truth.mirror_mask);
+      if (!difference) return difference.errors();
+      return difference->flip / judged_views;
+    };
+    for (const auto& [timed, method, sum] : {std::tuple{&here, std::size_t{1}, &flip_here},
+                                             {&there, std::size_t{1}, &flip_there},
+                                             {&there, std::size_t{0}, &flip_none}}) {
+      const Result<double> one = flip(*timed, method);
+      if (!one) return one.errors();
+      *sum += *one;
+    }
+  }
+  report.note(fmt::format("FLIP of mem: {:.4f} in 1 km2, {:.4f} in 10 km2", flip_here, flip_there));
+  report.add("city_10km2_flip_over_1km2", flip_there / flip_here, up_to(max_flip_ratio_city));
+  report.note(fmt::format("control, no reflections in 10 km2: {:.2f}, which must exceed {}: {}",
+                          flip_none / flip_here, max_flip_ratio_city,
+                          flip_none / flip_here > max_flip_ratio_city ? "it does" : "IT DOES NOT"));
+  return Done{};
+}
+
 }  // namespace
 
 Status measure_body_count(const House& house, const scene::Scene& city, const methods::Settings& reflection,
@@ -131,9 +174,12 @@ Status measure_body_count(const House& house, const scene::Scene& city, const me
   const Result<Camera> camera = street_camera(city);
   if (!camera) return camera.errors();
   scene::Scene with_one = without_traffic(city), with_many = with_one;
-  add_balls(with_one, *camera, 1);
-  add_balls(with_many, *camera, balls_per_side);
-  Result<Timed> one = timed(house, with_one, reflection), many = timed(house, with_many, reflection);
+  if (city.data<traffic::TrafficDemand>().models.empty()) return error("the city's traffic has no car");
+  add_cars(with_one, *camera, 1);
+  add_cars(with_many, *camera, cars_per_side);
+  methods::Settings same_detail = reflection;  // for near cars and far ones
+  same_detail.uses_level_of_detail = false;
+  Result<Timed> one = timed(house, with_one, same_detail), many = timed(house, with_many, same_detail);
   if (!one) return one.errors();
   if (!many) return many.errors();
   if (Status status = time_in_turn(*one, *many, *camera, repeats); !status) return status;
@@ -148,7 +194,7 @@ Status measure_body_count(const House& house, const scene::Scene& city, const me
     return samples;
   };
   const std::vector<double> of_one = ns_per_pixel(*one), of_many = ns_per_pixel(*many);
-  report.add("cost_ratio_100_over_1", ratio_in_turn(of_many, of_one));
+  report.add("cost_ratio_100_over_1", ratio_in_turn(of_many, of_one).value, up_to(max_ratio_100));
   report.add("pixel_ns", median(of_one));
   return Done{};
 }
@@ -176,8 +222,8 @@ Status measure_city_size(const House& house, const scene::Scene& city, const met
   };
   cost("1 km2", first->places.size(), *here);
   cost("10 km2", reference_maps::map_plan(large).places.size(), *there);
-  report.add("city_10km2_cost_over_1km2", ratio_in_turn(there->ms, here->ms));
-  return Done{};
+  report.add("city_10km2_cost_over_1km2", ratio_in_turn(there->ms, here->ms).value, up_to(max_ratio_city));
+  return compare_cities(*here, *there, report);
 }
 
 }  // namespace parvis::bench

@@ -8,13 +8,15 @@
 
 namespace parvis::bench {
 
-/// `cost_ratio_100_over_1` and `pixel_ns`: a mirror ball in the street, and in its place a hundred that fill
-/// as much of the picture with as many triangles. Costs are those of equally many reflective pixels.
+/// `cost_ratio_100_over_1` and `pixel_ns`: a car in the street, and in its place a hundred of the same model
+/// that cover as much of the picture, with the reflections of both in full detail. Costs are per reflective
+/// pixel.
 Status measure_body_count(const House& house, const scene::Scene& city, const methods::Settings& reflection,
                           int repeats, Report& report);
 
-/// `city_10km2_cost_over_1km2`: the same view of the same cars, where the city goes on over ten times the
-/// area with ten times the maps. Those of the city must be kept beside its file.
+/// `city_10km2_cost_over_1km2` and `city_10km2_flip_over_1km2`: the same views of the same cars, where the
+/// city goes on over ten times the area with ten times the maps. Those of the city must be kept beside its
+/// file.
 Status measure_city_size(const House& house, const scene::Scene& city, const methods::Settings& reflection,
                          int repeats, Report& report);
 

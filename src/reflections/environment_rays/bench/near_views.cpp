@@ -1,12 +1,14 @@
 #include "reflections/environment_rays/bench/near_views.h"
 
+#include "bench/street_views.h"
+
 namespace parvis::bench {
 namespace {
 
 constexpr int seconds_apart = 3;  // by then another car, or another street, is near
-constexpr int longest_search_s = 120;
+constexpr int longest_search_s = 360;
 constexpr int tries_per_time = 6;
-constexpr float min_share = 0.06f, max_others_share = 0.03f;  // of the picture, that cars cover
+constexpr float min_share = 0.06f;  // of the picture, that the near car covers
 constexpr int sketch_width = 160, sketch_height = 90;
 constexpr int margin_px = 12;  // the filters of FLIP look so far
 
@@ -23,8 +25,8 @@ Camera look_at_car(const Bounds& car, Random& random, float aspect) {
 
 /// The pixels that show `object`, in a picture of another size, where they are many and other movables few.
 std::optional<reference::PixelWindow> window_of(const render::ObjectPicture& sketch,
-                                                const scene::Scene& scene, int object, int width,
-                                                int height) {
+                                                const scene::Scene& scene, int object, int width, int height,
+                                                float max_others_share) {
   glm::ivec2 low(sketch.width, sketch.height), high(-1);
   int own = 0, others = 0;
   for (int y = 0; y < sketch.height; ++y)
@@ -48,9 +50,9 @@ std::optional<reference::PixelWindow> window_of(const render::ObjectPicture& ske
 }  // namespace
 
 std::optional<reference::PixelWindow> window_of_car(house::Stage& stage, const Camera& camera, int object,
-                                                    int width, int height) {
+                                                    int width, int height, float max_others_share) {
   const render::ObjectPicture sketch = stage.renderer().pick(camera, sketch_width, sketch_height, true);
-  return window_of(sketch, stage.scene(), object, width, height);
+  return window_of(sketch, stage.scene(), object, width, height, max_others_share);
 }
 
 Result<NearView> NearViews::next() {
@@ -61,17 +63,21 @@ Result<NearView> NearViews::next() {
     stage_.renderer().begin_frame(scene, Camera{});
     cars.clear();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      if (scene.objects[i].takes_reflection) cars.push_back(int(i));
-    if (cars.empty()) return error("the scene has no car that reflects");
+      if (scene.objects[i].takes_reflection && scene.objects[i].is_dynamic &&
+          scene.objects[i].model->name.find(wish_.model) != std::string::npos)
+        cars.push_back(int(i));
+    if (cars.empty()) return error("the scene has no car \"{}\" that reflects", wish_.model);
     for (int attempt = 0; attempt < tries_per_time; ++attempt) {
       const int car = cars[std::size_t(random_.index(int(cars.size())))];
       const Bounds& bounds = stage_.renderer().gpu().object_bounds()[std::size_t(car)];
       const Camera camera = look_at_car(bounds, random_, float(width_) / float(height_));
-      if (const auto window = window_of_car(stage_, camera, car, width_, height_))
+      const auto window = window_of_car(stage_, camera, car, width_, height_, wish_.max_others_share);
+      if (window &&
+          (wish_.min_seen <= 1 || reflectors_seen(stage_, camera, width_, height_) >= wish_.min_seen))
         return NearView{camera, car, bounds.centre(), *window};
     }
   }
-  return error("no car came near within {} s of traffic", longest_search_s);
+  return error("no car came near, with {} seen, within {} s of traffic", wish_.min_seen, longest_search_s);
 }
 
 }  // namespace parvis::bench

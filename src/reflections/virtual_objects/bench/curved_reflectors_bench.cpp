@@ -1,5 +1,7 @@
 #include "reflections/virtual_objects/bench/curved_reflectors_bench.h"
 
+#include <array>
+
 #include "bench/benches.h"
 #include "reflections/virtual_objects/bench/bonnet.h"
 #include "reflections/virtual_objects/bench/cost.h"
@@ -15,34 +17,41 @@
 namespace parvis::bench {
 namespace {
 
+struct Part {
+  const char* name;
+  Status (*measure)(const BenchSetup&, Report&);
+};
+constexpr std::array all_parts{Part{"explosion_maps", measure_explosion_maps},
+                               Part{"search", measure_search},
+                               Part{"roots", measure_roots},
+                               Part{"edges", measure_edges},
+                               Part{"cost", measure_cost},
+                               Part{"grids", measure_grids},
+                               Part{"kitchen", measure_kitchen},
+                               Part{"bonnet", measure_bonnet},
+                               Part{"two_bounces", measure_two_bounces},
+                               Part{"refraction", measure_refraction}};
+
 Status measure(const BenchSetup& setup, Report& report) {
-  struct Part {
-    const char* name;
-    Status (*measure)(const BenchSetup&, Report&);
-  };
-  for (const Part& part : {Part{"explosion maps", measure_explosion_maps},
-                           {"search", measure_search},
-                           {"roots", measure_roots},
-                           {"edges", measure_edges},
-                           {"cost", measure_cost},
-                           {"grids", measure_grids},
-                           {"kitchen", measure_kitchen},
-                           {"bonnet", measure_bonnet},
-                           {"two bounces", measure_two_bounces},
-                           {"refraction", measure_refraction}}) {
-    Status status = Done{};
-    const double ms = milliseconds([&] { status = part.measure(setup, report); });
-    if (!status) return status.errors();
-    report.note(fmt::format("{} took {:.0f} s", part.name, 1e-3 * ms));
-  }
-  return Done{};
+  std::vector<BenchPart> parts;
+  for (const Part& part : all_parts)
+    parts.push_back({part.name, [&setup, &report, part]() -> Status {
+                       Status status = Done{};
+                       const double ms = milliseconds([&] { status = part.measure(setup, report); });
+                       if (status) report.note(fmt::format("{} took {:.0f} s", part.name, 1e-3 * ms));
+                       return status;
+                     }});
+  return run_parts(setup, parts);
 }
 
 }  // namespace
 
 void furnish_curved_reflectors(House& house) {
-  house.get<Benches>().add(
-      {"curved_reflectors", "reflections on curved objects against rays on the fine mesh", measure});
+  std::vector<std::string> names;
+  for (const Part& part : all_parts) names.emplace_back(part.name);
+  house.get<Benches>().add({"curved_reflectors",
+                            "reflections on curved objects against rays on the fine mesh", measure,
+                            std::move(names)});
 }
 
 }  // namespace parvis::bench

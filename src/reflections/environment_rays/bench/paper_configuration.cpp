@@ -1,0 +1,77 @@
+#include "reflections/environment_rays/bench/paper_configuration.h"
+
+#include "bench/reflection_cost.h"
+#include "bench/street_views.h"
+#include "reflections/environment_rays/bench/view_error.h"
+#include "reflections/reference_maps/placement.h"
+#include "reflections/reference_maps/scene_maps.h"
+#include "reflections/reference_maps/settings.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr int width = 1280, height = 720;
+constexpr int map_count = 54, map_pixels = 128, vehicles = 30, cars_for_cost = 120, seen_min = 8,
+              seen_max = 12;
+constexpr double step_s = 0.1;  // between frames that are timed: every car has moved
+
+/// The city as the paper's: traffic and maps along all roads.
+scene::Scene whole_city(const scene::Scene& city) {
+  scene::Scene scene = city;  // models are shared
+  scene.data<scene::DrivingArea>() = {};
+  const reference_maps::HeightPyramid heights(reference_maps::heights_of(scene));
+  reference_maps::ReferenceMapPlan& plan = reference_maps::map_plan(scene);
+  plan.places = reference_maps::spread_places(scene, heights, map_count);
+  plan.resolution = map_pixels;
+  return scene;
+}
+
+}  // namespace
+
+Status measure_paper_configuration(const House& house, const scene::Scene& city, bool is_quick,
+                                   Report& report) {
+  const methods::Settings local{"local_environment_maps", map_pixels, true},
+      rerendered{"rerendered_cube_map", map_pixels, false}, none{"none"};
+  const scene::Scene scene = whole_city(city);
+  if (Status kept = keep_maps(house, scene, local); !kept) return kept;
+  const auto made = [&](house::Stage& stage, bool has_none) -> Result<std::vector<JudgedMethod>> {
+    std::vector<JudgedMethod> methods;
+    for (const auto& [name, reflection] :
+         {std::pair{"none", none}, {"paper", local}, {"rerendered", rerendered}}) {
+      if (!has_none && reflection.method == "none") continue;
+      Result<JudgedMethod> method = judged_method(stage, name, reflection);
+      if (!method) return method.errors();
+      methods.push_back(*std::move(method));
+    }
+    return methods;
+  };
+  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(house, scene, vehicles));
+  if (!stage) return stage.errors();
+  const Result<std::vector<JudgedMethod>> judged = made(**stage, false);
+  if (!judged) return judged.errors();
+  const Result<std::vector<ViewFlips>> views =
+      is_quick ? flips_of_methods(**stage, *judged, 6, width / 2, height / 2)
+               : flips_of_methods(**stage, *judged, 20, width, height);
+  if (!views) return views.errors();
+  report.note(fmt::format("the paper's configuration: {} maps of {} pixels over {} lanes", map_count,
+                          map_pixels, scene.roads.lanes.size()));
+  note_flips(*judged, *views, report);
+  report.add("paper_flip_ratio", mean_flip(*views, 0) / mean_flip(*views, 1));
+
+  Result<std::unique_ptr<house::Stage>> crowded =
+      house::Stage::create(play_with(house, scene, cars_for_cost));
+  if (!crowded) return crowded.errors();
+  const Result<Camera> camera = view_of_cars(**crowded, seen_min, seen_max, width, height, report);
+  if (!camera) return camera.errors();
+  const Result<std::vector<JudgedMethod>> timed = made(**crowded, true);
+  if (!timed) return timed.errors();
+  const Result<std::vector<ReflectionCost>> costs = reflection_costs(
+      **crowded, *timed, *camera, width, height, is_quick ? 5 : 20, Frames::left_out, step_s);
+  if (!costs) return costs.errors();
+  for (std::size_t m = 1; m < timed->size(); ++m)
+    report.note(fmt::format("{}, cars moving: {:.1f} ms", (*timed)[m].name, median((*costs)[m].ms).value));
+  report.add("paper_cost_ratio", ratio_in_turn((*costs)[2].ms, (*costs)[1].ms));
+  return Done{};
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,16 @@
+// The configuration of the paper itself: a local map per car, out of 54 reference maps along all roads.
+#pragma once
+
+#include "base/house.h"
+#include "bench/report.h"
+#include "scene/data/scene.h"
+
+namespace parvis::bench {
+
+/// `paper_flip_ratio` and `paper_cost_ratio`: local maps of 128 pixels out of 54 reference maps spread evenly
+/// over all 8 km of road, over re-rendered cube maps, in a city whose traffic drives everywhere, while it
+/// drives. The cost ratio is that of re-rendering over local maps.
+Status measure_paper_configuration(const House& house, const scene::Scene& city, bool is_quick,
+                                   Report& report);
+
+}  // namespace parvis::bench
