@@ -20,8 +20,8 @@ class KeptRays {
     const scene::Scene* scene;  ///< a copy, which `rays` refers to
   };
 
-  /// The hierarchy of `scene`, brought up to where it stands now. A new one is built where there is none of its
-  /// objects; nothing: it is not ready after `patience`. Then it is built on: ask again. What is returned
+  /// The hierarchy of `scene`, brought up to where it stands now. A new one is built where there is none of
+  /// its objects; nothing: it is not ready after `patience`. Then it is built on: ask again. What is returned
   /// holds until the next call.
   std::optional<Moment> of(const scene::Scene& scene, std::chrono::milliseconds patience);
 
