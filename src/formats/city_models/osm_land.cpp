@@ -106,16 +106,17 @@ double width_m(const OsmTags& tags, double usual_m) {
 
 }  // namespace
 
-void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, CityAssembly& city) {
+void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, const OsmTrenches& trenches,
+                  CityAssembly& city) {
   const OsmAreas areas(osm, place, city);
   for (const OsmArea& area : areas.find([](const OsmTags& tags) { return cover_of(tags) != nullptr; }, "")) {
     const Cover& cover = *cover_of(*area.tags);
-    CitySurface surface;
+    std::vector<std::vector<dvec3>> rings;
     for (const OsmRing& ring : area.rings) {
-      surface.rings.emplace_back();
-      for (const glm::dvec2& point : ring) surface.rings.back().emplace_back(point, ground_m + cover.lift_m);
+      rings.emplace_back();
+      for (const glm::dvec2& point : ring) rings.back().emplace_back(point, ground_m + cover.lift_m);
     }
-    city.add({cover.type, cover.type, cover.use}, surface);
+    trenches.add_level(rings, {{cover.type, cover.type, cover.use}}, city);
   }
   for (const OsmWay& way : osm.ways) {
     const Ribbon* ribbon = ribbon_of(way.tags);
@@ -124,8 +125,10 @@ void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, C
     for (const OsmId node : way.nodes)
       if (const auto point = place(node)) line.emplace_back(*point, ground_m);
     const double half_m = 0.5 * width_m(way.tags, ribbon->width_m);
-    add_band(sides_of(line, -half_m, half_m, ribbon->lift_m), {{ribbon->type, ribbon->type, ribbon->use}},
-             city);
+    const Sides sides = sides_of(line, -half_m, half_m, ribbon->lift_m);
+    for (std::size_t i = 0; i + 1 < sides.left.size(); ++i)
+      trenches.add_level({{sides.right[i], sides.right[i + 1], sides.left[i + 1], sides.left[i]}},
+                         {{ribbon->type, ribbon->type, ribbon->use}}, city);
   }
 }
 

@@ -1,13 +1,14 @@
 // What lies on the ground of OpenStreetMap: parks, grass, woods, water, squares, car parks, footpaths.
 #pragma once
 
-#include "formats/city_models/osm_areas.h"
-#include "formats/readers/ground_on_map.h"
+#include "formats/city_models/osm_trenches.h"
 
 namespace parvis::scene {
 
 /// Adds areas and paths as surfaces on a level ground at `ground_m`, each a few millimetres above those that
-/// it lies in. They are called PlantCover, WaterBody, TransportSquare and "Road" with a use ("Road footway").
-void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, CityAssembly& city);
+/// it lies in, without what `trenches` open. They are called PlantCover, WaterBody, TransportSquare and
+/// "Road" with a use ("Road footway").
+void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, const OsmTrenches& trenches,
+                  CityAssembly& city);
 
 }  // namespace parvis::scene

@@ -8,6 +8,7 @@
 #include "formats/city_models/osm_land.h"
 #include "formats/city_models/osm_roads.h"
 #include "formats/city_models/osm_things.h"
+#include "formats/city_models/osm_trenches.h"
 #include "formats/terrain/utm.h"
 
 namespace parvis::scene {
@@ -16,13 +17,14 @@ namespace {
 constexpr double largest_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
 
 /// OpenStreetMap knows no heights of the ground: it is level, over the file's bounds.
-void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, CityAssembly& city) {
-  CitySurface ground;
-  std::vector<glm::dvec3>& ring = ground.rings.emplace_back();
+void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, const OsmTrenches& trenches,
+                CityAssembly& city) {
+  std::vector<std::vector<glm::dvec3>> rings;
+  std::vector<glm::dvec3>& ring = rings.emplace_back();
   for (const glm::dvec2 corner : {osm.min_deg, glm::dvec2(osm.max_deg.x, osm.min_deg.y), osm.max_deg,
                                   glm::dvec2(osm.min_deg.x, osm.max_deg.y)})
     ring.emplace_back(utm(corner), origin.z);
-  city.add({"ground", "LandUse", ""}, ground);
+  trenches.add_level(rings, {{"ground", "LandUse", ""}}, city);
 }
 
 }  // namespace
@@ -48,14 +50,16 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   CityAssembly city(file, origin, warnings);
   const std::size_t buildings = add_osm_buildings(osm, on_map, ground, city);
   const OsmPlaces place = on_map;
-  const OsmRelief relief(osm, place);
+  const OsmRelief relief(osm, place, !ground);
+  const OsmTrenches trenches(osm, relief);
   std::vector<Road> roads = osm_roads(osm, place, relief, ground, origin, file, city);
   if (!ground) {
-    add_ground(osm, utm, origin, city);
-    add_osm_land(osm, place, origin.z, city);
+    add_ground(osm, utm, origin, trenches, city);
+    add_osm_land(osm, place, origin.z, trenches, city);
+    add_osm_tunnels(osm, relief, city);
     add_osm_crossings(osm, place, roads, origin, city);
   }
-  add_osm_plants_and_barriers(osm, place, ground, city);
+  add_osm_plants_and_barriers(osm, place, ground, trenches, city);
   add_osm_rails(osm, place, relief, ground, city);
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   Result<Model> model = city.finish(buildings);

@@ -222,15 +222,83 @@ TEST(Osm, BridgesOverNothingAreLow) {
   EXPECT_NEAR(highest_m(town.model->roads[0]), 1.0f, 1e-3f);
 }
 
-TEST(Osm, TunnelsAreLeftOutAndPassagesStay) {
+TEST(Osm, GarageTunnelsAndUndergroundRailwaysAreLeftOutAndPassagesStay) {
   const Read town =
-      read(osm(way(100, "11 12 13", {{"highway", "primary"}, {"tunnel", "yes"}, {"layer", "-1"}}) +
+      read(osm(way(100, "11 12 13", {{"highway", "service"}, {"tunnel", "yes"}, {"layer", "-1"}}) +
                way(101, "12 14", {{"highway", "service"}, {"tunnel", "building_passage"}}) +
                way(102, "1 2 3", {{"railway", "subway"}, {"tunnel", "yes"}})));
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   ASSERT_EQ(town.model->roads.size(), 1u);
   EXPECT_EQ(town.model->roads[0].name, "way 101");
   EXPECT_EQ(bounds_of(*town.model, "Railway").min.x, Bounds().min.x);
+}
+
+/// A tunnel from south to north, 44 m long, under the street 11-12-13, which an open way leads on from.
+std::string street_and_tunnel(const std::vector<std::pair<std::string, std::string>>& tags) {
+  return R"(<node id="21" lat="52.1593" lon="4.4902"/><node id="22" lat="52.1597" lon="4.4902"/>
+<node id="23" lat="52.1609" lon="4.4902"/>)" +
+         way(100, "11 12 13", {{"highway", "primary"}}) + way(101, "21 22", tags) +
+         way(102, "22 23", {{"highway", "primary"}}) + way(103, "1 2 3 4 1", {{"leisure", "park"}});
+}
+
+TEST(Osm, TunnelsAreDugAndTrenchesLeadDownToThem) {
+  const Read town =
+      read(osm(street_and_tunnel({{"highway", "primary"}, {"tunnel", "yes"}, {"layer", "-1"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_EQ(town.warnings, "");
+  const std::vector<Road>& roads = town.model->roads;
+  ASSERT_EQ(roads.size(), 3u);
+  EXPECT_EQ(highest_m(roads[0]), 0.0f);
+  EXPECT_NEAR(roads[0].path[1].z, 0.0f, 1e-3f) << "the street above stays on the ground";
+  for (const glm::vec3& point : roads[1].path) EXPECT_NEAR(point.z, -5.1f, 1e-3f);
+  ASSERT_EQ(roads[2].path.size(), 3u) << "the ramp ends between the nodes";
+  EXPECT_NEAR(roads[2].path[0].z, -5.1f, 1e-3f);
+  EXPECT_NEAR(glm::distance(glm::vec2(roads[2].path[0]), glm::vec2(roads[2].path[1])), 85.0f, 0.1f)
+      << "at 6 %";
+  const Bounds concrete = bounds_of(*town.model, "Tunnel");
+  EXPECT_NEAR(concrete.max.z, 0.9f, 1e-3f) << "parapets";
+  EXPECT_NEAR(concrete.min.z, -5.12f, 1e-3f);
+}
+
+TEST(Osm, TheGroundIsOpenOverTrenchesAndWholeOverTunnels) {
+  const auto read_town = [](const char* tunnel) {
+    return read(osm(street_and_tunnel({{"highway", "primary"}, {"tunnel", tunnel}})));
+  };
+  const Read dug = read_town("yes"), level = read_town("no");
+  ASSERT_TRUE(dug.model && level.model);
+  const double trench_m2 = 85.0 * (6.5 + 2.0 * 3.6);
+  EXPECT_NEAR(area_m2(*level.model, "LandUse") - area_m2(*dug.model, "LandUse"), trench_m2, 5.0);
+  EXPECT_LT(area_m2(*dug.model, "PlantCover"), area_m2(*level.model, "PlantCover") - 10.0)
+      << "a park beside the ramp loses what the trench takes";
+  EXPECT_NEAR(area_m2(*dug.model, "Road ramp"), trench_m2, 5.0);
+}
+
+TEST(Osm, RampsToPortalsAreSteeperWhereAJunctionIsNear) {
+  const Read town = read(
+      osm(R"(<node id="21" lat="52.1593" lon="4.4902"/><node id="22" lat="52.1597" lon="4.4902"/>
+<node id="23" lat="52.16015" lon="4.4902"/><node id="24" lat="52.1609" lon="4.4902"/>
+<node id="25" lat="52.16015" lon="4.4912"/>)" +
+          way(101, "21 22", {{"highway", "primary"}, {"tunnel", "yes"}}) +
+          way(102, "22 23 24", {{"highway", "primary"}}) + way(103, "23 25", {{"highway", "residential"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_NEAR(town.model->roads[2].path[0].z, 0.0f, 1e-2f) << "the junction, 50 m from the portal";
+}
+
+TEST(Osm, ManyTrenchesInOneAreaLeaveItWhole) {
+  std::string ways = "<node id=\"21\" lat=\"52.1600\" lon=\"4.4905\"/>";
+  for (int i = 0; i < 400; ++i) {
+    const double angle = 0.0157 * double(i);
+    ways += fmt::format("<node id=\"{}\" lat=\"{}\" lon=\"{}\"/>", 1000 + i, 52.16 + 0.0003 * std::sin(angle),
+                        4.4905 + 0.0005 * std::cos(angle)) +
+            fmt::format("<node id=\"{}\" lat=\"{}\" lon=\"{}\"/>", 2000 + i,
+                        52.16 + 0.0009 * std::sin(angle + 1.5), 4.4905 + 0.0015 * std::cos(angle + 1.5)) +
+            way(3000 + i, fmt::format("21 {}", 1000 + i), {{"railway", "rail"}, {"tunnel", "yes"}}) +
+            way(4000 + i, fmt::format("{} {}", 1000 + i, 2000 + i), {{"railway", "rail"}});
+  }
+  const Read town = read(osm(ways));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_NEAR(area_m2(*town.model, "LandUse"), 205.0 * 222.0, 3000.0);
+  EXPECT_NE(town.warnings.find("lead through one area"), std::string::npos) << town.warnings;
 }
 
 TEST(Osm, AislesAndDrivewaysAreSlowAndNarrow) {

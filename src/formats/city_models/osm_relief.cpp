@@ -5,6 +5,8 @@
 #include <cmath>
 #include <queue>
 
+#include "formats/city_models/osm_roads.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -14,12 +16,9 @@ constexpr double clearance_m = 4.5, deck_m = 0.9;  // below a bridge, and of its
 constexpr double low_bridge_m = 1.0;               // over water
 constexpr double road_slope = 0.06, rail_slope = 0.03;
 constexpr int max_layer = 4;
-
-bool is_rail(const OsmTags& tags) {
-  const std::string& kind = tag(tags, "railway");
-  return kind == "rail" || kind == "light_rail" || kind == "tram" || kind == "narrow_gauge" ||
-         kind == "subway";
-}
+constexpr double max_steepness = 2.5;   // of ramps to portals, of the usual slope
+constexpr double lowest_ramp_m = 0.05;  // what rises less is level
+constexpr int max_ramp_nodes = 10'000;  // that are walked from a portal to a junction
 
 bool is_road(const OsmTags& tags) { return says_yes(tags, "highway") && tag(tags, "area") != "yes"; }
 
@@ -52,18 +51,42 @@ bool is_underground(const OsmTags& tags) {
          tag(tags, "location") == "underground";
 }
 
-OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place) : osm_(osm), place_(place) {
+bool is_rail(const OsmTags& tags) {
+  const std::string& kind = tag(tags, "railway");
+  return kind == "rail" || kind == "light_rail" || kind == "tram" || kind == "narrow_gauge" ||
+         kind == "subway";
+}
+
+bool is_tunnel(const OsmTags& tags) {
+  const bool leads_out =
+      is_rail(tags) ? tag(tags, "railway") != "subway" : is_street(tags) && tag(tags, "highway") != "service";
+  return is_underground(tags) && leads_out;
+}
+
+void each_stretch(const std::vector<RaisedPoint>& profile, double side,
+                  const std::function<void(const std::vector<RaisedPoint>&)>& use) {
+  std::vector<RaisedPoint> stretch;
+  const auto is_off = [&](std::size_t i) { return side * profile[i].above_m > lowest_ramp_m; };
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const bool touches = is_off(i) || (i > 0 && is_off(i - 1)) || (i + 1 < profile.size() && is_off(i + 1));
+    if (touches) stretch.push_back(profile[i]);
+    if ((!touches || i + 1 == profile.size()) && stretch.size() > 1) use(stretch);
+    if (!touches) stretch.clear();
+  }
+}
+
+OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs) : osm_(osm), place_(place) {
   for (const OsmWay& way : osm.ways) {
     if (!is_bridge(way.tags) || !(is_road(way.tags) || is_rail(way.tags))) continue;
     const double above_m = height_of_bridge(way);
-    for (const OsmId node : way.nodes) raise(node, above_m);
+    for (const OsmId node : way.nodes) above_[node].away_m = std::max(above_[node].away_m, above_m);
   }
-  if (!above_m_.empty()) lead_down();
-}
-
-void OsmRelief::raise(OsmId node, double above_m) {
-  double& known_m = above_m_[node];
-  known_m = std::max(known_m, above_m);
+  const bool has_tunnels =
+      digs && std::ranges::any_of(osm.ways, [](const OsmWay& way) { return is_tunnel(way.tags); });
+  if (above_.empty() && !has_tunnels) return;
+  const Steps along = steps();
+  lead_to_ground(along, above_);
+  if (has_tunnels) dig_tunnels(along);
 }
 
 /// Compared with every way that is not a bridge of the same layer or a higher one, segment by segment.
@@ -91,64 +114,104 @@ double OsmRelief::height_of_bridge(const OsmWay& bridge) const {
   return low_bridge_m;
 }
 
-/// Dijkstra's algorithm from the bridges along all ways, heights falling with the distance.
-void OsmRelief::lead_down() {
-  struct Step {
-    OsmId to;
-    double fall_m;
-  };
-  std::unordered_map<OsmId, std::vector<Step>> steps;
+/// Of all ways that lie open: ramps are none in tunnels.
+OsmRelief::Steps OsmRelief::steps() const {
+  Steps steps;
   for (const OsmWay& way : osm_.ways) {
     if (!(is_road(way.tags) || is_rail(way.tags)) || is_underground(way.tags)) continue;
     for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
       const auto a = place_(way.nodes[i]), b = place_(way.nodes[i + 1]);
       if (!a || !b) continue;
-      const double fall_m = slope_of(way.tags) * glm::distance(*a, *b);
-      steps[way.nodes[i]].push_back({way.nodes[i + 1], fall_m});
-      steps[way.nodes[i + 1]].push_back({way.nodes[i], fall_m});
+      const double length_m = glm::distance(*a, *b), fall_m = slope_of(way.tags) * length_m;
+      steps[way.nodes[i]].push_back({way.nodes[i + 1], length_m, fall_m});
+      steps[way.nodes[i + 1]].push_back({way.nodes[i], length_m, fall_m});
     }
   }
-  std::priority_queue<std::pair<double, OsmId>> highest;
-  for (const auto& [node, above_m] : above_m_) highest.emplace(above_m, node);
-  while (!highest.empty()) {
-    const auto [above_m, node] = highest.top();
-    highest.pop();
-    if (above_m < above_m_[node]) continue;
-    for (const Step& step : steps[node]) {
-      const double there_m = above_m - step.fall_m;
-      if (there_m <= 0.0 || there_m <= above_m_[step.to]) continue;
-      above_m_[step.to] = there_m;
-      highest.emplace(there_m, step.to);
+  return steps;
+}
+
+/// Dijkstra's algorithm from the bridges or portals along all ways, heights falling with the distance.
+void OsmRelief::lead_to_ground(const Steps& steps, Levels& levels) {
+  std::priority_queue<std::pair<double, OsmId>> farthest;
+  for (const auto& [node, level] : levels) farthest.emplace(level.away_m, node);
+  while (!farthest.empty()) {
+    const auto [away_m, node] = farthest.top();
+    farthest.pop();
+    const Level here = levels[node];
+    const auto ways = steps.find(node);
+    if (away_m < here.away_m || ways == steps.end()) continue;
+    for (const Step& step : ways->second) {
+      const double there_m = away_m - here.steepness * step.fall_m;
+      if (there_m <= 0.0 || there_m <= levels[step.to].away_m) continue;
+      levels[step.to] = {there_m, here.steepness};
+      farthest.emplace(there_m, step.to);
     }
   }
 }
 
+/// So steep that the ramp ends before the next junction, where that is possible.
+double OsmRelief::steepness(const Steps& steps, OsmId portal, double depth_m) const {
+  double fall_m = 0.0;
+  OsmId before = portal, node = portal;
+  for (int i = 0; i < max_ramp_nodes; ++i) {
+    const auto ways = steps.find(node);
+    const std::size_t count = ways == steps.end() ? 0 : ways->second.size();
+    if (count > 2) break;
+    const Step* next = nullptr;
+    for (std::size_t k = 0; k < count; ++k)
+      if (ways->second[k].to != before) next = &ways->second[k];
+    if (next == nullptr || fall_m > depth_m) return 1.0;  // the way ends, or the ramp has room
+    fall_m += next->fall_m, before = node, node = next->to;
+  }
+  return std::clamp(depth_m / std::max(fall_m, 1e-6), 1.0, max_steepness);
+}
+
+void OsmRelief::dig_tunnels(const Steps& steps) {
+  for (const OsmWay& way : osm_.ways) {
+    if (!is_tunnel(way.tags)) continue;
+    const double depth_m = double(std::max(-layer_of(way.tags), 1)) * tunnel_depth_m;
+    for (const OsmId node : way.nodes) below_[node].away_m = std::max(below_[node].away_m, depth_m);
+  }
+  for (auto& [node, level] : below_) level.steepness = steepness(steps, node, level.away_m);
+  lead_to_ground(steps, below_);
+}
+
+/// Above the ground, negative below it.
+OsmRelief::Level OsmRelief::level_of(OsmId node) const {
+  const auto above = above_.find(node), below = below_.find(node);
+  if (above != above_.end() && above->second.away_m > 0.0) return above->second;
+  if (below == below_.end()) return {};
+  return {-below->second.away_m, below->second.steepness};
+}
+
 std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
   std::vector<RaisedPoint> nodes;
+  std::vector<double> slopes;
   for (const OsmId node : way.nodes)
     if (const auto point = place_(node)) {
-      const auto raised = above_m_.find(node);
-      nodes.push_back({*point, raised == above_m_.end() ? 0.0 : raised->second});
+      const Level level = level_of(node);
+      nodes.push_back({*point, level.away_m});
+      slopes.push_back(level.steepness * slope_of(way.tags));
     }
-  if (is_bridge(way.tags)) return nodes;
-  const double slope = slope_of(way.tags);
+  if (is_bridge(way.tags) || is_underground(way.tags)) return nodes;
   std::vector<RaisedPoint> points;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     points.push_back(nodes[i]);
     if (i + 1 == nodes.size()) break;
     const RaisedPoint &a = nodes[i], &b = nodes[i + 1];
     const double length_m = glm::distance(a.place, b.place);
-    const double down_m = a.above_m / slope, up_m = length_m - b.above_m / slope;
+    const double from_m = std::abs(a.above_m), to_m = std::abs(b.above_m);
+    const double down_m = from_m / slopes[i], up_m = length_m - to_m / slopes[i + 1];
     const auto add = [&](double at_m, double above_m) {
       if (at_m > 0.5 && at_m < length_m - 0.5)
         points.push_back({glm::mix(a.place, b.place, at_m / length_m), above_m});
     };
     if (down_m <= up_m) {
-      if (a.above_m > 0.0) add(down_m, 0.0);
-      if (b.above_m > 0.0) add(up_m, 0.0);
-    } else if (a.above_m > 0.0 && b.above_m > 0.0) {  // the two ramps meet above the ground
-      const double valley_m = 0.5 * (length_m + (a.above_m - b.above_m) / slope);
-      add(valley_m, a.above_m - slope * valley_m);
+      if (from_m > 0.0) add(down_m, 0.0);
+      if (to_m > 0.0) add(up_m, 0.0);
+    } else if (a.above_m * b.above_m > 0.0) {  // the two ramps meet before they reach the ground
+      const double valley_m = (from_m - to_m + slopes[i + 1] * length_m) / (slopes[i] + slopes[i + 1]);
+      add(valley_m, std::copysign(from_m - slopes[i] * valley_m, a.above_m));
     }
   }
   return points;

@@ -1,6 +1,8 @@
-// How high the ways of OpenStreetMap run: bridges pass over what they cross, and ramps lead up to them.
+// How high the ways of OpenStreetMap run: bridges pass over what they cross, tunnels under it, and ramps lead
+// up and down to them.
 #pragma once
 
+#include <functional>
 #include <unordered_map>
 
 #include "formats/city_models/osm_areas.h"
@@ -13,33 +15,62 @@ bool says_yes(const OsmTags& tags, const std::string& key);
 bool is_bridge(const OsmTags& tags);
 /// True for what runs below ground. A passage through a building is none.
 bool is_underground(const OsmTags& tags);
+/// True for railways and tram tracks, by their kind; underground railways (subway) among them.
+bool is_rail(const OsmTags& tags);
+/// True for tunnels that are dug: of streets and of railways. Ramps of underground garages, footpaths and
+/// underground railways, which seldom see daylight, are none.
+bool is_tunnel(const OsmTags& tags);
 
-/// A point of a way: in plan, and its height above the ground.
+/// A point of a way: in plan, and its height above the ground, negative below it.
 struct RaisedPoint {
   glm::dvec2 place;
   double above_m;
 };
 
+/// Calls use(stretch) for the parts of a profile that lie above the ground (`side` 1) or below it (-1), with
+/// the points at which they reach it.
+void each_stretch(const std::vector<RaisedPoint>& profile, double side,
+                  const std::function<void(const std::vector<RaisedPoint>&)>& use);
+
 /// Heights of roads and railways above the ground. A bridge over a road or railway leaves it 4.5 m of
 /// clearance per layer, one over anything else rises 1 m; from its ends ways fall by 6 % (railways 3 %) until
-/// they reach the ground.
+/// they reach the ground. Tunnels lie 5.1 m per layer below it; ways fall to their portals by the same
+/// slopes, or up to 2.5 times as steeply where a junction is near.
 class OsmRelief {
  public:
-  /// `place` and `osm` must outlive this.
-  OsmRelief(const OsmFile& osm, const OsmPlaces& place);
+  /// Height of the ceiling of a tunnel above its carriageway, and depth of the carriageway per layer.
+  static constexpr double tunnel_clearance_m = 4.5, tunnel_depth_m = 5.1;
+
+  /// `place` and `osm` must outlive this. Where `digs` is false, tunnels do not count.
+  OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs);
 
   /// The way's points with those between them where a ramp begins or ends. Nodes that are not in the file are
   /// left out.
   std::vector<RaisedPoint> profile(const OsmWay& way) const;
 
  private:
+  /// A way from a node to the next one, and how far it rises or falls on it at the usual slope.
+  struct Step {
+    OsmId to;
+    double length_m, fall_m;
+  };
+  using Steps = std::unordered_map<OsmId, std::vector<Step>>;
+  /// How far a node lies above or below the ground, and how steep the ramp there is: 1 is the usual slope.
+  struct Level {
+    double away_m = 0.0, steepness = 1.0;
+  };
+  using Levels = std::unordered_map<OsmId, Level>;
+
   double height_of_bridge(const OsmWay& bridge) const;
-  void raise(OsmId node, double above_m);
-  void lead_down();
+  Steps steps() const;
+  double steepness(const Steps& steps, OsmId portal, double depth_m) const;
+  static void lead_to_ground(const Steps& steps, Levels& levels);
+  void dig_tunnels(const Steps& steps);
+  Level level_of(OsmId node) const;
 
   const OsmFile& osm_;
   const OsmPlaces& place_;
-  std::unordered_map<OsmId, double> above_m_;
+  Levels above_, below_;
 };
 
 }  // namespace parvis::scene

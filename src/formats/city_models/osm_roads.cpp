@@ -33,13 +33,12 @@ constexpr std::array<Kind, 9> kinds{{{"motorway", 2, 120, 3.5f},
                                      {"living_street", 1, 10, 2.75f},
                                      {"service", 1, 20, 2.75f}}};
 
-const Kind* kind_of(const OsmWay& way) {
-  std::string name = tag(way.tags, "highway");
+const Kind* kind_of(const OsmTags& tags) {
+  std::string name = tag(tags, "highway");
   if (name.ends_with("_link")) name.resize(name.size() - 5);
   const auto found =
       std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return name == kind.name; });
-  const bool is_street = found != kinds.end() && tag(way.tags, "area") != "yes";
-  return is_street && !is_underground(way.tags) ? &*found : nullptr;
+  return found != kinds.end() && tag(tags, "area") != "yes" ? &*found : nullptr;
 }
 
 std::optional<double> number(const std::string& text) {
@@ -96,12 +95,16 @@ class Roads {
   std::vector<Road> read() {
     std::vector<Road> roads;
     for (const OsmWay& way : osm_.ways)
-      if (const Kind* kind = kind_of(way))
+      if (const Kind* kind = kind_of(way.tags); kind && !is_left_out(way.tags))
         if (Road road = read(way, *kind); road.path.size() >= 2) roads.push_back(std::move(road));
     return roads;
   }
 
  private:
+  bool is_left_out(const OsmTags& tags) const {
+    return is_underground(tags) && (bool(ground_) || !is_tunnel(tags));
+  }
+
   Road read(const OsmWay& way, const Kind& kind) {
     Road road;
     road.name = fmt::format("way {}", way.id);
@@ -164,8 +167,10 @@ void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
 
 }  // namespace
 
+bool is_street(const OsmTags& tags) { return kind_of(tags) != nullptr; }
+
 double half_carriageway_m(const OsmWay& way) {
-  const Kind* kind = kind_of(way);
+  const Kind* kind = kind_of(way.tags);
   if (!kind) return 0.0;
   return 0.5 * double(lane_width_m(way, *kind)) * lanes_each_way(way, *kind) *
          (is_one_way(way, *kind) ? 1.0 : 2.0);

@@ -17,9 +17,9 @@ constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, bal
 constexpr double ballast_lift_m = 0.03;
 constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
 constexpr double deck_m = 0.9, parapet_m = 1.0, parapet_width_m = 0.25;
-constexpr double beside_m = 3.1;                              // of a deck beside the carriageway: pavements
-constexpr double below_road_m = 0.02;                         // carriageways lie on the deck
-constexpr double lowest_ramp_m = 0.05, embankment_run = 1.5;  // per metre of height
+constexpr double beside_m = 3.1;        // of a deck beside the carriageway: pavements
+constexpr double below_road_m = 0.02;   // carriageways lie on the deck
+constexpr double embankment_run = 1.5;  // per metre of height
 
 double metres_or(const OsmTags& tags, const char* key, double otherwise, double max_m) {
   const std::string& text = tag(tags, key);
@@ -144,10 +144,10 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
 }  // namespace
 
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                                 CityAssembly& city) {
+                                 const OsmTrenches& trenches, CityAssembly& city) {
   for (const OsmNode& node : osm.tagged_nodes)
     if (tag(node.tags, "natural") == "tree")
-      if (const auto foot = place(node.id))
+      if (const auto foot = place(node.id); foot && !trenches.holds(*foot))
         add_tree({*foot, ground ? ground(*foot) : 0.0},
                  metres_or(node.tags, "height", usual_tree_m(node.id), 60.0), node.tags, city);
   struct Barrier {
@@ -184,7 +184,8 @@ void add_osm_rails(const OsmFile& osm, [[maybe_unused]] const OsmPlaces& place, 
     const bool is_tram = kind == "tram";
     const bool is_shown =
         is_tram || kind == "rail" || kind == "light_rail" || kind == "narrow_gauge" || kind == "subway";
-    if (!is_shown || is_underground(way.tags)) continue;
+    const bool is_left_out = is_underground(way.tags) && (ground || !is_tunnel(way.tags));
+    if (!is_shown || is_left_out) continue;
     const std::vector<dvec3> line = on_ground(relief.profile(way), ground);
     if (!is_tram) add_band(sides_of(line, -ballast_half_m, ballast_half_m, ballast_lift_m), ballast, city);
     for (const double side : {-0.5, 0.5}) {
@@ -210,16 +211,9 @@ void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOn
       add_deck(points, ground, half_m + beside_m, deck, city);
       continue;
     }
-    std::vector<RaisedPoint> raised;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const bool touches = points[i].above_m > lowest_ramp_m ||
-                           (i > 0 && points[i - 1].above_m > lowest_ramp_m) ||
-                           (i + 1 < points.size() && points[i + 1].above_m > lowest_ramp_m);
-      if (touches) raised.push_back(points[i]);
-      if ((!touches || i + 1 == points.size()) && raised.size() > 1)
-        add_embankment(raised, ground, half_m + beside_m, top, slope, city);
-      if (!touches) raised.clear();
-    }
+    each_stretch(points, 1.0, [&](const std::vector<RaisedPoint>& raised) {
+      add_embankment(raised, ground, half_m + beside_m, top, slope, city);
+    });
   }
 }
 

@@ -1,17 +1,19 @@
 // What stands on the ground of OpenStreetMap: trees, hedges, fences, walls, rails, bridges.
 #pragma once
 
-#include "formats/city_models/osm_relief.h"
+#include "formats/city_models/osm_trenches.h"
 #include "formats/readers/ground_on_map.h"
 
 namespace parvis::scene {
 
 /// Adds trees (nodes, and every 8 m along rows) as spindles of a few triangles called
 /// SolitaryVegetationObject, which the node `greenery` replaces by trees; hedges, fences and walls.
+/// No tree stands in a trench.
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                                 CityAssembly& city);
+                                 const OsmTrenches& trenches, CityAssembly& city);
 
-/// Adds railways on ballast and tram tracks in the street. Those below ground are left out.
+/// Adds railways on ballast and tram tracks in the street. Of those below ground tunnels in level ground are
+/// shown.
 void add_osm_rails(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,
                    const GroundOnMap& ground, CityAssembly& city);
 

@@ -41,7 +41,7 @@ glm::dvec3 newell_normal(const std::vector<glm::dvec3>& ring) {
 }
 
 std::vector<std::uint32_t> triangulated(const std::vector<std::vector<glm::dvec3>>& rings, glm::dvec3 normal,
-                                        std::vector<glm::dvec3>& points) {
+                                        std::vector<glm::dvec3>& points, Inside inside) {
   points.clear();
   for (const auto& ring : rings) points.insert(points.end(), ring.begin(), ring.end());
   if (rings.size() == 1 && points.size() == 3) return {0, 1, 2};
@@ -51,7 +51,8 @@ std::vector<std::uint32_t> triangulated(const std::vector<std::vector<glm::dvec3
   gluTessCallback(tessellator, GLU_TESS_VERTEX_DATA, callback(emit_corner));
   gluTessCallback(tessellator, GLU_TESS_COMBINE_DATA, callback(add_crossing));
   gluTessCallback(tessellator, GLU_TESS_EDGE_FLAG_DATA, callback(ignore_edge_flag));
-  gluTessProperty(tessellator, GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_ODD);
+  gluTessProperty(tessellator, GLU_TESS_WINDING_RULE,
+                  inside == Inside::odd ? GLU_TESS_WINDING_ODD : GLU_TESS_WINDING_POSITIVE);
   gluTessNormal(tessellator, normal.x, normal.y, normal.z);
   gluTessBeginPolygon(tessellator, &output);
   std::vector<glm::dvec3> corners = points;  // the tessellator keeps pointers while `points` may grow

@@ -10,10 +10,15 @@ namespace parvis::scene {
 /// The area vector of a closed ring (Newell): its direction is the normal, its length twice the area.
 glm::dvec3 newell_normal(const std::vector<glm::dvec3>& ring);
 
+/// Which points belong to a polygon: those that its rings wind around an odd number of times, whatever their
+/// directions, or those that they wind around counter-clockwise more often than clockwise: so rings that run
+/// clockwise are cut out, also where they cross others.
+enum class Inside : std::uint8_t { odd, positive };
+
 /// Triangles of a nearly flat polygon: the outer ring, counter-clockwise about `normal`, then its holes (any
-/// direction). Corner indices run through all rings' points in order. Where rings cross, points are added to
-/// the end of `points`.
+/// direction where `inside` is odd). Corner indices run through all rings' points in order. Where rings
+/// cross, points are added to the end of `points`.
 std::vector<std::uint32_t> triangulated(const std::vector<std::vector<glm::dvec3>>& rings, glm::dvec3 normal,
-                                        std::vector<glm::dvec3>& points);
+                                        std::vector<glm::dvec3>& points, Inside inside = Inside::odd);
 
 }  // namespace parvis::scene

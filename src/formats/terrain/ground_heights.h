@@ -18,6 +18,9 @@ class GroundHeights {
 
   /// Height at a point; `fallback` where no ground is known.
   float at(glm::vec2 point, float fallback) const;
+  /// Height at a point of a lane or beside it; the lane's own, `lane_m`, where the ground that is known lies
+  /// farther from it than 2.5 m: there another lane, of a bridge or tunnel, runs above or below.
+  float beside_lane(glm::vec2 point, float lane_m) const;
 
  private:
   void note_lanes(const RoadGraph& roads, float reach_m);

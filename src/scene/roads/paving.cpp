@@ -149,7 +149,7 @@ void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const
     Row& row = rows.emplace_back();
     for (std::uint32_t k = 0; k <= strips; ++k) {
       glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
-      p.z = ground.at(glm::vec2(p), line[i].z) + lift;
+      p.z = ground.beside_lane(glm::vec2(p), line[i].z) + lift;
       row.push_back(p);
     }
   }
@@ -174,7 +174,7 @@ Path laid(const Path& points, const GroundHeights& ground) {
   Path result;
   for (int i = 0; i <= count; ++i) {
     glm::vec3 p = path.at(path.length() * float(i) / float(count));
-    p.z = ground.at(glm::vec2(p), p.z);
+    p.z = ground.beside_lane(glm::vec2(p), p.z);
     result.push_back(p);
   }
   return result;

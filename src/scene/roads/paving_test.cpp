@@ -97,6 +97,40 @@ TEST(Paving, ASlabAsWideAsTheStreetIsGround) {
   EXPECT_GT(highest_m(scene), 2.0f) << "control: wide, solid and visible";
 }
 
+/// A street on level ground and another one, on the deck of a bridge, across it.
+TEST(Paving, AStreetBelowABridgeStaysOnTheGround) {
+  auto model = std::make_shared<Model>();
+  model->materials.emplace_back();
+  const auto add_level = [&](const char* name, glm::vec2 low, glm::vec2 high, float z) {
+    Part part;
+    part.object = name;
+    part.mesh.positions = {{low, z}, {high.x, low.y, z}, {high, z}, {low.x, high.y, z}};
+    part.mesh.indices = {0, 1, 2, 0, 2, 3};
+    model->parts.push_back(part);
+  };
+  add_level("LandUse", {-100, -100}, {100, 100}, 0.0f);
+  add_level("Bridge", {-6, -90}, {6, 90}, 5.4f);
+  Scene scene;
+  scene.objects.emplace_back().model = model;
+  Road below, above;
+  below.path = {{-80, 0, 0}, {80, 0, 0}};
+  above.path = {{0, -80, 5.4f}, {0, 80, 5.4f}};
+  scene.roads = *build_road_graph(std::vector{below});
+  const std::size_t lanes_below = scene.roads.lanes.size();
+  const RoadGraph bridge = *build_road_graph(std::vector{above});
+  for (Lane lane : bridge.lanes) {
+    for (int& next : lane.next) next += int(lanes_below);
+    scene.roads.lanes.push_back(lane);
+  }
+  pave(scene);
+  for (const Part& part : scene.objects.back().model->parts)
+    for (const glm::vec3& p : part.mesh.positions)
+      EXPECT_TRUE(std::abs(p.z) < 0.1f || std::abs(p.z - 5.4f) < 0.1f) << p.x << " " << p.y << " " << p.z;
+  for (std::size_t i = 0; i < scene.roads.lanes.size(); ++i)
+    for (const glm::vec3& p : scene.roads.lanes[i].points)
+      EXPECT_NEAR(p.z, i < lanes_below ? 0.06f : 5.46f, 0.01f) << "lane " << i;
+}
+
 TEST(Paving, DoesNotChangeTheLengthsThatTrafficCountsBy) {
   Scene bare = hillside(), paved = hillside();
   lay_lanes(bare);
