@@ -71,7 +71,7 @@ std::string surface(const std::string& corners) {
          "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
 }
 
-TEST(CityGml, RoomsKeepTheirCeilings) {
+TEST(CityGml, RoomsKeepTheirCeilingsAndTheirFurniture) {
   const auto bounded = [](const char* kind, const std::string& corners) {
     return fmt::format(
         "<bldg:boundedBy><bldg:{0}><bldg:lod4MultiSurface><gml:MultiSurface>{1}</gml:MultiSurface>"
@@ -85,8 +85,13 @@ xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.o
       bounded("CeilingSurface", "0 0 3 0 3 3 4 3 3 4 0 3 0 0 3") +
       bounded("FloorSurface", "0 0 0 4 0 0 4 3 0 0 3 0 0 0 0") +
       bounded("InteriorWallSurface", "0 0 0 4 0 0 4 0 3 0 0 3 0 0 0") +
+      "<bldg:interiorFurniture><bldg:BuildingFurniture><bldg:lod4Geometry><gml:MultiSurface>" +
+      surface("1 1 0.8 2 1 0.8 2 2 0.8 1 2 0.8 1 1 0.8") +
+      "</gml:MultiSurface></bldg:lod4Geometry></bldg:BuildingFurniture></bldg:interiorFurniture>"
       "</bldg:Room></bldg:interiorRoom></bldg:Building></cityObjectMember></CityModel>");
   ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "BuildingFurniture"), 1.0, 1e-3);
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 0.0, 1e-3) << "a level table is no roof";
   EXPECT_NEAR(area_m2(*city, "CeilingSurface"), 12.0, 1e-3);
   EXPECT_NEAR(area_m2(*city, "FloorSurface"), 12.0, 1e-3);
   EXPECT_NEAR(area_m2(*city, "InteriorWallSurface"), 12.0, 1e-3);

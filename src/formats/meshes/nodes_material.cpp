@@ -94,6 +94,23 @@ MaterialChange change_of(const Node& node) {
   return given;
 }
 
+/// What masks could name: where in which pictures the triangles of these parts lie.
+std::string what_masks_find(const Model& model, const std::vector<std::size_t>& parts) {
+  std::set<std::string> pictures;
+  glm::vec2 low(1e9f), high(-1e9f);
+  for (const std::size_t index : parts) {
+    const Part& part = model.parts[index];
+    const int picture = model.materials[std::size_t(part.material)].base_colour_texture;
+    if (picture == no_index) continue;
+    pictures.insert(model.textures[std::size_t(picture)].name);
+    for (const glm::vec2 uv : part.mesh.uvs) low = glm::min(low, uv), high = glm::max(high, uv);
+  }
+  if (pictures.empty() || low.x > high.x)
+    return "what target names has no picture: leave the mask out, or compare with the material's colour";
+  return fmt::format("what target names lies in box {:.2f} {:.2f} {:.2f} {:.2f} of the picture {}", low.x,
+                     low.y, high.x, high.y, fmt::join(pictures, ", "));
+}
+
 void change_material_of(const Node& node, Model& model, SceneBuilder& builder) {
   std::vector<MaterialMask> masks;
   for (const NodeAttribute& attribute : node.attributes) {
@@ -106,8 +123,9 @@ void change_material_of(const Node& node, Model& model, SceneBuilder& builder) {
   if (parts.empty()) return builder.fail(no_such_object(node, model));
   const std::string name = node.gives("preset") ? node.text("preset") : "changed";
   if (change_material(model, parts, masks, change_of(node), name) == 0)
-    builder.warn(
-        error_at(node.where_of("mask"), "no triangle lies in the mask: this material changes nothing"));
+    builder.warn(error_at(node.where_of("mask"),
+                          "no triangle lies in the mask: this material changes nothing; {}",
+                          what_masks_find(model, parts)));
 }
 
 }  // namespace

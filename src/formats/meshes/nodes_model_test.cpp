@@ -134,6 +134,14 @@ TEST_F(ModelNodes, MaterialsGoToTheirTarget) {
   EXPECT_FLOAT_EQ(material_of(model, "pane").base_colour.x, 1.0f);
 }
 
+TEST_F(ModelNodes, AMaskThatMatchesNothingSaysWhatTheModelHas) {
+  const auto loaded =
+      load("model(file=two.glb) { material(target=\"body\", mask=\"box 5 5 6 6\", preset=\"glass\") }");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const std::string warnings = to_string(loaded->warnings);
+  EXPECT_TRUE(holds(warnings, "this material changes nothing; what target names ")) << warnings;
+}
+
 /// As windows of cars are, in files that give them a thickness.
 TEST_F(ModelNodes, OpenSolidGlassIsAPane) {
   const auto expect_pane = [&](const char* script) {
