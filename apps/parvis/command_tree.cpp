@@ -55,12 +55,15 @@ struct FileArguments {
 
 struct MatteArguments {
   std::filesystem::path photographs, zones, output;
+  trees::MatteMethod method = trees::MatteMethod::clusters;
 };
 
 const std::map<std::string, trees::OpacityMethod> opacity_methods{
     {"projection", trees::OpacityMethod::projection},
     {"sirt", trees::OpacityMethod::sirt},
     {"multiplicative", trees::OpacityMethod::multiplicative}};
+const std::map<std::string, trees::MatteMethod> matte_methods{{"clusters", trees::MatteMethod::clusters},
+                                                              {"laplacian", trees::MatteMethod::laplacian}};
 const std::map<std::string, trees::TextureMethod> texture_methods{
     {"optimised", trees::TextureMethod::optimised},
     {"age_importance", trees::TextureMethod::age_importance},
@@ -116,11 +119,15 @@ Status make_matte(const MatteArguments& arguments, const std::filesystem::path& 
     const Result<Image8> scribbles = read_image8(painted);
     if (!scribbles) return scribbles.errors();
     zones = trees::zones_of_scribbles(*scribbles, photograph->width, photograph->height, name);
+  } else if (trees::has_matte(*photograph)) {
+    return write_image(output, *photograph);
   } else {
     zones = trees::zones_of_plain_background(*photograph, name);
+    if (!zones)
+      if (Result<trees::Zones> sky = trees::zones_of_sky(*photograph, name); sky) zones = std::move(sky);
   }
   if (!zones) return zones.errors();
-  const Result<Image8> rgba = trees::matte(*photograph, *zones, name);
+  const Result<Image8> rgba = trees::matte(*photograph, *zones, name, arguments.method);
   if (!rgba) return rgba.errors();
   return write_image(output, *rgba);
 }
@@ -288,7 +295,11 @@ void add_matte(CLI::App& tree, Chosen& chosen) {
   command->add_option(
       "--zones", arguments->zones,
       "A folder of small pictures of the same names, .png: background painted red, tree green; photographs "
-      "without one have a plain background");
+      "without one have a matte already, a plain background, or the sky behind them");
+  command
+      ->add_option("--method", arguments->method,
+                   "clusters (the thesis), or laplacian: alpha flows along what looks alike")
+      ->transform(CLI::CheckedTransformer(matte_methods, CLI::ignore_case));
   command->footer("Example: parvis tree matte photographs --zones zones -o capture");
   command->callback([arguments, &chosen] { chosen = [arguments] { return mattes(*arguments); }; });
 }

@@ -22,7 +22,9 @@ namespace {
 constexpr float max_alpha_factor = 3.0f;  // of a texel's extinction, per iteration
 constexpr float max_alpha = 0.998f;
 constexpr int block_side = 4, max_chosen_side = 16;  // texels; a block of 4x4 becomes 16 bytes
-constexpr float min_seen = 0.02f;  // share of a billboard's pixels below which it has no texture of its own
+// Share of a billboard's pixels that reach it from the eye, below which it has no texture of its own. A cell
+// that the photograph sees to be empty has one: the mean colour in its place would be a halo round the crown.
+constexpr float min_seen = 0.02f;
 
 /// Billboards of the cells `levels` above the volume's: the mean colour and extinction of their parts.
 BillboardTree bare_billboards(const TreeVolume& volume, int levels) {
@@ -80,6 +82,7 @@ class Fit {
     const std::size_t per_texture = std::size_t(side * side);
     texels_.assign(tree.grid.size() * per_texture, glm::vec4(0.0f));
     colour_.assign(texels_.size(), glm::vec4(0.0f)), opacity_.assign(texels_.size(), glm::vec2(0.0f));
+    visible_.assign(tree.grid.size(), 0.0f);
     const glm::vec3 eye = view.camera.position_in_world;
     for (const PlacedBillboard& b : placed_) {
       const glm::vec3 centre = tree.grid.centre(b.cell);
@@ -122,10 +125,8 @@ class Fit {
     const std::size_t per_texture = std::size_t(side_ * side_);
     std::int32_t next = 0;
     for (const PlacedBillboard& b : placed_) {
-      float seen = 0.0f;
-      for (std::size_t k = 0; k < per_texture; ++k) seen += colour_[b.cell * per_texture + k].w;
       const glm::ivec2 extent = b.high - b.low;
-      if (seen < min_seen * float(extent.x * extent.y)) continue;
+      if (visible_[b.cell] < min_seen * float(extent.x * extent.y)) continue;
       textures.texture_of_cell[b.cell] = next++;
       for (std::size_t k = 0; k < per_texture; ++k) {
         const glm::vec4 texel = texels_[b.cell * per_texture + k];
@@ -161,6 +162,7 @@ class Fit {
   /// What each texel should change, from the pixels' errors.
   void gather() {
     std::ranges::fill(colour_, glm::vec4(0.0f)), std::ranges::fill(opacity_, glm::vec2(0.0f));
+    std::ranges::fill(visible_, 0.0f);
     std::vector<float> passed(picture_.size(), 1.0f);
     Footprint footprint({0.0f, 0.0f}, side_);
     for (const PlacedBillboard& b : placed_)
@@ -173,6 +175,7 @@ class Fit {
         const glm::vec3 residual = wanted - glm::vec3(found);
         const glm::vec4 own = sample(b, place, footprint);
         const std::size_t first = b.cell * std::size_t(side_ * side_);
+        visible_[b.cell] += before;
         for (std::size_t k = 0; k < 4; ++k) {
           const std::size_t i = first + std::size_t(footprint.texel[k]);
           const float share = before * footprint.weight[k] * texels_[i].w;
@@ -196,6 +199,7 @@ class Fit {
   std::vector<glm::vec4> texels_;        // straight linear light and alpha, side * side per cell
   std::vector<glm::vec4> colour_;        // per texel: sum of share * residual; sum of shares
   std::vector<glm::vec2> opacity_;       // per texel: wanted and found
+  std::vector<float> visible_;           // per cell: pixels that reach it
   std::vector<glm::vec4> picture_;       // premultiplied
 };
 

@@ -81,11 +81,14 @@ std::vector<PlacedBillboard> placed_billboards(const CellGrid& grid, const Pinho
   return placed;
 }
 
-ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye) {
+ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye, int cell) {
   // The three greatest cosines.
   std::array<float, 3> cosines{-2.0f, -2.0f, -2.0f};
   std::array<int, 3> nearest{0, 0, 0};
+  int count = 0;
   for (std::size_t i = 0; i < tree.views.size(); ++i) {
+    if (cell != no_cell && tree.views[i].texture_of_cell[std::size_t(cell)] < 0) continue;
+    ++count;
     const glm::vec3 to_camera = tree.views[i].camera.position_in_world - point;
     float cosine = glm::dot(to_eye, to_camera) * glm::inversesqrt(glm::dot(to_camera, to_camera));
     int view = int(i);
@@ -93,9 +96,11 @@ ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3
       if (cosine > cosines[k]) std::swap(cosine, cosines[k]), std::swap(view, nearest[k]);
   }
   ClosestViews result;
-  if (tree.views.size() < 2) return result;
+  if (count == 0 && cell != no_cell) return closest_views(tree, point, to_eye);
+  result.views = {nearest[0], nearest[0]};
+  if (count < 2) return result;
   glm::vec3 angles(3.1415927f);
-  for (int k = 0; k < 3 && k < int(tree.views.size()); ++k)
+  for (int k = 0; k < 3 && k < count; ++k)
     angles[k] = angle_between(
         to_eye, tree.views[std::size_t(nearest[std::size_t(k)])].camera.position_in_world - point);
   result.views = {nearest[0], nearest[1]};
@@ -113,7 +118,8 @@ ImageF render_billboards(const BillboardTree& tree, const Pinhole& camera) {
       tree.grid.size(),
       [&](std::size_t cell) {
         const glm::vec3 centre = tree.grid.centre(cell);
-        closest[cell] = closest_views(tree, centre, glm::normalize(camera.position_in_world - centre));
+        closest[cell] =
+            closest_views(tree, centre, glm::normalize(camera.position_in_world - centre), int(cell));
       },
       256);
   parallel_for(std::size_t((camera.height + band_rows - 1) / band_rows), [&](std::size_t band) {

@@ -79,7 +79,8 @@ struct ClosestViews {
   std::array<float, 2> weights{1.0f, 0.0f};
 };
 /// The two photographs whose directions from a point of the tree are closest to the eye's, `to_eye` (unit).
-ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye);
+/// With a cell: of those photographs that see it; of all where none does.
+ClosestViews closest_views(const BillboardTree& tree, glm::vec3 point, glm::vec3 to_eye, int cell = no_cell);
 
 /// The picture from a camera: RGBA, premultiplied, linear light. Billboards from back to front, the textures
 /// of the two closest photographs, over.

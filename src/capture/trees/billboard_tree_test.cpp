@@ -115,6 +115,58 @@ TEST(BillboardTextures, OptimisedShowTheirPhotographsAndPredictOthers) {
   EXPECT_GT(mean_psnr(optimised, others), naive + 1.0);
 }
 
+TEST(BillboardTextures, ACellThatAPhotographSeesToBeEmptyShowsNothingThere) {
+  // The volume has cells all round the ball, which the hull could not exclude; photographs show the ball
+  // alone.
+  const TreeVolume ball = coloured_ball();
+  std::vector<TreeView> views = photographs_of(ball, 8, 64);
+  TreeVolume hull{CellGrid({{-1, -1, 0}, {1, 1, 2}}, 3, 9, {}), {}, {}};
+  std::vector<glm::u16vec3> cells;
+  for (int i = 0; i < 729; ++i) cells.emplace_back(i % 9, i / 9 % 9, i / 81);
+  hull.grid = CellGrid(hull.grid.box(), 3, 9, std::move(cells));
+  hull.extinction_per_m.assign(729, 0.5f), hull.colour.assign(729, glm::vec3(0.5f));
+  TextureOptions options;
+  options.parent_levels = 0, options.texels_per_side = 8;
+  BillboardTree tree = textured(hull, views, options);
+  const auto haze = [&] {
+    const ImageF picture = render_billboards(tree, views[3].camera);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
+      if (views[3].picture.pixels[i] == 0) sum += double(picture.pixels[i]), count += 1.0;
+    return sum / count;
+  };
+  const double with_textures = haze();
+  // The control: the photograph's textures are dropped where they show nothing, so that the cell's own
+  // opacity stands in.
+  for (BillboardTextures& view : tree.views)
+    for (std::int32_t& texture : view.texture_of_cell) {
+      if (texture < 0) continue;
+      int opacity = 0;
+      for (std::size_t k = 0; k < 64; ++k)
+        opacity = std::max(opacity, int(view.texels[4 * (std::size_t(texture) * 64 + k) + 3]));
+      if (opacity < 8) texture = -1;
+    }
+  EXPECT_LT(with_textures, 0.02);
+  EXPECT_GT(haze(), 4.0 * with_textures);
+}
+
+TEST(Billboards, ACellIsShownByPhotographsThatSeeIt) {
+  BillboardTree tree;
+  tree.grid = CellGrid({{-0.1f, -0.1f, 0.9f}, {0.1f, 0.1f, 1.1f}}, 3, 1, {glm::u16vec3(0)});
+  for (const TreeView& view : TestVolume(3).ring(8, 16)) tree.views.push_back({view.camera, {0}, {}});
+  const glm::vec3 at(0, 0, 1), to_eye = glm::normalize(tree.views[2].camera.position_in_world - at);
+  EXPECT_EQ(closest_views(tree, at, to_eye, 0).views[0], 2);
+  EXPECT_NEAR(closest_views(tree, at, to_eye, 0).weights[0], 1.0f, 1e-3f);
+  tree.views[2].texture_of_cell[0] = -1;
+  const ClosestViews others = closest_views(tree, at, to_eye, 0);
+  EXPECT_NE(others.views[0], 2);
+  EXPECT_NE(others.views[1], 2);
+  EXPECT_NEAR(others.weights[0] + others.weights[1], 1.0f, 1e-5f);
+  EXPECT_EQ(closest_views(tree, at, to_eye).views[0], 2) << "without a cell all of them count";
+  for (BillboardTextures& view : tree.views) view.texture_of_cell[0] = -1;
+  EXPECT_EQ(closest_views(tree, at, to_eye, 0).views[0], 2) << "none sees it: its own colour stands in";
+}
+
 TEST(BillboardTextures, AgeAndImportanceSelectTheFloorOfAlphaTimesTexels) {
   const TreeVolume volume = coloured_ball();
   const std::vector<TreeView> views = photographs_of(volume, 4, 64);

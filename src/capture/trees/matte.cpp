@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "base/colour.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "capture/trees/matting_laplacian.h"
 
 namespace parvis::trees {
 namespace {
@@ -20,6 +22,7 @@ constexpr float min_other_colour = 34.0f;  // no pixel nearer than this is wholl
 constexpr float other_share =
     0.85f;  // of the distance of the farthest tenth: beyond it pixels are foreground
 constexpr float min_border_share = 0.5f;
+constexpr float sky_step = 2.5f;    // LAB distance between neighbouring pixels of a sky
 constexpr float min_alpha = 0.02f;  // below it a pixel is background, above 1 - it foreground
 
 /// CIE LAB of sRGB (0..1), white point D65.
@@ -76,9 +79,9 @@ std::vector<Cluster> clusters_of(const Image8& photograph, const std::vector<glm
   return clusters;
 }
 
-/// Alpha and pure foreground of a mixed pixel.
+/// Alpha and pure foreground of a mixed pixel. `given`: its alpha, where it is known.
 glm::vec4 unmixed(glm::vec3 colour, glm::vec3 lab, const std::vector<Cluster>& foreground,
-                  const std::vector<Cluster>& background) {
+                  const std::vector<Cluster>& background, std::optional<float> given = std::nullopt) {
   float minimum = 1e30f, alpha = 0.0f;
   const Cluster* front = &foreground[0];
   const Cluster* back = &background[0];
@@ -90,11 +93,23 @@ glm::vec4 unmixed(glm::vec3 colour, glm::vec3 lab, const std::vector<Cluster>& f
       const float distance = glm::distance(lab, b.lab + share * line);
       if (distance < minimum) minimum = distance, alpha = share, front = &f, back = &b;
     }
+  alpha = given.value_or(alpha);
   if (alpha < min_alpha) return {front->srgb, 0.0f};
   if (alpha > 1.0f - min_alpha) return {colour, 1.0f};
   // The pair's foreground, moved so that mixing gives the pixel's own colour again.
   const glm::vec3 pure = back->srgb + (colour - back->srgb) / alpha;
   return {glm::clamp(glm::mix(front->srgb, pure, alpha), 0.0f, 1.0f), alpha};
+}
+
+/// The distance from the background's colour beyond which pixels are foreground, by those that are not of it.
+float foreground_distance(const std::vector<float>& distances) {
+  std::vector<float> far;
+  for (const float distance : distances)
+    if (distance > same_colour) far.push_back(distance);
+  if (far.empty()) return min_other_colour;
+  const auto tenth = far.begin() + std::ptrdiff_t(far.size() * 9 / 10);
+  std::ranges::nth_element(far, tenth);
+  return std::max(min_other_colour, other_share * *tenth);
 }
 
 }  // namespace
@@ -141,18 +156,11 @@ Result<Zones> zones_of_plain_background(const Image8& photograph, const std::str
         "{}: the background is not plain ({} % of the picture's border look alike); paint zones, see --zones",
         name, 100 * alike / edge.size());
   Zones zones{width, height, std::vector<Zone>(std::size_t(width) * std::size_t(height), Zone::unknown)};
-  std::vector<float> distances(zones.pixels.size()), far;
+  std::vector<float> distances(zones.pixels.size());
   parallel_for(
       distances.size(),
       [&](std::size_t i) { distances[i] = glm::distance(lab_of(srgb_at(photograph, i)), middle); }, 4096);
-  for (const float distance : distances)
-    if (distance > same_colour) far.push_back(distance);
-  float foreground = min_other_colour;
-  if (!far.empty()) {
-    const auto tenth = far.begin() + std::ptrdiff_t(far.size() * 9 / 10);
-    std::ranges::nth_element(far, tenth);
-    foreground = std::max(foreground, other_share * *tenth);
-  }
+  const float foreground = foreground_distance(distances);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (distances[i] < same_colour) zones.pixels[i] = Zone::background;
     if (distances[i] > foreground) zones.pixels[i] = Zone::foreground;
@@ -160,7 +168,66 @@ Result<Zones> zones_of_plain_background(const Image8& photograph, const std::str
   return zones;
 }
 
-Result<Image8> matte(const Image8& photograph, const Zones& zones, const std::string& name) {
+Result<Zones> zones_of_sky(const Image8& photograph, const std::string& name) {
+  const int width = photograph.width, height = photograph.height;
+  Zones zones{width, height, std::vector<Zone>(std::size_t(width) * std::size_t(height), Zone::unknown)};
+  std::vector<glm::vec3> lab(zones.pixels.size());
+  parallel_for(
+      lab.size(), [&](std::size_t i) { lab[i] = lab_of(srgb_at(photograph, i)); }, 4096);
+  // From the upper edge on through colours that change slowly.
+  std::vector<std::size_t> open;
+  std::vector<glm::vec3> row_sky(std::size_t(height), glm::vec3(0.0f));
+  std::vector<float> row_count(std::size_t(height), 0.0f);
+  const auto take = [&](std::size_t i) {
+    zones.pixels[i] = Zone::background, open.push_back(i);
+    row_sky[i / std::size_t(width)] += lab[i], row_count[i / std::size_t(width)] += 1.0f;
+  };
+  glm::vec3 edge(0.0f);
+  for (int x = 0; x < width; ++x) edge += lab[std::size_t(x)] / float(width);
+  for (int x = 0; x < width; ++x)
+    if (glm::distance(lab[std::size_t(x)], edge) < 2.0f * same_colour) take(std::size_t(x));
+  if (float(open.size()) < min_border_share * float(width))
+    return error(
+        "{}: no sky is at the picture's upper edge ({} % of it look alike); paint zones, see --zones", name,
+        100 * open.size() / std::size_t(width));
+  while (!open.empty()) {
+    const std::size_t i = open.back();
+    open.pop_back();
+    const int x = int(i % std::size_t(width)), y = int(i / std::size_t(width));
+    for (const auto& [u, v] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+      if (u < 0 || v < 0 || u >= width || v >= height) continue;
+      const std::size_t k = std::size_t(v) * std::size_t(width) + std::size_t(u);
+      if (zones.pixels[k] == Zone::unknown && glm::distance(lab[i], lab[k]) < sky_step) take(k);
+    }
+  }
+  // Gaps in the crown look like the sky of their row, or of the nearest row above that has any.
+  std::vector<float> distances(zones.pixels.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const std::size_t row = i / std::size_t(width);
+    if (i % std::size_t(width) == 0) {
+      if (row_count[row] > 0.0f) row_sky[row] /= row_count[row];
+      if (row_count[row] <= 0.0f && row > 0) row_sky[row] = row_sky[row - 1];
+    }
+    distances[i] = glm::distance(lab[i], row_sky[row]);
+  }
+  const float foreground = foreground_distance(distances);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i] < same_colour) zones.pixels[i] = Zone::background;
+    if (zones.pixels[i] == Zone::unknown && distances[i] > foreground) zones.pixels[i] = Zone::foreground;
+  }
+  return zones;
+}
+
+bool has_matte(const Image8& picture) {
+  if (picture.channels != 4) return false;
+  int low = 255, high = 0;
+  for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
+    low = std::min(low, int(picture.pixels[i])), high = std::max(high, int(picture.pixels[i]));
+  return low < high;
+}
+
+Result<Image8> matte(const Image8& photograph, const Zones& zones, const std::string& name,
+                     MatteMethod method) {
   if (zones.width != photograph.width || zones.height != photograph.height)
     return error("{}: zones of {} x {} pixels for a photograph of {} x {}", name, zones.width, zones.height,
                  photograph.width, photograph.height);
@@ -172,6 +239,15 @@ Result<Image8> matte(const Image8& photograph, const Zones& zones, const std::st
       lab.size(), [&](std::size_t i) { lab[i] = lab_of(srgb_at(photograph, i)); }, 4096);
   const std::vector<Cluster> foreground = clusters_of(photograph, lab, zones, Zone::foreground);
   const std::vector<Cluster> background = clusters_of(photograph, lab, zones, Zone::background);
+  std::vector<float> alphas;
+  if (method == MatteMethod::laplacian) {
+    alphas.resize(lab.size());
+    parallel_for(
+        lab.size(),
+        [&](std::size_t i) { alphas[i] = unmixed(srgb_at(photograph, i), lab[i], foreground, background).w; },
+        1024);
+    alphas = laplacian_alpha(photograph, zones, std::move(alphas));
+  }
   Image8 result(photograph.width, photograph.height, 4);
   parallel_for(
       zones.pixels.size(),
@@ -180,7 +256,8 @@ Result<Image8> matte(const Image8& photograph, const Zones& zones, const std::st
         const glm::vec4 rgba = zones.pixels[i] == Zone::background ? glm::vec4(colour, 0.0f)
                                : zones.pixels[i] == Zone::foreground
                                    ? glm::vec4(colour, 1.0f)
-                                   : unmixed(colour, lab[i], foreground, background);
+                                   : unmixed(colour, lab[i], foreground, background,
+                                             alphas.empty() ? std::nullopt : std::optional(alphas[i]));
         for (std::size_t c = 0; c < 4; ++c)
           result.pixels[4 * i + c] = std::uint8_t(std::lround(255.0f * rgba[int(c)]));
       },

@@ -51,6 +51,67 @@ Image8 scribbles(bool has_background = true) {
   return result;
 }
 
+/// Gradient error: mean difference of alpha's changes from pixel to pixel (Rhemann and others 2009).
+double gradient_error(const Composite& composite, const Image8& rgba) {
+  double sum = 0.0;
+  for (int y = 0; y + 1 < 96; ++y)
+    for (int x = 0; x + 1 < 96; ++x)
+      for (const int step : {1, 96}) {
+        const auto i = std::size_t(y * 96 + x), k = i + std::size_t(step);
+        sum += std::abs((double(rgba.pixels[4 * k + 3]) - double(rgba.pixels[4 * i + 3])) / 255.0 -
+                        double(composite.alpha[k] - composite.alpha[i]));
+      }
+  return sum / (2.0 * 95.0 * 95.0);
+}
+
+TEST(Matte, TheLaplacianLetsAlphaFlowBetweenTheZones) {
+  const Composite composite;
+  const Zones zones = *zones_of_scribbles(scribbles(), 96, 96, "a");
+  const Result<Image8> found = matte(composite.photograph, zones, "a", MatteMethod::laplacian);
+  ASSERT_TRUE(found.ok());
+  EXPECT_LT(composite.rmse(*found), 0.08);
+  EXPECT_LT(gradient_error(composite, *found), 0.04);
+  // The control: zones alone, all between them half opaque.
+  Image8 guessed = *found;
+  for (std::size_t i = 0; i < zones.pixels.size(); ++i)
+    if (zones.pixels[i] == Zone::unknown) guessed.pixels[4 * i + 3] = 128;
+  EXPECT_GT(composite.rmse(guessed), 0.3);
+}
+
+TEST(Matte, FindsTheSkyWhoseBrightnessChanges) {
+  const Composite composite;
+  Image8 photograph = composite.photograph;  // the sky far brighter below: no common colour at the border
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const float sky = 1.0f - composite.alpha[std::size_t(y * 96 + x)];
+      for (int k = 0; k < 3; ++k)
+        photograph.at(x, y)[k] =
+            std::uint8_t(std::min(255.0f, float(photograph.at(x, y)[k]) + 0.6f * sky * (float(y) - 60.0f)));
+    }
+  const Result<Zones> zones = zones_of_sky(photograph, "a");
+  ASSERT_TRUE(zones) << to_string(zones.errors());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < zones->pixels.size(); ++i)
+    wrong += (zones->pixels[i] == Zone::background && composite.alpha[i] > 0.2f) ||
+             (zones->pixels[i] == Zone::foreground && composite.alpha[i] < 0.3f);
+  EXPECT_LT(wrong, zones->pixels.size() / 100);
+  const Result<Image8> found = matte(photograph, *zones, "a");
+  ASSERT_TRUE(found) << to_string(found.errors());
+  EXPECT_LT(composite.rmse(*found), 0.12);
+  Image8 noise(64, 64, 3);
+  Random random(3);
+  for (std::uint8_t& value : noise.pixels) value = std::uint8_t(random.index(256));
+  EXPECT_FALSE(zones_of_sky(noise, "noise"));
+}
+
+TEST(Matte, APictureMayHaveItsOwn) {
+  Image8 picture(4, 4, 4, 255);
+  EXPECT_FALSE(has_matte(picture));
+  picture.at(1, 1)[3] = 100;
+  EXPECT_TRUE(has_matte(picture));
+  EXPECT_FALSE(has_matte(Image8(4, 4, 3, 10)));
+}
+
 TEST(Matte, FindsAlphaBetweenPaintedZones) {
   const Composite composite;
   const Result<Image8> found =

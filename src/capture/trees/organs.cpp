@@ -14,13 +14,14 @@ namespace {
 
 constexpr float min_log_ratio = -0.8f, max_log_ratio = 0.8f;  // of green over red, of the histogram
 constexpr int ratio_bins = 128;
-constexpr float min_separation = 0.16f;  // of the two classes' means: below it the tree is of one kind
-constexpr float leaf_log_ratio = 0.12f;  // where there is one class alone: leaves are greener than this
-constexpr float foot_share = 0.03f;      // of the height: where the trunk is looked for first
-constexpr float search_radii = 1.7f;     // round the axis, in radii of the ring below
-constexpr float min_filled = 0.35f;      // of a disc's area: less is no trunk
-constexpr float max_widening = 1.06f;    // of a ring over the narrowest below
-constexpr int lean_rings = 4;            // that predict where the next one is
+constexpr float min_separation = 0.16f;      // of the two classes' means: below it the tree is of one kind
+constexpr float min_leaf_log_ratio = 0.08f;  // bark that the sky lights is bluish, but not greener than this
+constexpr float leaf_log_ratio = 0.12f;      // where there is one class alone: leaves are greener than this
+constexpr float foot_share = 0.03f;          // of the height: where the trunk is looked for first
+constexpr float search_radii = 1.7f;         // round the axis, in radii of the ring below
+constexpr float min_filled = 0.35f;          // of a disc's area: less is no trunk
+constexpr float max_widening = 1.06f;        // of a ring over the narrowest below
+constexpr int lean_rings = 4;                // that predict where the next one is
 constexpr int ring_sides = 24;
 constexpr int texture_width = 256, texels_per_ring = 8, max_texture_height = 2048;
 constexpr int min_wood_alpha = 250;  // of a pixel that shows no background
@@ -199,7 +200,7 @@ float Organs::share(const TreeVolume& volume, Organ organ) const {
 
 Organs organs_of(const TreeVolume& volume) {
   Organs organs;
-  organs.leaf_threshold = threshold_of(volume).value_or(leaf_log_ratio);
+  organs.leaf_threshold = std::max(threshold_of(volume).value_or(leaf_log_ratio), min_leaf_log_ratio);
   organs.trunk = trunk_of(volume, organs.leaf_threshold);
   const glm::vec3 size = volume.grid.cell_size_m();
   Trunk with_edge = organs.trunk;  // a cell at the trunk's edge is partly of it

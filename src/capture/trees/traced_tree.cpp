@@ -109,7 +109,7 @@ class TreeSurface final : public scene::TracedSurface {
     const glm::vec3 off = at - centre;
     const glm::vec2 place = glm::clamp(
         glm::vec2(glm::dot(off, frame.right), glm::dot(off, frame.up)) / frame.half_size_m, -1.0f, 1.0f);
-    const ClosestViews closest = closest_views(shown, centre, to_eye);
+    const ClosestViews closest = closest_views(shown, centre, to_eye, int(cell));
     glm::vec4 sum(0.0f);
     for (std::size_t v = 0; v < 2; ++v) {
       if (closest.weights[v] <= 0.0f) continue;

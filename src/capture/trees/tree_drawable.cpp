@@ -72,16 +72,6 @@ glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFra
   return distances;
 }
 
-/// A photograph that does not see a cell says nothing of it where another does: in large cells the mean
-/// colour would be seen as a rectangle.
-void leave_out_unseen(const BillboardTree& tree, std::size_t cell, ClosestViews& closest) {
-  const auto sees = [&](std::size_t i) {
-    return tree.views[std::size_t(closest.views[i])].texture_of_cell[cell] >= 0;
-  };
-  if (sees(0) && !sees(1)) closest.weights = {1.0f, 0.0f};
-  if (!sees(0) && sees(1)) closest.weights = {0.0f, 1.0f};
-}
-
 /// What one view shows.
 struct DrawList {
   std::vector<DrawnBillboard> billboards;
@@ -243,8 +233,7 @@ class TreeDrawable final : public render::Drawable {
                                        turn * (frame.half_size_m.y * frame.up), frame.slants};
       const std::optional<glm::vec4> visible = cover_.visible_part(covering);
       if (!visible) continue;
-      ClosestViews closest = closest_views(shown, centre, frame.to_eye);
-      if (level > 0) leave_out_unseen(shown, cell, closest);
+      const ClosestViews closest = closest_views(shown, centre, frame.to_eye, int(cell));
       DrawnBillboard& b = out.emplace_back();
       b.mip_level = mip_level;
       b.centre = covering.centre;

@@ -36,7 +36,6 @@ BenchCaptureSize bench_capture_size(const FigureOptions& options) {
   BenchCaptureSize size;
   if (!options.is_quick) return size;
   size.capture.width = size.capture.height = 200;
-  size.capture.samples_per_pixel = 9;
   size.options.grid.level = 3;
   size.held_out = 6;
   return size;
@@ -45,14 +44,25 @@ BenchCaptureSize bench_capture_size(const FigureOptions& options) {
 Result<SampleCapture> sample_capture(std::string_view name, int views, const BenchCaptureSize& size) {
   Result<scene::Model> model = make_sample_tree(name, 1);
   if (!model) return model.errors();
-  const scene::Scene scene = capture_scene(*model, {});
   const Bounds bounds = scene::bounds(*model);
   SampleCapture capture{*std::move(model), {}, {}, held_out_cameras(bounds, size.held_out, 5)};
-  capture.views = photograph_tree(scene, capture_cameras(bounds, views), std::string(name), size.capture);
-  CaptureOptions other = size.capture;
-  other.seed += 76;
-  capture.held_out = photograph_tree(scene, capture.held_out_cameras, std::string(name) + " held out", other);
-  return capture;
+  capture.held_out = photograph_tree(capture_scene(capture.model, {}), capture.held_out_cameras,
+                                     std::string(name) + " held out", truth_options(size));
+  return with_photographs(capture, views, size);
+}
+
+SampleCapture with_photographs(const SampleCapture& capture, int views, const BenchCaptureSize& size) {
+  SampleCapture result = capture;
+  result.views =
+      photograph_tree(capture_scene(capture.model, {}), capture_cameras(scene::bounds(capture.model), views),
+                      capture.model.name, size.capture);
+  return result;
+}
+
+CaptureOptions truth_options(const BenchCaptureSize& size) {
+  CaptureOptions options = size.capture;
+  options.samples_per_pixel = size.truth_samples_per_pixel, options.seed += 76;
+  return options;
 }
 
 double ReconstructedTree::seconds() const {

@@ -17,6 +17,8 @@ namespace parvis::trees {
 /// How large captures are.
 struct BenchCaptureSize {
   CaptureOptions capture;
+  int truth_samples_per_pixel =
+      64;  ///< of what pictures are judged by: its own noise would count as their error
   ReconstructionOptions options;
   int held_out = 40, many = 100;  ///< photographs left out, and of the larger capture
 };
@@ -31,6 +33,10 @@ struct SampleCapture {
 };
 /// Path-traces a sample tree by its name, from `views` places and from those held out.
 Result<SampleCapture> sample_capture(std::string_view name, int views, const BenchCaptureSize& size);
+/// The same tree and the same held-out views, with another number of photographs.
+SampleCapture with_photographs(const SampleCapture& capture, int views, const BenchCaptureSize& size);
+/// How views are traced that pictures are judged by.
+CaptureOptions truth_options(const BenchCaptureSize& size);
 
 /// What comes of it.
 struct ReconstructedTree {

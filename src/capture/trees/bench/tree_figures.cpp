@@ -114,13 +114,13 @@ void measure_sizes(const TreeVolume& volume, const scene::Model& model, Means& m
 /// separation of light from texture could undercut: the same volume with textures photographed under that
 /// sun.
 Status measure_relighting(const SampleCapture& capture, const ReconstructedTree& made,
-                          const CaptureOptions& options, Means& means) {
+                          const BenchCaptureSize& size, Means& means) {
   const std::shared_ptr<const TreeLevels>& tree = made.levels;
   CaptureLight moved;
   moved.sun_azimuth_deg += sun_turn_deg;
   const scene::Scene truth_scene = capture_scene(capture.model, moved);
   const std::vector<TreeView> truth =
-      photograph_tree(truth_scene, capture.held_out_cameras, "relit", options);
+      photograph_tree(truth_scene, capture.held_out_cameras, "relit", truth_options(size));
   moved.sun_azimuth_deg -= 2.0f * sun_turn_deg;
   scene::Scene light = scene_in_light_of(tree->levels.front().light);
   const Result<ViewErrors> baked = errors_of(tree, light, truth);
@@ -136,7 +136,7 @@ Status measure_relighting(const SampleCapture& capture, const ReconstructedTree&
   means.add("relight_flip_over_baked_to_the_wrong_side", wrong->flip / baked->flip);
   const std::vector<TreeView> views =
       photograph_tree(truth_scene, capture_cameras(scene::bounds(capture.model), int(capture.views.size())),
-                      "relit textures", options);
+                      "relit textures", size.capture);
   const TreeVolume volume = coloured(made.volume.grid, made.volume.extinction_per_m, views);
   const Result<ViewErrors> perfect = errors_of(levels_from(volume, views, TextureMethod::optimised), truth);
   if (!perfect) return perfect.errors();
@@ -163,17 +163,16 @@ void add_steps(const ReconstructedTree& made, int photographs, Means& means) {
   means.add(fmt::format("minutes_{}", photographs), made.seconds() / 60.0);
 }
 
-Status measure_many(std::string_view name, const BenchCaptureSize& size, Means& means) {
-  const Result<SampleCapture> capture = sample_capture(name, size.many, size);
-  if (!capture) return capture.errors();
-  const Result<ReconstructedTree> made = reconstructed_tree(*capture, size);
+Status measure_many(const SampleCapture& few, const BenchCaptureSize& size, Means& means) {
+  const SampleCapture capture = with_photographs(few, size.many, size);
+  const Result<ReconstructedTree> made = reconstructed_tree(capture, size);
   if (!made) return made.errors();
-  const Result<ViewErrors> errors = errors_of(made->levels, capture->held_out);
+  const Result<ViewErrors> errors = errors_of(made->levels, capture.held_out);
   if (!errors) return errors.errors();
   means.add("psnr_db_100", errors->psnr_db), means.add("ssim_100", errors->ssim);
   means.add("flip_100", errors->flip);
   const Result<ViewErrors> naive =
-      errors_of(levels_from(made->volume, capture->views, TextureMethod::naive), capture->held_out);
+      errors_of(levels_from(made->volume, capture.views, TextureMethod::naive), capture.held_out);
   if (!naive) return naive.errors();
   means.add("psnr_db_100_naive", naive->psnr_db), means.add("ssim_100_naive", naive->ssim);
   add_steps(*made, size.many, means);
@@ -214,8 +213,8 @@ Status measure_tree(std::string_view name, const FigureOptions& options, Means& 
   }
   if (Status status = measure_opacity(*capture, size, left_out->alpha_rmse, means); !status) return status;
   measure_sizes(made->volume, capture->model, means);
-  if (Status status = measure_relighting(*capture, *made, size.capture, means); !status) return status;
-  return measure_many(name, size, means);
+  if (Status status = measure_relighting(*capture, *made, size, means); !status) return status;
+  return measure_many(*capture, size, means);
 }
 
 }  // namespace

@@ -35,6 +35,13 @@ Status measure_wood(const BenchSetup& setup, Report& report) {
   return trees::measure_display({setup.is_quick}, sink_of(report));
 }
 
+/// The maize alone: a part of `trees`.
+Status measure_plant(const BenchSetup& setup, Report& report) {
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  return trees::measure_maize({setup.is_quick}, sink_of(report));
+}
+
 }  // namespace
 
 void furnish_trees(House& house) {
@@ -43,6 +50,8 @@ void furnish_trees(House& house) {
        measure});
   house.get<Benches>().add(
       {"trees_display", "a wood of a thousand captured trees: a part of trees", measure_wood});
+  house.get<Benches>().add(
+      {"trees_maize", "silhouettes of a real plant that were left out: a part of trees", measure_plant});
 }
 
 }  // namespace parvis::bench
