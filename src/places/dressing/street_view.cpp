@@ -12,6 +12,7 @@
 namespace parvis::dressing {
 namespace {
 
+constexpr float below_ground_m = 0.5f;  // of a road: there it runs in a tunnel or in a trench
 constexpr float eye_m = 1.7f, target_above_eye_m = 1.0f, target_m = 40.0f;
 constexpr float blocked_m = 0.9f;        // above the ground: nobody looks over it for long
 constexpr float longest_m = 120.0f;      // of a view: farther adds nothing
@@ -122,14 +123,14 @@ class Judge {
   scene::GroundRaster<float> to_obstacle_;
 };
 
-std::vector<Stand> stands_on(std::span<const scene::Road> roads) {
+std::vector<Stand> stands_on(std::span<const scene::Road> roads, const scene::PlaceHeights& place) {
   std::vector<Stand> stands;
   for (const scene::Road& road : roads) {
     if (road.path.size() < 2) continue;
     const scene::MeasuredPath path(road.path);
     for (float at = 0.5f * road_step_m; at < path.length(); at += road_step_m) {
       const glm::vec2 ahead(path.direction_at(at)), spot(path.at(at));
-      if (!(glm::length(ahead) > 0.5f)) continue;
+      if (!(glm::length(ahead) > 0.5f) || path.at(at).z < place.at(spot) - below_ground_m) continue;
       const glm::vec2 unit = glm::normalize(ahead), right(unit.y, -unit.x);
       stands.push_back({spot + 1.2f * right, unit});
       stands.push_back({spot - 1.2f * right, -unit});
@@ -276,7 +277,7 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
                  std::span<const scene::Road> roads) {
   constexpr float good_enough = 0.05f;
   const Judge judge(scene, place);
-  const std::vector<Stand> stands = roads.empty() ? stands_in_the_open(place) : stands_on(roads);
+  const std::vector<Stand> stands = roads.empty() ? stands_in_the_open(place) : stands_on(roads, place);
   float best = 0.0f;
   const Stand* chosen = nullptr;
   for (const Stand& stand : stands)

@@ -111,8 +111,10 @@ void FreeGround::take_things(const scene::Scene& scene) {
       const auto corner = [&](std::size_t i) {
         return vec3(world * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
       };
+      const bool is_in_tunnel = part.object == "Road tunnel";  // as readers of maps call its floor
       for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
-        take_triangle(corner(i), corner(i + 1), corner(i + 2));
+        is_in_tunnel ? take_floor(corner(i), corner(i + 1), corner(i + 2))
+                     : take_triangle(corner(i), corner(i + 1), corner(i + 2));
     }
   }
 }
@@ -137,6 +139,14 @@ void FreeGround::take_plants(const scene::Scene& scene) {
     each_cell_under(taken_, std::move(outline),
                     [&](glm::ivec2 cell, const Corners&) { taken_.at(cell.x, cell.y) |= thing_bit; });
   }
+}
+
+/// Nothing stands in a tunnel. Where the nearest lane is a street above it, the ground is that street's.
+void FreeGround::take_floor(vec3 a, vec3 b, vec3 c) {
+  each_cell_under(taken_, Corners{a, b, c}, [&](glm::ivec2 cell, const Corners& part) {
+    const float ground_m = heights_.at(taken_.centre_of(cell), float(part.front().z));
+    if (std::abs(ground_m - float(part.front().z)) < low_m) taken_.at(cell.x, cell.y) |= thing_bit;
+  });
 }
 
 /// What lies level is ground, or a roof above what stands.

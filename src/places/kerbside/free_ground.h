@@ -15,7 +15,8 @@ class FreeGround {
   /// What the plan takes in memory: a byte for each cell between the outermost lanes.
   static std::uint64_t bytes(const scene::RoadGraph& roads);
   /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
-  /// what hangs higher does not. Of trees that are grown plants, the trunks do.
+  /// what hangs higher does not. Tunnels ("Road tunnel") have no room. Of trees that are grown plants, the
+  /// trunks do.
   explicit FreeGround(const scene::Scene& scene);
 
   /// No thing is within `radius_m` of a point in plan, and no carriageway within `from_lanes_m`; 0: that does
@@ -23,14 +24,15 @@ class FreeGround {
   bool is_free(glm::vec2 point, float radius_m, float from_lanes_m) const;
   /// Takes the place within `radius_m` of a point.
   void take(glm::vec2 point, float radius_m);
-  /// Height of the ground; `fallback` where none is known.
-  float height(glm::vec2 point, float fallback) const { return heights_.at(point, fallback); }
+  /// Height of the ground near a lane; the lane's own where none is known.
+  float height(glm::vec2 point, float lane_m) const { return heights_.beside_lane(point, lane_m); }
 
  private:
   void take_lanes(const scene::RoadGraph& roads);
   void take_things(const scene::Scene& scene);
   void take_plants(const scene::Scene& scene);
   void take_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void take_floor(glm::vec3 a, glm::vec3 b, glm::vec3 c);
   void mark(glm::vec2 point, float radius_m, unsigned char with);
 
   scene::GroundHeights heights_;

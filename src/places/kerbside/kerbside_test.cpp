@@ -100,6 +100,39 @@ TEST_F(Kerbside, NothingStandsInGrownPlants) {
   EXPECT_EQ(close(load("parkedCars(share=1)\n" + planted)), 0) << "whatever the order";
 }
 
+TEST_F(Kerbside, NothingStandsInTunnels) {
+  const auto lamps = [&](const char* tunnel) {
+    std::string map =
+        R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.004" maxlon="11.001"/>)";
+    const double places[] = {48.0001, 48.0015, 48.0025, 48.0039};
+    for (int i = 0; i < 4; ++i)
+      map += fmt::format("<node id=\"{}\" version=\"1\" lat=\"{}\" lon=\"11.0005\"/>", i + 1, places[i]);
+    for (int i = 1; i < 4; ++i)
+      map += fmt::format(
+          "<way id=\"{}\" version=\"1\"><nd ref=\"{}\"/><nd ref=\"{}\"/><tag k=\"highway\" v=\"secondary\"/>"
+          "<tag k=\"tunnel\" v=\"{}\"/></way>",
+          i, i, i + 1, i == 2 ? tunnel : "no");
+    folder_.write("map.osm", map + "</osm>");
+    folder_.write("scene.xp",
+                  "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\npaving()\n"
+                  "streetFurniture(kind=\"lamps\", spacing=6)\n"
+                  "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+    const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    return loaded ? called(loaded->scene, "street lamp") : std::vector<scene::Object>();
+  };
+  const auto in_the_middle = [](const std::vector<scene::Object>& objects) {
+    return std::ranges::count_if(
+        objects, [](const scene::Object& object) { return std::abs(place_of(object).y) < 50.0f; });
+  };
+  const std::vector<scene::Object> dug = lamps("yes"), level = lamps("no");
+  EXPECT_GT(in_the_middle(level), 20);
+  EXPECT_EQ(in_the_middle(dug), 0);
+  EXPECT_TRUE(std::ranges::any_of(dug, [](const scene::Object& lamp) {
+    return lamp.world_from_model[3].z < -1.0f;
+  })) << "in the trenches they do";
+}
+
 TEST_F(Kerbside, TreesOfAMapGrow) {
   folder_.write("map.osm",
                 R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
