@@ -7,6 +7,7 @@ theirs is left to look for: their hue is.
 import base64
 import colorsys
 import json
+import re
 import struct
 import subprocess
 import tempfile
@@ -18,7 +19,7 @@ COLOUR = (214, 10, 120)
 HUE = colorsys.rgb_to_hsv(*(c / 255 for c in COLOUR))[0]
 SIDE = 16
 BLOCK = 4  # a square of pixels of that hue is no chance, not even in a damaged picture
-EXTENSIONS = (".png", ".jpg", ".jpeg", ".exr", ".tif", ".bmp", ".tga", ".webp", ".gif", ".frame")
+EXTENSIONS = (".png", ".jpg", ".jpeg", ".exr", ".hdr", ".tif", ".bmp", ".tga", ".webp", ".gif", ".frame")
 
 # Of 16 x 16 pixels, by ffmpeg -f lavfi -i color=c=0xD60A78:s=16x16 -pix_fmt yuvj444p -huffman optimal
 JPEG = base64.b64decode(
@@ -34,6 +35,31 @@ def has_hue(pixel):
     return abs(hue - HUE) < 12 / 360 and saturation > 0.5 and value > 0.1
 
 
+def rows_of_hdr(content):
+    """Rows of a Radiance picture, packed or not, as they would be displayed; none where it is cut."""
+    head = re.search(rb"\n\n-Y (\d+) \+X (\d+)\n", content)
+    height, width = map(int, head.groups()) if head else (0, 0)
+    at, rows = head.end() if head else 0, []
+    for _ in range(height):
+        if content[at:at + 2] != b"\2\2":
+            flat = content[at:at + 4 * width]
+            planes, at = [flat[i::4] for i in range(4)], at + 4 * width
+        else:
+            at, planes = at + 4, []
+            for _ in range(4):
+                plane = b""
+                while len(plane) < width and at + 1 < len(content):
+                    run = content[at]
+                    plane += content[at + 1:at + 2] * (run - 128) if run > 128 else content[at + 1:at + 1 + run]
+                    at += 2 if run > 128 else 1 + max(run, 1)
+                planes.append(plane)
+        if any(len(plane) != width for plane in planes):
+            return []
+        linear = ([min(1.0, (plane[x] + 0.5) * 2.0 ** (planes[3][x] - 136)) for plane in planes[:3]] for x in range(width))
+        rows.append([tuple(round(255 * value ** (1 / 2.2)) for value in pixel) for pixel in linear])
+    return rows
+
+
 def rows_of(content, extension):
     """Rows of pixels of a picture of any kind; none where it cannot be decoded."""
     if content.startswith(b"\x89PNG"):
@@ -42,6 +68,8 @@ def rows_of(content, extension):
                 return rows
         except (struct.error, zlib.error, IndexError):
             return []
+    if content.startswith(b"#?"):
+        return rows_of_hdr(content)
     with tempfile.NamedTemporaryFile(suffix=extension) as file:
         file.write(content), file.flush()
         is_linear = ["-apply_trc", "iec61966_2_1"] if extension == ".exr" else []
