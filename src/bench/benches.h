@@ -18,10 +18,10 @@ namespace parvis::bench {
 struct BenchSetup {
   const House& house;     ///< all rooms: node types, drawables, methods of the scenes that are measured
   bool is_quick = false;  ///< fewer repetitions and views, every key all the same
-  std::string part;       ///< the only part to measure (Bench::parts); empty: all
+  std::string part = {};  ///< the only part to measure (Bench::parts); empty: all
   /// Where a bench keeps what takes long to prepare, so that the next run of one of its parts finds it;
   /// empty: a folder of its own, which is removed at its end.
-  std::filesystem::path kept;
+  std::filesystem::path kept = {};
 };
 
 /// One part of a bench, which can be run alone.
