@@ -28,8 +28,9 @@ LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float exit
   BouncedSides bounced = bounced_light_at(position, to_viewer, bare.normal);
   light.bounced = bounced.front;
   light.bounced_behind = bounced.behind;
-  // The crown's own shadow is its cells' share of the sun; the maps have that of all else.
-  float sun = shares.x * visible_sun(position + exit_distance_m * light.to_sun, to_viewer);
+  // The crown's own shadow is its cells' share of the sun; the maps have that of all else, seen from a point
+  // in the air: of no surface whose plane would tilt the comparison.
+  float sun = shares.x * visible_sun(position + exit_distance_m * light.to_sun, light.to_sun);
   vec4 cell = shaded_cell(sky_visibility_cell(position, to_viewer),
                           sky_share_beside_bodies(position, to_viewer, thing));
   cell = mix(vec4(0.5f, 0.5f, 0.5f, 0.0f), cell, shares.y);
