@@ -4,6 +4,10 @@
 // In texels, against the roundings of maps and the difference between a surface and its interpolated normals.
 const float shadow_lift = 0.05f, shadow_bias = 0.1f;
 const float min_shadow_facing = 0.02f;  // cosine: planes are taken to be no steeper to the sun
+// A plane that the sun grazes runs metres deep within a texel, and at the foot of a wall below the ground,
+// which would darken it: away from the sun no texel of a filter is compared with more than this beyond the
+// receiver.
+const float max_shadow_depth = 2.0f;
 
 // What a map is asked about a receiver: its place in texture coordinates, and how its depth changes along the
 // plane of its surface, so that each texel of a filter is compared with the plane's own depth there
@@ -11,8 +15,9 @@ const float min_shadow_facing = 0.02f;  // cosine: planes are taken to be no ste
 // then, which would shift every edge of a shadow by as much.
 struct ShadowReceiver {
   vec3 uvz;
-  vec2 slope;  // change of depth per unit of u and of v
-  float bias;  // of depth, toward the sun
+  vec2 slope;        // change of depth per unit of u and of v
+  float bias;        // of depth, toward the sun
+  float max_beyond;  // of depth: max_shadow_depth
 };
 
 // The same of a surface with unit `normal`. `tile` is scale and offset of the tile of the map that is asked;
@@ -38,6 +43,7 @@ GLSL_FUNCTION ShadowReceiver shadow_receiver(ShadowMaps maps, int map, vec4 tile
   // Within half a texel of the middle of four texels: what a bilinear comparison reads.
   receiver.bias = 0.5f * maps.texel_uv * (abs(receiver.slope.x) + abs(receiver.slope.y)) +
                   shadow_bias * texel_m * abs(dot(dz, to_sun));
+  receiver.max_beyond = max_shadow_depth * texel_m * abs(dot(dz, to_sun));
   return receiver;
 }
 
@@ -54,15 +60,14 @@ GLSL_FUNCTION float filtered_shadow(int map, ShadowReceiver receiver, float texe
   vec2 high = (corner + vec2(0.5f) + share / high_weight) * texel_uv;
   vec2 low_depth = receiver.slope * (vec2(-0.5f) - share) * texel_uv;
   vec2 high_depth = receiver.slope * (vec2(1.5f) - share) * texel_uv;
-  float z = receiver.uvz.z - receiver.bias;
-  return (low_weight.x * low_weight.y *
-              shadow_compare(map, vec3(low.x, low.y, z + low_depth.x + low_depth.y)) +
-          high_weight.x * low_weight.y *
-              shadow_compare(map, vec3(high.x, low.y, z + high_depth.x + low_depth.y)) +
-          low_weight.x * high_weight.y *
-              shadow_compare(map, vec3(low.x, high.y, z + low_depth.x + high_depth.y)) +
-          high_weight.x * high_weight.y *
-              shadow_compare(map, vec3(high.x, high.y, z + high_depth.x + high_depth.y))) /
+  // Of the corners (low, low), (high, low), (low, high), (high, high).
+  vec4 beyond = vec4(low_depth.x + low_depth.y, high_depth.x + low_depth.y, low_depth.x + high_depth.y,
+                     high_depth.x + high_depth.y);
+  vec4 z = vec4(receiver.uvz.z - receiver.bias) + min(beyond, vec4(receiver.max_beyond));
+  return (low_weight.x * low_weight.y * shadow_compare(map, vec3(low.x, low.y, z.x)) +
+          high_weight.x * low_weight.y * shadow_compare(map, vec3(high.x, low.y, z.y)) +
+          low_weight.x * high_weight.y * shadow_compare(map, vec3(low.x, high.y, z.z)) +
+          high_weight.x * high_weight.y * shadow_compare(map, vec3(high.x, high.y, z.w))) /
          16.0f;
 }
 

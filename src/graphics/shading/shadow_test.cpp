@@ -94,6 +94,25 @@ TEST(Shadow, EdgesStayInPlaceUnderALowSun) {
   EXPECT_EQ(under(42.0f), 1.0f);
 }
 
+/// The plane of a wall that the sun grazes lies metres below the ground a texel away; the ground casts no
+/// shadow there.
+TEST(Shadow, TheFootOfAGrazedWallIsLit) {
+  const float tangent = 0.04f, wall_x = 40.3f, top_m = 20.0f;  // faces east; the sun stands nearly overhead
+  SlopingSun sun(tangent);
+  for (ImageF& depth : sun.shadow.depth)
+    for (int y = 0; y < texels; ++y)
+      for (int x = 0; x < texels; ++x) {
+        const float u = float(x) + 0.5f;  // x where the line to the sun crosses the ground
+        const float height_m = u > wall_x ? 0.0f : std::min((wall_x - u) / tangent, top_m);
+        *depth.at(x, y) = 0.8f - 0.01f * glm::dot(sun.to_sun, vec3(u + tangent * height_m, 0, height_m));
+      }
+  const auto on_wall = [&](float height_m) {
+    return sun_visibility(sun.shadow, {wall_x, 20.3f, height_m}, vec3(1, 0, 0), sun.to_sun);
+  };
+  for (float height_m = 0.5f; height_m < 19.0f; height_m += 0.7f)
+    EXPECT_NEAR(on_wall(height_m), 1.0f, 1e-5f) << height_m << " m above the ground";
+}
+
 TEST(Shadow, ItsEdgeIsATentOverThreeTexels) {
   const SunShadow shadow = roof_in_the_west();
   EXPECT_EQ(sun_at(shadow, 30.0f), 0.0f);
