@@ -1,8 +1,9 @@
 // Is a point in the sun? Needs shading/shadow.glsl, and from the host
 //   float shadow_compare(int map, vec3 uvz)   1 where the map's depth at uv lies behind z, bilinear
 
-// In texels, against the roundings of maps and the difference between a surface and its interpolated normals.
-const float shadow_lift = 0.05f, shadow_bias = 0.1f;
+// In texels, against the roundings of maps and the difference between a surface and its interpolated normals,
+// and between the levels of detail in which a thing is seen and casts its shadow.
+const float shadow_lift = 0.2f, shadow_bias = 0.3f;
 const float min_shadow_facing = 0.02f;  // cosine: planes are taken to be no steeper to the sun
 // A plane that the sun grazes runs metres deep within a texel, and at the foot of a wall below the ground,
 // which would darken it: away from the sun no texel of a filter is compared with more than this beyond the

@@ -38,12 +38,12 @@ TEST(Shadow, LiesUnderTheRoofAndNotBesideIt) {
   EXPECT_EQ(sun_at(shadow, 20, 60), 1.0f) << "above the roof";
 }
 
-/// What faces the sun is looked up a seventh of a texel nearer to it.
+/// What faces the sun is looked up half a texel nearer to it.
 TEST(Shadow, ASurfaceDoesNotShadeItself) {
   const SunShadow shadow = roof_in_the_west();
   EXPECT_EQ(sun_at(shadow, 20, 50), 1.0f);
-  EXPECT_EQ(sun_at(shadow, 20, 49.9f), 1.0f);
-  EXPECT_EQ(sun_at(shadow, 20, 49.8f), 0.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.6f), 1.0f);
+  EXPECT_EQ(sun_at(shadow, 20, 49.4f), 0.0f);
 }
 
 /// A plane under a sun that is `tangent` times as far away aside as it is high: its map holds the plane
