@@ -1,6 +1,7 @@
 #include "capture/photographs/one_spot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
