@@ -1,6 +1,10 @@
 // parvis check: is a scene right? And the reference of all nodes.
+#include <set>
+
 #include "commands.h"
 #include "life/traffic/demand.h"
+#include "life/vegetation/scene_plant.h"
+#include "scene/data/triangle_kinds.h"
 #include "scene/script/scene_reference.h"
 #include "scene/script/schema_json.h"
 #include "scene_arguments.h"
@@ -11,7 +15,7 @@ namespace {
 struct Arguments {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> data;
-  bool wants_reference = false, wants_schema = false;
+  bool wants_reference = false, wants_schema = false, wants_triangles = false;
 };
 
 /// What --scenario and --tour can name.
@@ -21,6 +25,22 @@ void print_states(const scene::LiveScene& live) {
                node->text("title"));
   for (const scene::Node& node : live.nodes())
     if (node.schema->type == "tour") fmt::print("tour {}\n", node.text("name"));
+}
+
+/// What the triangles show, kind by kind.
+void print_triangles(const scene::Scene& scene) {
+  for (const scene::TriangleKind& kind : scene::triangle_kinds(scene))
+    fmt::print("triangles of {}: {}{}\n", kind.name, kind.stored,
+               kind.objects > 1 ? fmt::format(" in memory, {} in {} places", kind.placed, kind.objects) : "");
+  std::set<const vegetation::PlantShape*> shapes;
+  std::size_t stored = 0, placed = 0;
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
+    placed += plant.shape->triangle_count();
+    if (shapes.insert(plant.shape.get()).second) stored += plant.shape->triangle_count();
+  }
+  if (!shapes.empty())
+    fmt::print("triangles of grown plants: {} in memory, {} in {} places\n", stored, placed,
+               vegetation::scene_plants(scene).size());
 }
 
 Status check(Arguments& arguments) {
@@ -42,6 +62,7 @@ Status check(Arguments& arguments) {
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
              scene.roads.lanes.size(), scene.data<traffic::TrafficDemand>().vehicles, scene.cameras.size());
+  if (arguments.wants_triangles) print_triangles(scene);
   print_states(play->live());
   return Done{};
 }
@@ -58,6 +79,8 @@ void add_check(CLI::App& app, Chosen& chosen) {
                     "Print the reference of all nodes (docs/scene-reference.md)");
   command->add_flag("--schema", arguments->wants_schema,
                     "Print all nodes with their attributes and messages as JSON");
+  command->add_flag("--triangles", arguments->wants_triangles,
+                    "Print how many triangles each kind of object has");
   command->footer("Example: parvis check scenes/delft.xp --data ../shared/data");
   command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }
