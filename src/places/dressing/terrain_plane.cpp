@@ -10,13 +10,16 @@
 namespace parvis::dressing {
 namespace {
 
-constexpr float below_own_m = 0.25f;    // where the place's own ground begins, the terrain goes on beneath it
-constexpr float overlap_cells = 2.5f;   // of the two grounds
-constexpr float even_m = 0.01f;         // heights of cells that are drawn as one
-constexpr int max_block = 16;           // cells on a side of such a block
-constexpr float paved_m = 14.0f;        // from what is built
-constexpr float paved_wander_m = 6.0f;  // of the edge of the paved ground
-constexpr float far_sheets = 3.0f;      // size of pictures far away: fewer repeats
+constexpr float below_own_m = 0.25f;  // where the place's own ground begins, the terrain goes on beneath it
+constexpr float below_level_m = 0.008f;  // the same where that ground is level: no step is to be seen
+constexpr float overlap_cells = 2.5f, level_overlap_cells = 1.5f;  // of the two grounds
+constexpr float even_m = 0.01f;                                    // heights of cells that are drawn as one
+constexpr float straight_m = 0.6f;       // of the edge of paved ground, across such cells
+constexpr int max_block = 32;            // cells on a side of such a block
+constexpr int max_even_points = 15;      // of an edge, one after the other
+constexpr float paved_m = 14.0f;         // from what is built
+constexpr float paved_wander_m = 6.0f;   // of the edge of the paved ground
+constexpr float far_sheets = 3.0f;       // size of pictures far away: fewer repeats
 constexpr float level_after_m = 700.0f;  // beyond the place
 constexpr std::array ring_factors{1.0f, 1.06f, 1.15f, 1.3f, 1.6f, 2.2f, 3.4f, 6.0f, 12.0f, 30.0f, 80.0f};
 
@@ -51,6 +54,84 @@ void add_clipped(Layer& layer, const std::array<Corner, 3>& triangle, float side
     layer.add(inside[0]), layer.add(inside[i - 1]), layer.add(inside[i]);
 }
 
+/// Whether the heights around a cell are all the same.
+bool is_level(const scene::PlaceHeights& place, int x, int y) {
+  const scene::HeightRaster& heights = place.heights();
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if (heights.contains(x + dx, y + dy) &&
+          std::abs(heights.at(x + dx, y + dy) - heights.at(x, y)) > 0.5f * even_m)
+        return false;
+  return true;
+}
+
+/// How far the terrain lies below the heights of the place in a cell.
+float lowered_m(const scene::PlaceHeights& place, int x, int y) {
+  if (!place.own_ground().at(x, y)) return 0.0f;
+  return is_level(place, x, y) ? below_level_m : below_own_m;
+}
+
+/// Cells that two triangles show, from the corner `low` on.
+struct CellBlock {
+  glm::ivec2 low, size;
+};
+
+/// Whether the corners of a block lie as its own four do: at one height, and on the same side of the edge of
+/// paved ground but for `straight_m`.
+template <class CornerAt>
+bool is_even(const CellBlock& block, const CornerAt& corner) {
+  const glm::ivec2 high = block.low + block.size;
+  const Corner a = corner(block.low.x, block.low.y), b = corner(high.x, block.low.y),
+               c = corner(high.x, high.y), d = corner(block.low.x, high.y);
+  for (int y = block.low.y; y <= high.y; ++y)
+    for (int x = block.low.x; x <= high.x; ++x) {
+      const Corner each = corner(x, y);
+      if (std::abs(each.position.z - a.position.z) > even_m) return false;
+      const glm::vec2 share = glm::vec2(x - block.low.x, y - block.low.y) / glm::vec2(block.size);
+      const float edge_m = share.x > share.y  // as the two triangles have it
+                               ? glm::mix(a.edge_m, b.edge_m, share.x) + share.y * (c.edge_m - b.edge_m)
+                               : glm::mix(a.edge_m, d.edge_m, share.y) + share.x * (c.edge_m - d.edge_m);
+      if ((each.edge_m < 0.0f) != (edge_m < 0.0f) && std::abs(each.edge_m) > straight_m) return false;
+    }
+  return true;
+}
+
+/// Divides all cells but covered ones into blocks: each is as long as it can be, then as wide; one cell may
+/// be uneven.
+template <class Covered, class CornerAt>
+std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, const CornerAt& corner) {
+  std::vector<char> is_taken(std::size_t(cells.x) * std::size_t(cells.y), 0);
+  const auto taken = [&](int x, int y) -> char& {
+    return is_taken[std::size_t(y) * std::size_t(cells.x) + std::size_t(x)];
+  };
+  for (int y = 0; y < cells.y; ++y)
+    for (int x = 0; x < cells.x; ++x) taken(x, y) = is_covered(x, y);
+  const auto is_free = [&](const CellBlock& block) {
+    const glm::ivec2 high = block.low + block.size;
+    if (high.x > cells.x || high.y > cells.y) return false;
+    for (int y = block.low.y; y < high.y; ++y)
+      for (int x = block.low.x; x < high.x; ++x)
+        if (taken(x, y)) return false;
+    return true;
+  };
+  std::vector<CellBlock> blocks;
+  for (int y = 0; y < cells.y; ++y)
+    for (int x = 0; x < cells.x; ++x) {
+      if (taken(x, y)) continue;
+      CellBlock block{{x, y}, {1, 1}};
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
+        for (CellBlock larger{block.low, block.size + step};
+             std::max(larger.size.x, larger.size.y) <= max_block && is_free(larger) &&
+             is_even(larger, corner);
+             larger.size += step)
+          block = larger;
+      for (int dy = 0; dy < block.size.y; ++dy)
+        for (int dx = 0; dx < block.size.x; ++dx) taken(x + dx, y + dy) = 1;
+      blocks.push_back(block);
+    }
+  return blocks;
+}
+
 /// Ground is smooth: each point takes the slope of the heights there, not that of its triangle.
 void fill_normals_from(const scene::PlaceHeights& place, Mesh& mesh) {
   const float step_m = place.heights().cell_m;
@@ -78,7 +159,8 @@ std::vector<glm::vec3> without_even_points(const std::vector<glm::vec3>& ring) {
   int left_out = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const glm::vec3 &before = ring[(i + ring.size() - 1) % ring.size()], &after = ring[(i + 1) % ring.size()];
-    const bool is_even = glm::distance(0.5f * (before + after), ring[i]) < even_m && left_out < max_block - 1;
+    const bool is_even =
+        glm::distance(0.5f * (before + after), ring[i]) < even_m && left_out < max_even_points;
     left_out = is_even ? left_out + 1 : 0;
     if (!is_even) kept.push_back(ring[i]);
   }
@@ -95,42 +177,25 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
     const glm::vec2 p = heights.centre_of({x, y});
     const float wander = paved_wander_m * std::sin(0.11f * p.x + 2.0f * std::sin(0.07f * p.y)) *
                          std::sin(0.09f * p.y + 1.5f * std::sin(0.06f * p.x));
-    const float lowered_m = place.own_ground().at(x, y) ? below_own_m : 0.0f;
-    return Corner{glm::vec3(p, heights.at(x, y) - lowered_m), to_built.at(x, y) - paved_m + wander};
+    return Corner{glm::vec3(p, heights.at(x, y) - lowered_m(place, x, y)),
+                  to_built.at(x, y) - paved_m + wander};
   };
   Layer paved{{}, cover_sheet_m(look.surface)}, beyond{{}, cover_sheet_m(look.beyond)};
-  const auto is_covered = [&](int x, int y) { return to_foreign.at(x, y) > overlap_cells * heights.cell_m; };
-  /// Corners of a block of cells: an even one, of one surface, takes two triangles.
-  const auto is_even = [&](int x, int y, int size) {
-    const Corner first = corner(x, y);
-    for (int dy = 0; dy <= size; ++dy)
-      for (int dx = 0; dx <= size; ++dx) {
-        const Corner each = corner(x + dx, y + dy);
-        if (is_covered(x + dx, y + dy) || std::abs(each.position.z - first.position.z) > even_m ||
-            (each.edge_m < 0.0f) != (first.edge_m < 0.0f))
-          return false;
-      }
-    return true;
+  const auto overlap = [&](int x, int y) {
+    return (is_level(place, x, y) ? level_overlap_cells : overlap_cells) * heights.cell_m;
   };
-  const auto add_block = [&](const auto& self, int x, int y, int size) -> void {
-    if (x >= heights.width - 1 || y >= heights.height - 1) return;
-    const bool fits = x + size < heights.width && y + size < heights.height;
-    if (size > 1 && !(fits && is_even(x, y, size))) {
-      for (const glm::ivec2 quarter :
-           {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)})
-        self(self, x + quarter.x * (size / 2), y + quarter.y * (size / 2), size / 2);
-      return;
-    }
-    if (is_covered(x, y)) return;
-    const Corner a = corner(x, y), b = corner(x + size, y), c = corner(x + size, y + size),
-                 d = corner(x, y + size);
+  const std::vector<CellBlock> blocks = even_blocks(
+      {heights.width - 1, heights.height - 1},
+      [&](int x, int y) { return to_foreign.at(x, y) > overlap(x, y); }, corner);
+  for (const CellBlock& block : blocks) {
+    const auto [low, high] = std::pair(block.low, block.low + block.size);
+    const Corner a = corner(low.x, low.y), b = corner(high.x, low.y), c = corner(high.x, high.y),
+                 d = corner(low.x, high.y);
     for (const std::array<Corner, 3>& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
       add_clipped(paved, triangle, -1.0f);
       add_clipped(beyond, triangle, 1.0f);
     }
-  };
-  for (int y = 0; y + 1 < heights.height; y += max_block)
-    for (int x = 0; x + 1 < heights.width; x += max_block) add_block(add_block, x, y, max_block);
+  }
   scene::Model model;
   model.name = "terrain";
   for (Layer* layer : {&paved, &beyond}) fill_normals_from(place, layer->mesh);
@@ -144,8 +209,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   const glm::ivec2 last(heights.width - 1, heights.height - 1);
   std::vector<glm::vec3> edge;  // counter-clockwise
   const auto add = [&](int x, int y) {
-    const float lowered_m = place.own_ground().at(x, y) ? below_own_m : 0.0f;
-    edge.emplace_back(heights.centre_of({x, y}), heights.at(x, y) - lowered_m);
+    edge.emplace_back(heights.centre_of({x, y}), heights.at(x, y) - lowered_m(place, x, y));
   };
   for (int x = 0; x < last.x; ++x) add(x, 0);
   for (int y = 0; y < last.y; ++y) add(last.x, y);

@@ -1,0 +1,85 @@
+#include "places/dressing/terrain_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/data/scene.h"
+
+namespace parvis::dressing {
+namespace {
+
+/// A square of ground with sides of 200 m, turned by one degree, and a house on it.
+scene::Scene village(float hill_m) {
+  auto model = std::make_shared<scene::Model>();
+  model->materials.emplace_back();
+  const auto add = [&](const char* name, Mesh mesh) {
+    scene::Part part;
+    part.object = name, part.mesh = std::move(mesh);
+    model->parts.push_back(std::move(part));
+  };
+  Mesh ground;
+  constexpr std::uint32_t side = 40;
+  for (std::uint32_t y = 0; y <= side; ++y)
+    for (std::uint32_t x = 0; x <= side; ++x) {
+      const glm::vec2 p = 200.0f * (glm::vec2(x, y) / float(side) - 0.5f);
+      ground.positions.emplace_back(p.x - 0.0175f * p.y, p.y + 0.0175f * p.x, hill_m * std::sin(0.1f * p.x));
+    }
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const std::uint32_t a = y * (side + 1) + x, b = a + side + 1;
+      ground.indices.insert(ground.indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  add("TINRelief", std::move(ground));
+  Mesh wall;
+  wall.positions = {{-5, 95, 0}, {5, 95, 0}, {5, 95, 6}, {-5, 95, 6}}, wall.indices = {0, 1, 2, 0, 2, 3};
+  add("WallSurface", std::move(wall));
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = model;
+  return scene;
+}
+
+struct Extent {
+  double area_m2 = 0.0;
+  float lowest_m = 1e9f, highest_m = -1e9f;
+  std::size_t triangles = 0;
+};
+
+Extent extent_of(const scene::Model& model) {
+  Extent extent;
+  for (const scene::Part& part : model.parts) {
+    extent.triangles += part.mesh.triangle_count();
+    for (std::size_t i = 0; i < part.mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      extent.area_m2 += 0.5 * double(glm::cross(corner(1) - corner(0), corner(2) - corner(0)).z);
+    }
+    for (const glm::vec3& p : part.mesh.positions)
+      extent.lowest_m = std::min(extent.lowest_m, p.z), extent.highest_m = std::max(extent.highest_m, p.z);
+  }
+  return extent;
+}
+
+TEST(TerrainPlane, TakesFewTrianglesAroundLevelGroundAndHasNoStepThere) {
+  constexpr float margin_m = 80.0f;
+  const scene::PlaceHeights place(village(0.0f), {}, margin_m);
+  const scene::Model terrain = near_terrain(place, {});
+  const Extent extent = extent_of(terrain);
+  EXPECT_LT(extent.triangles, 600u);
+  EXPECT_GT(extent.lowest_m, -0.011f) << "a step of 1 cm is not to be seen";
+  EXPECT_LE(extent.highest_m, 0.0f);
+  const scene::HeightRaster& heights = place.heights();
+  const double all_m2 =
+      double(heights.width - 1) * double(heights.height - 1) * double(heights.cell_m * heights.cell_m);
+  EXPECT_GT(extent.area_m2, all_m2 - 200.0 * 200.0) << "no gap beside the place's own ground";
+  EXPECT_LT(extent.area_m2, all_m2 - 190.0 * 190.0) << "and none of it twice";
+  ASSERT_EQ(terrain.parts.size(), 2u) << "paving around the house, and lawn";
+}
+
+TEST(TerrainPlane, GoesOnBelowUnevenGround) {
+  const Extent extent = extent_of(near_terrain(scene::PlaceHeights(village(2.0f), {}, 80.0f), {}));
+  EXPECT_LT(extent.lowest_m, -2.0f - 0.2f);
+}
+
+}  // namespace
+}  // namespace parvis::dressing
