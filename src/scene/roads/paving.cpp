@@ -124,17 +124,16 @@ std::vector<Row> without_needless_rows(const std::vector<Row>& rows) {
   return kept;
 }
 
-/// Leaves out the inner points of all rows where the ground is level across.
-void leave_out_inner_points(std::vector<Row>& rows) {
-  const bool is_level = std::ranges::all_of(rows, [](const Row& row) {
-    for (std::size_t k = 1; k + 1 < row.size(); ++k) {
-      const float share = float(k) / float(row.size() - 1);
-      if (std::abs(row[k].z - glm::mix(row.front().z, row.back().z, share)) > chord_m) return false;
-    }
-    return true;
-  });
-  if (is_level)
-    for (Row& row : rows) row = {row.front(), row.back()};
+/// Leaves out the points across that lie on straight lines between others in all rows.
+void leave_out_needless_points(std::vector<Row>& rows) {
+  std::vector<Row> columns(rows.front().size());
+  for (const Row& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) columns[k].push_back(row[k]);
+  columns = without_needless_rows(columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].clear();
+    for (const Row& column : columns) rows[i].push_back(column[i]);
+  }
 }
 
 /// A ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift` over the
@@ -153,7 +152,7 @@ void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const
       row.push_back(p);
     }
   }
-  leave_out_inner_points(rows);
+  leave_out_needless_points(rows);
   rows = without_needless_rows(rows);
   const std::uint32_t first = std::uint32_t(mesh.positions.size()),
                       width = std::uint32_t(rows.front().size());
