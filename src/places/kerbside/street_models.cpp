@@ -1,6 +1,7 @@
 #include "places/kerbside/street_models.h"
 
 #include "base/colour.h"
+#include "formats/meshes/simplification.h"
 #include "places/paper_city/car.h"
 #include "places/paper_city/night_lights.h"
 #include "places/paper_city/round_mesh.h"
@@ -13,7 +14,8 @@ using city::Outline, city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
 
 constexpr int tree_shapes = 5;
-constexpr float whole = 10.0f;  // of panels: one square
+constexpr float car_error_m = 0.005f;  // two of five triangles stay; from 3 m on bodies look the same
+constexpr float whole = 10.0f;         // of panels: one square
 
 scene::Material material(const char* name, vec3 colour, float roughness) {
   scene::Material result;
@@ -99,8 +101,11 @@ Models street_trees(float height_m, std::uint64_t seed) {
 
 Models parked_cars() {
   Models models;
-  for (scene::Model& car : city::city_cars())
-    if (!car.name.starts_with("bus")) models.push_back(std::make_shared<scene::Model>(std::move(car)));
+  for (scene::Model& car : city::city_cars()) {
+    if (car.name.starts_with("bus")) continue;
+    for (scene::Part& part : car.parts) part.mesh = scene::simplified(part.mesh, car_error_m);
+    models.push_back(std::make_shared<scene::Model>(std::move(car)));
+  }
   return models;
 }
 
