@@ -27,7 +27,8 @@ namespace parvis {
 namespace {
 
 enum class Outcome : char {
-  has_inner_work = 'i',  ///< sent before any other: the work has called run_isolated
+  begins_inner_work = 'i',  ///< sent before any other: the work has called run_isolated
+  ended_inner_work = 'e',   ///< sent after it: that call returns
   done = 'd',
   failed = 'f',
   gave_up = 'g',
@@ -131,14 +132,32 @@ Outcome carry_out(IsolatedWork work, std::string_view input, IsolatedOutput& out
 /// isolated.
 bool is_worker = false;
 bool isolates_inner_work = true;
-int status_of_worker = -1;  ///< where the worker writes its outcome
+int status_of_worker = -1;                            ///< where the worker writes its outcome
+std::chrono::steady_clock::time_point end_of_worker;  ///< when its caller ends it
 
 /// Of a thread that measures what isolation costs.
 thread_local int without_isolation = 0;
 
+std::chrono::steady_clock::time_point deadline_after(double seconds) {
+  return std::chrono::steady_clock::now() +
+         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
+}
+
+/// Of inner work in a process of its own: half of what its worker has left, so that work which hangs does not
+/// take its worker with it.
+double seconds_of_inner_work(double limit_s) {
+  const std::chrono::duration<double> left = end_of_worker - std::chrono::steady_clock::now();
+  return std::min(limit_s, std::max(0.0, left.count() / 2.0));
+}
+
+bool note(Outcome outcome) {
+  return write(status_of_worker, &outcome, sizeof outcome) == ssize_t(sizeof outcome);
+}
+
 [[noreturn]] void be_worker(const Request& request, const Descriptors& descriptors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   is_worker = true, isolates_inner_work = request.isolates_inner_work, status_of_worker = descriptors[2];
+  end_of_worker = deadline_after(request.seconds);
   const Started started{getpid()};
   if (write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
   std::atexit([] { _exit(1); });  // a reader that calls exit must not run into the program's destructors
@@ -155,8 +174,7 @@ thread_local int without_isolation = 0;
   limit_files(readable);
   IsolatedOutput output(descriptors[1]);
   const Outcome outcome = carry_out(request.work, all.substr(request.readable_bytes), output);
-  const ssize_t written = write(descriptors[2], &outcome, sizeof outcome);
-  _exit(written == ssize_t(sizeof outcome) ? 0 : 1);  // no destructors: they are the program's
+  _exit(note(outcome) ? 0 : 1);  // no destructors: they are the program's
 }
 
 /// Forks a worker that waits for its request on the socket whose other end is returned; none where it cannot
@@ -295,9 +313,11 @@ struct Attempt {
   End end = End::not_started;
   Outcome outcome{};  ///< of one that is whole
   bool has_inner_work = false;
-  Descriptor made;  ///< the file in memory with its output
+  int open_inner_works = 0;  ///< that had not returned at its end
+  Descriptor made;           ///< the file in memory with its output
   std::uint64_t memory_bytes = 0;
-  int cause = 0;  ///< errno of one that was not started
+  double seconds = 0.0;  ///< that it had
+  int cause = 0;         ///< errno of one that was not started
 };
 
 /// In this process.
@@ -327,7 +347,8 @@ Attempt run_in_worker(IsolatedWork work, std::string_view input, const Isolation
   const bool has_pipe = pipe2(status.data(), O_CLOEXEC) == 0;
   const Descriptor status_out(status[0]);
   Descriptor status_in(status[1]);
-  const Request request{work, attempt.memory_bytes, limits.seconds, isolates_inner,
+  attempt.seconds = is_worker ? seconds_of_inner_work(limits.seconds) : limits.seconds;
+  const Request request{work, attempt.memory_bytes, attempt.seconds, isolates_inner,
                         std::uint32_t(readable.size())};
   warn_without_landlock();
   if (!given || !attempt.made || !has_pipe || !write_all(given.get(), readable) ||
@@ -338,15 +359,15 @@ Attempt run_in_worker(IsolatedWork work, std::string_view input, const Isolation
   }
   status_in = Descriptor();  // so that the worker's end is the last one
 
-  const auto deadline =
-      std::chrono::steady_clock::now() +
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(limits.seconds));
+  const auto deadline = deadline_after(request.seconds);
   bool is_late = false;
   Started started{};
   const bool has_started = receive(status_out.get(), started, deadline, is_late);
   bool has_ended = has_started && receive(status_out.get(), attempt.outcome, deadline, is_late);
-  while (has_ended && attempt.outcome == Outcome::has_inner_work) {
+  while (has_ended &&
+         (attempt.outcome == Outcome::begins_inner_work || attempt.outcome == Outcome::ended_inner_work)) {
     attempt.has_inner_work = true;
+    attempt.open_inner_works += attempt.outcome == Outcome::begins_inner_work ? 1 : -1;
     has_ended = receive(status_out.get(), attempt.outcome, deadline, is_late);
   }
   attempt.end = has_ended ? End::whole : is_late ? End::late : End::crashed;
@@ -355,12 +376,12 @@ Attempt run_in_worker(IsolatedWork work, std::string_view input, const Isolation
 }
 
 /// What the caller gets of it.
-Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject, const IsolationLimits& limits) {
+Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject) {
   if (attempt.end == End::not_started)
     return error("{}: no child process can be started for its reader ({})", subject,
                  std::strerror(attempt.cause));
   if (attempt.end == End::late)
-    return error("{}: its reader took more than {:.0f} s and was ended", subject, limits.seconds);
+    return error("{}: its reader took more than {:.0f} s and was ended", subject, attempt.seconds);
   if (attempt.end == End::crashed)
     return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
   if (attempt.outcome == Outcome::out_of_memory)
@@ -421,16 +442,17 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
   if (without_isolation > 0) {
     attempt = run_here(work, input);
   } else if (is_worker && !isolates_inner_work) {
-    const Outcome note = Outcome::has_inner_work;
-    if (write(status_of_worker, &note, sizeof note) == ssize_t(sizeof note)) attempt = run_here(work, input);
+    if (note(Outcome::begins_inner_work)) attempt = run_here(work, input);
+    note(Outcome::ended_inner_work);
   } else {
     attempt = run_in_worker(work, input, limits, false);
     // The reader of a model is not lost with one of its pictures: once more, each picture in its own process.
-    if (attempt.has_inner_work && attempt.end != End::late && attempt.outcome != Outcome::done &&
-        attempt.outcome != Outcome::failed)
-      attempt = run_in_worker(work, input, limits, true);
+    const bool is_lost = attempt.end == End::late
+                             ? attempt.open_inner_works > 0
+                             : attempt.outcome != Outcome::done && attempt.outcome != Outcome::failed;
+    if (attempt.has_inner_work && is_lost) attempt = run_in_worker(work, input, limits, true);
   }
-  return result_of(std::move(attempt), subject, limits);
+  return result_of(std::move(attempt), subject);
 }
 
 WithoutIsolation::WithoutIsolation() { ++without_isolation; }

@@ -73,9 +73,10 @@ void start_isolation();
 
 /// Runs `work` on `input` in a worker process and returns its output. Work that runs in a worker may call it,
 /// too, as a model's reader does for each picture: that inner work runs in the same worker, and if the worker
-/// does not survive it, all is done once more with workers for the inner work, so that a model is not lost
-/// with one of its pictures. Errors are those of `work`, or say that the reader of `subject` (a file's name)
-/// crashed, took too long or needed too much memory.
+/// does not survive it, or not in its time, all is done once more with workers for the inner work, each of
+/// which has half of the time that is left, so that a model is not lost with one of its pictures. Errors are
+/// those of `work`, or say that the reader of `subject` (a file's name) crashed, took too long or needed too
+/// much memory.
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
 

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <thread>
+#include <tuple>
 
 #include "base/test_folder.h"
 
@@ -83,7 +84,7 @@ TEST(IsolatedProcess, InnerWorkRunsInItsWorker) {
 
 /// Its inner work does not survive; it does.
 Status outlive(std::string_view input, IsolatedOutput& output) {
-  const IsolatedWork inner = input == "crash" ? crash : input == "leave" ? leave : give_up;
+  const IsolatedWork inner = input == "crash" ? crash : input == "leave" ? leave : hang;
   const Result<IsolatedBytes> inside = run_isolated(inner, "", "inside");
   const std::string said = inside ? "" : to_string(inside.errors());
   const std::span<std::byte> bytes = output.allocate(said.size());
@@ -98,6 +99,27 @@ TEST(IsolatedProcess, AWorkerIsNotLostWithItsInnerWork) {
     EXPECT_NE(text_of(made).find("inside: its reader crashed"), std::string::npos) << text_of(made);
   }
   EXPECT_EQ(begun_workers(), before + 6) << "one that did not survive, and one with a worker of its own";
+}
+
+TEST(IsolatedProcess, AWorkerIsNotLostWithInnerWorkThatHangs) {
+  IsolationLimits limits;
+  limits.seconds = 2.0;
+  const Result<IsolatedBytes> made = run_isolated(outlive, "hang", "outside", limits);
+  EXPECT_NE(text_of(made).find("inside: its reader took more than 1 s"), std::string::npos) << text_of(made);
+}
+
+Status hang_after_inner_work(std::string_view, IsolatedOutput&) {
+  std::ignore = run_isolated(repeat_backwards, "parvis", "inside");
+  for (;;) pause();
+}
+
+TEST(IsolatedProcess, AWorkerThatHangsItselfIsNotTriedAgain) {
+  const std::uint64_t before = begun_workers();
+  IsolationLimits limits;
+  limits.seconds = 0.5;
+  const Result<IsolatedBytes> made = run_isolated(hang_after_inner_work, "", "outside", limits);
+  EXPECT_NE(text_of(made).find("outside: its reader took more than"), std::string::npos) << text_of(made);
+  EXPECT_EQ(begun_workers(), before + 1);
 }
 
 TEST(IsolatedProcess, AWorkerThatCrashesWithoutInnerWorkIsNotTriedAgain) {
