@@ -762,6 +762,15 @@ class Facades(InAFolder):
             self.assertEqual(done.returncode, 1, stage)
             self.assertIn("parvis facade model", done.stderr)
 
+    def test_a_model_that_is_there_is_kept(self):
+        model = self.folder / "model.glb"
+        model.write_text("corrected")
+        done = run("facade", "model", self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--overwrite", done.stderr)
+        self.assertEqual(model.read_text(), "corrected")
+        self.assertNotIn("--overwrite", run("facade", "model", self.folder, "--overwrite").stderr)
+
     def panorama(self, name, width, height):
         """A PNG whose rows differ, so that up and down do."""
         row = lambda y: b"".join(bytes((x * 255 // width, y * 255 // height, 90)) for x in range(width))

@@ -12,11 +12,18 @@ namespace {
 struct Arguments {
   std::filesystem::path folder, output;
   facades::ModelSettings settings;
+  bool overwrites = false;
 };
 
 Status propose(const Arguments& arguments) {
   const std::filesystem::path file =
       arguments.output.empty() ? arguments.folder / "model.glb" : arguments.output;
+  std::error_code code;
+  if (!arguments.overwrites && std::filesystem::exists(file, code))
+    return error(
+        "{} is there already, perhaps corrected by hand; give --overwrite to replace it, or another file "
+        "with --output",
+        file.string());
   const Result<facades::PlaceModel> model =
       facades::propose_place_model(arguments.folder, arguments.settings);
   if (!model) return model.errors();
@@ -48,7 +55,8 @@ void add_facade_model(CLI::App& stage, Chosen& chosen) {
   stage.add_flag("!--flat", arguments->settings.finds_relief, "Leave surfaces flat: no relief is searched");
   stage.add_option("-o,--output", arguments->output,
                    "glTF file (.glb) to write; FOLDER/model.glb where it is not given");
-  stage.footer("Example: parvis facade model courtyard --hints corrections.txt");
+  stage.add_flag("--overwrite", arguments->overwrites, "Replace a model that is there");
+  stage.footer("Example: parvis facade model courtyard --hints corrections.txt --overwrite");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return propose(*arguments); }; });
 }
 
