@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/city_models/osm_relief.h"
+#include "formats/city_models/osm_roofs.h"
 
 namespace parvis::scene {
 namespace {
@@ -36,7 +37,6 @@ constexpr std::array<UsualLevels, 15> usual_levels_of{{{"garage", 0.8},
                                                        {"church", 4.0},
                                                        {"school", 3.0},
                                                        {"university", 4.0}}};
-constexpr double roof_slope = 0.6;  // of gables and hips without a height: 31 degrees
 
 /// "12", "12.5 m", "40'" (feet), "12;15" (the first).
 std::optional<double> metres(const std::string& text) {
@@ -45,6 +45,17 @@ std::optional<double> metres(const std::string& text) {
   if (problem != std::errc() || !(std::abs(value) < 2000.0)) return std::nullopt;  // no building is as high
   constexpr double foot_m = 0.3048;
   return *end == '\'' ? value * foot_m : value;
+}
+
+/// "90", or a point of the compass ("E", "SSW").
+std::optional<double> degrees(const std::string& text) {
+  constexpr std::array<const char*, 16> points{"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                               "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+  if (const auto point = std::ranges::find(points, text); point != points.end())
+    return 22.5 * double(point - points.begin());
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return problem == std::errc() && std::abs(value) <= 360.0 ? std::optional(value) : std::nullopt;
 }
 
 double metres_or(const OsmTags& tags, const char* height, const char* levels, double otherwise) {
@@ -81,12 +92,15 @@ class Building {
         object_(object),
         city_(city) {
     const OsmTags& tags = *footprint.tags;
-    shape_ = tag(tags, "roof:shape");
+    roof_ = {tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
+             degrees(tag(tags, "roof:direction"))};
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
     top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_height_m(tags));
     if (top_m_ <= base_m_) top_m_ = base_m_ + level_m;
     const bool gives_top = !tag(tags, "height").empty();
-    const double roof_m = std::max(metres_or(tags, "roof:height", "roof:levels", usual_roof_m()), 0.0);
+    const double roof_m = std::max(
+        has_slopes() ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(roof_, corners_)) : 0.0,
+        0.0);
     if (!gives_top) top_m_ += has_slopes() ? roof_m : 0.0;  // levels do not count those in the roof
     eaves_m_ = has_slopes() ? std::max(top_m_ - roof_m, base_m_) : top_m_;
   }
@@ -103,43 +117,12 @@ class Building {
   }
 
  private:
-  bool is_pyramid() const { return shape_ == "pyramidal" && rings_.size() == 1; }
-  bool has_ridge() const {
-    return (shape_ == "gabled" || shape_ == "hipped") && rings_.size() == 1 && corners_.size() == 4;
-  }
-  bool has_slopes() const { return is_pyramid() || has_ridge(); }
-
-  double usual_roof_m() const {
-    const Ring& ring = corners_;
-    if (has_ridge())
-      return roof_slope / 2.0 * std::min(glm::distance(ring[0], ring[1]), glm::distance(ring[1], ring[2]));
-    return roof_slope * std::sqrt(std::abs(area_m2(ring))) / 2.0;
-  }
+  bool has_slopes() const { return rings_.size() == 1 && has_osm_roof(roof_, corners_); }
 
   void draw_roof() {
     if (!has_slopes()) return add("RoofSurface", level_surface(top_m_, false));
-    const Ring& ring = corners_;
-    const auto eave = [&](std::size_t i) { return dvec3(ring[i % ring.size()], eaves_m_); };
-    if (is_pyramid()) {
-      const dvec3 apex(middle(ring), top_m_);
-      for (std::size_t i = 0; i < ring.size(); ++i) add("RoofSurface", {{eave(i), eave(i + 1), apex}});
-      return;
-    }
-    // the ridge runs along the longer sides, which begin at the corners `first` and `first` + 2
-    const std::size_t first = glm::distance(ring[0], ring[1]) >= glm::distance(ring[1], ring[2]) ? 0 : 1;
-    const dvec2 back = (ring[(first + 3) % 4] + ring[first]) / 2.0,
-                front = (ring[first + 1] + ring[(first + 2) % 4]) / 2.0;
-    const bool is_hipped = shape_ == "hipped";
-    const double inset = is_hipped ? std::min(0.45, glm::distance(ring[first + 1], ring[(first + 2) % 4]) /
-                                                        (2.0 * glm::distance(back, front)))
-                                   : 0.0;
-    const dvec3 ridge_back(glm::mix(back, front, inset), top_m_),
-        ridge_front(glm::mix(front, back, inset), top_m_);
-    const char* end_surface = is_hipped ? "RoofSurface" : "WallSurface";
-    add("RoofSurface", {{eave(first), eave(first + 1), ridge_front, ridge_back}});
-    add(end_surface, {{eave(first + 1), eave(first + 2), ridge_front}});
-    add("RoofSurface", {{eave(first + 2), eave(first + 3), ridge_back, ridge_front}});
-    add(end_surface, {{eave(first + 3), eave(first), ridge_back}});
+    for (OsmRoofFace& face : osm_roof(roof_, corners_, eaves_m_, top_m_))
+      add(face.semantics, {std::move(face.points)});
   }
 
   std::vector<std::vector<dvec3>> level_surface(double height_m, bool faces_down) const {
@@ -167,7 +150,7 @@ class Building {
   double ground_m_;
   const CityObject& object_;
   CityAssembly& city_;
-  std::string shape_;
+  OsmRoofTags roof_;
   double base_m_, eaves_m_, top_m_;  ///< above the ground
 };
 

@@ -93,7 +93,7 @@ TEST(Osm, LevelsGiveTheHeightWhereNoHeightDoes) {
 }
 
 TEST(Osm, RoofsHaveTheirShapes) {
-  for (const char* shape : {"gabled", "hipped", "pyramidal"}) {
+  for (const char* shape : {"gabled", "hipped", "pyramidal", "mansard", "dome", "gambrel", "round"}) {
     const Read house =
         read(osm(way(100, "1 2 3 4 1",
                      {{"building", "yes"}, {"height", "10"}, {"roof:shape", shape}, {"roof:height", "4"}})));
