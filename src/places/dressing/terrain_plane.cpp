@@ -13,14 +13,17 @@ namespace {
 constexpr float below_own_m = 0.25f;  // where the place's own ground begins, the terrain goes on beneath it
 constexpr float below_level_m = 0.008f;  // the same where that ground is level: no step is to be seen
 constexpr float overlap_cells = 2.5f, level_overlap_cells = 1.5f;  // of the two grounds
-constexpr float even_m = 0.01f;                                    // heights of cells that are drawn as one
+constexpr float below_cracks_m = 0.4f;   // deep below the place's own ground, where it is not steep
+constexpr float uneven_below_m = 0.15f;  // of cells there that are drawn as one
+constexpr float even_m = 0.01f;          // heights of cells that are drawn as one
 constexpr float straight_m = 0.6f;       // of the edge of paved ground, across such cells
 constexpr int max_block = 32;            // cells on a side of such a block
 constexpr int max_even_points = 15;      // of an edge, one after the other
 constexpr float paved_m = 14.0f;         // from what is built
 constexpr float paved_wander_m = 6.0f;   // of the edge of the paved ground
 constexpr float far_sheets = 3.0f;       // size of pictures far away: fewer repeats
-constexpr float level_after_m = 700.0f;  // beyond the place
+constexpr float skirt_m = 2.0f, skirt_drop_m = 0.05f;  // of the land around, inward and down
+constexpr float level_after_m = 700.0f;                // beyond the place
 constexpr std::array ring_factors{1.0f, 1.06f, 1.15f, 1.3f, 1.6f, 2.2f, 3.4f, 6.0f, 12.0f, 30.0f, 80.0f};
 
 /// A point of the terrain; `edge_m` is negative on paved ground, positive beyond it.
@@ -76,17 +79,17 @@ struct CellBlock {
   glm::ivec2 low, size;
 };
 
-/// Whether the corners of a block lie as its own four do: at one height, and on the same side of the edge of
-/// paved ground but for `straight_m`.
+/// Whether the corners of a block lie as its own four do: at one height but for a tolerance, and on the same
+/// side of the edge of paved ground but for `straight_m`.
 template <class CornerAt>
-bool is_even(const CellBlock& block, const CornerAt& corner) {
+bool is_even(const CellBlock& block, const CornerAt& corner, float tolerance_m) {
   const glm::ivec2 high = block.low + block.size;
   const Corner a = corner(block.low.x, block.low.y), b = corner(high.x, block.low.y),
                c = corner(high.x, high.y), d = corner(block.low.x, high.y);
   for (int y = block.low.y; y <= high.y; ++y)
     for (int x = block.low.x; x <= high.x; ++x) {
       const Corner each = corner(x, y);
-      if (std::abs(each.position.z - a.position.z) > even_m) return false;
+      if (std::abs(each.position.z - a.position.z) > tolerance_m) return false;
       const glm::vec2 share = glm::vec2(x - block.low.x, y - block.low.y) / glm::vec2(block.size);
       const float edge_m = share.x > share.y  // as the two triangles have it
                                ? glm::mix(a.edge_m, b.edge_m, share.x) + share.y * (c.edge_m - b.edge_m)
@@ -99,7 +102,8 @@ bool is_even(const CellBlock& block, const CornerAt& corner) {
 /// Divides all cells but covered ones into blocks: each is as long as it can be, then as wide; one cell may
 /// be uneven.
 template <class Covered, class CornerAt>
-std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, const CornerAt& corner) {
+std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, const CornerAt& corner,
+                                   float tolerance_m) {
   std::vector<char> is_taken(std::size_t(cells.x) * std::size_t(cells.y), 0);
   const auto taken = [&](int x, int y) -> char& {
     return is_taken[std::size_t(y) * std::size_t(cells.x) + std::size_t(x)];
@@ -122,7 +126,7 @@ std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, 
       for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
         for (CellBlock larger{block.low, block.size + step};
              std::max(larger.size.x, larger.size.y) <= max_block && is_free(larger) &&
-             is_even(larger, corner);
+             is_even(larger, corner, tolerance_m);
              larger.size += step)
           block = larger;
       for (int dy = 0; dy < block.size.y; ++dy)
@@ -130,6 +134,36 @@ std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, 
       blocks.push_back(block);
     }
   return blocks;
+}
+
+/// 1 where a block has a corner.
+scene::Mask corners_of(const std::vector<CellBlock>& blocks, const scene::HeightRaster& heights) {
+  scene::Mask is_vertex(heights, 0);
+  for (const CellBlock& block : blocks)
+    for (int k = 0; k < 4; ++k)
+      is_vertex.at(block.low.x + (k % 2) * block.size.x, block.low.y + (k / 2) * block.size.y) = 1;
+  return is_vertex;
+}
+
+/// The triangles of a block: two, or more where corners of its neighbours lie on its sides, so that there are
+/// no cracks.
+template <class CornerAt>
+std::vector<std::array<Corner, 3>> triangles_of(const CellBlock& block, const scene::Mask& is_vertex,
+                                                const CornerAt& corner) {
+  std::vector<Corner> outline;  // counter-clockwise
+  glm::ivec2 at = block.low;
+  for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)})
+    for (int i = 0; i < (step.x != 0 ? block.size.x : block.size.y); ++i, at += step)
+      if (is_vertex.at(at.x, at.y)) outline.push_back(corner(at.x, at.y));
+  if (outline.size() == 4)
+    return {{outline[0], outline[1], outline[2]}, {outline[0], outline[2], outline[3]}};
+  const glm::ivec2 high = block.low + block.size;
+  const Corner a = corner(block.low.x, block.low.y), c = corner(high.x, high.y);
+  const Corner middle{0.5f * (a.position + c.position), 0.5f * (a.edge_m + c.edge_m)};
+  std::vector<std::array<Corner, 3>> triangles;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    triangles.push_back({outline[i], outline[(i + 1) % outline.size()], middle});
+  return triangles;
 }
 
 /// Ground is smooth: each point takes the slope of the heights there, not that of its triangle.
@@ -184,18 +218,25 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
   const auto overlap = [&](int x, int y) {
     return (is_level(place, x, y) ? level_overlap_cells : overlap_cells) * heights.cell_m;
   };
-  const std::vector<CellBlock> blocks = even_blocks(
-      {heights.width - 1, heights.height - 1},
-      [&](int x, int y) { return to_foreign.at(x, y) > overlap(x, y); }, corner);
-  for (const CellBlock& block : blocks) {
-    const auto [low, high] = std::pair(block.low, block.low + block.size);
-    const Corner a = corner(low.x, low.y), b = corner(high.x, low.y), c = corner(high.x, high.y),
-                 d = corner(low.x, high.y);
-    for (const std::array<Corner, 3>& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
-      add_clipped(paved, triangle, -1.0f);
-      add_clipped(beyond, triangle, 1.0f);
-    }
-  }
+  const auto is_deep = [&](int x, int y) { return to_foreign.at(x, y) > overlap(x, y); };
+  const auto add = [&](const std::vector<CellBlock>& blocks, const auto& corner_at) {
+    const scene::Mask is_vertex = corners_of(blocks, heights);
+    for (const CellBlock& block : blocks)
+      for (const std::array<Corner, 3>& triangle : triangles_of(block, is_vertex, corner_at)) {
+        add_clipped(paved, triangle, -1.0f);
+        add_clipped(beyond, triangle, 1.0f);
+      }
+  };
+  const glm::ivec2 cells(heights.width - 1, heights.height - 1);
+  add(even_blocks(cells, is_deep, corner, even_m), corner);
+  // Models of towns have cracks between their own grounds: below these, too, lies something.
+  const auto deep_corner = [&](int x, int y) {
+    return Corner{glm::vec3(heights.centre_of({x, y}), heights.at(x, y) - below_cracks_m), -1.0f};
+  };
+  std::vector<CellBlock> below = even_blocks(
+      cells, [&](int x, int y) { return !is_deep(x, y); }, deep_corner, uneven_below_m);
+  std::erase_if(below, [&](const CellBlock& block) { return !is_even(block, deep_corner, uneven_below_m); });
+  add(below, deep_corner);
   scene::Model model;
   model.name = "terrain";
   for (Layer* layer : {&paved, &beyond}) fill_normals_from(place, layer->mesh);
@@ -227,7 +268,12 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   Mesh mesh;
   const float sheet_m = far_sheets * cover_sheet_m(look.beyond);
   const std::uint32_t row = std::uint32_t(edge.size());
-  std::uint32_t rings = 0;
+  std::uint32_t rings = 1;
+  for (const glm::vec3& p : edge) {  // below the rim of the near terrain, whose points are others
+    const glm::vec2 at = glm::vec2(p) - skirt_m * glm::normalize(glm::vec2(p) - middle);
+    mesh.positions.emplace_back(at, p.z - skirt_drop_m);
+    mesh.uvs.push_back(glm::vec2(at.x, -at.y) / sheet_m);
+  }
   for (const float factor : ring_factors) {
     const float reached_m = std::min(factor * radius_m, std::max(look.reach_m, radius_m));
     for (const glm::vec3& p : edge) {
@@ -239,7 +285,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
       mesh.positions.emplace_back(at, glm::mix(p.z, level_m, levelled));
       mesh.uvs.push_back(glm::vec2(at.x, -at.y) / sheet_m);
     }
-    if (++rings > 1 && reached_m >= look.reach_m) break;
+    if (++rings > 2 && reached_m >= look.reach_m) break;
   }
   for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
     for (std::uint32_t i = 0; i < row; ++i) {
