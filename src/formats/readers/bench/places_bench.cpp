@@ -117,7 +117,9 @@ glm::vec3 eye_in(const scene::Scene& scene, const scene::PlaceHeights& place, Ra
 }
 
 /// Pixels of the lower halves of street views that show no ground within a camera's far plane, per cent.
-double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) {
+/// A report notes where a few of them are.
+double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street, Report* report) {
+  constexpr std::size_t noted = 5;
   constexpr int width = 64, height = 36;
   constexpr float margin_m = 20.0f;
   const reference::RayScene rays(scene);
@@ -134,7 +136,11 @@ double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street) 
       for (int x = 0; x < width; ++x) {
         reference::Ray ray = reference::camera_ray(camera, width, height, glm::vec2(x, y) + 0.5f);
         ray.max_m = camera.far_m;
-        open += !rays.nearest_hit(ray), ++all;
+        ++all;
+        if (rays.nearest_hit(ray)) continue;
+        if (++open <= noted && report)
+          report->note(fmt::format("  no ground from ({:.2f} {:.2f} {:.2f}) to ({:.4f} {:.4f} {:.4f})", eye.x,
+                                   eye.y, eye.z, ray.direction.x, ray.direction.y, ray.direction.z));
       }
   }
   return 100.0 * double(open) / double(all);
@@ -295,8 +301,8 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
   report.note(fmt::format(
       "{}: {:.2f} s to the picture ({:.2f} s of processor time), {:.0f} % of which show the place",
       file.filename().string(), 1e-3 * ms, processor_s, shown));
-  const double gap = gap_percent(loaded->scene, *street),
-               gap_without = gap_percent(without_plane(loaded->scene), *street);
+  const double gap = gap_percent(loaded->scene, *street, &report),
+               gap_without = gap_percent(without_plane(loaded->scene), *street, nullptr);
   totals.gap = std::max(totals.gap, gap), totals.gap_without = std::min(totals.gap_without, gap_without);
   report.note(fmt::format("{}: gaps of {:.3f} % of the ground, {:.1f} % without terrain_plane()",
                           file.filename().string(), gap, gap_without));
