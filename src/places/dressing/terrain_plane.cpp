@@ -15,6 +15,7 @@ constexpr float below_level_m = 0.008f;  // the same where that ground is level:
 constexpr float overlap_cells = 2.5f, level_overlap_cells = 1.5f;  // of the two grounds
 constexpr float below_cracks_m = 0.4f;   // deep below the place's own ground, where it is not steep
 constexpr float uneven_below_m = 0.15f;  // of cells there that are drawn as one
+constexpr float max_bank_m = 2.0f;       // of height within a cell there
 constexpr float even_m = 0.01f;          // heights of cells that are drawn as one
 constexpr float straight_m = 0.6f;       // of the edge of paved ground, across such cells
 constexpr int max_block = 32;            // cells on a side of such a block
@@ -136,6 +137,15 @@ std::vector<CellBlock> even_blocks(glm::ivec2 cells, const Covered& is_covered, 
   return blocks;
 }
 
+/// The lowest height of a block's corners and of those beside them.
+float lowest_around(const scene::HeightRaster& heights, const CellBlock& block) {
+  float lowest_m = heights.at(block.low.x, block.low.y);
+  for (int y = block.low.y - 1; y <= block.low.y + block.size.y + 1; ++y)
+    for (int x = block.low.x - 1; x <= block.low.x + block.size.x + 1; ++x)
+      if (heights.contains(x, y)) lowest_m = std::min(lowest_m, heights.at(x, y));
+  return lowest_m;
+}
+
 /// 1 where a block has a corner.
 scene::Mask corners_of(const std::vector<CellBlock>& blocks, const scene::HeightRaster& heights) {
   scene::Mask is_vertex(heights, 0);
@@ -235,8 +245,21 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
   };
   std::vector<CellBlock> below = even_blocks(
       cells, [&](int x, int y) { return !is_deep(x, y); }, deep_corner, uneven_below_m);
-  std::erase_if(below, [&](const CellBlock& block) { return !is_even(block, deep_corner, uneven_below_m); });
+  // A bank takes level squares as low as its foot; steps, as of trenches, have walls of their own.
+  std::vector<CellBlock> banks;
+  std::erase_if(below, [&](const CellBlock& block) {
+    if (is_even(block, deep_corner, uneven_below_m)) return false;
+    if (is_even(block, deep_corner, max_bank_m)) banks.push_back(block);
+    return true;
+  });
   add(below, deep_corner);
+  for (const CellBlock& bank : banks) {
+    const float z = lowest_around(heights, bank) - below_cracks_m;
+    const auto level = [&](glm::ivec2 at) { return Corner{glm::vec3(heights.centre_of(at), z), -1.0f}; };
+    const Corner a = level(bank.low), c = level(bank.low + bank.size);
+    paved.add(a), paved.add(level({bank.low.x + bank.size.x, bank.low.y})), paved.add(c);
+    paved.add(a), paved.add(c), paved.add(level({bank.low.x, bank.low.y + bank.size.y}));
+  }
   scene::Model model;
   model.name = "terrain";
   for (Layer* layer : {&paved, &beyond}) fill_normals_from(place, layer->mesh);
