@@ -59,6 +59,7 @@ struct ShownFacade {
   LoadedFacade* loaded = nullptr;
   glm::mat4 world_from_facade{1.0f};
   float radiance_of_exposed = 1.0f;
+  float kept_in_shadow = 1.0f;
   bool is_visible = true;
 };
 
@@ -89,6 +90,7 @@ class FacadeDrawable final : public render::Drawable {
     const auto programs_of = [](gl::Defines defines) {
       defines.emplace_back("HAS_BACKS", "");
       defines.emplace_back("IS_RECORDED", "");
+      defines.emplace_back("RECEIVES_INSERTED", "");
       return render::ViewPrograms::create(
           {"capture/facades/facade_vertex.glsl", "capture/facades/facade_surface.glsl", std::move(defines)});
     };
@@ -112,7 +114,8 @@ class FacadeDrawable final : public render::Drawable {
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
       LoadedFacade& loaded = *loaded_.at(placed.facade);
-      shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure, placed.is_visible};
+      shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure,
+                   placed.kept_in_shadow, placed.is_visible};
       things_.update(i, {&loaded, placed.world_from_facade, placed.is_visible,
                          transformed(placed.world_from_facade, loaded.bounds),
                          transformed(placed.world_from_facade, loaded.solid_bounds)});
@@ -235,6 +238,7 @@ class FacadeDrawable final : public render::Drawable {
     program.set("facade_from_world", glm::inverse(facade.world_from_facade));
     program.set("facade_thing", thing);
     program.set("radiance_of_exposed", facade.radiance_of_exposed);
+    program.set("kept_of_shadows", facade.kept_in_shadow);
     glDisable(GL_CULL_FACE);
   }
 

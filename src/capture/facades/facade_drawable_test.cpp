@@ -13,6 +13,7 @@
 #include "graphics/render/renderer.h"
 #include "graphics/shading/sky.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::facades {
 namespace {
@@ -87,6 +88,52 @@ TEST_F(FacadeDrawableTest, APhotographsOwnViewpointIsThePhotograph) {
   look_from(glm::vec3(views_[1].centre));
   EXPECT_GT(psnr(display(draw()), photos_[1]), 38.0);
   EXPECT_LT(psnr(display(draw()), photos_[2]), 25.0) << "the control: another photograph";
+}
+
+/// Radiance of one picture over that of another, in each pixel; 1 where there is none.
+ImageF ratio(const ImageF& a, const ImageF& b) {
+  ImageF share(a.width, a.height, 1, 1.0f);
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      if (b.at(x, y)[1] > 1e-3f) *share.at(x, y) = a.at(x, y)[1] / b.at(x, y)[1];
+  return share;
+}
+
+int count_below(const ImageF& share, float limit) {
+  return int(std::ranges::count_if(share.pixels, [&](float value) { return value < limit; }));
+}
+
+TEST_F(FacadeDrawableTest, WhatIsInsertedCastsItsShadowOnThePhotographs) {
+  constexpr float kept = 0.3f;
+  scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.3f, -1.0f, 0.8f));
+  scene_.sun.irradiance = glm::vec3(1.0f);
+  placed_.kept_in_shadow = kept;
+  place(placed_);
+  PlacedFacade& shown = scene_.data<scene::ItemsOf<PlacedFacade>>().items[0];
+  const ImageF alone = draw();
+  shown.kept_in_shadow = 1.0f;
+  EXPECT_EQ(count_below(ratio(alone, draw()), 0.99f), 0)
+      << "the near wall's shadow on the far one is in the photographs, if anywhere";
+  scene::add(scene_, scene::model_of(scene::box({-2.5f, 2.8f, 2.2f}, {-1.0f, 3.2f, 3.2f}),
+                                     scene::matt(glm::vec3(0.5f))));
+  const ImageF lit_drawn = draw(), lit_traced = trace();
+  shown.kept_in_shadow = kept;
+  const ImageF drawn = ratio(draw(), lit_drawn), traced = ratio(trace(), lit_traced);
+  const int shaded = count_below(traced, 0.5f);
+  ASSERT_GT(shaded, 200);
+  EXPECT_NEAR(*std::ranges::min_element(drawn.pixels), kept, 0.01f);
+  EXPECT_NEAR(*std::ranges::min_element(traced.pixels), kept, 0.01f);
+  int wrong = 0;
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+    wrong += (drawn.pixels[i] < 0.6f) != (traced.pixels[i] < 0.6f);
+  EXPECT_LT(wrong, shaded / 8) << "pixels at the shadow's edge alone";
+  // The control: a sun a little to the side.
+  scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.5f, -1.0f, 0.8f));
+  const ImageF aside = ratio(draw(), lit_drawn);
+  int moved = 0;
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+    moved += (aside.pixels[i] < 0.6f) != (traced.pixels[i] < 0.6f);
+  EXPECT_GT(moved, shaded / 4);
 }
 
 TEST_F(FacadeDrawableTest, ItMayStandAnywhereAndBeHidden) {

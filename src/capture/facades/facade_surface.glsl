@@ -11,9 +11,11 @@ uniform highp usampler2D facade_layers, facade_candidates, facade_tiles,
 uniform highp sampler2DArray facade_atlas;  // pages of 16 x 16 slots
 uniform mat4 facade_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
+uniform float kept_of_shadows;      // share of its light that is left in shadow; 1: it receives none
 
 in vec3 position_in_facade;
 in vec3 fallback_colour;
+flat in float lit_luminance;  // of the surface in the sun, exposed; 0: not known
 flat in uvec2 candidates;
 
 FacadePhoto facade_photo(int photo) {
@@ -45,5 +47,7 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   vec4 colour = facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y),
                               fallback_colour);
   alpha = colour.a;
-  return shining_surface(seen.normal, radiance_of_exposed * tone_unmapped(linear_of_srgb(colour.rgb)));
+  vec3 exposed = tone_unmapped(linear_of_srgb(colour.rgb));
+  kept_in_shadow = kept_in_shadow_of(kept_of_shadows, lit_luminance, exposed);
+  return shining_surface(seen.normal, radiance_of_exposed * exposed);
 }

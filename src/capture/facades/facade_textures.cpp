@@ -17,14 +17,15 @@ constexpr int page_side = 1024, slots_across = page_side / tile_side,
 
 struct Corner {
   glm::vec3 position, normal;
-  glm::u8vec4 fallback;
+  glm::u8vec4 fallback;  ///< w: PackedFacade::lit_of_surface
 };
 
 gl::Buffer corners_of(const PackedFacade& facade) {
   const Mesh mesh = mesh_of(facade);
   std::vector<Corner> corners(facade.corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i)
-    corners[i] = {mesh.positions[i], mesh.normals[i], glm::u8vec4(facade.fallback[i], 255)};
+    corners[i] = {mesh.positions[i], mesh.normals[i],
+                  glm::u8vec4(facade.fallback[i], facade.lit_of_triangle(i / 3))};
   return gl::immutable_buffer(std::span<const Corner>(corners));
 }
 
@@ -33,13 +34,14 @@ gl::VertexArray vertices_of(const gl::Buffer& corners, const gl::Buffer& lists) 
   const GLuint name = array.name();
   glVertexArrayVertexBuffer(name, 0, corners.name(), 0, sizeof(Corner));
   glVertexArrayVertexBuffer(name, 1, lists.name(), 0, sizeof(glm::uvec2));
-  for (GLuint attribute = 0; attribute < 4; ++attribute) {
+  for (GLuint attribute = 0; attribute < 5; ++attribute) {
     glEnableVertexArrayAttrib(name, attribute);
     glVertexArrayAttribBinding(name, attribute, attribute == 3 ? 1 : 0);
   }
   glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Corner, position));
   glVertexArrayAttribFormat(name, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Corner, normal));
   glVertexArrayAttribFormat(name, 2, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, fallback));
+  glVertexArrayAttribFormat(name, 4, 1, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, fallback) + 3);
   glVertexArrayAttribIFormat(name, 3, 2, GL_UNSIGNED_INT, 0);
   return array;
 }

@@ -76,6 +76,16 @@ struct PackedFacade {
   /// cell of depth_cell x depth_cell pixels, see encoded_depth. They tell what an object hides of itself.
   std::vector<std::uint16_t> depths;
 
+  /// Found in the photographs when a scene shows the facade (find_shadows), and not kept in files: per
+  /// surface its luminance in the sun (photographs::encoded_luminance), empty where nothing is known; and
+  /// what shadows leave of the light.
+  std::vector<std::uint8_t> lit_of_surface;
+  float kept_in_shadows = 1.0f;
+
+  /// `lit_of_surface` of a triangle's; 0: not known.
+  std::uint8_t lit_of_triangle(std::size_t triangle) const {
+    return lit_of_surface.empty() ? std::uint8_t(0) : lit_of_surface[surface_of_triangle[triangle]];
+  }
   /// Number of triangles, three corners each.
   std::size_t triangle_count() const { return corners.size() / 3; }
   /// Of tiles that are stored.

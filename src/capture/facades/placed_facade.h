@@ -23,6 +23,8 @@ struct PlacedFacade {
   glm::mat4 world_from_facade{1.0f};
   float brightness = 1.0f;  ///< 1: the display shows the photographs as they are, whatever the exposure
   bool is_visible = true;
+  /// What is left of its light where other things of the scene cast a shadow on it; 1: they cast none.
+  float kept_in_shadow = 1.0f;
   /// What its tiles may take of graphics memory, bytes: see FacadeTextures. What is seen does not depend on
   /// it as long as the nearest photographs fit.
   std::uint64_t max_texture_bytes = std::uint64_t(1) << 30;

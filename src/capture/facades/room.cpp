@@ -7,6 +7,7 @@
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/facade_gltf.h"
 #include "capture/facades/placed_facade.h"
+#include "capture/facades/recorded_shadows.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -30,6 +31,11 @@ scene::NodeSchema facade_schema() {
                   "of the photographs' light; 1: they are shown as they are, whatever the exposure")
                .between(0.0, 1000.0)
                .by_default("1")
+               .live(),
+           number("shadow_strength",
+                  "how much of the photographs' light the shadows of other things take away, where they fall "
+                  "on it; 0: none does. Without it: as much as the shadows that the photographs show")
+               .between(0.0, 1.0)
                .live(),
            number("texture_mb",
                   "graphics memory for its photographs, megabytes; where all do not fit the nearest to "
@@ -56,6 +62,7 @@ class SharedFiles {
       return held;
     Result<PackedFacade> facade = file.extension() == ".glb" ? read_facade_gltf(file) : read_facade(file);
     if (!facade) return facade.errors();
+    find_shadows(*facade);
     auto held = std::make_shared<const PackedFacade>(*std::move(facade));
     known = {held, written};
     return std::shared_ptr<const PackedFacade>(held);
@@ -78,6 +85,8 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& f
   placed.file = node.file("file"), placed.facade = *std::move(facade);
   placed.world_from_facade = builder.world_from_parent() * scene::placement(node);
   placed.brightness = float(node.number("brightness"));
+  placed.kept_in_shadow = node.gives("shadow_strength") ? 1.0f - float(node.number("shadow_strength"))
+                                                        : placed.facade->kept_in_shadows;
   placed.max_texture_bytes = std::uint64_t(node.number("texture_mb") * 1048576.0);
   placed.is_visible = builder.is_visible() && node.flag("visible");
   builder.add(std::move(placed));

@@ -3,6 +3,8 @@
 #include "base/colour.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/placed_facade.h"
+#include "capture/photographs/shadow_strength.h"
+#include "graphics/shading/recorded_shadow.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
 
@@ -15,13 +17,13 @@ using namespace shading;  // GLSL's own functions and types, for the included te
 /// A facade's photographs, as a surface that depends on the view.
 class FacadeSurface final : public scene::TracedSurface {
  public:
-  FacadeSurface(std::shared_ptr<const PackedFacade> facade, const glm::mat4& world_from_facade,
-                float radiance_of_exposed, std::size_t first_triangle)
-      : facade_(std::move(facade)),
+  FacadeSurface(const PlacedFacade& placed, float exposure, std::size_t first_triangle)
+      : facade_(placed.facade),
         texels_(*facade_),
-        facade_from_world_(glm::inverse(world_from_facade)),
+        facade_from_world_(glm::inverse(placed.world_from_facade)),
         scale_(glm::length(glm::vec3(facade_from_world_[0]))),
-        radiance_of_exposed_(radiance_of_exposed),
+        radiance_of_exposed_(placed.brightness / exposure),
+        kept_in_shadow_(placed.kept_in_shadow),
         has_holes_(has_holes(*facade_)),
         first_triangle_(first_triangle) {}
 
@@ -31,7 +33,10 @@ class FacadeSurface final : public scene::TracedSurface {
     point.normal = hit.to_viewer;
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
     const glm::vec3 srgb = glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f);
-    point.emission = radiance_of_exposed_ * tone_unmapped(linear_from_srgb(srgb));
+    const glm::vec3 exposed = tone_unmapped(linear_from_srgb(srgb));
+    point.emission = radiance_of_exposed_ * exposed;
+    const std::uint8_t lit = facade_->lit_of_triangle(first_triangle_ + hit.triangle);
+    point.kept_in_shadow = kept_in_shadow_of(kept_in_shadow_, photographs::decoded_luminance(lit), exposed);
     return point;
   }
   float alpha(const scene::TracedHit& hit) const override { return colour(hit).w; }
@@ -51,7 +56,7 @@ class FacadeSurface final : public scene::TracedSurface {
   std::shared_ptr<const PackedFacade> facade_;
   FacadeTexels texels_;
   glm::mat4 facade_from_world_;
-  float scale_, radiance_of_exposed_;
+  float scale_, radiance_of_exposed_, kept_in_shadow_;
   bool has_holes_;
   std::size_t first_triangle_;  ///< of the facade, at which the mesh begins
 };
@@ -83,6 +88,7 @@ Mesh mesh_of(const PackedFacade& facade) {
 
 void PlacedFacade::hash(ContentHash& hash) const {
   hash.add_text(called), hash.add(world_from_facade), hash.add(brightness), hash.add(is_visible);
+  hash.add(kept_in_shadow);
   hash.add(max_texture_bytes);
   if (!facade) return;
   hash.add(facade->corners), hash.add(facade->lists), hash.add(facade->tiles), hash.add(facade->blocks);
@@ -110,8 +116,7 @@ void add_traced(const PlacedFacade& placed, float exposure, int thing, scene::Tr
   const PackedFacade& facade = *placed.facade;
   const Mesh mesh = mesh_of(facade);
   const auto surface = [&](std::size_t first) {
-    return std::make_shared<const FacadeSurface>(placed.facade, placed.world_from_facade,
-                                                 placed.brightness / exposure, first);
+    return std::make_shared<const FacadeSurface>(placed, exposure, first);
   };
   const auto is_backdrop = [&](std::size_t t) {
     return facade.surfaces[facade.surface_of_triangle[t]] == backdrop_name;
@@ -128,6 +133,7 @@ void add_traced(const PlacedFacade& placed, float exposure, int thing, scene::Tr
 scene::TracedKind traced_facades() {
   scene::TracedKind kind;
   kind.name = "facades";
+  kind.is_recorded = true;
   kind.count = [](const scene::Scene& scene) { return int(scene.items<PlacedFacade>().size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     int thing = 0;

@@ -44,6 +44,9 @@ struct BlendedModel {
   std::vector<glm::vec4> table;
   std::vector<scene::Texture> pictures;  ///< all of one size
   bool has_holes = false;                ///< alpha cuts out
+  /// What shadows leave of the light, as the textures show it, and the luminance of what is in the sun; 0:
+  /// they show no shadows (photographs::lit_and_shaded).
+  float kept_in_shadows = 1.0f, lit_luminance = 0.0f;
 
   /// Of all pieces.
   std::size_t triangle_count() const { return corners.size() / 3; }
@@ -52,6 +55,9 @@ struct BlendedModel {
   /// Everything that is seen of it.
   void hash(ContentHash& hash) const;
 };
+
+/// Sets `kept_in_shadows` and `lit_luminance` from the textures of a model, as each viewpoint has them.
+void find_shadows(BlendedModel& model);
 
 /// How models are merged; the names are the thesis's.
 struct Merging {

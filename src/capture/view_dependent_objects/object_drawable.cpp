@@ -22,6 +22,8 @@ class ObjectDrawable final : public render::Drawable {
   static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
     const auto programs_of = [](gl::Defines defines) {
       defines.emplace_back("HAS_BACKS", "");
+      defines.emplace_back("IS_RECORDED", "");
+      defines.emplace_back("RECEIVES_INSERTED", "");
       return render::ViewPrograms::create({"capture/view_dependent_objects/object_vertex.glsl",
                                            "capture/view_dependent_objects/object_surface.glsl",
                                            std::move(defines)});
@@ -109,6 +111,8 @@ class ObjectDrawable final : public render::Drawable {
     program.set("object_from_world", glm::inverse(object.world_from_object));
     program.set("thing", thing);
     program.set("radiance_of_exposed", object.brightness / exposure_);
+    program.set("kept_of_shadows", object.kept_in_shadow);
+    program.set("lit_luminance", object.model->lit_luminance);
     program.set("pass_count", object.passes);
     glDisable(GL_CULL_FACE);
   }

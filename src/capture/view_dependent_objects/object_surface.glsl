@@ -1,4 +1,4 @@
-// Of a view-dependent object: light that its textures have recorded, as emission over a black metal.
+// Of a view-dependent object: light that its textures have recorded, and nothing else (IS_RECORDED).
 #include "graphics/shading/tone_curve.glsl"
 #include "graphics/shading/recorded_light.glsl"
 #include "graphics/shading/view_blend.glsl"
@@ -8,6 +8,8 @@ uniform highp sampler2D view_table;
 uniform highp sampler2DArray view_pictures;
 uniform mat4 object_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
+uniform float kept_of_shadows;      // share of its light that is left in shadow; 1: it receives none
+uniform float lit_luminance;        // of the object in the sun, exposed; 0: not known
 uniform int first_entry, view_count, pass_count, first_triangle;
 
 in vec3 position_in_object;
@@ -28,5 +30,7 @@ Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
       blended_colour(first_entry, view_count, triangle_of_object - first_triangle, pass_count,
                      position_in_object, to_eye, corner_weights, dFdx(corner_weights), dFdy(corner_weights));
   alpha = colour.a;
-  return shining_surface(seen.normal, radiance_of_exposed * tone_unmapped(colour.rgb));
+  vec3 exposed = tone_unmapped(colour.rgb);
+  kept_in_shadow = kept_in_shadow_of(kept_of_shadows, lit_luminance, exposed);
+  return shining_surface(seen.normal, radiance_of_exposed * exposed);
 }

@@ -50,6 +50,11 @@ scene::NodeSchema vdobject_schema() {
                   "of the textures' light; 1: they are shown as they are, whatever the exposure")
                .between(0.0, 1000.0)
                .by_default("1")
+               .live(),
+           number("shadow_strength",
+                  "how much of the textures' light the shadows of other things take away, where they fall on "
+                  "it; 0: none does. Without it: as much as the shadows that the textures show")
+               .between(0.0, 1.0)
                .live()},
       .stands_in = {scene::top_level, "group", "scenario"},
       .example =
@@ -90,6 +95,7 @@ class KnownModels {
       return held;
     Result<BlendedModel> blended = blended_model(models, merging);
     if (!blended) return blended.errors();
+    find_shadows(*blended);
     auto held = std::make_shared<const BlendedModel>(*std::move(blended));
     known = {held, {}};
     for (const ViewedModel& viewed : models) known.models.push_back(viewed.model);
@@ -123,6 +129,8 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, const formats:
   placed.world_from_object = builder.world_from_parent() * scene::placement(node);
   placed.passes = int(node.integer("numBlendPass"));
   placed.brightness = float(node.number("brightness"));
+  placed.kept_in_shadow = node.gives("shadow_strength") ? 1.0f - float(node.number("shadow_strength"))
+                                                        : (*blended)->kept_in_shadows;
   placed.is_visible = builder.is_visible() && node.flag("visible");
   builder.add(std::move(placed));
 }

@@ -2,6 +2,7 @@
 
 #include "capture/view_dependent_objects/placed_object.h"
 #include "capture/view_dependent_objects/view_lookup.h"
+#include "graphics/shading/recorded_shadow.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
 
@@ -22,13 +23,16 @@ class ObjectSurface final : public scene::TracedSurface {
         object_from_world_(glm::inverse(placed.world_from_object)),
         scale_(glm::length(glm::vec3(object_from_world_[0]))),
         radiance_of_exposed_(placed.brightness / exposure),
+        kept_in_shadow_(placed.kept_in_shadow),
         passes_(placed.passes) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
     scene::TracedPoint point;
-    point.normal = hit.normal;
+    point.normal = hit.to_viewer;  // textures have recorded reflections, too: black metal adds none here
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
-    point.emission = radiance_of_exposed_ * tone_unmapped(glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f));
+    const glm::vec3 exposed = tone_unmapped(glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f));
+    point.emission = radiance_of_exposed_ * exposed;
+    point.kept_in_shadow = kept_in_shadow_of(kept_in_shadow_, model_->lit_luminance, exposed);
     return point;
   }
   float alpha(const scene::TracedHit& hit) const override { return colour(hit).w; }
@@ -49,7 +53,7 @@ class ObjectSurface final : public scene::TracedSurface {
   std::shared_ptr<const BlendedModel> model_;
   const Piece* piece_;  ///< of the model
   glm::mat4 object_from_world_;
-  float scale_, radiance_of_exposed_;
+  float scale_, radiance_of_exposed_, kept_in_shadow_;
   int passes_;
 };
 
@@ -67,13 +71,14 @@ std::shared_ptr<const Mesh> mesh_of(const BlendedModel& model, const Piece& piec
 
 void PlacedObject::hash(ContentHash& hash) const {
   hash.add_text(called), hash.add(world_from_object), hash.add(passes), hash.add(brightness),
-      hash.add(is_visible);
+      hash.add(is_visible), hash.add(kept_in_shadow);
   if (model) model->hash(hash);
 }
 
 scene::TracedKind traced_objects() {
   scene::TracedKind kind;
   kind.name = "view-dependent objects";
+  kind.is_recorded = true;
   kind.count = [](const scene::Scene& scene) { return int(scene.items<PlacedObject>().size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     int thing = 0;

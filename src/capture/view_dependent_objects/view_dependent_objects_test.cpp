@@ -249,6 +249,60 @@ TEST_F(VdObject, SaysWhatIsWrong) {
   EXPECT_TRUE(load("vdobject(file=\"car.glb\", cameraFile=\"two.wrl\", cameraName=\"b\")"));
 }
 
+/// A wall whose texture is in the sun on its left half, and in a bluish shadow on its right one.
+std::shared_ptr<Model> half_shaded_wall() {
+  auto model = painted(wall(), {200, 195, 185});
+  Image8& image = model->textures[0].image;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 4; x < 8; ++x) {
+      const glm::u8vec3 shade(112, 112, 116);
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = shade[c];
+    }
+  return model;
+}
+
+TEST_F(VdObject, ReceivesShadowsAsDarkAsThoseOfItsTexturesAndNoneTwice) {
+  ASSERT_TRUE(scene::write_gltf(folder_.path() / "wall.glb", *half_shaded_wall()));
+  const auto picture = [&](const char* strength, bool has_board, bool traces) {
+    auto loaded = load(fmt::format("vdobject(file=\"wall.glb\", camera=\"0 -5 1 0 0 0 30 1\"{})", strength));
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    scene::Scene& scene = loaded->scene;
+    scene.sky.picture = ImageF(16, 8, 3, 0.1f);
+    scene.sun.direction_to_sun = glm::normalize(vec3(0, -1, 1));
+    scene.sun.irradiance = vec3(1.0f);
+    if (has_board)
+      scene::add(scene, scene::model_of(scene::box({-2, -2.1f, 2}, {2, -2, 4}), scene::matt(vec3(0.5f))));
+    const auto& drawables = house_.get<render::Drawables>();
+    drawables.furnish(scene);
+    Camera camera;
+    camera.world_from_camera = look_at({0, -5, 1}, {0, 0, 1});
+    camera.vertical_fov = 0.35f;
+    constexpr int size = 64;
+    if (traces) {
+      const reference::RayScene rays(scene);
+      const shading::SkyLight sky = shading::make_sky_light(scene.sky.picture, 1.0f, 0.0f);
+      return reference::trace_picture(rays, scene, sky, camera, size, size, {}).radiance;
+    }
+    auto renderer = render::Renderer::create(scene, drawables, light::sun_and_sky);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    EXPECT_TRUE(render::draw_frame(**renderer, scene, {camera, size, size}));
+    return (*renderer)->read_radiance();
+  };
+  for (const bool traces : {false, true}) {
+    const ImageF open = picture("", false, traces), found = picture("", true, traces),
+                 set = picture(", shadow_strength=0.5", true, traces),
+                 none = picture(", shadow_strength=0", true, traces);
+    const auto share = [&](const ImageF& shaded, int x) { return shaded.at(x, 32)[1] / open.at(x, 32)[1]; };
+    const float recorded = open.at(48, 32)[1] / open.at(16, 32)[1];
+    EXPECT_GT(recorded, 0.1f);
+    EXPECT_LT(recorded, 0.6f);
+    EXPECT_NEAR(share(found, 16), recorded, 0.06f * recorded) << "as dark as the shadow in the texture";
+    EXPECT_NEAR(share(found, 48), 1.0f, 0.02f) << "darkened twice";
+    EXPECT_NEAR(share(set, 16), 0.5f, 0.02f);
+    EXPECT_NEAR(share(none, 16), 1.0f, 1e-3f);
+  }
+}
+
 TEST_F(VdObject, IsDrawnAndTracedAlikeFromEverySide) {
   auto loaded = load(
       "vdobject(file=\"car.glb\", camera=\"0 -7 1 0 0 0 30 1\", file=\"car2.iv\", "

@@ -7,10 +7,11 @@
 namespace parvis::light {
 
 Result<std::unique_ptr<render::LightSource>> SunAndSky::create(
-    const scene::Scene& scene, std::unique_ptr<render::ShadowMethod> shadows) {
+    const scene::Scene& scene, const Bounds& fixed, std::unique_ptr<render::ShadowMethod> shadows) {
   Result<SkyTextures> sky = SkyTextures::create(scene);
   if (!sky) return sky.errors();
-  return std::unique_ptr<render::LightSource>(new SunAndSky(scene, *std::move(sky), std::move(shadows)));
+  return std::unique_ptr<render::LightSource>(
+      new SunAndSky(scene, fixed, *std::move(sky), std::move(shadows)));
 }
 
 bool SunAndSky::update(const scene::Scene& scene) {
@@ -18,18 +19,21 @@ bool SunAndSky::update(const scene::Scene& scene) {
   const bool has_new_sun = sun != sun_ || scene.haze_per_m != haze_per_m_;
   sun_ = sun;
   haze_per_m_ = scene.haze_per_m;
+  inserted_.update(scene);
   return sky_.renew_light(scene.sky) || has_new_sun;
 }
 
 void SunAndSky::renew(const scene::Scene& scene, const render::GpuScene& gpu,
                       const render::FixedChange& change, const Bounds& fixed) {
   shadows_->renew(change, fixed);
+  inserted_.renew(change, fixed);
   sky_.renew_visibility(scene, gpu, change);
 }
 
 void SunAndSky::bind() const {
   sky_.bind();
   shadows_->bind();
+  inserted_.bind();
 }
 
 void SunAndSky::fill(render::Frame& frame) const {
@@ -45,6 +49,7 @@ void SunAndSky::fill(render::Frame& frame) const {
   for (int i = 0; i < 2; ++i) frame.frame_uvz_from_world[i] = maps.uvz_from_world[i];
   frame.frame_shadow_texel = glm::vec4(maps.texel_m, maps.texel_uv, maps.growth);
   for (int i = 0; i < shading::max_shadow_tiles; ++i) frame.frame_shadow_tiles[i] = maps.tiles[i];
+  inserted_.fill(frame);
   frame.frame_shadow_extra.x = float(maps.tile_count);
   const shading::SkyVisibilityGrid& grid = sky_.visibility().grid;
   frame.frame_visibility_origin = glm::vec4(grid.origin, grid.lift_m);
@@ -53,7 +58,7 @@ void SunAndSky::fill(render::Frame& frame) const {
 }
 
 Result<std::unique_ptr<render::LightSource>> sun_and_sky(const scene::Scene& scene, const Bounds& fixed) {
-  return SunAndSky::create(scene, std::make_unique<SunShadowMaps>(scene::sun_light(scene), fixed));
+  return SunAndSky::create(scene, fixed, std::make_unique<SunShadowMaps>(scene::sun_light(scene), fixed));
 }
 
 }  // namespace parvis::light

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "graphics/render/bindings.h"
 #include "graphics/render/regions.h"
 
 namespace parvis::light {
@@ -319,7 +318,7 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
   }
 }
 
-void SunShadowMaps::bind() const { glBindTextureUnit(render::shadow_unit, depth_.name()); }
+void SunShadowMaps::bind(GLuint unit) const { glBindTextureUnit(unit, depth_.name()); }
 
 shading::SunShadow SunShadowMaps::read_back() const {
   shading::SunShadow shadow;

@@ -13,6 +13,7 @@
 #include "base/bounds.h"
 #include "base/image.h"
 #include "graphics/gl/objects.h"
+#include "graphics/render/bindings.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/view.h"
 #include "graphics/shading/shadow.h"
@@ -53,7 +54,9 @@ class SunShadowMaps final : public render::ShadowMethod {
   void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
               const render::DrawView& draw) override;
 
-  void bind() const override;
+  void bind() const override { bind(render::shadow_unit); }
+  /// The maps, at a texture unit.
+  void bind(GLuint unit) const;
   const shading::ShadowMaps& maps() const override { return maps_; }
   shading::SunShadow read_back() const override;
 

@@ -22,6 +22,7 @@ struct QueryContext {
   std::span<FineHit> fine_hits = {};  ///< the nearest so far
   std::uint32_t rough_hits = 0;  ///< a bit for each of them whose distance and weights are single precision
   float margin_m = 0.0f;
+  bool passes_recorded = false;  ///< rays pass through what photographs show
 
   QueryContext(const Places& all, std::span<Passage> of_rays) : places(all), passages(of_rays) {
     rtcInitIntersectContext(&embree);
@@ -180,6 +181,7 @@ bool stops(QueryContext& context, const RTCFilterFunctionNArguments* arguments, 
   const unsigned n = arguments->N, ray = RTCRayN_id(arguments->ray, n, lane);
   const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, n, lane, 0),
                                                      RTCHitN_geomID(arguments->hit, n, lane))];
+  if (context.passes_recorded && place.is_recorded) return false;
   if (is_of_context && has_filter(place)) return true;  // its own filter has been asked
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, n, lane), RTCHitN_Ng_y(arguments->hit, n, lane),
                      RTCHitN_Ng_z(arguments->hit, n, lane));
@@ -329,10 +331,11 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const
   return Hit{places_[place].get(), query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
 }
 
-bool RayScene::is_blocked(const Ray& ray, Passage* passage) const {
+bool RayScene::is_blocked(const Ray& ray, Passage* passage, bool passes_recorded) const {
   assert(margin_m_ == 0.0f);
   if (!is_finite(ray)) return false;
   QueryContext context(places_, {passage, passage ? 1u : 0u});
+  context.passes_recorded = passes_recorded;
   if (!passage || !passage->sees_backs) context.embree.filter = filter<true, true>;
   RTCRay query = embree_ray(ray);
   rtcOccluded1(top_, &context.embree, &query);
@@ -344,6 +347,7 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const
   return nearest_hit(ray, &passage);
 }
 bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
+bool RayScene::is_blocked_by_inserted(const Ray& ray) const { return is_blocked(ray, nullptr, true); }
 bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
 
 }  // namespace parvis::reference

@@ -82,7 +82,8 @@ float reach_of(const scene::Scene& scene) {
 /// Takes over what rooms draw by themselves.
 class RayScene::TracedThings final : public scene::TracedScene {
  public:
-  TracedThings(RayScene& rays, int first_thing) : rays_(rays), first_thing_(first_thing) {}
+  TracedThings(RayScene& rays, int first_thing, bool is_recorded)
+      : rays_(rays), first_thing_(first_thing), is_recorded_(is_recorded) {}
 
   void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
            const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
@@ -97,6 +98,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     part.world_from_mesh = world_from_mesh;
     part.object = first_thing_ + placing.thing;
     part.casts_shadow = placing.casts_shadow;
+    part.is_recorded = is_recorded_;
     rays_.place(part, true);
     rays_.kept_.insert(rays_.kept_.end(), {std::move(mesh), std::move(surface), std::move(material)});
   }
@@ -116,6 +118,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
  private:
   RayScene& rays_;
   int first_thing_;
+  bool is_recorded_;
 };
 
 RayScene::RayScene(const scene::Scene& scene, Precision precision)
@@ -148,7 +151,7 @@ void RayScene::commit() {
 
 void RayScene::trace_things(const scene::Scene& scene) {
   scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int first_thing) {
-    TracedThings things(*this, first_thing);
+    TracedThings things(*this, first_thing, kind.is_recorded);
     kind.trace(scene, things);
   });
 }

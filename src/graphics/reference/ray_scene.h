@@ -42,10 +42,11 @@ struct PlacedPart {
   int object;    ///< index in the scene; beyond them, of what rooms draw by themselves: for_each_traced_kind
   bool casts_shadow;
   bool receives_shadow = true;
-  bool is_mirror;          ///< takes reflections
-  bool is_mirrored;        ///< the transform turns right into left, and with it the winding of triangles
-  bool is_traced;          ///< else rays pass it: it is hidden, empty, or flattened by its transform
-  bool is_joined = false;  ///< its triangles are in the hierarchy of static meshes, in the world
+  bool is_recorded = false;  ///< TracedKind::is_recorded
+  bool is_mirror;            ///< takes reflections
+  bool is_mirrored;          ///< the transform turns right into left, and with it the winding of triangles
+  bool is_traced;            ///< else rays pass it: it is hidden, empty, or flattened by its transform
+  bool is_joined = false;    ///< its triangles are in the hierarchy of static meshes, in the world
 };
 
 /// Nearest intersection of a ray. `place` belongs to the RayScene.
@@ -102,6 +103,8 @@ class RayScene {
   std::optional<Hit> nearest_hit(const Ray& ray, Passage& passage) const;
   /// True if a shadow caster lies along the ray.
   bool is_blocked(const Ray& ray) const;
+  /// The same, but for what photographs show (PlacedPart::is_recorded).
+  bool is_blocked_by_inserted(const Ray& ray) const;
   /// True if a surface blocks the ray under the rules of a photograph.
   bool is_blocked(const Ray& ray, Passage& passage) const;
   /// is_blocked of each ray of a packet, each with its own `passages`: bit i is that of ray i.
@@ -118,7 +121,7 @@ class RayScene {
   class TracedThings;
 
   std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
-  bool is_blocked(const Ray& ray, Passage* passage) const;
+  bool is_blocked(const Ray& ray, Passage* passage, bool passes_recorded = false) const;
   void add_object(const scene::Object& object, int number);
   void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
              int number, bool takes_reflection, bool is_visible, bool may_join);

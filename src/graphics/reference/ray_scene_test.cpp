@@ -176,6 +176,60 @@ TEST(RayScene, PacketsFindWhatSingleRaysFind) {
 }
 
 /// Margins follow how far from the origin things lie; a thing at no finite place is not among them.
+/// Boxes and boards everywhere: turned, mirrored, flattened, some with holes.
+scene::Scene crowded_place(Random& random) {
+  scene::Scene scene;
+  scene::Material fence = scene::matt(glm::vec3(0.5f));
+  fence.alpha_mode = scene::Alpha::cutout, fence.alpha = 0.4f;
+  const auto box =
+      scene::model_of(scene::box(glm::vec3(-0.5f), glm::vec3(0.5f)), scene::matt(glm::vec3(0.5f)));
+  const auto board = scene::model_of(scene::ground(0.5f), fence);
+  const auto within = [&](float low, float high) { return random.uniform(low, high); };
+  for (int i = 0; i < 200; ++i) {
+    const glm::vec3 place(within(-9, 9), within(-9, 9), within(0, 6)),
+        axis(within(-1, 1), within(-1, 1), 1.1f);
+    const glm::vec3 size(within(-2, 2), i % 17 == 0 ? 0.0f : within(0.01f, 2), within(0.01f, 2));
+    const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1.0f), place),
+                                         i % 3 == 0 ? 0.0f : within(0, 6), glm::normalize(axis));
+    scene::add(scene, i % 5 == 0 ? board : box, i % 2 == 0, glm::scale(turned, size));
+  }
+  return scene;
+}
+
+/// Rays to the sun from everywhere, as a picture asks them; some begin on the axes' planes, some are not
+/// finite.
+FineRay ray_to_sun(Random& random, glm::dvec3 to_sun, int kind) {
+  glm::dvec3 from(random.uniform(-10.0f, 10.0f), random.uniform(-10.0f, 10.0f), random.uniform(0.0f, 7.0f));
+  if (kind == 1) from = glm::round(from);
+  if (kind == 2) from.x = 1e40;
+  return {from, to_sun};
+}
+
+TEST(RayScene, ManyPacketsToTheSunReturnAndAgreeWithTheirRays) {
+  Random random(23);
+  const scene::Scene scene = crowded_place(random);
+  const RayScene rays(scene, Precision::fine);
+  int blocked = 0, open = 0;
+  for (int packet = 0; packet < 6000; ++packet) {
+    glm::dvec3 to_sun(random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f), random.uniform(0.02f, 1.0f));
+    if (packet % 7 == 0) to_sun = glm::dvec3(packet % 2, 1 - packet % 2, 0.0);
+    if (packet % 11 == 0) to_sun = glm::dvec3(0.0, 0.0, 1.0);
+    to_sun = glm::normalize(to_sun);
+    std::vector<FineRay> asked;
+    const std::size_t count = 1 + std::size_t(random.uniform() * 15.99f);
+    for (std::size_t i = 0; i < count; ++i)
+      asked.push_back(ray_to_sun(random, to_sun, packet % 13 == 0 && i == 3 ? 2 : packet % 2));
+    const std::uint32_t together = rays.are_blocked(asked);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const bool alone = rays.are_blocked(std::span(&asked[i], 1)) != 0;
+      ASSERT_EQ((together >> i & 1u) != 0, alone) << packet << ", ray " << i;
+      ++(alone ? blocked : open);
+    }
+  }
+  EXPECT_GT(blocked, 5000);
+  EXPECT_GT(open, 5000);
+}
+
 TEST(RayScene, AnObjectAtNoFinitePlaceLeavesExactRaysAlone) {
   scene::Scene scene = three_things();
   const RayScene without(scene, Precision::fine);

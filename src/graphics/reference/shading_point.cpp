@@ -76,6 +76,7 @@ ShadingPoint traced_point(const Hit& hit, vec3 direction, float width_m) {
   point.curvature_per_m = 0.0f;
   point.is_back = seen.is_back;
   point.alpha = hit.place->surface->alpha(seen);
+  point.kept_in_shadow = found.kept_in_shadow;
   point.surface = {found.normal,       found.base_colour, found.metallic,
                    found.roughness,    found.clear_coat,  found.clear_coat_roughness,
                    found.translucency, found.occlusion,   found.emission};

@@ -13,7 +13,8 @@ struct ShadingPoint {
   glm::vec3 geometric_normal;  ///< interpolated over the triangle, on the viewer's side
   float curvature_per_m;       ///< how fast that normal turns, in radians a metre: spreads reflected cones
   float alpha;
-  bool is_back;  ///< seen from behind
+  bool is_back;                 ///< seen from behind
+  float kept_in_shadow = 1.0f;  ///< TracedPoint::kept_in_shadow
   Relief relief;
 };
 

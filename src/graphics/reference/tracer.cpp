@@ -17,6 +17,7 @@
 #include "graphics/reference/shading_point.h"
 #include "graphics/reference/sun_disc.h"
 #include "graphics/shading/lighting.h"
+#include "graphics/shading/recorded_shadow.h"
 #include "graphics/shading/tone_curve.h"
 #include "machines/divided_work.h"
 #include "scene/data/sun_shadows.h"
@@ -198,6 +199,7 @@ class Tracer {
           (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
           through;
     }
+    if (point.kept_in_shadow < 1.0f) s.emission *= kept_of_recorded(point, ray_count);
     shading::SceneLight light = light_;
     if (spot_) light.to_sun = glm::normalize(spot_->position - point.position);
     if (drawn_light_ && drawn_light_->bounced) {
@@ -273,6 +275,23 @@ class Tracer {
     return shading::shaded_cell(cell,
                                 shading::sky_share_beside_bodies(*drawn_light_->body_shade, point.position,
                                                                  point.geometric_normal, object));
+  }
+
+  /// The share of a photograph's light that shadows of what it does not show leave.
+  float kept_of_recorded(const ShadingPoint& point, std::uint64_t& ray_count) const {
+    const vec3 to_sun = spot_ ? glm::normalize(spot_->position - point.position) : light_.to_sun;
+    const float facing = glm::dot(point.geometric_normal, to_sun);
+    if (facing <= 0.0f || light_.sun_irradiance == vec3(0.0f)) return 1.0f;
+    const auto visible = [&] {
+      if (drawn_light_ && !drawn_light_->has_exact_shadows)
+        return shading::sun_visibility(drawn_light_->inserted_shadow, point.position, point.geometric_normal,
+                                       to_sun);
+      ++ray_count;
+      Ray ray{point.position + 1e-3f * point.geometric_normal, to_sun};
+      if (spot_) ray.max_m = glm::distance(spot_->position, ray.origin);
+      return rays_.is_blocked_by_inserted(ray) ? 0.0f : 1.0f;
+    };
+    return shading::kept_recorded_light(point.kept_in_shadow, facing, visible());
   }
 
   float sun_visible(const ShadingPoint& point, vec3 to_sun, bool receives_shadow,

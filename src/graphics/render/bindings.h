@@ -21,6 +21,7 @@ enum TextureUnit : GLuint {
   lamp_maps_unit,
   bounced_light_unit,
   vertex_light_unit,
+  inserted_shadow_unit,
   first_unit_above,
   first_drawable_unit = 24
 };
@@ -34,7 +35,8 @@ inline void assign_bindings(const gl::Program& program) {
   constexpr const char* samplers[]{
       "base_colour_texture", "normal_texture", "surface_texture",        "emission_texture",
       "sky_texture",         "shadow_maps",    "sky_visibility_texture", "traced_sun_texture",
-      "lamp_table",          "lamp_maps",      "bounced_light_texture",  "vertex_light_texture"};
+      "lamp_table",          "lamp_maps",      "bounced_light_texture",  "vertex_light_texture",
+      "inserted_shadow_maps"};
   for (GLuint unit = 0; unit < first_unit_above; ++unit)
     if (program.declares(samplers[unit])) program.set(samplers[unit], int(unit));
   constexpr const char* blocks[]{"Frame", "Material", "Bodies"};

@@ -15,8 +15,9 @@ struct DrawableShader {
   /// from `first_drawable_unit` on.
   std::string surface_path;
   /// HAS_HOLES: alpha cuts out. HAS_BACKS: it is there when seen from behind. HAS_COAT: it has a clear coat.
-  /// IS_RECORDED: it emits what a photograph recorded, and no light of the scene is added. And the room's
-  /// own.
+  /// IS_RECORDED: it emits what a photograph recorded, and no light of the scene is added.
+  /// RECEIVES_INSERTED with it: shadows of what the photographs do not show fall on it; the surface sets
+  /// `kept_in_shadow`. And the room's own.
   gl::Defines defines;
 };
 

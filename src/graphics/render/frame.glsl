@@ -15,6 +15,8 @@ UNIFORM_BLOCK(Frame) {
   vec4 frame_shadow_texel;  // metres in the far and the near map; z: in texture coordinates; w: growth of the
                             // near map's
   vec4 frame_shadow_tiles[4];
+  mat4 frame_inserted_uvz_from_world[2];  // maps of what casts shadows on photographs
+  vec4 frame_inserted_texel;              // metres in the far and the near one; z: in texture coordinates
   vec4 frame_shadow_extra;  // x: tiles of the near map; y: 1 where traced_sun_texture holds this view's sun
   vec4 frame_size;          // pixels; z: levels of the sky
   vec4 frame_visibility_origin;  // of the sky visibility grid; w: lift

@@ -2,7 +2,14 @@
 #include "graphics/render/frame.glsl"
 #include "graphics/shading/shadow.glsl"
 
+// RECEIVES_INSERTED: surfaces show photographs, which hold their own shadows. They have maps of what their
+// photographs do not show.
+#ifdef RECEIVES_INSERTED
+uniform highp sampler2DArrayShadow inserted_shadow_maps;
+#define shadow_maps inserted_shadow_maps
+#else
 uniform highp sampler2DArrayShadow shadow_maps;
+#endif
 
 float shadow_compare(int map, vec3 uvz) { return texture(shadow_maps, vec4(uvz.xy, float(map), uvz.z)); }
 
@@ -10,6 +17,15 @@ float shadow_compare(int map, vec3 uvz) { return texture(shadow_maps, vec4(uvz.x
 
 ShadowMaps frame_shadow_maps() {
   ShadowMaps maps;
+#ifdef RECEIVES_INSERTED
+  maps.uvz_from_world[0] = frame_inserted_uvz_from_world[0];
+  maps.uvz_from_world[1] = frame_inserted_uvz_from_world[1];
+  maps.texel_m = frame_inserted_texel.xy;
+  maps.texel_uv = frame_inserted_texel.z;
+  maps.growth = 0.0f;
+  maps.tile_count = 0;
+  return maps;
+#else
   maps.uvz_from_world[0] = frame_uvz_from_world[0];
   maps.uvz_from_world[1] = frame_uvz_from_world[1];
   maps.texel_m = frame_shadow_texel.xy;
@@ -18,6 +34,7 @@ ShadowMaps frame_shadow_maps() {
   maps.tile_count = int(frame_shadow_extra.x);
   for (int i = 0; i < max_shadow_tiles; ++i) maps.tiles[i] = frame_shadow_tiles[i];
   return maps;
+#endif
 }
 
 // Unit; of a spot light in the sun's place it differs from point to point.

@@ -27,6 +27,11 @@ struct SeenPoint {
   vec3 normal;       // unit, interpolated; on the viewer's side where backs are shown
 };
 
+#ifdef RECEIVES_INSERTED
+#include "graphics/shading/recorded_shadow.glsl"
+float kept_in_shadow = 1.0f;  // set by the surface: kept_in_shadow_of
+#endif
+
 #include SURFACE "graphics/render/material_surface.glsl"
 
 #ifndef surface_mirrors
@@ -86,6 +91,13 @@ vec3 light_through(vec3 ahead) {
 // Radiance toward the viewer, through the haze: what a photograph recorded holds the light of its scene
 // already.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
+#ifdef RECEIVES_INSERTED
+  vec3 to_sun = to_sun_at(position);
+  float facing = frame_inserted_texel.z > 0.0f ? dot(seen.normal, to_sun) : 0.0f;
+  if (facing > 0.0f)
+    s.emission *= kept_recorded_light(kept_in_shadow, facing,
+                                      sun_visibility(frame_shadow_maps(), position, seen.normal, to_sun));
+#endif
   return through_haze(s.emission, seen.distance_m, frame_to_sun.w, frame_haze.rgb);
 }
 #elif !defined(WRITES_SURFACE)  // a file that writes it has no reflected_radiance: references would not link

@@ -16,6 +16,7 @@ struct DrawnLight {
   bool has_exact_shadows = false;         ///< the tracer traces the sun by itself, in place of `shadow`
   const LampTable* lamps = nullptr;       ///< null: no lamp is lit
   const BouncedLight* bounced = nullptr;  ///< null: there is none
+  SunShadow inserted_shadow = {};  ///< of what casts shadows on photographs; without maps: nothing does
 };
 
 }  // namespace parvis::shading

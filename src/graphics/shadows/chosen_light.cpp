@@ -90,7 +90,8 @@ Result<std::unique_ptr<render::LightSource>> ChosenLight::create(const scene::Sc
                                                                  const Bounds& fixed) {
   auto shadows = std::make_unique<ChosenShadows>(scene, fixed);
   ChosenShadows* const chosen = shadows.get();
-  Result<std::unique_ptr<render::LightSource>> light = light::SunAndSky::create(scene, std::move(shadows));
+  Result<std::unique_ptr<render::LightSource>> light =
+      light::SunAndSky::create(scene, fixed, std::move(shadows));
   if (!light) return light.errors();
   return std::unique_ptr<render::LightSource>(new ChosenLight(*std::move(light), chosen));
 }

@@ -40,6 +40,9 @@ struct TracedPoint {
   float translucency = 0.0f;
   float occlusion = 1.0f;    ///< 1: open to the sky
   glm::vec3 emission{0.0f};  ///< radiance toward `TracedHit::to_viewer`
+  /// Of a kind that is recorded: the share of `emission` that is left where something that its photographs do
+  /// not show casts a shadow on it. 1: it receives none.
+  float kept_in_shadow = 1.0f;
 };
 
 /// A surface given by functions of the point and the viewing direction: view-dependent textures, procedural
@@ -86,6 +89,9 @@ struct TracedKind {
   std::function<int(const Scene&)> count;
   /// Adds all of them in their present state; `TracedPlacing::thing` is below `count`.
   std::function<void(const Scene&, TracedScene&)> trace;
+  /// Its surfaces show photographs, which hold the shadows that things of such kinds cast on each other: they
+  /// receive those of all other things alone.
+  bool is_recorded = false;
 };
 
 /// Calls `visit(kind, first_thing)` for each kind of which the scene has any. Things are numbered behind the
