@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/image_io.h"
+#include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/capture_folder.h"
@@ -110,9 +111,11 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
 
 Status make_matte(const MatteArguments& arguments, const std::filesystem::path& file,
                   const std::filesystem::path& output) {
+  const std::string name = file.filename().string();
+  const Result<std::filesystem::path> inside = path_inside(arguments.photographs, name);
+  if (!inside) return inside.errors();
   const Result<Image8> photograph = read_image8(file);
   if (!photograph) return photograph.errors();
-  const std::string name = file.filename().string();
   const std::filesystem::path painted = arguments.zones / (file.stem().string() + ".png");
   Result<trees::Zones> zones = trees::Zones();
   if (!arguments.zones.empty() && std::filesystem::exists(painted)) {
@@ -138,6 +141,8 @@ Status mattes(const MatteArguments& arguments) {
   const std::vector<std::filesystem::path> files = pictures_of(arguments.photographs);
   if (files.empty()) return error("{}: no .png or .jpg pictures are there", arguments.photographs.string());
   std::error_code code;
+  if (!arguments.zones.empty() && !std::filesystem::is_directory(arguments.zones, code))
+    return error("--zones {}: there is no such folder", arguments.zones.string());
   std::filesystem::create_directories(arguments.output, code);
   if (code) return error("{}: the folder cannot be made: {}", arguments.output.string(), code.message());
   Progress progress("mattes", files.size());

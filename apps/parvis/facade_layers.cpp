@@ -1,6 +1,7 @@
 // parvis facade layers, fill, pack, report, figures: from a calibrated place with a model to a scene.
 #include <memory>
 
+#include "base/path_inside.h"
 #include "capture/facades/place_figures.h"
 #include "capture/facades/place_report.h"
 #include "facade_place.h"
@@ -58,7 +59,9 @@ Status report(const PlaceArguments& arguments) {
   if (!source) return source.errors();
   const Result<facades::PlaceLayers> place = open_layers(*source, arguments.settings);
   if (!place) return place.errors();
-  const std::filesystem::path folder = arguments.folder / "report";
+  const Result<std::filesystem::path> inside = path_inside(arguments.folder, "report");
+  if (!inside) return inside.errors();
+  const std::filesystem::path& folder = *inside;
   if (Status status = facades::write_report(folder, *place, facades::packed_facade(*place)); !status)
     return status;
   fmt::print("written to {}\n", (folder / "index.html").string());
@@ -81,8 +84,10 @@ Status draw_figures(const FigureArguments& arguments) {
     return error("{}: there is no photograph {}", arguments.place.folder.string(), arguments.photograph);
   const std::size_t photo = arguments.photograph.empty() ? facades::richest_photograph(*place)
                                                          : std::size_t(named - place->names.begin());
-  const std::filesystem::path folder =
-      arguments.output.empty() ? arguments.place.folder / "figures" : arguments.output;
+  const Result<std::filesystem::path> output =
+      arguments.output.empty() ? path_inside(arguments.place.folder, "figures") : arguments.output;
+  if (!output) return output.errors();
+  const std::filesystem::path& folder = *output;
   if (Status status = facades::write_figures(folder, *place, facades::packed_facade(*place), photo); !status)
     return status;
   const facades::Coverage coverage = facades::coverage_of(*place);

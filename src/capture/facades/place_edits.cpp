@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/facades/coarse_model_file.h"
 #include "capture/facades/place_folder.h"
@@ -152,11 +153,22 @@ Status paint(const fs::path& folder, std::size_t i, PlaceLayers& place) {
   return Done{};
 }
 
+/// Layers and edits are read and written inside the place's own folder alone.
+Status check_files(const PlaceSource& source) {
+  for (const photographs::Photograph& photo : source.photographs)
+    for (const fs::path& file :
+         {psd_file("layers", photo.name), psd_file(fs::path("layers") / "written", photo.name),
+          edits_file("", photo.name)})
+      if (const Result<fs::path> inside = path_inside(source.folder, file); !inside) return inside.errors();
+  return Done{};
+}
+
 void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 }  // namespace
 
 Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& settings) {
+  if (const Status status = check_files(source); !status) return status.errors();
   Errors notes = source.notes;
   add(notes, collect_edits(source.folder));
   Result<PlaceLayers> place = place_layers(source.photographs, source.meshes, settings);

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/photographs/alignment.h"
 #include "capture/photographs/camera_files.h"
@@ -296,6 +297,9 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
     return problems;
   }
   const WorkFolder work{job.folder / "colmap"};
+  for (const fs::path& used : {work.root, work.database(), work.sparse(), work.given()})
+    if (const Result<fs::path> inside = path_inside(job.folder, used.lexically_relative(job.folder)); !inside)
+      return inside.errors();
   if (Status status = prepare(job, pictures, work); !status) return status.errors();
   Result<LoadedSet> loaded = reconstruct(job, pictures, work);
   if (!loaded) return loaded;

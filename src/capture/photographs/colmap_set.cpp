@@ -7,6 +7,8 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/path_inside.h"
+
 namespace parvis::photographs {
 namespace {
 
@@ -27,6 +29,8 @@ Result<Photograph> photograph_of(const ColmapImage& image, const ColmapModel& mo
                  image.camera_id, focal.x, focal.y);
   if (image.name.empty() || leads_out(image.name))
     return error("\"{}\": a photograph's name has to lead into the folder of pictures", image.name);
+  const Result<std::filesystem::path> file = path_inside(picture_folder, image.name);
+  if (!file) return file.errors();
   const glm::dvec4& q = image.rotation_wxyz;
   const double length = glm::length(q), distance = glm::length(image.translation);
   if (!(length > 1e-6) || !std::isfinite(length) || !std::isfinite(distance))
@@ -35,7 +39,7 @@ Result<Photograph> photograph_of(const ColmapImage& image, const ColmapModel& mo
   opencv_from_world[3] = glm::dvec4(image.translation, 1.0);
   Photograph photograph;
   photograph.name = image.name;
-  photograph.file = picture_folder / image.name;
+  photograph.file = *file;
   photograph.lens = camera->second;
   photograph.world_from_camera = world_from_camera_of_opencv(opencv_from_world);
   return photograph;

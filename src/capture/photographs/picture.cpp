@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/path_inside.h"
 #include "capture/photographs/picture_header.h"
 #include "capture/photographs/resample.h"
 
@@ -143,6 +144,10 @@ void fit_to_files(LoadedSet& loaded, const fs::path& picture_folder) {
     const auto leave_out = [&](Error why) { loaded.problems.push_back(std::move(why)); };
     if (std::error_code code; !fs::is_regular_file(photograph.file, code)) {
       leave_out(error("{}: there is a camera but no picture {}", photograph.name, photograph.file.string()));
+      continue;
+    }
+    if (const Result<fs::path> inside = path_inside(picture_folder, photograph.name); !inside) {
+      leave_out(inside.errors().front());
       continue;
     }
     const Result<PictureHeader> info = read_picture_header(photograph.file);

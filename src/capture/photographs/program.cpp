@@ -20,7 +20,7 @@ constexpr std::size_t shown_bytes = 600;
 /// In the child: only calls that are safe after a fork in a program with threads.
 [[noreturn]] void become(char* const* arguments, char* const* environment, const char* log) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);
   execvpe(arguments[0], arguments, environment);
   _exit(cannot_start);

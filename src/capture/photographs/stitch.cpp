@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/parallel.h"
+#include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/photographs/alignment.h"
 #include "capture/photographs/colmap_database.h"
@@ -116,7 +117,8 @@ struct SpotPictures {
 Result<SpotPictures> read_pictures(const fs::path& folder, Errors& problems) {
   SpotPictures pictures;
   for (const std::string& name : picture_names(folder)) {
-    const Result<PictureHeader> header = read_picture_header(folder / name);
+    const Result<fs::path> file = path_inside(folder, name);
+    const Result<PictureHeader> header = file ? read_picture_header(*file) : file.errors();
     Photograph photograph;
     photograph.name = name, photograph.file = folder / name;
     if (header) photograph.lens = pinhole_lens(header->width, header->height, 1.0, 1.0, 0.0, 0.0);
