@@ -1,5 +1,8 @@
 // The command: a table of subcommands, each of which reads its arguments and calls a room.
 // Exit status: 0 done, 1 failed, 2 bad usage.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 
 #include "base/isolated_process.h"
 #include "base/partial_file.h"
@@ -33,8 +37,17 @@ constexpr const char* no_output = "parvis: the standard output cannot be written
 /// destructors of libraries that allocate.
 void end_without_memory() { parvis::remove_partial_files_and_end(no_memory); }
 
+/// Takes the places of standard streams that the caller has closed, so that no file that is opened later gets
+/// what is printed. Writing to such a stream fails, as on a full disk.
+void open_closed_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (fcntl(stream, F_GETFD) < 0)
+      std::ignore = open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 /// Reads the command line and does what it says. Throws what no room can answer for.
 int run(int count, char** arguments) {
+  open_closed_streams();
   parvis::start_isolation();                 // before there are threads
   std::set_new_handler(end_without_memory);  // not in the processes that read strangers' files: they answer
   parvis::remove_partial_files_on_signals();
