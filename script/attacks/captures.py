@@ -110,7 +110,48 @@ def numbers(word, other):
     return change
 
 
+def leading_out(verb, link, target, expects="refused", says=""):
+    """A link in a capture of strangers that leads out of it, where a command reads or writes."""
+
+    def build(folder):
+        for path, content in captured().items():
+            write(folder, path, content)
+        place = folder / link
+        place.parent.mkdir(exist_ok=True)
+        if place.is_dir():
+            shutil.rmtree(place)
+        else:
+            place.unlink(missing_ok=True)
+        place.symlink_to(os.path.relpath(folder / target, place.parent))
+        for kept in ("capture/packed.txt", "capture/place.facade"):  # so that nothing is as it was
+            if kept != link:
+                (folder / kept).unlink()
+        return [verb]
+
+    return Case("capture", f"{' '.join(verb[:2])} beside {link} -> {target}", build, expects, says=says)
+
+
+def link_cases():
+    for stage in ("layers", "fill", "pack", "report", "figures"):
+        verb = ["facade", stage, "capture", "--model", "box.obj"]
+        for link in ("capture/layers", "capture/layers/written", "capture/layers/edits"):
+            yield leading_out(verb, link, "../outside/keep", says=link)
+        yield leading_out(verb, "capture/layers/oak_000.psd", "../outside/keep/file", says="oak_000.psd")
+        yield leading_out(verb, "capture/oak_000.png", "../outside/secret.png", "either", says="oak_000.png: leads out")
+        yield leading_out(verb, "capture/layers", "../outside/absent", "refused" if stage in ("layers", "fill") else "either")
+    for stage in ("report", "figures"):
+        yield leading_out(["facade", stage, "capture", "--model", "box.obj"], f"capture/{stage}", "../outside/keep", says=stage)
+    for link in ("colmap", "colmap/sparse", "colmap/database.db", "colmap/features.log"):
+        yield leading_out(["facade", "calibrate", "capture", "--features", "500", "-o", "."], link, "../outside/keep" + ("/file" if "." in link else ""))
+    for verb in (["tree", "matte", "capture", "-o", "mattes"], ["tree", "texture", "capture", "oak.volume", "--texels", "4", "-o", "other.tree"],
+                 ["tree", "reconstruct", "capture", "--level", "1", "-o", "other.volume"], ["facade", "panorama", "capture", "-o", "place"]):
+        yield leading_out(verb, "capture/oak_000.png", "../outside/secret.png", "refused" if verb[1] == "matte" else "either", says="leads out")
+    for link in ("capture/images.txt", "capture/cameras.txt", "capture/points3D.txt"):
+        yield leading_out(["tree", "calibrate", "capture", "--distance", "25", "--focal", "100"], link, "../outside/keep/file")
+
+
 def cases():
+    yield from link_cases()
     for file, commands in (TREE, PLACE, VOLUME):
         yield from sealed_cases(file, commands)
     # "the scene's folder" ends at the scene: a tree and a facade out of another place are not read

@@ -129,6 +129,16 @@ def to_full_output(arguments):
     return Case("full output", " ".join(arguments), build, "refused", before=["bash", "-c", 'exec "$@" > /dev/full', "sh"])
 
 
+def to_closed_output(arguments):
+    """No standard output at all: what is printed is lost, or gets into a file that is opened in its place."""
+
+    def build(folder):
+        script = place(folder)
+        return [[word if word != "SCENE" else script for word in arguments]]
+
+    return Case("full output", "closed, " + " ".join(arguments), build, "refused", before=["bash", "-c", 'exec "$@" >&-', "sh"])
+
+
 def bad_output(verb, output, expects="refused"):
     def build(folder):
         script = place(folder)
@@ -172,6 +182,7 @@ def cases():
         yield formatted(mode, link=True)
     for arguments in (["check", "SCENE"], ["check", "--reference"], ["check", "--schema"], ["--help"], ["export", "SCENE", "-o", "out.glb"]):
         yield to_full_output(arguments)
+        yield to_closed_output(arguments)
     for verb, extension in (("render", "png"), ("film", "mp4"), ("export", "glb"), ("reference", "png"), ("photograph", "png")):
         yield bad_output(verb, f"file/out.{extension}")
         yield bad_output(verb, "a" * 300 + "." + extension)
