@@ -12,9 +12,11 @@
 //   unlink:none  files are never removed
 //   new:abort    the 2000th allocation ends the program
 // PARVIS_FAULTS_COUNT=FILE writes the number of Parvis's allocations when the program ends.
+// PARVIS_FAULTS_STRUCK=FILE has a byte that is 1 once a fault with a number has met the program or one of its workers.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
+#include <sys/mman.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -34,6 +36,7 @@ namespace {
 std::uintptr_t text_begin = 0, text_end = 0;
 std::atomic<bool> is_running = false;
 std::atomic<long> allocations = 0;
+char* struck = nullptr;  ///< in a file that is mapped: workers share it, and it stays when the program is ended
 
 int find_text(dl_phdr_info* info, std::size_t, void*) {
   for (int i = 0; i < info->dlpi_phnum; ++i) {
@@ -64,8 +67,13 @@ struct Fault {
   bool is(const char* expected) const { return word != nullptr && std::strncmp(word, expected, std::strlen(expected)) == 0; }
 };
 
-/// Counts calls; true for the one that is to fail.
-bool is_due(const Fault& fault, std::atomic<long>& calls) { return fault.number > 0 && ++calls == fault.number; }
+/// True for the call that is to fail, which is noted.
+bool is_due(const Fault& fault, long number) {
+  if (fault.number <= 0 || number != fault.number) return false;
+  if (struck != nullptr) *struck = 1;
+  return true;
+}
+bool is_due(const Fault& fault, std::atomic<long>& calls) { return is_due(fault, ++calls); }
 
 template <class Function>
 Function* real(const char* name) {
@@ -77,7 +85,7 @@ bool fails(const void* caller) {
   if (!is_ours(caller)) return false;
   const long number = ++allocations;
   if (fault.is("abort") && number == 2000) std::abort();
-  return fault.number > 0 && number == fault.number;
+  return is_due(fault, number);
 }
 
 void* allocate(std::size_t size, std::size_t alignment, const void* caller) {
@@ -102,7 +110,15 @@ int counted_main(int count, char** arguments, char** environment) {
   return real_main(count, arguments, environment);
 }
 
-[[gnu::constructor]] void begin() { dl_iterate_phdr(find_text, nullptr); }
+[[gnu::constructor]] void begin() {
+  dl_iterate_phdr(find_text, nullptr);
+  const char* const file = std::getenv("PARVIS_FAULTS_STRUCK");
+  const int mark = file == nullptr ? -1 : open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (mark < 0 || ftruncate(mark, 1) != 0) return;
+  void* const mapped = mmap(nullptr, 1, PROT_READ | PROT_WRITE, MAP_SHARED, mark, 0);
+  if (mapped != MAP_FAILED) struck = static_cast<char*>(mapped);
+  close(mark);
+}
 
 [[gnu::destructor]] void end() {
   const char* file = std::getenv("PARVIS_FAULTS_COUNT");

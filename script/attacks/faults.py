@@ -135,7 +135,7 @@ def allocations(verb, count):
     for i in range(count):
         share = (i + 0.5) / count
         yield hit("allocation", f"at {share:.4f} of its allocations", verb,
-                  faults=lambda v=verb, s=share: failing_allocation(v, s))
+                  faults=lambda sooner=1.0, v=verb, s=share: failing_allocation(v, sooner * s))
 
 
 def kills(verb, count):
