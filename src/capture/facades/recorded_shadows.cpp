@@ -18,6 +18,7 @@ using namespace shading;  // GLSL's own functions and types, for the included te
 #include "graphics/shading/recorded_light.glsl"
 
 constexpr std::size_t points_per_surface = 1500;
+constexpr std::size_t max_decoded_bytes = std::size_t(1) << 30;  // of texels, while a scene is read
 
 /// Points of a run of triangles, evenly over their area.
 class SurfacePoints {
@@ -74,6 +75,9 @@ std::optional<photographs::LitAndShaded> shadows_of(const PackedFacade& facade, 
 }  // namespace
 
 void find_shadows(PackedFacade& facade) {
+  facade.lit_of_surface.clear();
+  facade.kept_in_shadows = photographs::kept_in_usual_shadow;
+  if (facade.blocks.size() * 16 * 4 > max_decoded_bytes) return;  // 16 texels of 4 bytes per block
   glm::dvec3 middle(0.0);
   for (const PackedPhoto& photo : facade.photos) middle += photo.view.centre;
   if (!facade.photos.empty()) middle /= double(facade.photos.size());
