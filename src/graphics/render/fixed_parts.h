@@ -35,7 +35,8 @@ void for_each_fixed_object_part(const scene::Scene& scene, Visit&& visit) {
   }
 }
 
-/// The same for static opaque meshes that rooms draw themselves.
+/// The same for static opaque meshes that rooms draw themselves; one that casts no shadow, as the backdrop of
+/// a captured place, hides no sky either and is left out.
 void for_each_fixed_traced_part(const scene::Scene& scene,
                                 const std::function<void(const FixedPart&)>& visit);
 
