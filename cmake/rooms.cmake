@@ -26,6 +26,9 @@ endif()
 add_library(parvis_test_options INTERFACE)
 target_compile_options(parvis_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
+add_library(parvis_test_main OBJECT ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
+target_link_libraries(parvis_test_main PRIVATE parvis_options PUBLIC GTest::gtest INTERFACE parvis_base)
+
 # A fuzzer for each file fuzz/NAME.cpp of the room, ROOM_NAME_fuzz; script/fuzz runs them. In other builds the same
 # program only reads its seeds, fuzz/corpus/NAME/*, and the inputs once found, fuzz/found/NAME-*, as a test.
 function(parvis_fuzzers room)  # further arguments: libraries
@@ -101,7 +104,7 @@ function(parvis_room name)
 
   if(tests)
     add_executable(${name}_test ${tests})
-    target_link_libraries(${name}_test PRIVATE parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} GTest::gtest_main)
+    target_link_libraries(${name}_test PRIVATE parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} parvis_test_main)
     if(PARVIS_USES_PCH)
       target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
     endif()
