@@ -9,6 +9,7 @@
 #include "base/file_front.h"
 #include "base/memory_budget.h"
 #include "base/partial_file.h"
+#include "base/path_inside.h"
 
 namespace parvis {
 namespace fs = std::filesystem;
@@ -117,15 +118,6 @@ Status write_file(const fs::path& file, std::string_view text) {
   if (Status status = partial->write(text); !status) return status;
   return partial->keep();
 }
-
-namespace {
-
-bool is_below(const fs::path& path, const fs::path& folder) {
-  const fs::path relative = path.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
-}  // namespace
 
 Roots::Roots(fs::path scene_folder, std::vector<fs::path> data_folders) {
   folders_.push_back(scene_folder.empty() ? fs::path(".") : std::move(scene_folder));
