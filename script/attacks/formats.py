@@ -198,6 +198,15 @@ def fbx_cases():
     yield model_case("more", "binary FBX of version 2^32-1", "m.fbx", binary((b"Objects", []), version=2**32 - 1))
 
 
+def cut_and_damaged(title, file, whole, cut, first):
+    """A right file, that file cut every `cut` bytes, and with a byte of ones every fifth from `first` on."""
+    yield model_case("more", f"{title} a right one", file, whole)
+    for size in range(0, len(whole), cut):
+        yield model_case("more", f"{title} cut at {size}", file, whole[:size])
+    for at in range(first, len(whole), 5):
+        yield model_case("more", f"{title} byte {at}", file, whole[:at] + b"\xff" + whole[at + 1:])
+
+
 def chunk_cases():
     """3DS, LWO, AC3D and DirectX."""
     def chunk(kind, content):
@@ -205,11 +214,7 @@ def chunk_cases():
 
     mesh = chunk(0x4110, struct.pack("<H9f", 3, 0, 0, 0, 1, 0, 0, 0, 0, 1)) + chunk(0x4120, struct.pack("<H4H", 1, 0, 1, 2, 0))
     whole = chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, b"a\0" + chunk(0x4100, mesh))))
-    yield model_case("more", "3DS a right one", "m.3ds", whole)
-    for size in range(0, len(whole), 7):
-        yield model_case("more", f"3DS cut at {size}", "m.3ds", whole[:size])
-    for at in range(2, len(whole), 5):
-        yield model_case("more", f"3DS byte {at}", "m.3ds", whole[:at] + b"\xff" + whole[at + 1:])
+    yield from cut_and_damaged("3DS", "m.3ds", whole, cut=7, first=2)
     for path in OUT:
         material = chunk(0xAFFF, chunk(0xA000, b"m\0") + chunk(0xA200, chunk(0xA300, path.encode() + b"\0")))
         named = mesh + chunk(0x4130, b"m\0" + struct.pack("<HH", 1, 0)) + chunk(0x4140, struct.pack("<H6f", 3, 0, 0, 1, 0, 0, 1))
@@ -226,11 +231,7 @@ def chunk_cases():
 
     body = iff(b"LAYR", struct.pack(">HH3f", 0, 0, 0, 0, 0) + b"a\0") + iff(b"PNTS", struct.pack(">9f", 0, 0, 0, 1, 0, 0, 0, 0, 1)) + iff(b"POLS", b"FACE" + struct.pack(">4H", 3, 0, 1, 2)) + iff(b"TAGS", b"m\0") + iff(b"PTAG", b"SURF" + struct.pack(">2H", 0, 0))
     whole = iff(b"FORM", b"LWO2" + body)
-    yield model_case("more", "LWO a right one", "m.lwo", whole)
-    for size in range(0, len(whole), 9):
-        yield model_case("more", f"LWO cut at {size}", "m.lwo", whole[:size])
-    for at in range(12, len(whole), 5):
-        yield model_case("more", f"LWO byte {at}", "m.lwo", whole[:at] + b"\xff" + whole[at + 1:])
+    yield from cut_and_damaged("LWO", "m.lwo", whole, cut=9, first=12)
     for path in OUT:
         clip = iff(b"CLIP", struct.pack(">I", 1) + b"STIL" + struct.pack(">H", len(path) + 1 + (len(path) + 1) % 2) + path.encode() + b"\0" * (1 + (len(path) + 1) % 2))
         yield model_case("more", f"LWO with a picture {path}", "m.lwo", iff(b"FORM", b"LWO2" + body + clip))
