@@ -1,6 +1,4 @@
 // parvis check: is a scene right? And the reference of all nodes.
-#include <set>
-
 #include "commands.h"
 #include "life/traffic/demand.h"
 #include "life/vegetation/scene_plant.h"
@@ -32,14 +30,9 @@ void print_triangles(const scene::Scene& scene) {
   for (const scene::TriangleKind& kind : scene::triangle_kinds(scene))
     fmt::print("triangles of {}: {}{}\n", kind.name, kind.stored,
                kind.objects > 1 ? fmt::format(" in memory, {} in {} places", kind.placed, kind.objects) : "");
-  std::set<const vegetation::PlantShape*> shapes;
-  std::size_t stored = 0, placed = 0;
-  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
-    placed += plant.shape->triangle_count();
-    if (shapes.insert(plant.shape.get()).second) stored += plant.shape->triangle_count();
-  }
-  if (!shapes.empty())
-    fmt::print("triangles of grown plants: {} in memory, {} in {} places\n", stored, placed,
+  const vegetation::PlantTriangles plants = vegetation::plant_triangles(scene);
+  if (plants.placed > 0)
+    fmt::print("triangles of grown plants: {} in memory, {} in {} places\n", plants.stored, plants.placed,
                vegetation::scene_plants(scene).size());
 }
 

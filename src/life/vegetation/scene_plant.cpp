@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/memory_budget.h"
 
@@ -27,6 +28,16 @@ Status check(const PlantRecipe& recipe) {
 }
 
 }  // namespace
+
+PlantTriangles plant_triangles(const scene::Scene& scene) {
+  PlantTriangles triangles;
+  std::set<const PlantShape*> shapes;
+  for (const ScenePlant& plant : scene_plants(scene)) {
+    triangles.placed += plant.shape->triangle_count();
+    if (shapes.insert(plant.shape.get()).second) triangles.stored += plant.shape->triangle_count();
+  }
+  return triangles;
+}
 
 Result<std::shared_ptr<const PlantShape>> shared_plant(PlantShelf& shelf, const PlantRecipe& recipe) {
   if (const Status status = check(recipe); !status) return status.errors();

@@ -35,6 +35,14 @@ inline const std::vector<ScenePlant>& scene_plants(const scene::Scene& scene) {
   return scene.data<ScenePlants>().items;
 }
 
+/// A number of triangles: full leaves and wood of grown plants.
+struct PlantTriangles {
+  std::size_t stored = 0;  ///< each plant that others share once
+  std::size_t placed = 0;  ///< once per place
+};
+/// Counts those of all grown plants of the scene.
+PlantTriangles plant_triangles(const scene::Scene& scene);
+
 /// How finely plants are drawn.
 struct PlantDetail {
   static constexpr std::string_view name = "vegetation.detail";
