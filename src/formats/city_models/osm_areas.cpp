@@ -1,23 +1,50 @@
 #include "formats/city_models/osm_areas.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2;
 
-/// Appends the way that goes on where the ring ends; false where none does.
-bool extend(std::vector<OsmId>& ring, std::vector<std::vector<OsmId>>& open) {
-  for (auto next = open.begin(); next != open.end(); ++next) {
-    if (next->back() == ring.back()) std::reverse(next->begin(), next->end());
-    if (next->front() != ring.back()) continue;
-    ring.insert(ring.end(), next->begin() + 1, next->end());
-    open.erase(next);
-    return true;
+/// Ways of a relation by their ends.
+class OpenWays {
+ public:
+  explicit OpenWays(std::vector<std::vector<OsmId>> ways)
+      : ways_(std::move(ways)), is_taken_(ways_.size(), false) {
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      at_end_[ways_[i].front()].push_back(i);
+      at_end_[ways_[i].back()].push_back(i);
+    }
   }
-  return false;
-}
+
+  std::size_t size() const { return ways_.size(); }
+  /// The way, which is then taken; empty where it was before.
+  std::vector<OsmId> take(std::size_t way) {
+    if (is_taken_[way]) return {};
+    is_taken_[way] = true;
+    return std::move(ways_[way]);
+  }
+  /// Appends a way that goes on where the ring ends; false where none does.
+  bool extend(std::vector<OsmId>& ring) {
+    std::vector<std::size_t>& next = at_end_[ring.back()];
+    while (!next.empty()) {
+      std::vector<OsmId> way = take(next.back());
+      next.pop_back();
+      if (way.empty()) continue;
+      if (way.front() != ring.back()) std::reverse(way.begin(), way.end());
+      ring.insert(ring.end(), way.begin() + 1, way.end());
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::vector<OsmId>> ways_;
+  std::vector<bool> is_taken_;
+  std::unordered_map<OsmId, std::vector<std::size_t>> at_end_;
+};
 
 }  // namespace
 
@@ -77,10 +104,11 @@ std::vector<OsmAreas::NodeRing> OsmAreas::rings_of(const OsmRelation& relation, 
     else if (!osm_.ways[way->second].nodes.empty())
       open.push_back(osm_.ways[way->second].nodes);
   }
-  while (!open.empty()) {
-    NodeRing ring = std::move(open.back());
-    open.pop_back();
-    while (ring.front() != ring.back() && extend(ring, open)) {
+  OpenWays ways(std::move(open));
+  for (std::size_t i = ways.size(); i-- > 0;) {
+    NodeRing ring = ways.take(i);
+    if (ring.empty()) continue;
+    while (ring.front() != ring.back() && ways.extend(ring)) {
     }
     if (ring.front() == ring.back() && ring.size() > 3)
       closed.push_back(std::move(ring));

@@ -1,6 +1,7 @@
 #include "formats/city_models/osm_reader.h"
 
 #include <cmath>
+#include <unordered_map>
 
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_buildings.h"
@@ -40,12 +41,14 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
                     largest_m / 1000.0);
   const glm::dvec3 origin(glm::floor(utm(middle_deg)), 0.0);
+  std::unordered_map<OsmId, glm::dvec2> places;  // projected once: ways are walked many times
+  places.reserve(osm.nodes.size());
+  for (const auto& [node, deg] : osm.nodes)
+    if (const glm::dvec2 spot = utm(deg); glm::distance(spot, glm::dvec2(origin)) < largest_m)
+      places.emplace(node, spot);
   const auto on_map = [&](OsmId node) -> std::optional<glm::dvec2> {
-    const auto found = osm.nodes.find(node);
-    if (found == osm.nodes.end()) return std::nullopt;
-    const glm::dvec2 place = utm(found->second);
-    if (!(glm::distance(place, glm::dvec2(origin)) < largest_m)) return std::nullopt;
-    return place;
+    const auto found = places.find(node);
+    return found == places.end() ? std::nullopt : std::optional(found->second);
   };
   CityAssembly city(file, origin, warnings);
   const std::size_t buildings = add_osm_buildings(osm, on_map, ground, city);

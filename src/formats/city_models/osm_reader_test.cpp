@@ -142,6 +142,31 @@ TEST(Osm, RelationsHaveCourtyards) {
   EXPECT_NEAR(area_m2(*block.model, "RoofSurface"), double(wide_m * deep_m) - courtyard, 0.3);
 }
 
+/// A pond of 20,000 corners whose outline is as many ways, in no order, every third the other way round.
+TEST(Osm, OutlinesOfManyWaysAreJoined) {
+  constexpr int corners = 20'000;
+  constexpr double radius_deg = 0.0005;
+  std::string nodes, relation = "<relation id=\"9\">";
+  std::vector<std::string> ways;
+  for (int i = 0; i < corners; ++i) {
+    const double turn = 6.283185307 * i / corners;
+    nodes += fmt::format("<node id=\"{}\" lat=\"{:.9f}\" lon=\"{:.9f}\"/>", 1000 + i,
+                         52.16 + radius_deg * std::sin(turn), 4.4905 + radius_deg * std::cos(turn));
+    const int from = 1000 + i, to = 1000 + (i + 1) % corners;
+    ways.push_back(
+        way(50'000 + i, i % 3 == 0 ? fmt::format("{} {}", to, from) : fmt::format("{} {}", from, to), {}));
+    relation += fmt::format("<member type=\"way\" ref=\"{}\" role=\"outer\"/>", 50'000 + i * 7919 % corners);
+  }
+  relation += R"(<tag k="type" v="multipolygon"/><tag k="natural" v="water"/></relation>)";
+  std::string all = nodes;
+  for (const std::string& each : ways) all += each;
+  const Read pond = read(osm(all + relation));
+  ASSERT_TRUE(pond.model) << to_string(pond.model.errors());
+  EXPECT_EQ(pond.warnings, "");
+  const double radius_m2 = radius_deg * radius_deg * 111'250.0 * 68'400.0;
+  EXPECT_NEAR(area_m2(*pond.model, "WaterBody"), 3.14159265 * radius_m2, 0.01 * 3.14159265 * radius_m2);
+}
+
 TEST(Osm, PartsStandInPlaceOfTheirOutline) {
   const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "30"}}) +
                               way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "8"}})));

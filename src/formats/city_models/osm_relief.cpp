@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <queue>
 
 #include "formats/city_models/osm_roads.h"
@@ -76,9 +77,11 @@ void each_stretch(const std::vector<RaisedPoint>& profile, double side,
 }
 
 OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs) : osm_(osm), place_(place) {
+  std::optional<OpenWays> ways;
   for (const OsmWay& way : osm.ways) {
     if (!is_bridge(way.tags) || !(is_road(way.tags) || is_rail(way.tags))) continue;
-    const double above_m = height_of_bridge(way);
+    if (!ways) ways = open_ways();
+    const double above_m = height_of_bridge(way, *ways);
     for (const OsmId node : way.nodes) above_[node].away_m = std::max(above_[node].away_m, above_m);
   }
   const bool has_tunnels =
@@ -89,29 +92,31 @@ OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs) : os
   if (has_tunnels) dig_tunnels(along);
 }
 
-/// Compared with every way that is not a bridge of the same layer or a higher one, segment by segment.
-double OsmRelief::height_of_bridge(const OsmWay& bridge) const {
-  const int layer = std::max(layer_of(bridge.tags), 1);
-  std::vector<dvec2> points;
-  for (const OsmId node : bridge.nodes)
-    if (const auto point = place_(node)) points.push_back(*point);
-  if (points.empty()) return low_bridge_m;
-  dvec2 low = points[0], high = points[0];
-  for (const dvec2& point : points) low = glm::min(low, point), high = glm::max(high, point);
+/// All roads and railways but those below the ground.
+OsmRelief::OpenWays OsmRelief::open_ways() const {
+  OpenWays ways;
   for (const OsmWay& way : osm_.ways) {
-    const bool is_below = &way != &bridge && (is_road(way.tags) || is_rail(way.tags)) &&
-                          !is_underground(way.tags) && layer_of(way.tags) < layer;
-    if (!is_below) continue;
-    for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
-      const auto a = place_(way.nodes[i]), b = place_(way.nodes[i + 1]);
-      if (!a || !b) continue;
-      const dvec2 from = glm::min(*a, *b), to = glm::max(*a, *b);
-      if (from.x > high.x || from.y > high.y || to.x < low.x || to.y < low.y) continue;
-      for (std::size_t k = 0; k + 1 < points.size(); ++k)
-        if (cross(points[k], points[k + 1], *a, *b)) return double(layer) * (clearance_m + deck_m);
-    }
+    if (!(is_road(way.tags) || is_rail(way.tags)) || is_underground(way.tags)) continue;
+    for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i)
+      if (const auto a = place_(way.nodes[i]), b = place_(way.nodes[i + 1]); a && b) ways.add(*a, *b, &way);
   }
-  return low_bridge_m;
+  return ways;
+}
+
+/// Compared with the ways that cross it and are no bridge of the same layer or a higher one.
+double OsmRelief::height_of_bridge(const OsmWay& bridge, const OpenWays& ways) const {
+  const int layer = std::max(layer_of(bridge.tags), 1);
+  bool is_over_way = false;
+  for (std::size_t k = 0; k + 1 < bridge.nodes.size() && !is_over_way; ++k) {
+    const auto from = place_(bridge.nodes[k]), to = place_(bridge.nodes[k + 1]);
+    if (!from || !to) continue;
+    ways.each_near(*from, *to, [&](const OpenWays::Segment& segment) {
+      is_over_way = segment.owner != &bridge && layer_of(segment.owner->tags) < layer &&
+                    cross(*from, *to, segment.a, segment.b);
+      return !is_over_way;
+    });
+  }
+  return is_over_way ? double(layer) * (clearance_m + deck_m) : low_bridge_m;
 }
 
 /// Of all ways that lie open: ramps are none in tunnels.

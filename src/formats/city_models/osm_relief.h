@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "formats/city_models/osm_areas.h"
+#include "formats/city_models/osm_segments.h"
 
 namespace parvis::scene {
 
@@ -61,7 +62,10 @@ class OsmRelief {
   };
   using Levels = std::unordered_map<OsmId, Level>;
 
-  double height_of_bridge(const OsmWay& bridge) const;
+  using OpenWays = OsmSegments<const OsmWay*>;
+
+  OpenWays open_ways() const;
+  double height_of_bridge(const OsmWay& bridge, const OpenWays& ways) const;
   Steps steps() const;
   double steepness(const Steps& steps, OsmId portal, double depth_m) const;
   static void lead_to_ground(const Steps& steps, Levels& levels);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "formats/city_models/osm_shapes.h"
 
@@ -64,6 +66,47 @@ void add_tree(dvec3 foot, double height_m, const OsmTags& tags, CityAssembly& ci
     add_polygon({around(i, 0.12, 0.0), around(i + 1, 0.12, 0.0), base}, look, city);
   }
 }
+
+/// Points of roads, by cells of the plan.
+class RoadPoints {
+ public:
+  /// Of one of the roads.
+  struct Point {
+    std::size_t road, index;
+  };
+
+  explicit RoadPoints(const std::vector<Road>& roads) : roads_(roads) {
+    for (std::size_t road = 0; road < roads.size(); ++road)
+      for (std::size_t i = 0; i < roads[road].path.size(); ++i)
+        cells_[cell_of(dvec2(roads[road].path[i]))].push_back({road, i});
+  }
+
+  /// The last point, of the first road that has one, so near to a spot; `near_m` is at most a cell.
+  std::optional<Point> near(dvec2 spot, double near_m) const {
+    std::optional<Point> best;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const auto cell = cells_.find(cell_of(spot + cell_m * dvec2(x, y)));
+        if (cell == cells_.end()) continue;
+        for (const Point& point : cell->second) {
+          const bool is_better =
+              !best || point.road < best->road || (point.road == best->road && point.index > best->index);
+          if (is_better && glm::distance(dvec2(roads_[point.road].path[point.index]), spot) < near_m)
+            best = point;
+        }
+      }
+    return best;
+  }
+
+ private:
+  static constexpr double cell_m = 1.0;
+  static std::pair<int, int> cell_of(dvec2 p) {
+    return {int(std::floor(p.x / cell_m)), int(std::floor(p.y / cell_m))};
+  }
+
+  const std::vector<Road>& roads_;
+  std::map<std::pair<int, int>, std::vector<Point>> cells_;
+};
 
 /// The same for the same tree: 7 to 11 m.
 double usual_tree_m(OsmId id) { return 7.0 + 0.5 * double(std::uint64_t(id) * 2654435761u % 9); }
@@ -221,6 +264,7 @@ void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::ve
                        const dvec3& origin, CityAssembly& city) {
   constexpr double stripe_m = 0.5, length_m = 3.0, lift_m = 0.078, near_m = 0.6;
   const LineLook paint = coloured("CityFurniture", {0.86f, 0.86f, 0.84f}, city);
+  const RoadPoints points(roads);
   for (const OsmNode& node : osm.tagged_nodes) {
     const std::string &kind = tag(node.tags, "crossing"), &markings = tag(node.tags, "crossing:markings");
     const bool is_marked = kind == "zebra" || kind == "marked" || kind == "traffic_signals" ||
@@ -228,25 +272,21 @@ void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::ve
     if (tag(node.tags, "highway") != "crossing" || !is_marked || markings == "no") continue;
     const auto at = place(node.id);
     if (!at) continue;
-    const dvec2 spot = *at - dvec2(origin);
-    for (const Road& road : roads) {
-      std::size_t found = road.path.size();
-      for (std::size_t i = 0; i < road.path.size(); ++i)
-        if (glm::distance(dvec2(road.path[i]), spot) < near_m) found = i;
-      if (found == road.path.size() || road.path.size() < 2) continue;
-      const std::size_t next = std::min(found + 1, road.path.size() - 1);
-      const dvec2 along = glm::normalize(dvec2(road.path[next] - road.path[next - 1]));
-      const dvec2 aside(along.y, -along.x);
-      const double half_m =
-          0.5 * double(road.lane_width_m) * double(road.lanes_each_way) * (road.is_one_way ? 1.0 : 2.0);
-      const double z = origin.z + double(road.path[found].z) + lift_m;
-      for (double side = -half_m + 0.25; side + stripe_m < half_m; side += 2.0 * stripe_m) {
-        const dvec2 low = *at + aside * side - along * (0.5 * length_m);
-        add_polygon({dvec3(low, z), dvec3(low + aside * stripe_m, z),
-                     dvec3(low + aside * stripe_m + along * length_m, z), dvec3(low + along * length_m, z)},
-                    paint, city);
-      }
-      break;
+    const auto point = points.near(*at - dvec2(origin), near_m);
+    if (!point || roads[point->road].path.size() < 2) continue;
+    const Road& road = roads[point->road];
+    const std::size_t found = point->index;
+    const std::size_t next = std::min(found + 1, road.path.size() - 1);
+    const dvec2 along = glm::normalize(dvec2(road.path[next] - road.path[next - 1]));
+    const dvec2 aside(along.y, -along.x);
+    const double half_m =
+        0.5 * double(road.lane_width_m) * double(road.lanes_each_way) * (road.is_one_way ? 1.0 : 2.0);
+    const double z = origin.z + double(road.path[found].z) + lift_m;
+    for (double side = -half_m + 0.25; side + stripe_m < half_m; side += 2.0 * stripe_m) {
+      const dvec2 low = *at + aside * side - along * (0.5 * length_m);
+      add_polygon({dvec3(low, z), dvec3(low + aside * stripe_m, z),
+                   dvec3(low + aside * stripe_m + along * length_m, z), dvec3(low + along * length_m, z)},
+                  paint, city);
     }
   }
 }
