@@ -7,7 +7,9 @@
 
 #include "base/colour.h"
 #include "base/files.h"
+#include "base/image_io.h"
 #include "formats/ifc/ifc_shapes.h"
+#include "scene/data/placeholder.h"
 
 namespace parvis::scene {
 namespace {
@@ -35,6 +37,7 @@ Material material_of(const std::string& kind, const IfcLook& look, bool is_close
   material.name = kind;
   material.base_colour = linear_from_srgb(look.colour);
   material.alpha = look.alpha;
+  if (look.picture) material.base_colour_texture = int(*look.picture);
   material.is_double_sided = !is_closed;
   if (look.alpha < 1.0f) {
     material.name += " glass";
@@ -92,7 +95,7 @@ void append_body(const IfcShape& shape, const glm::dvec3& origin, Mesh& mesh) {
     mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
     mesh.positions.push_back(point);
     mesh.normals.push_back(normals[i]);
-    mesh.uvs.push_back(plane_coordinates(point, normals[i]));
+    mesh.uvs.push_back(shape.uvs.empty() ? plane_coordinates(point, normals[i]) : shape.uvs[i]);
   }
 }
 
@@ -119,9 +122,9 @@ class IfcAssembly {
 
  private:
   int material_for(const std::string& kind, const IfcLook& look, bool is_closed) {
-    const auto [material, is_new] =
-        materials_.try_emplace({kind, look.colour.x, look.colour.y, look.colour.z, look.alpha, is_closed},
-                               int(model_.materials.size()));
+    const auto [material, is_new] = materials_.try_emplace(
+        {kind, look.colour.x, look.colour.y, look.colour.z, look.alpha, is_closed, look.picture},
+        int(model_.materials.size()));
     if (is_new) model_.materials.push_back(material_of(kind, look, is_closed));
     return material->second;
   }
@@ -133,26 +136,54 @@ class IfcAssembly {
   }
 
   Model model_;
-  std::map<std::tuple<std::string, float, float, float, float, bool>, int> materials_;
+  std::map<std::tuple<std::string, float, float, float, float, bool, std::optional<std::size_t>>, int>
+      materials_;
   std::map<std::string, int> nodes_;
   std::map<std::tuple<std::string, int, int>, std::size_t> parts_;
 };
+
+/// Pictures that the file holds, and those beside it or below its folder.
+std::vector<Texture> textures_of(const std::vector<IfcPicture>& pictures, const std::filesystem::path& file,
+                                 Errors& warnings) {
+  const Roots roots(file.parent_path());
+  std::vector<Texture> textures;
+  for (const IfcPicture& picture : pictures) {
+    Result<Image8> image = [&]() -> Result<Image8> {
+      if (!picture.bytes.empty())
+        return read_image8(
+            {reinterpret_cast<const std::uint8_t*>(picture.bytes.data()), picture.bytes.size()},
+            picture.name);
+      const Result<std::filesystem::path> path = roots.find(picture.name, {});
+      return path ? read_image8(*path) : Result<Image8>(path.errors());
+    }();
+    if (!image)
+      warnings.push_back(
+          {image.errors().front().message + "; a checker stands for it: put the picture beside the IFC file",
+           {file.string(), 0, 0}});
+    textures.push_back({.name = picture.name,
+                        .image = image ? *std::move(image) : placeholder_picture(),
+                        .is_srgb = true,
+                        .repeats = picture.repeats});
+  }
+  return textures;
+}
 
 }  // namespace
 
 Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings) {
   Result<std::string> text = read_file(file);
   if (!text) return text.errors();
-  const Result<std::vector<IfcShape>> shapes = ifc_shapes(*std::move(text), file.string(), warnings);
-  if (!shapes) return shapes.errors();
-  if (shapes->empty())
+  const Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
+  if (!bodies) return bodies.errors();
+  if (bodies->shapes.empty())
     return error_at(
         FileLocation{file.string(), 0, 0},
         "no object has a body: export the building with its 3D geometry (representation \"Body\")");
   IfcAssembly assembly(file.stem().string());
-  assembly.set_origin(origin_of(*shapes));
-  for (const IfcShape& shape : *shapes) assembly.add(shape);
+  assembly.set_origin(origin_of(bodies->shapes));
+  for (const IfcShape& shape : bodies->shapes) assembly.add(shape);
   Model model = assembly.take();
+  model.textures = textures_of(bodies->pictures, file, warnings);
   for (const Part& part : model.parts)
     if (const Status status = check(part.mesh, part.object); !status)
       return Error{status.errors().front().message, {file.string(), 0, 0}};

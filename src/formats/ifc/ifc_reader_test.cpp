@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/image_io.h"
 #include "base/test_folder.h"
 
 namespace parvis::scene {
@@ -100,6 +101,106 @@ TEST_F(IfcTest, StylesGiveColoursAndGlass) {
   const Part* wall = part(model, "IfcWallStandardCase Wall:Render 300");
   ASSERT_TRUE(wall);
   EXPECT_NEAR(material(model, *wall).base_colour.x, 0.75f, 0.02f) << "sRGB 0.88";
+}
+
+/// The pavilion with some more entities, and with one text for another.
+class TexturedIfcTest : public IfcTest {
+ protected:
+  std::filesystem::path textured(std::string entities, const std::string& from, const std::string& to) {
+    const std::filesystem::path file = changed(from, to);
+    std::string text = *read_file(file);
+    text.insert(text.rfind("ENDSEC;"), entities);
+    EXPECT_TRUE(write_file(file, text));
+    return file;
+  }
+  /// The picture of the part's material; empty where it has none.
+  static Image8 picture(const Model& model, const Part& part) {
+    const int texture = material(model, part).base_colour_texture;
+    return texture == no_index ? Image8() : model.textures[std::size_t(texture)].image;
+  }
+  /// 2 by 2 texels: red in the upper left, else white.
+  static Image8 marked() {
+    Image8 image(2, 2, 4, 255);
+    image.at(0, 0)[1] = image.at(0, 0)[2] = 0;
+    return image;
+  }
+};
+
+const std::string plaster = "#33=IFCSURFACESTYLE('Plaster',.BOTH.,(#32));",
+                  pictured = "#33=IFCSURFACESTYLE('Plaster',.BOTH.,(#32,#9001));",
+                  with_texture = "#9001=IFCSURFACESTYLEWITHTEXTURES((#9002));\n";
+
+TEST_F(TexturedIfcTest, PicturesLieBesideTheFileAndRepeatAsTheirTransformSays) {
+  ASSERT_TRUE(write_image(folder_.path() / "plaster.png", marked()));
+  const Model model =
+      read(textured(with_texture + "#9002=IFCIMAGETEXTURE(.T.,.T.,$,#9003,$,'plaster.png');\n"
+                                   "#9003=IFCCARTESIANTRANSFORMATIONOPERATOR2D($,$,#9004,0.5);\n"
+                                   "#9004=IFCCARTESIANPOINT((0.,0.));\n",
+                    plaster, pictured));
+  EXPECT_TRUE(warnings_.empty()) << to_string(warnings_);
+  const Part* wall = part(model, "IfcWallStandardCase Wall:Render 300");
+  ASSERT_TRUE(wall);
+  EXPECT_EQ(picture(model, *wall).pixels, marked().pixels);
+  EXPECT_NEAR(material(model, *wall).base_colour.x, 0.75f, 0.02f) << "its colour multiplies it";
+  for (std::size_t i = 0; i + 2 < wall->mesh.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return std::size_t(wall->mesh.indices[i + k]); };
+    const glm::vec3 side = wall->mesh.positions[corner(1)] - wall->mesh.positions[corner(0)];
+    const glm::vec2 in_picture = wall->mesh.uvs[corner(1)] - wall->mesh.uvs[corner(0)];
+    EXPECT_NEAR(glm::length(in_picture), 0.5f * glm::length(side), 1e-3f);
+    if (std::abs(wall->mesh.normals[corner(0)].z) < 0.1f) {
+      EXPECT_NEAR(in_picture.y, -0.5f * side.z, 1e-3f) << "upright";
+    }
+  }
+}
+
+TEST_F(TexturedIfcTest, PicturesOfTheFileItselfLieAsItsCoordinatesSay) {
+  const std::string bytes = *encode_image(marked(), "blob.png");
+  std::string digits;
+  for (const char byte : bytes) digits += fmt::format("{:02X}", unsigned(std::uint8_t(byte)));
+  const Model model = read(
+      textured("#9010=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(4000.,0.,0.),(4000.,0.,2000.),(0.,0.,2000.)));\n"
+               "#9011=IFCSURFACESTYLEWITHTEXTURES((#9012));\n"
+               "#9012=IFCBLOBTEXTURE(.F.,.F.,$,$,$,'PNG',\"0" +
+                   digits +
+                   "\");\n#9013=IFCTEXTUREVERTEXLIST(((0.,0.),(1.,0.),(1.,1.),(0.,1.)));\n"
+                   "#9014=IFCINDEXEDTRIANGLETEXTUREMAP((#9012),#55,#9013,((1,2,3),(1,3,4)));\n"
+                   "#9015=IFCSURFACESTYLE('Panel',.BOTH.,(#9011));\n#9016=IFCSTYLEDITEM(#55,(#9015),$);\n",
+               "#55=IFCEXTRUDEDAREASOLID(#54,#12,#9,200.0);\n#56=IFCSTYLEDITEM(#55,(#45),$);",
+               "#55=IFCTRIANGULATEDFACESET(#9010,$,.F.,((1,2,3),(1,3,4)),$);"));
+  EXPECT_TRUE(warnings_.empty()) << to_string(warnings_);
+  const auto panel = std::ranges::find_if(
+      model.parts, [&](const Part& each) { return !picture(model, each).pixels.empty(); });
+  ASSERT_NE(panel, model.parts.end());
+  EXPECT_EQ(picture(model, *panel).pixels, marked().pixels);
+  EXPECT_FALSE(model.textures[std::size_t(material(model, *panel).base_colour_texture)].repeats);
+  EXPECT_EQ(material(model, *panel).base_colour, glm::vec3(1.0f)) << "the picture alone";
+  const Bounds box = panel->mesh.bounds();
+  ASSERT_EQ(panel->mesh.indices.size(), 6u);
+  for (std::size_t i = 0; i < panel->mesh.positions.size(); ++i) {
+    const glm::vec3 share = (panel->mesh.positions[i] - box.min) / glm::max(box.size(), glm::vec3(1e-3f));
+    EXPECT_NEAR(panel->mesh.uvs[i].x, share.x, 1e-4f);
+    EXPECT_NEAR(panel->mesh.uvs[i].y, 1.0f - share.z, 1e-4f);
+  }
+}
+
+TEST_F(TexturedIfcTest, EachPictureThatIsLeftOutIsNamed) {
+  const auto warning = [&](const std::string& texture) {
+    warnings_.clear();
+    const Model model = read(textured(with_texture + texture, plaster, pictured));
+    EXPECT_TRUE(part(model, "IfcWallStandardCase Wall:Render 300"));
+    return to_string(warnings_);
+  };
+  const std::string absent = warning("#9002=IFCIMAGETEXTURE(.T.,.T.,$,$,$,'gone.png');\n");
+  EXPECT_NE(absent.find("gone.png"), std::string::npos) << absent;
+  EXPECT_NE(absent.find("a checker stands for it"), std::string::npos) << absent;
+  const std::string outside = warning("#9002=IFCIMAGETEXTURE(.T.,.T.,$,$,$,'../../etc/hosts');\n");
+  EXPECT_NE(outside.find("a checker stands for it"), std::string::npos) << outside;
+  const std::string far = warning("#9002=IFCIMAGETEXTURE(.T.,.T.,$,$,$,'https://example.org/a.png');\n");
+  EXPECT_NE(far.find("is no file beside the IFC file"), std::string::npos) << far;
+  const std::string pixels = warning("#9002=IFCPIXELTEXTURE(.T.,.T.,$,$,$,1,1,3,(\"0FF0000\"));\n");
+  EXPECT_NE(pixels.find("#9002: an IfcPixelTexture is not read"), std::string::npos) << pixels;
+  const std::string broken = warning("#9002=IFCBLOBTEXTURE(.T.,.T.,$,$,$,'PNG',\"0FFD8\");\n");
+  EXPECT_NE(broken.find("#9002"), std::string::npos) << broken;
 }
 
 TEST_F(IfcTest, RoundColumnsAreSmoothAndSlabsFlat) {

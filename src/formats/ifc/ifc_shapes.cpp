@@ -5,6 +5,7 @@
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcFeatureElementSubtraction.h>
 #include <ifcpp/IFC4/include/IfcGrid.h>
+#include <ifcpp/IFC4/include/IfcIndexedColourMap.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcSpace.h>
 #include <ifcpp/IFC4/include/IfcVirtualElement.h>
@@ -17,6 +18,8 @@
 #include <iostream>
 #include <map>
 #include <set>
+
+#include "formats/ifc/ifc_text.h"
 
 namespace parvis::scene {
 namespace {
@@ -39,24 +42,6 @@ class SilentOutput {
   std::streambuf* narrow_;
   std::wstreambuf* wide_;
 };
-
-std::string utf8(const std::wstring& text) {
-  std::string bytes;
-  for (const wchar_t letter : text) {
-    const std::uint32_t code = std::uint32_t(letter);
-    const auto tail = [&](int shift) { bytes += char(0x80 | ((code >> shift) & 0x3f)); };
-    if (code < 0x80) {
-      bytes += char(code);
-    } else if (code < 0x800) {
-      bytes += char(0xc0 | (code >> 6)), tail(0);
-    } else if (code < 0x10000) {
-      bytes += char(0xe0 | (code >> 12)), tail(6), tail(0);
-    } else {
-      bytes += char(0xf0 | ((code >> 18) & 7)), tail(12), tail(6), tail(0);
-    }
-  }
-  return bytes;
-}
 
 /// "Basic Wall:Exterior:184723" is the wall of that type that Revit numbered so: walls of a type go together.
 std::string without_number(std::string name) {
@@ -99,35 +84,41 @@ bool is_body(const RepresentationData& representation) {
   return !others.contains(representation.m_representation_identifier);
 }
 
-std::optional<IfcLook> look_of(const std::vector<std::shared_ptr<AppearanceData>>& appearances) {
+/// A style that is a picture alone lets it show as it is.
+std::optional<IfcLook> look_of(const std::vector<std::shared_ptr<AppearanceData>>& appearances,
+                               IfcTextures& textures) {
   for (const auto& appearance : appearances) {
     if (!appearance || appearance->m_apply_to_geometry_type == AppearanceData::GEOM_TYPE_CURVE ||
         appearance->m_apply_to_geometry_type == AppearanceData::GEOM_TYPE_TEXT)
       continue;
+    const std::optional<std::size_t> picture = textures.picture_of_style(appearance->m_step_style_id);
+    if (picture && !appearance->m_complete) return IfcLook{glm::vec3(1.0f), 1.0f, picture};
     vec4& colour = appearance->m_color_diffuse;
     const glm::vec3 rgb(glm::dvec3(colour.r(), colour.g(), colour.b()));
     return IfcLook{glm::clamp(rgb, 0.0f, 1.0f),
-                   appearance->m_set_transparent ? float(appearance->m_transparency) : 1.0f};
+                   appearance->m_set_transparent ? float(appearance->m_transparency) : 1.0f, picture};
   }
   return std::nullopt;
 }
 
 /// The triangles of one body, which is triangulated; those that are not finite are dropped.
 void add_triangles(const carve::mesh::MeshSet<3>& body, carve::math::Matrix world_from_body,
-                   std::vector<glm::dvec3>& corners) {
+                   IfcTextures& textures, IfcShape& shape) {
   for (const auto* mesh : body.meshes)
     for (const auto* face : mesh->faces) {
       if (face->nEdges() != 3) continue;
-      std::array<glm::dvec3, 3> points;
+      std::array<glm::dvec3, 3> points, own;  // in the world, and in the body's frame
       const auto* edge = face->edge;
-      for (glm::dvec3& point : points) {
+      for (std::size_t k = 0; k < 3; ++k, edge = edge->next) {
         const carve::geom::vector<3> at = world_from_body * edge->vert->v;
-        point = {at.x, at.y, at.z};
-        edge = edge->next;
+        points[k] = {at.x, at.y, at.z};
+        own[k] = {edge->vert->v.x, edge->vert->v.y, edge->vert->v.z};
       }
       const glm::dvec3 area = glm::cross(points[1] - points[0], points[2] - points[0]);
       if (!std::isfinite(glm::dot(area, area)) || glm::dot(area, area) <= 0.0) continue;
-      corners.insert(corners.end(), points.begin(), points.end());
+      shape.corners.insert(shape.corners.end(), points.begin(), points.end());
+      if (!shape.look || !shape.look->picture) continue;
+      for (const glm::vec2 uv : textures.coordinates(*shape.look->picture, own)) shape.uvs.push_back(uv);
     }
 }
 
@@ -153,34 +144,46 @@ class Complaints {
 };
 
 void add_bodies(IfcShape shape, std::vector<std::shared_ptr<carve::mesh::MeshSet<3>>>& bodies, bool is_closed,
-                const carve::math::Matrix& world_from_body, std::vector<IfcShape>& shapes) {
+                const carve::math::Matrix& world_from_body, IfcTextures& textures,
+                std::vector<IfcShape>& shapes) {
   shape.is_closed = is_closed;
   for (auto& body : bodies) {
     CSG_Adapter::retriangulateMeshSet(body);
-    if (body) add_triangles(*body, world_from_body, shape.corners);
+    if (body) add_triangles(*body, world_from_body, textures, shape);
   }
   if (!shape.corners.empty()) shapes.push_back(std::move(shape));
 }
 
 void add_product(ProductShapeData& product, const std::shared_ptr<IfcObjectDefinition>& object,
-                 std::vector<IfcShape>& shapes) {
+                 IfcTextures& textures, std::vector<IfcShape>& shapes) {
   const carve::math::Matrix world_from_product = product.getTransform();
   IfcShape shape{.storey = storey_of(object),
                  .kind = object->className(),
                  .name = without_number(name_of(*object)),
                  .look = {},
                  .is_closed = false,
-                 .corners = {}};
+                 .corners = {},
+                 .uvs = {}};
   for (const auto& representation : product.m_vec_representations) {
     if (!representation || !is_body(*representation)) continue;
     for (const auto& item : representation->m_vec_item_data) {
-      shape.look = look_of(item->m_vec_item_appearances);
-      if (!shape.look) shape.look = look_of(representation->m_vec_representation_appearances);
-      if (!shape.look) shape.look = look_of(product.getAppearances());
-      add_bodies(shape, item->m_meshsets, true, world_from_product, shapes);
-      add_bodies(shape, item->m_meshsets_open, false, world_from_product, shapes);
+      shape.look = look_of(item->m_vec_item_appearances, textures);
+      if (!shape.look) shape.look = look_of(representation->m_vec_representation_appearances, textures);
+      if (!shape.look) shape.look = look_of(product.getAppearances(), textures);
+      add_bodies(shape, item->m_meshsets, true, world_from_product, textures, shapes);
+      add_bodies(shape, item->m_meshsets_open, false, world_from_product, textures, shapes);
     }
   }
+}
+
+/// Faces of one body that have colours of their own are shown in that of the body.
+void warn_of_coloured_faces(const BuildingModel& building, Complaints& complaints) {
+  for (const auto& [id, entity] : building.getMapIfcEntities())
+    if (dynamic_cast<const IfcIndexedColourMap*>(entity.get()))
+      complaints.add(
+          fmt::format("#{}: colours of single faces (IfcIndexedColourMap) are left out; give each colour a "
+                      "body of its own",
+                      id));
 }
 
 /// IFC++ reads any schema as if it were one that it knows.
@@ -198,11 +201,11 @@ Status check_schema(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-Result<std::vector<IfcShape>> ifc_shapes(std::string text, const std::string& name, Errors& warnings) {
+Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& warnings) {
   if (Status status = check_schema(text, name); !status) return status.errors();
   const SilentOutput silent;
   Complaints complaints(name, warnings);
-  std::vector<IfcShape> shapes;
+  IfcBodies bodies;
   try {
     auto building = std::make_shared<BuildingModel>();
     GeometryConverter converter(building);
@@ -215,17 +218,20 @@ Result<std::vector<IfcShape>> ifc_shapes(std::string text, const std::string& na
         });
     ReaderSTEP().loadModelFromString(text, building);
     converter.convertGeometry();
+    warn_of_coloured_faces(*building, complaints);
+    IfcTextures textures(*building, [&](const std::string& message) { complaints.add(message); });
     for (const auto& [id, product] : converter.getShapeInputData()) {
       const std::shared_ptr<IfcObjectDefinition> object =
           product ? product->m_ifc_object_definition.lock() : nullptr;
-      if (object && is_built(*object)) add_product(*product, object, shapes);
+      if (object && is_built(*object)) add_product(*product, object, textures, bodies.shapes);
     }
+    bodies.pictures = textures.pictures();
   } catch (const std::exception& failure) {
     return Error{fmt::format("IFC++ cannot read it: {}", failure.what()), {name, 0, 0}};
   } catch (const carve::exception& failure) {
     return Error{fmt::format("IFC++ cannot build it: {}", failure.str()), {name, 0, 0}};
   }
-  return shapes;
+  return bodies;
 }
 
 }  // namespace parvis::scene

@@ -1,5 +1,5 @@
 // The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in
-// ifc_shapes.cpp.
+// ifc_shapes.cpp and ifc_textures.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "base/result.h"
+#include "formats/ifc/ifc_textures.h"
 
 namespace parvis::scene {
 
 /// How a body looks, by a surface style of the file.
 struct IfcLook {
-  glm::vec3 colour{0.8f};  ///< sRGB, 0..1
-  float alpha = 1.0f;      ///< 1: opaque
+  glm::vec3 colour{0.8f};                             ///< sRGB, 0..1
+  float alpha = 1.0f;                                 ///< 1: opaque
+  std::optional<std::size_t> picture = std::nullopt;  ///< of IfcBodies::pictures; the colour multiplies it
 };
 
 /// Triangles of one object.
@@ -25,11 +27,18 @@ struct IfcShape {
   std::optional<IfcLook> look;      ///< none: the file has no style for it
   bool is_closed = false;           ///< a solid, whose back is never seen
   std::vector<glm::dvec3> corners;  ///< metres in the file's world; three a triangle, counter-clockwise
+  std::vector<glm::vec2> uvs;       ///< one per corner where its look has a picture, v down; else empty
+};
+
+/// What a file holds.
+struct IfcBodies {
+  std::vector<IfcShape> shapes;
+  std::vector<IfcPicture> pictures;
 };
 
 /// The bodies of `text`, a whole file in the text form of STEP; `name` stands in errors and warnings. Every
 /// triangle is finite. Spaces, openings and grids are left out. Errors: a schema that is neither IFC 2x3 nor
 /// IFC 4; text that IFC++ cannot read.
-Result<std::vector<IfcShape>> ifc_shapes(std::string text, const std::string& name, Errors& warnings);
+Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& warnings);
 
 }  // namespace parvis::scene
