@@ -22,6 +22,10 @@ Bend bend_of(LeafForm form) {
       return {0.16f, 0.14f};
     case LeafForm::blade:
       return {0.0f, 0.4f};
+    case LeafForm::shoot:
+      return {0.25f, 0.1f};
+    case LeafForm::tuft:
+      return {0.4f, 0.0f};
   }
   return {0.0f, 0.0f};
 }
@@ -89,6 +93,47 @@ LeafTemplate strip(Bend bend) {
   return leaf;
 }
 
+/// Pairs of needles along a twig, which point forward and, every other one, up.
+LeafTemplate comb_of_needles() {
+  constexpr int pairs = 11;
+  constexpr float step = 0.8f / float(pairs), aside = 0.15f, ahead = 0.12f;
+  LeafTemplate leaf;
+  for (int k = 0; k <= pairs; ++k) leaf.points.emplace_back(0.0f, step * float(k), 0.0f);
+  for (int k = 0; k < pairs; ++k) {
+    const float y = step * (float(k) + 1.0f) + ahead;
+    for (const float side : {1.0f, -1.0f}) {
+      const float up = (k % 2 == 0) == (side > 0.0f) ? 0.09f : 0.03f;
+      leaf.points.emplace_back(side * aside * (1.0f - 0.02f * float(k)), y, up);
+    }
+    const std::size_t foot = std::size_t(k), right = std::size_t(pairs + 1 + 2 * k);
+    add_triangle(leaf, foot, right, foot + 1), add_triangle(leaf, foot, foot + 1, right + 1);
+  }
+  const std::size_t last = leaf.points.size();
+  for (const glm::vec3 point :
+       {glm::vec3(-0.02f, 0.8f, 0.02f), glm::vec3(0.02f, 0.8f, 0.02f), glm::vec3(0.0f, 1.0f, 0.02f)})
+    leaf.points.push_back(point);
+  add_triangle(leaf, last, last + 1, last + 2);
+  return leaf;
+}
+
+/// Needles that spread from one point, ahead, aside and up.
+LeafTemplate fan_of_needles() {
+  constexpr int needles = 13;
+  constexpr float half_width = 0.02f, spread = 1.25f;  // radians to each side
+  LeafTemplate leaf;
+  for (int k = 0; k < needles; ++k) {
+    const float turn = spread * (2.0f * float(k) / float(needles - 1) - 1.0f);
+    const float up = 0.12f + 0.7f * float(k * 5 % needles) / float(needles),
+                length = 1.0f - 0.2f * float(k % 3) / 2.0f;
+    const glm::vec2 along(std::sin(turn), std::cos(turn)), across(along.y, -along.x);
+    const std::size_t first = leaf.points.size();
+    leaf.points.emplace_back(-half_width * across, 0.0f), leaf.points.emplace_back(half_width * across, 0.0f);
+    leaf.points.emplace_back(length * std::cos(up) * along, length * std::sin(up));
+    add_triangle(leaf, first, first + 1, first + 2);
+  }
+  return leaf;
+}
+
 void set_normals(LeafTemplate& leaf) {
   leaf.normals.assign(leaf.points.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i < leaf.indices.size(); i += 3) {
@@ -112,6 +157,8 @@ LeafTemplate make_full(LeafForm form) {
   LeafTemplate leaf = form == LeafForm::ellipse   ? along_midrib(ellipse, bend)
                       : form == LeafForm::lobed   ? along_midrib(lobed, bend)
                       : form == LeafForm::palmate ? five_lobes(bend)
+                      : form == LeafForm::shoot   ? comb_of_needles()
+                      : form == LeafForm::tuft    ? fan_of_needles()
                                                   : strip(bend);
   set_normals(leaf);
   return leaf;
@@ -151,14 +198,14 @@ float LeafTemplate::area() const {
 const LeafTemplate& full_leaf(LeafForm form) {
   static const std::array<LeafTemplate, leaf_form_count> leaves{
       make_full(LeafForm::ellipse), make_full(LeafForm::lobed), make_full(LeafForm::palmate),
-      make_full(LeafForm::blade)};
+      make_full(LeafForm::blade),   make_full(LeafForm::shoot), make_full(LeafForm::tuft)};
   return leaves[std::size_t(form)];
 }
 
 const LeafTemplate& simple_leaf(LeafForm form) {
   static const std::array<LeafTemplate, leaf_form_count> leaves{
       make_simple(LeafForm::ellipse), make_simple(LeafForm::lobed), make_simple(LeafForm::palmate),
-      make_simple(LeafForm::blade)};
+      make_simple(LeafForm::blade),   make_simple(LeafForm::shoot), make_simple(LeafForm::tuft)};
   return leaves[std::size_t(form)];
 }
 

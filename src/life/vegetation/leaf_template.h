@@ -1,5 +1,5 @@
-// Leaves as meshes: an outline along the midrib, folded at it and bent down, and a coarse one of the same
-// area.
+// Leaves as meshes: an outline along the midrib, folded at it and bent down, or a handful of needles; and a
+// coarse one of the same area.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,14 @@ enum class LeafForm : std::uint8_t {
   ellipse,  ///< orange, privet
   lobed,    ///< oak
   palmate,  ///< plane
-  blade     ///< grass
+  blade,    ///< grass
+  shoot,    ///< spruce, fir: needles to both sides of a twig's end
+  tuft      ///< pine: long needles from one point
 };
-inline constexpr int leaf_form_count = 4;
+inline constexpr int leaf_form_count = 6;
+
+/// True for the needles of conifers, which one leaf holds many of.
+inline bool is_needles(LeafForm form) { return form == LeafForm::shoot || form == LeafForm::tuft; }
 
 /// A leaf's mesh in its own frame, in leaf lengths: x across, y from its foot to its tip, z up.
 struct LeafTemplate {

@@ -14,7 +14,7 @@ namespace parvis::vegetation {
 
 /// How a plant of some kind fills space.
 enum class Habit : std::uint8_t {
-  tree,   ///< a trunk that forks into limbs, branches and twigs
+  tree,   ///< a trunk with limbs, branches and twigs
   hedge,  ///< stems in a row and a clipped crown: a box
   sward   ///< blades of grass over a square
 };
@@ -27,6 +27,7 @@ struct PlantKind {
   float min_height_m, max_height_m;
   float trunk_share;                      ///< radius of the trunk at its foot, of the height
   std::vector<city::BranchOrder> orders;  ///< of trees
+  bool grows_in_whorls = false;           ///< of trees: as grow_in_whorls does, else they fork (grow_tree)
   LeafForm leaf;
   float leaf_m;  ///< mean length
   /// Of trees: leaves at the usual height. Of the others: per square metre of hedge's surface, of ground.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "life/vegetation/conifer.h"
 #include "life/vegetation/crown_openness.h"
 #include "life/vegetation/leaf_order.h"
 #include "places/paper_city/tree_mesh.h"
@@ -71,7 +72,8 @@ std::vector<Branch> grow_branches(const PlantRecipe& recipe, Random& random) {
   const PlantKind& kind = *recipe.kind;
   std::vector<Branch> branches;
   if (kind.habit == Habit::tree) {
-    branches = city::grow_tree({recipe.height_m, kind.trunk_share * recipe.height_m, kind.orders}, random);
+    const city::Species species{recipe.height_m, kind.trunk_share * recipe.height_m, kind.orders};
+    branches = kind.grows_in_whorls ? grow_in_whorls(species, random) : city::grow_tree(species, random);
   } else if (kind.habit == Habit::hedge) {
     const int stems = std::max(1, int(recipe.length_m / stem_spacing_m));
     for (int i = 0; i < stems; ++i) {
@@ -109,6 +111,49 @@ void leaf_tree(PlantShape& shape, const std::vector<Branch>& branches, std::size
     const vec3 along = 0.5f * axis + 0.8f * side + 0.3f * any_direction(random) - vec3(0, 0, 0.25f);
     const vec3 normal = vec3(0, 0, 0.7f) + 0.5f * outward + 0.75f * any_direction(random);
     shape.leaves.push_back(leaf_at(foot, along, normal, length_m, random));
+  }
+}
+
+/// A straight piece of wood that bears needles.
+struct ShootBearer {
+  vec3 from, to;
+  bool is_leader;    ///< of the trunk: shoots all round it, else to both sides
+  double end_m = 0;  ///< length of all up to here
+};
+
+/// The young wood: of a branch its outer part, of the trunk its top.
+std::vector<ShootBearer> shoot_bearers(const std::vector<Branch>& branches, const PlantKind& kind) {
+  const float bare_share = kind.leaf == LeafForm::tuft ? 0.4f : 0.0f;  // pines keep their needles for 3 years
+  std::vector<ShootBearer> bearers;
+  double sum_m = 0.0;
+  for (const Branch& branch : branches) {
+    const std::size_t pieces = branch.points.size() - 1;
+    const bool is_trunk = branch.order == 0;
+    const float bare = is_trunk ? 0.9f : branch.order == 1 ? std::max(bare_share, 0.5f) : bare_share;
+    for (std::size_t k = std::size_t(bare * float(pieces)); k < pieces; ++k) {
+      sum_m += double(glm::distance(branch.points[k], branch.points[k + 1]));
+      bearers.push_back({branch.points[k], branch.points[k + 1], is_trunk, sum_m});
+    }
+  }
+  return bearers;
+}
+
+/// Needles on the young wood, by its length. They lie along it.
+void leaf_conifer(PlantShape& shape, const std::vector<Branch>& branches, std::size_t count, Random& random) {
+  const std::vector<ShootBearer> bearers = shoot_bearers(branches, shape.kind());
+  const float mean_leaf_m = leaf_length_m(shape.recipe);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = (double(i) + double(random.uniform())) / double(count) * bearers.back().end_m;
+    const auto found = std::ranges::lower_bound(bearers, place, {}, &ShootBearer::end_m);
+    const ShootBearer& bearer = found == bearers.end() ? bearers.back() : *found;
+    const vec3 axis = glm::normalize(bearer.to - bearer.from);
+    const vec3 aside = bearer.is_leader
+                           ? across(any_direction(random), axis)
+                           : (random.chance(0.5f) ? 1.0f : -1.0f) * across(vec3(axis.y, -axis.x, 0.1f), axis);
+    const vec3 foot = glm::mix(bearer.from, bearer.to, random.uniform());
+    const vec3 along = axis + random.uniform(0.0f, 0.8f) * aside + 0.2f * any_direction(random);
+    const vec3 normal = vec3(0, 0, 1) + 0.6f * any_direction(random);
+    shape.leaves.push_back(leaf_at(foot, along, normal, mean_leaf_m * random.uniform(0.75f, 1.25f), random));
   }
 }
 
@@ -218,7 +263,11 @@ PlantShape grow_plant(const PlantRecipe& recipe) {
   const std::vector<Branch> branches = grow_branches(recipe, random);
   const std::size_t count = leaf_count(recipe);
   shape.leaves.reserve(count);
-  if (recipe.kind->habit == Habit::tree) leaf_tree(shape, branches, count, random);
+  if (is_needles(recipe.kind->leaf)) {
+    leaf_conifer(shape, branches, count, random);
+  } else if (recipe.kind->habit == Habit::tree) {
+    leaf_tree(shape, branches, count, random);
+  }
   if (recipe.kind->habit == Habit::hedge) leaf_hedge(shape, count, random);
   if (recipe.kind->habit == Habit::sward) leaf_sward(shape, count, random);
   add_wood(shape, branches, random);

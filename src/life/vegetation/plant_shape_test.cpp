@@ -68,6 +68,49 @@ TEST(PlantShape, HasItsHeightAndStandsOnTheGround) {
     }
 }
 
+/// Widest distance of a leaf from the axis between two heights over the tree's.
+float reach(const PlantShape& shape, float from, float to) {
+  float widest = 0.0f;
+  for (const Leaf& leaf : shape.leaves)
+    if (leaf.foot.z >= from * shape.recipe.height_m && leaf.foot.z < to * shape.recipe.height_m)
+      widest = std::max(widest, glm::length(glm::vec2(leaf.foot)));
+  return widest;
+}
+
+TEST(PlantShape, ASpruceIsAConeThatBeginsAtTheGround) {
+  const PlantShape spruce = grown(*find_kind("spruce"), 5);
+  float last = 1e9f;
+  for (float from = 0.1f; from < 0.95f; from += 0.2f) {
+    const float now = reach(spruce, from, from + 0.2f);
+    EXPECT_LT(now, last) << from;
+    last = now;
+  }
+  EXPECT_GT(reach(spruce, 0.0f, 0.1f), 0.12f * spruce.recipe.height_m);
+  EXPECT_LT(reach(spruce, 0.97f, 1.1f), 0.03f * spruce.recipe.height_m);
+  EXPECT_GT(reach(spruce, 0.97f, 1.1f), 0.0f) << "its leader has needles";
+}
+
+TEST(PlantShape, APineHasABareTrunkBelowItsCrown) {
+  const PlantShape pine = grown(*find_kind("pine"), 5);
+  EXPECT_EQ(reach(pine, 0.0f, 0.2f), 0.0f);
+  EXPECT_GT(reach(pine, 0.5f, 0.8f), 0.15f * pine.recipe.height_m);
+}
+
+TEST(PlantShape, NeedlesGrowOnTheWood) {
+  for (const char* name : {"spruce", "pine"}) {
+    const PlantShape shape = grown(*find_kind(name), 2);
+    for (std::size_t i = 0; i < shape.leaves.size(); i += 997) {
+      float nearest = 1e9f;
+      for (const Twig& twig : shape.twigs) {
+        const glm::vec3 along = twig.to - twig.from, away = shape.leaves[i].foot - twig.from;
+        const float share = std::clamp(glm::dot(away, along) / glm::dot(along, along), 0.0f, 1.0f);
+        nearest = std::min(nearest, glm::length(away - share * along));
+      }
+      EXPECT_LT(nearest, 1e-3f) << name;
+    }
+  }
+}
+
 TEST(PlantShape, AnOakHasAMillionTriangles) {
   EXPECT_GE(grown(*find_kind("oak")).triangle_count(), 1'000'000u);
 }
