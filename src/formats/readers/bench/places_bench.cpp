@@ -76,6 +76,7 @@ Status write_pbf(const fs::path& xml, const fs::path& pbf) {
 Status measure_pbf(const BenchSetup& setup, const fs::path& folder, Report& report) {
   const fs::path xml = folder / "big.osm", pbf = folder / "big.osm.pbf";
   const int side = setup.is_quick ? 120 : 250;
+  const std::size_t houses = std::size_t(side) * std::size_t(side);
   if (Status status = write_file(xml, town_xml(side, side * side)); !status) return status;
   if (Status status = write_pbf(xml, pbf); !status) return status;
   std::vector<double> mb_s;
@@ -85,8 +86,7 @@ Status measure_pbf(const BenchSetup& setup, const fs::path& folder, Report& repo
       Errors warnings;
       const auto osm = scene::read_osm_file(pbf, warnings);
       if (!osm) read = osm.errors();
-      if (osm && osm->ways.size() < std::size_t(side * side))
-        read = error("{}: houses are missing", pbf.string());
+      if (osm && osm->ways.size() < houses) read = error("{}: houses are missing", pbf.string());
     });
     if (!read) return read;
     mb_s.push_back(1e-3 * double(fs::file_size(pbf)) / ms);
@@ -268,14 +268,14 @@ void note_triangles(const TriangleCount& count, Totals& totals, const std::strin
 Status measure_place(const House& house, const fs::path& file, const fs::path& folder, Totals& totals,
                      Report& report) {
   Status done = Done{};
-  std::optional<dressing::WrittenScene> written;
+  dressing::WrittenScene written;
   const std::clock_t before = std::clock();
   const double ms = milliseconds([&] {
     Result<dressing::WrittenScene> script =
         dressing::write_bare_scene(file, house.get<formats::Readers>(), folder);
     if (!script) return void(done = script.errors());
     written = *script;
-    Result<house::Play> play = house::open_play(house, script->script, {&written->data_folder, 1});
+    Result<house::Play> play = house::open_play(house, written.script, {&written.data_folder, 1});
     if (!play) return void(done = play.errors());
     Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
     if (!stage) return void(done = stage.errors());
@@ -290,7 +290,7 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
   double& of_kind = totals.minutes_of[kind_of(file)];
   of_kind = std::max(of_kind, ms / 60'000.0);
   const Result<scene::LoadedScene> loaded =
-      scene::load_scene(written->script, house.get<scene::NodeRegistry>(), {&written->data_folder, 1});
+      scene::load_scene(written.script, house.get<scene::NodeRegistry>(), {&written.data_folder, 1});
   if (!loaded) return loaded.errors();
   totals.warnings += unexplained_of(*loaded, report);
   const scene::NamedCamera* street = loaded->scene.find_camera("street");
@@ -374,14 +374,15 @@ scene::Scene street_with_things(bool has_slab) {
   add(sheet({-30, -60}, {230, 60}, 5.0f, 0.0f), {}, "hill");
   scene::Material leaves;
   leaves.alpha_mode = scene::Alpha::cutout;
-  for (float x = 0.0f; x < 200.0f; x += 17.0f) add(sheet({x, 3}, {x + 8, 11}, 2.0f, 2.2f), leaves, "crown");
-  for (float x = 5.0f; x < 200.0f; x += 23.0f)
-    add(sheet({x, 1.5f}, {x + 4.5f, 3.3f}, 1.0f, 1.45f), {}, "van");
-  for (float x = 9.0f; x < 200.0f; x += 31.0f)
-    add(sheet({x, -5}, {x + 1.8f, -4.4f}, 0.6f, 0.45f), {}, "bench");
+  const auto along = [](int first_m, int step_m, const auto& place) {
+    for (int x_m = first_m; x_m <= 200; x_m += step_m) place(float(x_m));
+  };
+  along(0, 17, [&](float x) { add(sheet({x, 3}, {x + 8, 11}, 2.0f, 2.2f), leaves, "crown"); });
+  along(5, 23, [&](float x) { add(sheet({x, 1.5f}, {x + 4.5f, 3.3f}, 1.0f, 1.45f), {}, "van"); });
+  along(9, 31, [&](float x) { add(sheet({x, -5}, {x + 1.8f, -4.4f}, 0.6f, 0.45f), {}, "bench"); });
   if (has_slab) add(sheet({40, -30}, {140, 30}, 5.0f, 1.0f), {}, "slab");
   scene::Road road;
-  for (float x = 0.0f; x <= 200.0f; x += 20.0f) road.path.emplace_back(x, 0.0f, hill_m(x, 0.0f));
+  along(0, 20, [&](float x) { road.path.emplace_back(x, 0.0f, hill_m(x, 0.0f)); });
   scene.roads = *scene::build_road_graph(std::vector{road});
   scene::pave(scene);
   return scene;
@@ -395,8 +396,9 @@ double paving_error_m(const scene::Scene& scene) {
   paving.objects.push_back(scene.objects.back());
   const reference::RayScene rays(paving);
   std::vector<double> errors;
-  for (float x = 1.0f; x < 199.0f; x += 0.5f)
-    for (float y = -6.0f; y <= 6.0f; y += 0.5f) {
+  for (int i = 2; i < 398; ++i)
+    for (int j = -12; j <= 12; ++j) {
+      const float x = 0.5f * float(i), y = 0.5f * float(j);
       const auto hit = rays.nearest_hit({{x, y, 100.0f}, {0.0f, 0.0f, -1.0f}});
       const float above_m = hit ? 100.0f - hit->distance_m - hill_m(x, y) : 1.0f;
       if (hit || std::abs(y) < half_carriageway_m)
