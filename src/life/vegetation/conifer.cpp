@@ -12,7 +12,7 @@ using glm::vec3;
 constexpr float golden_angle = 2.39996323f;
 constexpr float whorl_m = 0.42f;        // a year's growth
 constexpr float top_angle_deg = 42.0f;  // of the youngest branches, from the trunk
-constexpr float twig_step_m = 0.11f;    // between the twigs of a branch
+constexpr float twig_step_m = 0.08f;    // between the twigs of a branch
 constexpr float lowest_m = 0.12f;       // of what droops, above the ground
 
 /// Lengths of branches over that of the lowest: the outline is a cone that bulges a little.
@@ -86,7 +86,7 @@ void grow_whorls(std::vector<Branch>& tree, const city::Species& species, Random
           rule.length_share * species.height_m * outline(share) * random.uniform(0.8f, 1.15f);
       const float angle = glm::radians(glm::mix(rule.angle_deg, top_angle_deg, share * share));
       const vec3 aside(std::cos(turn), std::sin(turn), 0.0f);
-      foot.radius_m = std::min(0.5f * foot.radius_m, 0.014f * length_m + 0.004f);
+      foot.radius_m = std::min(0.5f * foot.radius_m, 0.007f * length_m + 0.003f);
       tree.push_back(grow_branch(foot, std::cos(angle) * foot.axis + std::sin(angle) * aside, length_m, 1,
                                  rule, random));
     }

@@ -23,9 +23,8 @@ Bend bend_of(LeafForm form) {
     case LeafForm::blade:
       return {0.0f, 0.4f};
     case LeafForm::shoot:
-      return {0.25f, 0.1f};
     case LeafForm::tuft:
-      return {0.4f, 0.0f};
+      break;  // needles are straight
   }
   return {0.0f, 0.0f};
 }
@@ -94,18 +93,18 @@ LeafTemplate strip(Bend bend) {
 }
 
 /// Pairs of needles along a twig, which point forward and, every other one, up.
-LeafTemplate comb_of_needles() {
-  constexpr int pairs = 11;
-  constexpr float step = 0.8f / float(pairs), aside = 0.15f, ahead = 0.12f;
+LeafTemplate comb_of_needles(int pairs) {
+  const float step = 0.8f / float(pairs);  // their feet fill the twig: all needles together keep their area
+  constexpr float aside = 0.15f, ahead = 0.12f;
   LeafTemplate leaf;
   for (int k = 0; k <= pairs; ++k) leaf.points.emplace_back(0.0f, step * float(k), 0.0f);
   for (int k = 0; k < pairs; ++k) {
     const float y = step * (float(k) + 1.0f) + ahead;
     for (const float side : {1.0f, -1.0f}) {
       const float up = (k % 2 == 0) == (side > 0.0f) ? 0.09f : 0.03f;
-      leaf.points.emplace_back(side * aside * (1.0f - 0.02f * float(k)), y, up);
+      leaf.points.emplace_back(side * aside * (1.0f - 0.22f * float(k) / float(pairs)), y, up);
     }
-    const std::size_t foot = std::size_t(k), right = std::size_t(pairs + 1 + 2 * k);
+    const auto foot = std::size_t(k), right = std::size_t(pairs) + 1 + 2 * foot;
     add_triangle(leaf, foot, right, foot + 1), add_triangle(leaf, foot, foot + 1, right + 1);
   }
   const std::size_t last = leaf.points.size();
@@ -117,13 +116,13 @@ LeafTemplate comb_of_needles() {
 }
 
 /// Needles that spread from one point, ahead, aside and up.
-LeafTemplate fan_of_needles() {
-  constexpr int needles = 13;
-  constexpr float half_width = 0.02f, spread = 1.25f;  // radians to each side
+LeafTemplate fan_of_needles(int needles) {
+  const float half_width = 0.26f / float(needles);
+  constexpr float spread = 1.25f;  // radians to each side
   LeafTemplate leaf;
   for (int k = 0; k < needles; ++k) {
     const float turn = spread * (2.0f * float(k) / float(needles - 1) - 1.0f);
-    const float up = 0.12f + 0.7f * float(k * 5 % needles) / float(needles),
+    const float up = 0.12f + 0.7f * float(k * 3 % needles) / float(needles),
                 length = 1.0f - 0.2f * float(k % 3) / 2.0f;
     const glm::vec2 along(std::sin(turn), std::cos(turn)), across(along.y, -along.x);
     const std::size_t first = leaf.points.size();
@@ -157,15 +156,30 @@ LeafTemplate make_full(LeafForm form) {
   LeafTemplate leaf = form == LeafForm::ellipse   ? along_midrib(ellipse, bend)
                       : form == LeafForm::lobed   ? along_midrib(lobed, bend)
                       : form == LeafForm::palmate ? five_lobes(bend)
-                      : form == LeafForm::shoot   ? comb_of_needles()
-                      : form == LeafForm::tuft    ? fan_of_needles()
+                      : form == LeafForm::shoot   ? comb_of_needles(11)
+                      : form == LeafForm::tuft    ? fan_of_needles(13)
                                                   : strip(bend);
+  set_normals(leaf);
+  return leaf;
+}
+
+/// A few wide needles, which have the area of all.
+LeafTemplate few_needles(LeafForm form) {
+  LeafTemplate leaf = form == LeafForm::shoot ? comb_of_needles(3) : fan_of_needles(5);
+  const float area = full_leaf(form).area();
+  const std::vector<glm::vec3> narrow = leaf.points;
+  float width = 1.0f;
+  for (int i = 0; i < 20; ++i) {
+    width *= area / leaf.area();
+    for (std::size_t k = 0; k < narrow.size(); ++k) leaf.points[k].x = width * narrow[k].x;
+  }
   set_normals(leaf);
   return leaf;
 }
 
 /// A rhombus, folded and bent as the leaf is, whose width gives it the leaf's area.
 LeafTemplate make_simple(LeafForm form) {
+  if (is_needles(form)) return few_needles(form);
   const float area = full_leaf(form).area();
   const Bend bend = bend_of(form);
   LeafTemplate leaf;
