@@ -183,6 +183,43 @@ TEST_F(TexturedIfcTest, PicturesOfTheFileItselfLieAsItsCoordinatesSay) {
   }
 }
 
+/// A face of 30 corners, which IFC++ cuts into triangles as it likes.
+TEST_F(TexturedIfcTest, PicturesLieOnFacesOfManyCorners) {
+  constexpr int corners = 30;
+  ASSERT_TRUE(write_image(folder_.path() / "disc.png", marked()));
+  std::string entities, points, vertices;
+  for (int i = 0; i < corners; ++i) {
+    const double turn = 6.283185307 * i / corners, x = 0.5 + 0.5 * std::cos(turn),
+                 z = 0.5 + 0.5 * std::sin(turn);
+    entities +=
+        fmt::format("#{}=IFCCARTESIANPOINT(({:.6f},0.,{:.6f}));\n#{}=IFCTEXTUREVERTEX(({:.6f},{:.6f}));\n",
+                    9100 + i, 2000.0 * x, 2000.0 * z, 9200 + i, x, z);
+    points += fmt::format("{}#{}", i > 0 ? "," : "", 9100 + i);
+    vertices += fmt::format("{}#{}", i > 0 ? "," : "", 9200 + i);
+  }
+  const Model model =
+      read(textured(entities + "#9010=IFCPOLYLOOP((" + points +
+                        "));\n#9011=IFCFACEOUTERBOUND(#9010,.T.);\n#9012=IFCFACE((#9011));\n"
+                        "#9013=IFCCONNECTEDFACESET((#9012));\n#9014=IFCSURFACESTYLEWITHTEXTURES((#9015));\n"
+                        "#9015=IFCIMAGETEXTURE(.F.,.F.,$,$,$,'disc.png');\n#9016=IFCTEXTUREMAP((#9015),(" +
+                        vertices +
+                        "),#9012);\n#9017=IFCSURFACESTYLE('Disc',.BOTH.,(#9014));\n"
+                        "#9018=IFCSTYLEDITEM(#55,(#9017),$);\n",
+                    "#55=IFCEXTRUDEDAREASOLID(#54,#12,#9,200.0);\n#56=IFCSTYLEDITEM(#55,(#45),$);",
+                    "#55=IFCFACEBASEDSURFACEMODEL((#9013));"));
+  EXPECT_TRUE(warnings_.empty()) << to_string(warnings_);
+  const auto disc = std::ranges::find_if(
+      model.parts, [&](const Part& each) { return !picture(model, each).pixels.empty(); });
+  ASSERT_NE(disc, model.parts.end());
+  ASSERT_GE(disc->mesh.indices.size(), 3u * (corners - 2));
+  const Bounds box = disc->mesh.bounds();
+  for (std::size_t i = 0; i < disc->mesh.positions.size(); ++i) {
+    const glm::vec3 share = (disc->mesh.positions[i] - box.min) / glm::max(box.size(), glm::vec3(1e-3f));
+    EXPECT_NEAR(disc->mesh.uvs[i].x, share.x, 1e-2f);
+    EXPECT_NEAR(disc->mesh.uvs[i].y, 1.0f - share.z, 1e-2f);
+  }
+}
+
 TEST_F(TexturedIfcTest, EachPictureThatIsLeftOutIsNamed) {
   const auto warning = [&](const std::string& texture) {
     warnings_.clear();

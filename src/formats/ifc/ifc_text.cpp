@@ -7,7 +7,7 @@ namespace parvis::scene {
 std::string utf8(const std::wstring& text) {
   std::string bytes;
   for (const wchar_t letter : text) {
-    const std::uint32_t code = std::uint32_t(letter);
+    const std::uint32_t code = std::char_traits<wchar_t>::to_int_type(letter);
     const auto tail = [&](int shift) { bytes += char(0x80 | ((code >> shift) & 0x3f)); };
     if (code < 0x80) {
       bytes += char(code);

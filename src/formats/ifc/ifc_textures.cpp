@@ -41,7 +41,6 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 constexpr double same_place_m = 1e-4;
-constexpr std::size_t max_polygon = 12;  // corners: all triangles that they may be cut into are known
 
 /// Bits as STEP writes them: a digit for the number of unused bits, then digits of four bits each.
 std::string bytes_of_binary(const std::wstring& text) {
@@ -118,8 +117,6 @@ IfcTextures::IfcTextures(BuildingModel& building, std::function<void(const std::
   if (building.getUnitConverter()) metres_ = building.getUnitConverter()->getLengthInMeterFactor();
 }
 
-IfcTextures::~IfcTextures() = default;
-
 std::optional<std::size_t> IfcTextures::picture_of_style(int number) {
   const auto [known, is_new] = picture_of_style_.try_emplace(number, std::nullopt);
   if (!is_new) return known->second;
@@ -166,7 +163,8 @@ std::optional<std::size_t> IfcTextures::add(const shared_ptr<IfcSurfaceTexture>&
     return std::nullopt;
   }
   picture.repeats = !texture->m_RepeatS || texture->m_RepeatS->m_value;
-  Mapping mapping{matrix_of(texture->m_TextureTransform.get()), {}};
+  Mapping mapping;
+  mapping.transform = matrix_of(texture->m_TextureTransform.get());
   for (const auto& coordinates : texture->m_IsMappedBy_inverse)
     if (const auto given = coordinates.lock()) read_coordinates(*given, mapping);
   pictures_.push_back(std::move(picture)), mappings_.push_back(std::move(mapping));
@@ -174,6 +172,11 @@ std::optional<std::size_t> IfcTextures::add(const shared_ptr<IfcSurfaceTexture>&
 }
 
 void IfcTextures::read_coordinates(const IfcTextureCoordinate& coordinates, Mapping& mapping) {
+  const auto add = [&](Polygon polygon) {
+    for (const auto& [place, uv] : polygon)
+      mapping.polygons_at[place].push_back(std::uint32_t(mapping.polygons.size()));
+    mapping.polygons.push_back(std::move(polygon));
+  };
   if (const auto* map = dynamic_cast<const IfcIndexedTriangleTextureMap*>(&coordinates)) {
     const auto* set = dynamic_cast<const IfcTriangulatedFaceSet*>(map->m_MappedTo.get());
     if (!set || !set->m_Coordinates || !map->m_TexCoords) return;
@@ -181,8 +184,7 @@ void IfcTextures::read_coordinates(const IfcTextureCoordinate& coordinates, Mapp
     const auto& uv_list = map->m_TexCoords->m_TexCoordsList;
     const auto& uv_index = map->m_TexCoordIndex.empty() ? set->m_CoordIndex : map->m_TexCoordIndex;
     for (std::size_t t = 0; t < std::min(set->m_CoordIndex.size(), uv_index.size()); ++t) {
-      std::vector<dvec3> points;
-      std::vector<dvec2> uvs;
+      Polygon triangle;
       for (std::size_t k = 0; k < std::min(set->m_CoordIndex[t].size(), uv_index[t].size()); ++k) {
         if (!set->m_CoordIndex[t][k] || !uv_index[t][k]) continue;
         std::size_t point = std::size_t(std::max(set->m_CoordIndex[t][k]->m_value, 0));
@@ -193,54 +195,52 @@ void IfcTextures::read_coordinates(const IfcTextureCoordinate& coordinates, Mapp
         const std::size_t uv = std::size_t(std::max(uv_index[t][k]->m_value, 0));
         if (point < 1 || point > list.size() || uv < 1 || uv > uv_list.size()) continue;
         if (const auto given = uv_of(uv_list[uv - 1]))
-          points.push_back(point_of(list[point - 1], metres_)), uvs.push_back(*given);
+          triangle.emplace(place_of(point_of(list[point - 1], metres_)), *given);
       }
-      add_polygon(points, uvs, mapping);
+      add(std::move(triangle));
     }
   } else if (const auto* face_map = dynamic_cast<const IfcTextureMap*>(&coordinates)) {
     if (!face_map->m_MappedTo || face_map->m_MappedTo->m_Bounds.empty() || !face_map->m_MappedTo->m_Bounds[0])
       return;
     const auto* loop = dynamic_cast<const IfcPolyLoop*>(face_map->m_MappedTo->m_Bounds[0]->m_Bound.get());
     if (!loop) return;
-    std::vector<dvec3> points;
-    std::vector<dvec2> uvs;
+    Polygon face;
     for (std::size_t k = 0; k < std::min(loop->m_Polygon.size(), face_map->m_Vertices.size()); ++k) {
       if (!loop->m_Polygon[k] || !face_map->m_Vertices[k]) continue;
       if (const auto given = uv_of(face_map->m_Vertices[k]->m_Coordinates))
-        points.push_back(point_of(loop->m_Polygon[k]->m_Coordinates, metres_)), uvs.push_back(*given);
+        face.emplace(place_of(point_of(loop->m_Polygon[k]->m_Coordinates, metres_)), *given);
     }
-    add_polygon(points, uvs, mapping);
+    add(std::move(face));
   }
 }
 
-void IfcTextures::add_polygon(const std::vector<dvec3>& points, const std::vector<dvec2>& uvs,
-                              Mapping& mapping) {
-  if (points.size() > max_polygon) return;
-  std::vector<std::pair<Place, dvec2>> corners;
-  for (std::size_t i = 0; i < points.size(); ++i) corners.emplace_back(place_of(points[i]), uvs[i]);
-  for (std::size_t a = 0; a < corners.size(); ++a)
-    for (std::size_t b = a + 1; b < corners.size(); ++b)
-      for (std::size_t c = b + 1; c < corners.size(); ++c) {
-        Triangle key{corners[a].first, corners[b].first, corners[c].first};
-        std::ranges::sort(key);
-        mapping.triangles[key] = {corners[a], corners[b], corners[c]};
-      }
+/// The face that a triangle was cut from; null where the file gives it no coordinates. Faces are looked for
+/// at the corner that the fewest of them share.
+const IfcTextures::Polygon* IfcTextures::polygon_with(const std::array<Place, 3>& corners,
+                                                      const Mapping& mapping) {
+  const std::vector<std::uint32_t>* fewest = nullptr;
+  for (const Place& corner : corners) {
+    const auto at = mapping.polygons_at.find(corner);
+    if (at == mapping.polygons_at.end()) return nullptr;
+    if (!fewest || at->second.size() < fewest->size()) fewest = &at->second;
+  }
+  for (const std::uint32_t index : *fewest) {
+    const Polygon& polygon = mapping.polygons[index];
+    if (std::ranges::all_of(corners, [&](const Place& corner) { return polygon.contains(corner); }))
+      return &polygon;
+  }
+  return nullptr;
 }
 
 std::array<glm::vec2, 3> IfcTextures::coordinates(std::size_t picture, const std::array<dvec3, 3>& corners) {
   const Mapping& mapping = mappings_[picture];
   const dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-  Triangle key{place_of(corners[0]), place_of(corners[1]), place_of(corners[2])};
-  const Triangle places = key;
-  std::ranges::sort(key);
-  const auto given = mapping.triangles.find(key);
+  const std::array<Place, 3> places{place_of(corners[0]), place_of(corners[1]), place_of(corners[2])};
+  const Polygon* given = polygon_with(places, mapping);
   std::array<glm::vec2, 3> result{};
   for (std::size_t k = 0; k < 3; ++k) {
-    dvec2 uv = along_surface(corners[k], normal);
-    if (given != mapping.triangles.end())
-      for (const auto& [place, at] : given->second)
-        if (place == places[k]) uv = at;
-    uv = dvec2(mapping.transform * dvec3(uv, 1.0));
+    const dvec2 bare = given ? given->at(places[k]) : along_surface(corners[k], normal);
+    const dvec2 uv(mapping.transform * dvec3(bare, 1.0));
     result[k] = glm::vec2(uv.x, 1.0 - uv.y);
   }
   return result;

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 class BuildingModel;
@@ -30,7 +30,6 @@ class IfcTextures {
  public:
   /// `warn` takes what is left out, by its number in the file; both must outlive this.
   IfcTextures(BuildingModel& building, std::function<void(const std::string&)> warn);
-  ~IfcTextures();
 
   /// Index of the picture of the entity with this number, a surface style or what names one; none: it has no
   /// picture that can be shown.
@@ -43,17 +42,18 @@ class IfcTextures {
 
  private:
   using Place = std::array<std::int64_t, 3>;
-  using Triangle = std::array<Place, 3>;
+  /// Texture coordinates of a face by its corners: triangles that it is cut into have some of these.
+  using Polygon = std::map<Place, glm::dvec2>;
   /// How a picture lies on what it covers.
   struct Mapping {
     glm::dmat3 transform{1.0};  ///< IfcSurfaceTexture.TextureTransform
-    std::map<Triangle, std::array<std::pair<Place, glm::dvec2>, 3>> triangles;  ///< by sorted places
+    std::vector<Polygon> polygons;
+    std::map<Place, std::vector<std::uint32_t>> polygons_at;  ///< by each of their corners
   };
 
   std::optional<std::size_t> add(const std::shared_ptr<IfcSurfaceTexture>& texture);
   void read_coordinates(const IfcTextureCoordinate& coordinates, Mapping& mapping);
-  void add_polygon(const std::vector<glm::dvec3>& points, const std::vector<glm::dvec2>& uvs,
-                   Mapping& mapping);
+  static const Polygon* polygon_with(const std::array<Place, 3>& corners, const Mapping& mapping);
 
   BuildingModel& building_;
   std::function<void(const std::string&)> warn_;
