@@ -38,6 +38,7 @@ LineLook coloured(const char* type, glm::vec3 srgb, CityAssembly& city) {
 
 std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const GroundOnMap& ground) {
   std::vector<dvec3> line;
+  line.reserve(profile.size());
   for (const RaisedPoint& point : profile)
     line.emplace_back(point.place, point.above_m + (ground ? ground(point.place) : 0.0));
   return line;
@@ -119,10 +120,11 @@ void add_row(const OsmWay& row, const OsmPlaces& place, const GroundOnMap& groun
     if (!a || !b) continue;
     const double length_m = glm::distance(*a, *b);
     double at_m = left_m;
-    for (; at_m <= length_m; at_m += row_step_m) {
+    while (at_m <= length_m) {
       const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
       add_tree({foot, ground ? ground(foot) : 0.0},
                metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), row.tags, city);
+      at_m += row_step_m;
     }
     left_m = at_m - length_m;
   }
@@ -149,6 +151,7 @@ void add_embankment(const std::vector<RaisedPoint>& points, const GroundOnMap& g
   const Sides sides = sides_of(line, -half_m, half_m, -below_road_m);
   if (sides.left.size() != points.size()) return;  // points that coincide: no length
   std::vector<double> above_m;
+  above_m.reserve(points.size());
   for (const RaisedPoint& point : points) above_m.push_back(point.above_m);
   add_band(sides, top, city);
   add_slope(sides.right, sides.left, above_m, slope, city);
