@@ -29,6 +29,9 @@ Error cannot_write(const fs::path& file) {
                reason());
 }
 
+/// The signals after which the program still removes what it was writing.
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
+
 /// Paths of partial files where a signal handler finds them: it may not touch what allocates.
 struct Slot {
   std::atomic<bool> is_taken = false, is_listed = false;
@@ -51,10 +54,39 @@ int list(const std::string& path) {
 /// Set when the program ends by a signal: from then on nobody makes files that would be left.
 std::atomic<bool> is_ending = false;
 
-/// To be asked before anything is made, or taken off the list.
+/// To be asked before anything is taken off the list.
 void wait_for_the_end() {
   while (is_ending) pause();
 }
+
+/// How many threads are making what the list names: the end waits for them, since a thread may rest for long
+/// between its look at is_ending and its call of the kernel.
+std::atomic<int> making = 0;
+
+/// A thread is making something. Signals that end the program wait, or go to another thread: their handler
+/// would wait for the thread that it interrupts.
+class Making {
+ public:
+  Making() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int number : ending_signals) sigaddset(&ending, number);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+    ++making;
+    if (!is_ending) return;
+    --making;
+    wait_for_the_end();
+  }
+  ~Making() {
+    --making;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 void unlist(int slot) {
   if (slot < 0) return;
@@ -148,13 +180,17 @@ Made make_listed(const fs::path& folder, std::string_view front, std::string_vie
   std::error_code code;
   std::random_device random;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    wait_for_the_end();
     Made made{folder / fmt::format("{}{:08x}{}", front, std::uint32_t(random()), back)};
-    made.slot = list(fs::absolute(made.path, code).string());
-    wait_for_the_end();
-    made.lock = make(made.path.c_str());
-    const int why = errno;
+    int why = 0;
+    {
+      const Making until_it_is_there;
+      made.slot = list(fs::absolute(made.path, code).string());
+      made.lock = make(made.path.c_str());
+      why = errno;
+    }
     if (made.lock >= 0 && lock_made(made.lock)) return made;
+    // Who has taken it for abandoned may be ended before it removes it.
+    if (made.lock >= 0) fs::remove(made.path, code);
     unlist(made.slot);
     if (made.lock >= 0)
       close(made.lock);
@@ -212,7 +248,10 @@ Result<PartialFile> PartialFile::create(const fs::path& named) {
   const Result<fs::path> target = target_of(named);
   if (!target) return target.errors();
   const fs::path& file = *target;
-  if (const fs::path folder = file.parent_path(); !folder.empty()) fs::create_directories(folder, code);
+  if (const fs::path folder = file.parent_path(); !folder.empty()) {
+    const Making until_it_is_there;  // the end may have removed it
+    fs::create_directories(folder, code);
+  }
   if (code)
     return error("{}: the folder cannot be made ({}); choose one that can be written",
                  file.parent_path().string(), code.message());
@@ -300,13 +339,10 @@ PartialFolder::~PartialFolder() {
 
 void remove_partial_files_and_end(std::string_view message) {
   if (is_ending.exchange(true)) wait_for_the_end();  // another thread is about to
-  // Threads that were making files when it began may still do so: again, until nothing is left.
-  constexpr int min_times = 2, max_times = 500;
-  bool is_gone = false;
-  for (int time = 0; time < min_times || (!is_gone && time < max_times); ++time) {
-    is_gone = remove_listed();
-    poll(nullptr, 0, 1);
-  }
+  constexpr int max_times = 500;
+  for (int time = 0; making > 0 && time < max_times; ++time) poll(nullptr, 0, 1);
+  // Threads that write into a listed folder may still do so: again, until nothing is left.
+  for (int time = 0; !remove_listed() && time < max_times; ++time) poll(nullptr, 0, 1);
   const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
   static_cast<void>(ignored);
   _exit(1);
@@ -315,7 +351,7 @@ void remove_partial_files_and_end(std::string_view message) {
 void remove_partial_files_on_signals() {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  for (const int number : ending_signals) sigaction(number, &action, nullptr);
 }
 
 }  // namespace parvis
