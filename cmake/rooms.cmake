@@ -12,12 +12,9 @@ target_compile_options(parvis_options INTERFACE ${PARVIS_WARNINGS} -fno-math-err
 target_compile_definitions(parvis_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_ENABLE_EXPERIMENTAL
                                                     GLM_FORCE_SILENT_WARNINGS)
 target_include_directories(parvis_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
-if(PARVIS_FUZZ)
-  set_property(TARGET parvis_options PROPERTY INTERFACE_COMPILE_OPTIONS -fsanitize=fuzzer-no-link)  # other warnings than gcc's
-endif()
-if(PARVIS_SANITIZE)
-  target_compile_options(parvis_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                                                  -fno-omit-frame-pointer)
+if(PARVIS_SANITIZE)  # one build for tests and fuzzers; without PARVIS_WARNINGS, for clang has other ones than gcc
+  set_property(TARGET parvis_options PROPERTY INTERFACE_COMPILE_OPTIONS
+               -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(parvis_options INTERFACE -fsanitize=address,undefined)
 endif()
 
@@ -39,7 +36,7 @@ function(parvis_fuzzers room)  # further arguments: libraries
     file(GLOB inputs CONFIGURE_DEPENDS fuzz/corpus/${reader}/* fuzz/found/${reader}-*)
     add_executable(${program} ${source})
     target_link_libraries(${program} PRIVATE parvis_${room} ${ARGN})
-    if(PARVIS_FUZZ)
+    if(PARVIS_SANITIZE)
       target_link_options(${program} PRIVATE -fsanitize=fuzzer)
     else()
       target_sources(${program} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/read_found_inputs.cpp)

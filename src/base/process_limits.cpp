@@ -15,14 +15,6 @@
 namespace parvis {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool has_shadow_memory = true;  // of terabytes: the address space cannot be limited
-#elif defined(__has_feature)
-constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
-#else
-constexpr bool has_shadow_memory = false;
-#endif
-
 std::uint64_t address_space_bytes() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

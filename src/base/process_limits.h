@@ -8,8 +8,18 @@
 
 namespace parvis {
 
-/// Lets this process allocate `bytes` beyond what it has. Does nothing under the address sanitizer, which
-/// needs an address space without a limit.
+/// Whether the program is built with the address sanitizer, whose shadow memory takes terabytes of the
+/// address space.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool has_shadow_memory = true;
+#elif defined(__has_feature)
+constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
+#else
+constexpr bool has_shadow_memory = false;
+#endif
+
+/// Lets this process allocate `bytes` beyond what it has. Does nothing where the program has shadow
+/// memory: its address space cannot be limited.
 void limit_memory(std::uint64_t bytes);
 
 /// Ends this process after `seconds` of processor time on each of up to 64 cores, and has it write no core

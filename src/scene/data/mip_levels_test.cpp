@@ -15,14 +15,15 @@ Texture leaves(float wanted_coverage) {
   Random random(3);
   double covered = 0.0;
   while (covered < wanted_coverage) {
-    const glm::vec2 middle(random.uniform(0, 256), random.uniform(0, 256));
+    const float y = random.uniform(0, 256), x = random.uniform(0, 256);
+    const glm::vec2 middle(x, y);
     const float heading = random.uniform(0.0f, 3.14f);
     const glm::vec2 along(std::cos(heading), std::sin(heading));
-    for (int y = 0; y < 256; ++y)
-      for (int x = 0; x < 256; ++x) {
-        const glm::vec2 p = glm::vec2(x, y) - middle;
+    for (int row = 0; row < 256; ++row)
+      for (int column = 0; column < 256; ++column) {
+        const glm::vec2 p = glm::vec2(column, row) - middle;
         const glm::vec2 in_leaf(glm::dot(p, along) / 14.0f, (p.x * along.y - p.y * along.x) / 2.5f);
-        std::uint8_t& alpha = texture.image.at(x, y)[3];
+        std::uint8_t& alpha = texture.image.at(column, row)[3];
         if (glm::length(in_leaf) < 1.0f && alpha == 0) alpha = 255, covered += 1.0 / 65536.0;
       }
   }

@@ -93,7 +93,7 @@ Status measure_fuzzers(const fs::path& folder, int seconds, Report& report) {
   std::size_t findings = 0;
   int fuzzed = 0, read = 0;
   for (const fs::path& source : fuzzer_sources()) {
-    if (const fs::path program = fuzzer("build/fuzz", source); fs::exists(program)) {
+    if (const fs::path program = fuzzer("build/asan", source); fs::exists(program)) {
       findings += findings_of_fuzzer(program, seconds, folder);
       ++fuzzed;
     } else if (const fs::path reader = fuzzer("build/release", source); fs::exists(reader)) {
