@@ -86,23 +86,23 @@ Ring corners_of(const Ring& ring) {
 class Building {
  public:
   Building(const OsmArea& footprint, const CityObject& object, CityAssembly& city)
-      : rings_(footprint.rings),
-        corners_(corners_of(rings_[0])),
-        ground_m_(footprint.ground_m),
-        object_(object),
-        city_(city) {
+      : rings_(footprint.rings), ground_m_(footprint.ground_m), object_(object), city_(city) {
     const OsmTags& tags = *footprint.tags;
-    roof_ = {tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
-             degrees(tag(tags, "roof:direction"))};
+    std::vector<Ring> corners;
+    corners.reserve(rings_.size());
+    for (const Ring& ring : rings_) corners.push_back(corners_of(ring));
+    roof_ = find_osm_roof({tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
+                           degrees(tag(tags, "roof:direction"))},
+                          corners);
+    if (roof_) rings_ = std::move(corners);  // walls end where the roof begins
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
     top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_height_m(tags));
     if (top_m_ <= base_m_) top_m_ = base_m_ + level_m;
     const bool gives_top = !tag(tags, "height").empty();
-    const double roof_m = std::max(
-        has_slopes() ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(roof_, corners_)) : 0.0,
-        0.0);
-    if (!gives_top) top_m_ += has_slopes() ? roof_m : 0.0;  // levels do not count those in the roof
-    eaves_m_ = has_slopes() ? std::max(top_m_ - roof_m, base_m_) : top_m_;
+    const double roof_m =
+        std::max(roof_ ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(*roof_)) : 0.0, 0.0);
+    if (!gives_top) top_m_ += roof_m;  // levels do not count those in the roof
+    eaves_m_ = std::max(top_m_ - roof_m, base_m_);
   }
 
   void draw() {
@@ -117,11 +117,9 @@ class Building {
   }
 
  private:
-  bool has_slopes() const { return rings_.size() == 1 && has_osm_roof(roof_, corners_); }
-
   void draw_roof() {
-    if (!has_slopes()) return add("RoofSurface", level_surface(top_m_, false));
-    for (OsmRoofFace& face : osm_roof(roof_, corners_, eaves_m_, top_m_))
+    if (!roof_) return add("RoofSurface", level_surface(top_m_, false));
+    for (OsmRoofFace& face : osm_roof_faces(*roof_, eaves_m_, top_m_))
       add(face.semantics, {std::move(face.points)});
   }
 
@@ -145,12 +143,11 @@ class Building {
     city_.add(object_, surface);
   }
 
-  const std::vector<Ring>& rings_;
-  Ring corners_;  ///< of the outline
+  std::vector<Ring> rings_;
   double ground_m_;
   const CityObject& object_;
   CityAssembly& city_;
-  OsmRoofTags roof_;
+  std::optional<OsmRoof> roof_;      ///< nothing: it is flat
   double base_m_, eaves_m_, top_m_;  ///< above the ground
 };
 

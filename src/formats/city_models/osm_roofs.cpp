@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
+
+#include "formats/city_models/gables.h"
 
 namespace parvis::scene {
 namespace {
@@ -66,7 +69,7 @@ bool is_convex(const OsmRing& ring) {
 }
 
 /// Adds a face without points that coincide with the one before; a face of fewer than three is none.
-void add(Faces& faces, const char* semantics, std::vector<dvec3> points) {
+void add(Faces& faces, const char* semantics, const std::vector<dvec3>& points) {
   std::vector<dvec3> kept;
   for (const dvec3& point : points)
     if (kept.empty() || glm::distance(kept.back(), point) > straight_m) kept.push_back(point);
@@ -122,8 +125,9 @@ Faces along_profile(const std::array<dvec2, 4>& c, double eaves_m, double top_m,
   return faces;
 }
 
-/// Hips from `hip_from` (0: the eaves, 1: no hip) of the height on; below, the ends are walls.
-Faces hipped(const std::array<dvec2, 4>& c, double eaves_m, double top_m, double hip_from) {
+/// Hips from half of the height on; below, the ends are walls.
+Faces half_hipped(const std::array<dvec2, 4>& c, double eaves_m, double top_m) {
+  constexpr double hip_from = 0.5;
   const dvec2 back = 0.5 * (c[3] + c[0]), front = 0.5 * (c[1] + c[2]);
   const double length_m = std::max(glm::distance(back, front), straight_m);
   const double inset = std::min(0.45, (1.0 - hip_from) * glm::distance(c[1], c[2]) / (2.0 * length_m));
@@ -142,6 +146,22 @@ Faces hipped(const std::array<dvec2, 4>& c, double eaves_m, double top_m, double
   add(faces, "RoofSurface", {up(c[3], back), up(c[0], back), ridge_back});
   add(faces, "WallSurface", {eave(c[1]), eave(c[2]), up(c[2], front), up(c[1], front)});
   add(faces, "WallSurface", {eave(c[3]), eave(c[0]), up(c[0], back), up(c[3], back)});
+  return faces;
+}
+
+/// Faces of equal slope that rise from all edges; gables stand upright.
+Faces along_skeleton(const StraightSkeleton& skeleton, const std::vector<bool>& is_gable, double eaves_m,
+                     double top_m) {
+  Faces faces;
+  const double highest_m = skeleton.highest_m();
+  for (std::size_t i = 0; i < skeleton.faces.size(); ++i) {
+    std::vector<dvec3> points;
+    for (const int point : skeleton.faces[i]) {
+      const dvec3& at = skeleton.points[std::size_t(point)];
+      points.emplace_back(at.x, at.y, glm::mix(eaves_m, top_m, at.z / highest_m));
+    }
+    faces.push_back({is_gable[i] ? "WallSurface" : "RoofSurface", std::move(points)});
+  }
   return faces;
 }
 
@@ -193,39 +213,48 @@ double shorter_side_m(const OsmRing& ring) {
 
 }  // namespace
 
-bool has_osm_roof(const OsmRoofTags& tags, const OsmRing& corners) {
-  const std::string shape = plain_shape(tags.shape);
-  if (corners.size() < 3) return false;
-  if (shape == "pyramidal") return true;
-  if (is_one_of(shape, {"skillion", "dome", "onion", "mansard"})) return is_convex(corners);
-  return has_ridge(shape) && corners.size() == 4 && is_convex(corners);
+std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings) {
+  if (rings.empty() || rings[0].size() < 3) return std::nullopt;
+  OsmRoof roof{plain_shape(tags.shape), tags, rings[0], {}, {}};
+  const bool has_courtyards = rings.size() > 1, is_bulging = !has_courtyards && is_convex(rings[0]);
+  if (has_ridge(roof.shape)) {
+    if (roof.shape != "hipped" && is_bulging && rings[0].size() == 4) return roof;
+    roof.skeleton = straight_skeleton(rings);
+    if (!roof.skeleton) return std::nullopt;
+    roof.is_gable.resize(roof.skeleton->faces.size(), false);
+    if (roof.shape != "hipped") roof.is_gable = raise_gables(*roof.skeleton);
+    return roof;
+  }
+  if (roof.shape == "pyramidal" && !has_courtyards) return roof;
+  if (is_bulging && is_one_of(roof.shape, {"skillion", "dome", "onion", "mansard"})) return roof;
+  return std::nullopt;
 }
 
-double usual_osm_roof_m(const OsmRoofTags& tags, const OsmRing& corners) {
-  const std::string shape = plain_shape(tags.shape);
-  const double side_m = std::sqrt(std::abs(area_m2(corners)));
-  if (shape == "skillion") {
-    const dvec2 ends = reach(corners, downhill(tags, corners));
+double usual_osm_roof_m(const OsmRoof& roof) {
+  const double side_m = std::sqrt(std::abs(area_m2(roof.corners)));
+  if (roof.skeleton) return slope * roof.skeleton->highest_m();
+  if (roof.shape == "skillion") {
+    const dvec2 ends = reach(roof.corners, downhill(roof.tags, roof.corners));
     return std::min(skillion_slope * (ends.y - ends.x), 4.0);
   }
-  if (shape == "dome") return 0.5 * side_m;
-  if (shape == "onion") return 1.1 * side_m;
-  if (shape == "mansard") return std::min(0.35 * side_m, 4.5);
-  if (!has_ridge(shape)) return 0.5 * slope * side_m;
-  const bool is_steep = shape == "gambrel" || shape == "round";
-  return (is_steep ? 0.45 : 0.5 * slope) * shorter_side_m(corners);
+  if (roof.shape == "dome") return 0.5 * side_m;
+  if (roof.shape == "onion") return 1.1 * side_m;
+  if (roof.shape == "mansard") return std::min(0.35 * side_m, 4.5);
+  if (!has_ridge(roof.shape)) return 0.5 * slope * side_m;
+  const bool is_steep = roof.shape == "gambrel" || roof.shape == "round";
+  return (is_steep ? 0.45 : 0.5 * slope) * shorter_side_m(roof.corners);
 }
 
-Faces osm_roof(const OsmRoofTags& tags, const OsmRing& corners, double eaves_m, double top_m) {
-  const std::string shape = plain_shape(tags.shape);
-  if (shape == "skillion") return skillion(tags, corners, eaves_m, top_m);
-  if (shape == "dome") return stacked_rings(corners, eaves_m, top_m, quarter_circle<6>());
-  if (shape == "onion") return stacked_rings(corners, eaves_m, top_m, onion);
-  if (shape == "mansard") return stacked_rings(corners, eaves_m, top_m, mansard);
-  if (!has_ridge(shape)) return stacked_rings(corners, eaves_m, top_m, gable);
-  const std::array<dvec2, 4> c = along_ridge(tags, corners);
-  if (shape == "hipped") return hipped(c, eaves_m, top_m, 0.0);
-  if (shape == "half-hipped") return hipped(c, eaves_m, top_m, 0.5);
+Faces osm_roof_faces(const OsmRoof& roof, double eaves_m, double top_m) {
+  const std::string& shape = roof.shape;
+  if (roof.skeleton) return along_skeleton(*roof.skeleton, roof.is_gable, eaves_m, top_m);
+  if (shape == "skillion") return skillion(roof.tags, roof.corners, eaves_m, top_m);
+  if (shape == "dome") return stacked_rings(roof.corners, eaves_m, top_m, quarter_circle<6>());
+  if (shape == "onion") return stacked_rings(roof.corners, eaves_m, top_m, onion);
+  if (shape == "mansard") return stacked_rings(roof.corners, eaves_m, top_m, mansard);
+  if (!has_ridge(shape)) return stacked_rings(roof.corners, eaves_m, top_m, gable);
+  const std::array<dvec2, 4> c = along_ridge(roof.tags, roof.corners);
+  if (shape == "half-hipped") return half_hipped(c, eaves_m, top_m);
   if (shape == "gambrel") return along_profile(c, eaves_m, top_m, gambrel, 0.5);
   if (shape == "round") return along_profile(c, eaves_m, top_m, quarter_circle<4>(), 0.5);
   return along_profile(c, eaves_m, top_m, gable, shape == "saltbox" ? 0.3 : 0.5);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/city_models/osm_areas.h"
+#include "formats/city_models/straight_skeleton.h"
 
 namespace parvis::scene {
 
@@ -22,16 +23,26 @@ struct OsmRoofFace {
   std::vector<glm::dvec3> points;  ///< counter-clockwise seen from outside; z from the ground on
 };
 
-/// Whether `osm_roof` gives this outline (without points along its sides) a roof of this shape: cones and
-/// pyramids stand on any outline; skillions, domes, onions and mansard roofs on convex ones; gabled, hipped,
-/// half-hipped, gambrel, saltbox and round ones on four corners. What is not in the list is flat.
-bool has_osm_roof(const OsmRoofTags& tags, const OsmRing& corners);
+/// A roof that stands on an outline.
+struct OsmRoof {
+  std::string shape;  ///< the wiki's name
+  OsmRoofTags tags;
+  OsmRing corners;                           ///< of the outline, counter-clockwise
+  std::optional<StraightSkeleton> skeleton;  ///< of roofs that follow it
+  std::vector<bool> is_gable;                ///< for each face of the skeleton
+};
 
-/// The height of such a roof, metres, where no tag gives it.
-double usual_osm_roof_m(const OsmRoofTags& tags, const OsmRing& corners);
+/// The roof for a building's rings (the outline counter-clockwise, then courtyards clockwise, without points
+/// along their sides). Hipped and gabled roofs stand on any outline that has a straight skeleton, with
+/// courtyards too; half-hipped, gambrel, saltbox and round ones on four corners, and are gabled elsewhere;
+/// pyramids and cones stand on any outline; skillions, domes, onions and mansard roofs on convex ones.
+/// Nothing for others: they are flat.
+std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings);
 
-/// The faces between the eaves and the top. `corners` run counter-clockwise and `has_osm_roof` holds.
-std::vector<OsmRoofFace> osm_roof(const OsmRoofTags& tags, const OsmRing& corners, double eaves_m,
-                                  double top_m);
+/// The height of a roof, metres, where no tag gives it.
+double usual_osm_roof_m(const OsmRoof& roof);
+
+/// The faces between the eaves and the top.
+std::vector<OsmRoofFace> osm_roof_faces(const OsmRoof& roof, double eaves_m, double top_m);
 
 }  // namespace parvis::scene
