@@ -129,7 +129,7 @@ void OsmAreas::add(const std::vector<NodeRing>& outer, const std::vector<NodeRin
     OsmRing ring = placed(nodes, name);
     if (ring.size() < 3) continue;
     if (area_m2(ring) < 0.0) std::reverse(ring.begin(), ring.end());
-    OsmArea footprint{{std::move(ring)}, &tags};
+    OsmArea footprint{{std::move(ring)}, &tags, name};
     for (OsmRing& hole : holes) {
       if (!holds(footprint.rings[0], hole[0])) continue;
       if (area_m2(hole) > 0.0) std::reverse(hole.begin(), hole.end());

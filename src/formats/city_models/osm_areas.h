@@ -22,6 +22,7 @@ using OsmRing = std::vector<glm::dvec2>;
 struct OsmArea {
   std::vector<OsmRing> rings;
   const OsmTags* tags;
+  std::string name;       ///< of the way or relation, for messages: "way 12"
   double ground_m = 0.0;  ///< on which it stands
 };
 

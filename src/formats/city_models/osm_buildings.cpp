@@ -4,7 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 
+#include "formats/city_models/osm_corners.h"
 #include "formats/city_models/osm_relief.h"
 #include "formats/city_models/osm_roofs.h"
 
@@ -15,7 +17,6 @@ using glm::dvec2, glm::dvec3;
 using Ring = OsmRing;
 
 constexpr double level_m = 3.0, usual_levels = 2.0;
-constexpr double straight = 0.03;  // sine of the turn below which a point lies along a side
 
 /// Storeys of buildings without tags for their height.
 struct UsualLevels {
@@ -70,30 +71,43 @@ double usual_height_m(const OsmTags& tags) {
   return level_m * (found == usual_levels_of.end() ? usual_levels : found->levels);
 }
 
-/// Without the points that lie along a side.
-Ring corners_of(const Ring& ring) {
-  Ring corners;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const dvec2 in = ring[i] - ring[(i + ring.size() - 1) % ring.size()],
-                out = ring[(i + 1) % ring.size()] - ring[i];
-    const double sine = (in.x * out.y - in.y * out.x) / (glm::length(in) * glm::length(out));
-    if (!(std::abs(sine) < straight) || glm::dot(in, out) < 0.0) corners.push_back(ring[i]);
+/// Buildings whose roofs are drawn flat though their tags say otherwise.
+class FlatRoofs {
+ public:
+  void add(const std::string& building, std::string shape, const std::string& why) {
+    constexpr std::size_t longest = 30;  // letters of a shape that nobody knows
+    if (shape.size() > longest) shape.resize(longest);
+    buildings_[why].push_back(fmt::format("{} ({})", building, shape));
   }
-  return corners.size() >= 3 ? corners : ring;
-}
+  /// One warning for each reason, with the first buildings' names.
+  void warn(CityAssembly& city) const {
+    constexpr std::size_t max_names = 5;
+    for (const auto& [why, names] : buildings_) {
+      std::string list = names.front();
+      for (std::size_t i = 1; i < std::min(names.size(), max_names); ++i) list += ", " + names[i];
+      if (names.size() > max_names) list += fmt::format(" and {} more", names.size() - max_names);
+      city.warn(fmt::format("{}: drawn with a flat roof: {}", list, why));
+    }
+  }
+
+ private:
+  std::map<std::string, std::vector<std::string>> buildings_;  ///< by reason
+};
 
 /// Draws one building.
 class Building {
  public:
-  Building(const OsmArea& footprint, const CityObject& object, CityAssembly& city)
+  Building(const OsmArea& footprint, const CityObject& object, CityAssembly& city, FlatRoofs& flat)
       : rings_(footprint.rings), ground_m_(footprint.ground_m), object_(object), city_(city) {
     const OsmTags& tags = *footprint.tags;
     std::vector<Ring> corners;
     corners.reserve(rings_.size());
     for (const Ring& ring : rings_) corners.push_back(corners_of(ring));
-    roof_ = find_osm_roof({tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
-                           degrees(tag(tags, "roof:direction"))},
-                          corners);
+    const OsmRoofTags roof_tags{tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
+                                degrees(tag(tags, "roof:direction"))};
+    std::string why_flat;
+    roof_ = find_osm_roof(roof_tags, corners, why_flat);
+    if (!why_flat.empty()) flat.add(footprint.name, roof_tags.shape, why_flat);
     if (roof_) rings_ = std::move(corners);  // walls end where the roof begins
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
     top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_height_m(tags));
@@ -179,7 +193,9 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
     }
     if (!has_parts) drawn.push_back(std::move(outline));
   }
-  for (const OsmArea& footprint : drawn) Building(footprint, {"building", "Building", ""}, city).draw();
+  FlatRoofs flat;
+  for (const OsmArea& footprint : drawn) Building(footprint, {"building", "Building", ""}, city, flat).draw();
+  flat.warn(city);
   return drawn.size();
 }
 

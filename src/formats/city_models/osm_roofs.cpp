@@ -1,5 +1,7 @@
 #include "formats/city_models/osm_roofs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,6 +66,15 @@ bool is_convex(const OsmRing& ring) {
     const dvec2 in = ring[(i + 1) % ring.size()] - ring[i],
                 out = ring[(i + 2) % ring.size()] - ring[(i + 1) % ring.size()];
     if (in.x * out.y - in.y * out.x < -1e-3 * glm::length(in) * glm::length(out)) return false;
+  }
+  return true;
+}
+
+/// Whether a roof that rises to the point has no face that leans outward.
+bool sees_all(dvec2 point, const OsmRing& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 a = ring[i] - point, b = ring[(i + 1) % ring.size()] - point;
+    if (!(a.x * b.y - a.y * b.x > 0.0)) return false;
   }
   return true;
 }
@@ -207,26 +218,49 @@ Faces skillion(const OsmRoofTags& tags, const OsmRing& corners, double eaves_m, 
   return faces;
 }
 
+/// Hips or gables over the straight skeleton.
+std::optional<OsmRoof> along_ridges(OsmRoof roof, const std::vector<OsmRing>& rings, std::string& why_flat) {
+  roof.skeleton = straight_skeleton(rings);
+  if (!roof.skeleton) {
+    std::size_t corners = 0;
+    for (const OsmRing& ring : rings) corners += ring.size();
+    why_flat =
+        corners > max_skeleton_corners
+            ? fmt::format("its outline has more than {} corners; draw it with fewer", max_skeleton_corners)
+            : std::string("its outline crosses or touches itself or a courtyard; mend it in the map");
+    return std::nullopt;
+  }
+  roof.is_gable.resize(roof.skeleton->faces.size(), false);
+  if (roof.shape != "hipped") roof.is_gable = raise_gables(*roof.skeleton);
+  return roof;
+}
+
 double shorter_side_m(const OsmRing& ring) {
   return std::min(glm::distance(ring[0], ring[1]), glm::distance(ring[1], ring[2]));
 }
 
 }  // namespace
 
-std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings) {
+std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings,
+                                     std::string& why_flat) {
   if (rings.empty() || rings[0].size() < 3) return std::nullopt;
   OsmRoof roof{plain_shape(tags.shape), tags, rings[0], {}, {}};
   const bool has_courtyards = rings.size() > 1, is_bulging = !has_courtyards && is_convex(rings[0]);
   if (has_ridge(roof.shape)) {
     if (roof.shape != "hipped" && is_bulging && rings[0].size() == 4) return roof;
-    roof.skeleton = straight_skeleton(rings);
-    if (!roof.skeleton) return std::nullopt;
-    roof.is_gable.resize(roof.skeleton->faces.size(), false);
-    if (roof.shape != "hipped") roof.is_gable = raise_gables(*roof.skeleton);
-    return roof;
+    return along_ridges(std::move(roof), rings, why_flat);
   }
-  if (roof.shape == "pyramidal" && !has_courtyards) return roof;
-  if (is_bulging && is_one_of(roof.shape, {"skillion", "dome", "onion", "mansard"})) return roof;
+  if (roof.shape == "pyramidal") {
+    if (!has_courtyards && sees_all(middle(rings[0]), rings[0])) return roof;
+    roof.shape = "hipped";
+    return along_ridges(std::move(roof), rings, why_flat);
+  }
+  const bool is_known = is_one_of(roof.shape, {"skillion", "dome", "onion", "mansard"});
+  if (is_known && is_bulging) return roof;
+  if (is_known)
+    why_flat = "it stands on convex outlines without courtyards alone; \"hipped\" and \"gabled\" on any";
+  else if (!roof.shape.empty() && roof.shape != "flat")
+    why_flat = "this value of roof:shape is not known; those that are: docs/city-models.md";
   return std::nullopt;
 }
 

@@ -32,12 +32,14 @@ struct OsmRoof {
   std::vector<bool> is_gable;                ///< for each face of the skeleton
 };
 
-/// The roof for a building's rings (the outline counter-clockwise, then courtyards clockwise, without points
-/// along their sides). Hipped and gabled roofs stand on any outline that has a straight skeleton, with
-/// courtyards too; half-hipped, gambrel, saltbox and round ones on four corners, and are gabled elsewhere;
-/// pyramids and cones stand on any outline; skillions, domes, onions and mansard roofs on convex ones.
-/// Nothing for others: they are flat.
-std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings);
+/// The roof for a building's rings (the outline counter-clockwise, then courtyards clockwise, by
+/// `corners_of`). Hipped and gabled roofs stand on any outline that has a straight skeleton, with courtyards
+/// too; half-hipped, gambrel, saltbox and round ones on four corners, and are gabled elsewhere; pyramids and
+/// cones where all corners see their middle, and are hipped elsewhere; skillions, domes, onions and mansard
+/// roofs on convex outlines. Nothing for flat roofs, and for those that cannot stand: then `why_flat` becomes
+/// the reason and what to do.
+std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings,
+                                     std::string& why_flat);
 
 /// The height of a roof, metres, where no tag gives it.
 double usual_osm_roof_m(const OsmRoof& roof);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 namespace parvis::scene {
@@ -20,6 +21,20 @@ dvec3 area_of(const std::vector<dvec3>& points) {
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
     area += 0.5 * glm::cross(points[i] - points[0], points[i + 1] - points[0]);
   return area;
+}
+
+/// The roof, of which no reason is needed.
+std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings) {
+  std::string why_flat;
+  std::optional<OsmRoof> found = scene::find_osm_roof(tags, rings, why_flat);
+  EXPECT_TRUE(!found || why_flat.empty()) << why_flat;
+  return found;
+}
+
+std::string why_flat(const std::string& shape, const std::vector<OsmRing>& rings) {
+  std::string why;
+  EXPECT_FALSE(scene::find_osm_roof({shape, false, {}}, rings, why)) << shape;
+  return why;
 }
 
 /// Faces of a closed surface have areas that sum up to that of its open side, here the eaves.
@@ -89,17 +104,29 @@ TEST(OsmRoofs, RoofsWithoutAHeightRiseWithOneSlope) {
 TEST(OsmRoofs, StandRoundCourtyards) {
   OsmRing hole{{4, 2}, {4, 6}, {8, 6}, {8, 2}};
   EXPECT_TRUE(find_osm_roof({"hipped", false, {}}, {rectangle, hole}));
-  EXPECT_FALSE(find_osm_roof({"pyramidal", false, {}}, {rectangle, hole}));
-  EXPECT_FALSE(find_osm_roof({"skillion", false, {}}, {rectangle, hole}));
+  EXPECT_TRUE(find_osm_roof({"pyramidal", false, {}}, {rectangle, hole})) << "hipped";
+  EXPECT_NE(why_flat("skillion", {rectangle, hole}).find("without courtyards"), std::string::npos);
 }
 
-TEST(OsmRoofs, OtherOutlinesAndShapesAreFlat) {
+TEST(OsmRoofs, PyramidsAreHipsWhereTheirFacesWouldLeanOutward) {
+  const OsmRing wide_l{{0, 0}, {30, 0}, {30, 4}, {4, 4}, {4, 30}, {0, 30}};
+  EXPECT_TRUE(find_osm_roof({"pyramidal", false, {}}, {wide_l})->skeleton);
+  EXPECT_FALSE(find_osm_roof({"pyramidal", false, {}}, {pentagon})->skeleton);
+  expect_closed({"pyramidal", false, {}}, wide_l);
+}
+
+TEST(OsmRoofs, OthersAreFlatAndSayWhy) {
   const OsmRing crossed{{0, 0}, {10, 10}, {10, 0}, {0, 10}, {-5, 5}};
-  EXPECT_FALSE(find_osm_roof({"gabled", false, {}}, {crossed}));
-  EXPECT_FALSE(find_osm_roof({"mansard", false, {}}, {l_shape}));
-  EXPECT_FALSE(find_osm_roof({"flat", false, {}}, {rectangle}));
-  EXPECT_FALSE(find_osm_roof({"", false, {}}, {rectangle}));
-  EXPECT_TRUE(find_osm_roof({"pyramidal", false, {}}, {l_shape}));
+  EXPECT_NE(why_flat("gabled", {crossed}).find("crosses"), std::string::npos);
+  EXPECT_NE(why_flat("mansard", {l_shape}).find("convex"), std::string::npos);
+  EXPECT_NE(why_flat("sawtooth", {rectangle}).find("not known"), std::string::npos);
+  OsmRing star;
+  for (std::size_t i = 0; i <= max_skeleton_corners; ++i)
+    star.push_back((i % 2 == 0 ? 20.0 : 15.0) *
+                   dvec2(std::cos(0.04 * double(i)), std::sin(0.04 * double(i))));
+  EXPECT_NE(why_flat("hipped", {star}).find("more than 150 corners"), std::string::npos);
+  EXPECT_EQ(why_flat("flat", {rectangle}), "");
+  EXPECT_EQ(why_flat("", {rectangle}), "");
 }
 
 TEST(OsmRoofs, ASkillionFallsToItsDirection) {
