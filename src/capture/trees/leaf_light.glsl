@@ -25,9 +25,9 @@ LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float exit
   for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
   Surface bare = foliage_surface(vec3(0.0f), light.to_sun, to_viewer);
   Surface white = foliage_surface(vec3(1.0f + leaf_highlight), light.to_sun, to_viewer);
-  BouncedSides bounced = bounced_light_at(position, to_viewer, bare.normal);
-  light.bounced = bounced.front;
-  light.bounced_behind = bounced.behind;
+  BouncedCell bounced = bounced_cell(position, to_viewer);
+  light.bounced = bounced_irradiance(bounced, bare.normal);
+  light.bounced_behind = bounced_irradiance(bounced, -bare.normal);
   // The crown's own shadow is its cells' share of the sun; the maps have that of all else, seen from a point
   // in the air: of no surface whose plane would tilt the comparison.
   float sun = shares.x * visible_sun(position + exit_distance_m * light.to_sun, light.to_sun);
@@ -36,7 +36,8 @@ LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float exit
   cell = mix(vec4(0.5f, 0.5f, 0.5f, 0.0f), cell, shares.y);
   float sky = sky_share_of_normal(cell, bare.normal);
   vec3 mirrored = reflect(-to_viewer, bare.normal);
-  vec3 reflection = sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, 1.0f);
+  vec3 reflection = sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, 1.0f) +
+                    bounced_radiance(bounced, mirrored);
   LampLight lamps = lamp_light(bare, position, to_viewer, to_viewer);
   LeafLight result;
   result.highlight = lit_radiance(bare, light, to_viewer, sun, sky, reflection, vec3(0.0f)) +

@@ -35,6 +35,10 @@ shading::SkyLight sky_of(const scene::Scene& scene) {
   return shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
 }
 
+vec3 irradiance(const shading::BouncedLight& light, vec3 position, vec3 geometric_normal, vec3 normal) {
+  return bounced_irradiance(light.cell(position, geometric_normal), normal);
+}
+
 TEST(Transfer, GroundGivesBackItsAlbedoOfTheLight) {
   scene::Scene scene;
   add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f, 0.4f, 0.3f))));
@@ -44,11 +48,27 @@ TEST(Transfer, GroundGivesBackItsAlbedoOfTheLight) {
   const Transfer transfer(scene, rays, {true, 4.0f, 256});
   const shading::BouncedLight light = transfer.light(scene.sun, sky_of(scene));
   const vec3 expected = vec3(0.5f, 0.4f, 0.3f) * scene.sun.irradiance * scene.sun.direction_to_sun.z;
-  const vec3 down = light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {0, 0, -1});
+  const vec3 down = irradiance(light, {0, 0, 0.5f}, {0, 0, 1}, {0, 0, -1});
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(down[c], expected[c], 0.05f * expected[c]);
-  const vec3 wall = light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {1, 0, 0});
+  const vec3 wall = irradiance(light, {0, 0, 0.5f}, {0, 0, 1}, {1, 0, 0});
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(wall[c], 0.5f * expected[c], 0.06f * expected[c]);
-  EXPECT_LT(light.irradiance({0, 0, 0.5f}, {0, 0, 1}, {0, 0, 1}).x, 0.02f * expected.x);
+  EXPECT_LT(irradiance(light, {0, 0, 0.5f}, {0, 0, 1}, {0, 0, 1}).x, 0.02f * expected.x);
+}
+
+TEST(Transfer, AMirrorShowsWhatStandsBeforeIt) {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f, 0.4f, 0.3f))));
+  scene.sky.intensity = 0.0f;
+  const reference::RayScene rays(scene);
+  const shading::BouncedLight light =
+      Transfer(scene, rays, {true, 4.0f, 256}).light(scene.sun, sky_of(scene));
+  const vec3 ground =
+      vec3(0.5f, 0.4f, 0.3f) * scene.sun.irradiance * scene.sun.direction_to_sun.z / glm::pi<float>();
+  const shading::BouncedCell cell = light.cell({0, 0, 0.5f}, {1, 0, 0});
+  // Two bands tell no horizon from a slope: half of the radiance at the horizon, a quarter too much below.
+  EXPECT_NEAR(bounced_radiance(cell, {0, 0, -1}).x / ground.x, 1.25, 0.1);
+  EXPECT_NEAR(bounced_radiance(cell, {1, 0, 0}).x / ground.x, 0.5, 0.1);
+  EXPECT_LT(bounced_radiance(cell, {0, 0, 1}).x / ground.x, 0.03);
 }
 
 TEST(Transfer, IsLinearInSunAndSky) {
@@ -58,7 +78,7 @@ TEST(Transfer, IsLinearInSunAndSky) {
   const auto at = [&](float sun, float sky) {
     scene::Scene other = scene;
     other.sun.irradiance *= sun, other.sky.intensity *= sky;
-    return transfer.light(other.sun, sky_of(other)).irradiance({-5.9f, 0, 2}, {1, 0, 0}, {1, 0, 0}).x;
+    return irradiance(transfer.light(other.sun, sky_of(other)), {-5.9f, 0, 2}, {1, 0, 0}, {1, 0, 0}).x;
   };
   EXPECT_GT(at(1, 1), 0.1f);
   EXPECT_NEAR(at(3, 3), 3 * at(1, 1), 1e-4f * at(3, 3));

@@ -318,8 +318,9 @@ shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyL
         patches_.size(),
         [&](std::size_t i) {
           const Patch& patch = patches_[i];
-          const vec3 again =
-              bounce == 0 ? vec3(0.0f) : light.irradiance(patch.position, patch.normal, patch.normal);
+          const vec3 again = bounce == 0
+                                 ? vec3(0.0f)
+                                 : bounced_irradiance(light.cell(patch.position, patch.normal), patch.normal);
           radiance[i] = patch.albedo / pi_f * (direct[i] + again);
         },
         256);

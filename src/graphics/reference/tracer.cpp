@@ -72,6 +72,12 @@ vec3 ggx_half_vector(vec3 normal, float roughness, glm::vec2 point) {
 /// Where a ray goes on behind a hit.
 float past(float distance_m) { return distance_m * (1.0f + 1e-5f) + 1e-4f; }
 
+/// Light about a place, where no ray is traced for it: by default an open sky alone.
+struct Surroundings {
+  vec4 sky_cell{0.5f, 0.5f, 0.5f, 1.0f};  ///< shading/sky_visibility.glsl
+  shading::BouncedCell bounced{vec4(0.0f), vec3(0.0f)};
+};
+
 /// Follows the rays of one pixel.
 class Tracer {
  public:
@@ -88,7 +94,6 @@ class Tracer {
     spot_ = scene.data<scene::SunShadows>().spot;
     lit_ = &scene.data<scene::VertexIrradiance>();
     for (std::size_t i = 0; i < 9; ++i) light_.sky_sh[i] = sky.irradiance_sh[i];
-    light_.bounced = light_.bounced_behind = vec3(0.0f);
     light_.haze_radiance = sky.haze_radiance;
     light_.haze_per_m = scene.haze_per_m;
     if (!drawn_light_) own_lamps_ = shading::make_lamp_table(lit_lamps(scene));
@@ -187,14 +192,13 @@ class Tracer {
     Surface s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
-    const vec4 sky_cell = sky_cell_at(point, hit.place->object);
+    const Surroundings around = surroundings_at(point, hit.place->object);
     const MirrorLight mirrored = traces ? mirror_light(point, hit, cone, bounce, lobe_points, ray_count)
-                                        : sky_light(s, cone.ray.direction, sky_cell);
+                                        : unmapped_light(s, cone.ray.direction, around);
     if (hit.place->material->refracts()) {
       const vec3 ahead = cone.ray.direction;
-      const vec3 through =
-          traces ? light_through(point, hit, cone, bounce, lobe_points, ray_count)
-                 : shading::sky_share_of_direction(sky_cell, ahead) * sky_radiance(sky_, ahead, 0.0f);
+      const vec3 through = traces ? light_through(point, hit, cone, bounce, lobe_points, ray_count)
+                                  : unmapped_radiance(around, ahead, 0.0f);
       s.emission +=
           (vec3(1.0f) - base_reflectance(s, std::clamp(glm::dot(s.normal, to_viewer), 1e-4f, 1.0f))) *
           through;
@@ -202,11 +206,8 @@ class Tracer {
     if (point.kept_in_shadow < 1.0f) s.emission *= kept_of_recorded(point, ray_count);
     shading::SceneLight light = light_;
     if (spot_) light.to_sun = glm::normalize(spot_->position - point.position);
-    if (drawn_light_ && drawn_light_->bounced) {
-      const shading::BouncedLight& bounced = *drawn_light_->bounced;
-      light.bounced = bounced.irradiance(point.position, point.geometric_normal, s.normal);
-      light.bounced_behind = bounced.irradiance(point.position, point.geometric_normal, -s.normal);
-    }
+    light.bounced = bounced_irradiance(around.bounced, s.normal);
+    light.bounced_behind = bounced_irradiance(around.bounced, -s.normal);
     const float sun = sun_visible(point, light.to_sun, hit.place->receives_shadow, ray_count);
     const vec3 by_lamps = lamp_radiance_at(point, s, to_viewer, ray_count);
     if (const scene::LitVertices* lit = lit_->of(std::size_t(hit.place->object))) {
@@ -214,8 +215,9 @@ class Tracer {
       return by_lamps +
              vertex_lit_radiance(s, light, before, behind, to_viewer, sun, mirrored.base, mirrored.coat);
     }
-    return by_lamps + lit_radiance(s, light, to_viewer, sun, shading::sky_share_of_normal(sky_cell, s.normal),
-                                   mirrored.base, mirrored.coat);
+    return by_lamps + lit_radiance(s, light, to_viewer, sun,
+                                   shading::sky_share_of_normal(around.sky_cell, s.normal), mirrored.base,
+                                   mirrored.coat);
   }
 
   /// Irradiance on the viewer's side of a surface that is lit at its vertices, and on the other side.
@@ -244,14 +246,19 @@ class Tracer {
                                   lookup.lamp_light(s, point.position, point.geometric_normal, to_viewer));
   }
 
-  /// What a surface mirrors that no ray is traced for: the share of the sky that it sees.
-  MirrorLight sky_light(const Surface& s, vec3 direction, vec4 sky_cell) const {
+  /// What a surface sees in one direction that no ray is traced for: the sky where it is open, and what
+  /// stands before it as bright as the light that it gives.
+  vec3 unmapped_radiance(const Surroundings& around, vec3 direction, float roughness) const {
+    return shading::sky_share_of_direction(around.sky_cell, direction) *
+               sky_radiance(sky_, direction, shading::sky_level(roughness, float(sky_.levels.size()))) +
+           bounced_radiance(around.bounced, direction);
+  }
+
+  /// What a surface mirrors that no ray is traced for.
+  MirrorLight unmapped_light(const Surface& s, vec3 direction, const Surroundings& around) const {
     const vec3 mirrored = glm::reflect(direction, s.normal);
-    const auto sky = [&](float roughness) {
-      return shading::sky_share_of_direction(sky_cell, mirrored) *
-             sky_radiance(sky_, mirrored, shading::sky_level(roughness, float(sky_.levels.size())));
-    };
-    return {sky(s.roughness), s.clear_coat > 0.0f ? sky(s.clear_coat_roughness) : vec3(0.0f)};
+    return {unmapped_radiance(around, mirrored, s.roughness),
+            s.clear_coat > 0.0f ? unmapped_radiance(around, mirrored, s.clear_coat_roughness) : vec3(0.0f)};
   }
 
   /// What enters the eye through solid glass at a point of its surface.
@@ -266,15 +273,19 @@ class Tracer {
     return sum;
   }
 
-  /// What the place sees of the sky.
-  vec4 sky_cell_at(const ShadingPoint& point, int object) const {
-    if (!drawn_light_) return {0.5f, 0.5f, 0.5f, 1.0f};  // open
+  /// What the renderer knows of a place.
+  Surroundings surroundings_at(const ShadingPoint& point, int object) const {
+    Surroundings around;
+    if (!drawn_light_) return around;
     const shading::SkyVisibility& visibility = *drawn_light_->sky_visibility;
     const vec4 cell = visibility.at(
         shading::sky_visibility_coordinates(visibility.grid, point.position, point.geometric_normal));
-    return shading::shaded_cell(cell,
-                                shading::sky_share_beside_bodies(*drawn_light_->body_shade, point.position,
-                                                                 point.geometric_normal, object));
+    around.sky_cell =
+        shading::shaded_cell(cell, shading::sky_share_beside_bodies(*drawn_light_->body_shade, point.position,
+                                                                    point.geometric_normal, object));
+    if (drawn_light_->bounced)
+      around.bounced = drawn_light_->bounced->cell(point.position, point.geometric_normal);
+    return around;
   }
 
   /// The share of a photograph's light that shadows of what it does not show leave.

@@ -1,13 +1,13 @@
 // The light that hits a surface: sun, sky and bounced light of the frame, and how much of sun and sky
-// reaches the point.
+// reaches the point. Stores `surface_bounced_cell`.
 SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
   SceneLight light;
   light.to_sun = to_sun_at(position);
   light.sun_irradiance = frame_sun_irradiance.rgb;
   for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
-  BouncedSides bounced = bounced_light_at(position, geometric_normal, normal);
-  light.bounced = bounced.front;
-  light.bounced_behind = bounced.behind;
+  surface_bounced_cell = bounced_cell(position, geometric_normal);
+  light.bounced = bounced_irradiance(surface_bounced_cell, normal);
+  light.bounced_behind = bounced_irradiance(surface_bounced_cell, -normal);
   light.haze_radiance = frame_haze.rgb;
   light.haze_per_m = frame_to_sun.w;
   return light;
@@ -15,6 +15,13 @@ SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
 
 // Of objects that receive no shadows, the complement of their number is given.
 int surface_object() { return object_of_surface < 0 ? ~object_of_surface : object_of_surface; }
+
+// What a surface sees in one direction where no ray is traced and no map shows it: the sky where it is open,
+// and what stands before it as bright as the light that it gives.
+vec3 unmapped_radiance(vec3 direction, float roughness) {
+  return sky_share_of_direction(surface_sky_cell, direction) * sky_radiance(direction, roughness) +
+         bounced_radiance(surface_bounced_cell, direction);
+}
 
 #ifndef WRITES_SURFACE
 // The sun as rays found it in the pixel or beside it, where they hit this surface; else as the maps have it.

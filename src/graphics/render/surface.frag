@@ -1,9 +1,8 @@
-// Surfaces that mirror the sky alone: buildings, streets, trees, and movable things in views where
-// reflections end. Walls that hide the sky dim its reflection.
+// Surfaces that mirror sky and bounced light alone: buildings, streets, trees, and movable things in views
+// where reflections end. Walls that hide the sky dim its reflection.
 #include "graphics/render/mirrored_direction.glsl"
 #include "graphics/render/surface_body.glsl"
 
 vec3 reflected_radiance(float roughness, int layer) {
-  return sky_share_of_direction(surface_sky_cell, mirrored_direction) *
-         sky_radiance(mirrored_direction, roughness);
+  return unmapped_radiance(mirrored_direction, roughness);
 }

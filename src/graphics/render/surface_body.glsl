@@ -2,7 +2,7 @@
 // the viewer. The including file defines
 //   void look_along(vec3 position, vec3 direction)        prepares what the mirror ray hits
 //   vec3 reflected_radiance(float roughness, int layer)   its radiance, prefiltered for the layer
-// Both may use `surface_sky_cell`, the sky visibility of the point. The define SURFACE names the file that
+// Both may use unmapped_radiance, of incident_light.glsl. The define SURFACE names the file that
 // evaluates the material: material_surface.glsl or a room's own. REFLECTION_OVERLAY and TRANSMISSION_OVERLAY
 // are expressions of rooms above (SurfaceSource in surface_programs.h). A view may ask for other output than
 // radiance:
@@ -80,10 +80,10 @@ float covered(float alpha) {
 }
 
 #ifdef IS_GLASS
-// Radiance through glass: the sky straight through it, unless an overlay refracts the ray.
+// Radiance through glass: what lies straight ahead, unless an overlay refracts the ray.
 vec3 light_through(vec3 ahead) {
-  vec3 sky = sky_share_of_direction(surface_sky_cell, ahead) * sky_radiance(ahead, 0.0f);
-  return TRANSMISSION_OVERLAY(sky);
+  vec3 unmapped = unmapped_radiance(ahead, 0.0f);
+  return TRANSMISSION_OVERLAY(unmapped);
 }
 #endif
 

@@ -34,6 +34,7 @@ out vec4 radiance;
 #endif
 
 vec4 surface_sky_cell;
+BouncedCell surface_bounced_cell;
 uniform highp sampler2D traced_sun_texture;  // of the view's pixels: share of the sun, distance to the viewer
 
 #ifdef IS_MIRRORED

@@ -17,8 +17,19 @@ GLSL_FUNCTION vec3 bounced_coordinates(BouncedGrid grid, vec3 position, vec3 geo
   return vec3(at.x, at.y, 0.5f * clamp(at.z, margin, 1.0f - margin));
 }
 
-// Irradiance on a surface; `lobe`: xyz the part that follows the normal, w the mean; `colour` has luminance
-// 1.
-GLSL_FUNCTION vec3 bounced_irradiance(vec4 lobe, vec3 colour, vec3 normal) {
-  return max(lobe.w + dot(vec3(lobe.x, lobe.y, lobe.z), normal), 0.0f) * colour;
+struct BouncedCell {
+  vec4 lobe;    // of irradiance: xyz the part that follows the normal, w the mean
+  vec3 colour;  // luminance 1
+};
+
+// Irradiance on a surface.
+GLSL_FUNCTION vec3 bounced_irradiance(BouncedCell cell, vec3 normal) {
+  return max(cell.lobe.w + dot(vec3(cell.lobe.x, cell.lobe.y, cell.lobe.z), normal), 0.0f) * cell.colour;
+}
+
+// Radiance that arrives from one direction, for glossy reflections: bands weigh 1 and 3 in it, where they
+// weigh pi and 2 pi above.
+GLSL_FUNCTION vec3 bounced_radiance(BouncedCell cell, vec3 direction) {
+  float along = dot(vec3(cell.lobe.x, cell.lobe.y, cell.lobe.z), direction);
+  return max(cell.lobe.w + 1.5f * along, 0.0f) / 3.14159265f * cell.colour;
 }

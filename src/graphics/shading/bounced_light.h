@@ -17,8 +17,8 @@ struct BouncedLight {
 
   /// There is none.
   bool empty() const { return lobes.empty(); }
-  /// Irradiance on a surface with unit `normal`, mixed between eight cells before it, as a texture unit does.
-  vec3 irradiance(vec3 position, vec3 geometric_normal, vec3 normal) const;
+  /// Mixed between the eight cells before a surface, as a texture unit does; dark where there are none.
+  BouncedCell cell(vec3 position, vec3 geometric_normal) const;
 };
 
 }  // namespace parvis::shading

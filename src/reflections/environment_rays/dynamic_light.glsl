@@ -23,7 +23,7 @@ vec3 light_left_by_bodies(vec3 point) {
   vec3 above_ground = point + max_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
   float sun_share = min(visible_sun(above_ground, normal), fixed_sun);
   float sky_share = sky_share_beside_bodies(point, normal, -1);
-  vec3 others = bounced_light_at(point, normal, normal).front + irradiance_of_lamps(point, normal);
+  vec3 others = bounced_irradiance(bounced_cell(point, normal), normal) + irradiance_of_lamps(point, normal);
   return (sky_share * sky + sun_share * sun + others) / max(sky + fixed_sun * sun + others, vec3(1e-4f));
 }
 
@@ -34,8 +34,8 @@ vec3 radiance_of_body(BodyHit body, vec3 point, vec3 direction, float map) {
   vec3 sky = sky_share_of_normal(sky_visibility_cell(point, body.normal), body.normal) *
              sky_irradiance(sh, body.normal);
   float facing_sun = max(dot(body.normal, frame_to_sun.xyz), 0.0f);
-  vec3 others =
-      bounced_light_at(point, body.normal, body.normal).front + irradiance_of_lamps(point, body.normal);
+  vec3 others = bounced_irradiance(bounced_cell(point, body.normal), body.normal) +
+                irradiance_of_lamps(point, body.normal);
   vec3 light = sky + others + facing_sun * visible_sun(point, body.normal) * frame_sun_irradiance.rgb;
   vec2 uv = layer_uv(reflect(direction, body.normal), gloss_side, gloss_border);
   vec3 mirrored = textureLod(map_glosses, vec3(gloss_uv(uv, 0.0f), map), 0.0f).rgb;

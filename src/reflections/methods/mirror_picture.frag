@@ -42,8 +42,6 @@ void look_along(vec3 at, vec3 direction) {
 
 vec3 reflected_radiance(float roughness, int layer) {
   vec4 base = texelFetch(base_light, light_pixel, 0);
-  if (base.a == 0.0f)
-    return sky_share_of_direction(surface_sky_cell, mirrored_direction) *
-           sky_radiance(mirrored_direction, roughness);
+  if (base.a == 0.0f) return unmapped_radiance(mirrored_direction, roughness);
   return layer == base_layer ? base.rgb : texelFetch(coat_light, light_pixel, 0).rgb;
 }
