@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/colour.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
@@ -29,8 +30,8 @@ namespace {
 using glm::vec3, glm::vec4;
 using shading::Surface;
 
-constexpr float sharp_roughness = 0.1f;  // below it one mirror ray stands for the lobe
-constexpr int lobe_samples = 4;          // rays for a rough base layer, for each sample of the pixel
+constexpr float sharp_roughness = 0.1f;   // below it one mirror ray stands for the lobe
+constexpr float weak_reflectance = 0.1f;  // of a base: below it noise in what it mirrors hardly shows
 constexpr int max_blended_layers = 8;
 constexpr float drawn_error_m = 0.02f, drawn_error_px = 3.0f;  // of coarser meshes that are drawn far away
 
@@ -50,6 +51,13 @@ struct LobePoints {
     glm::vec2& point = last[std::size_t(bounce)];
     return point = glm::fract(point + step);
   }
+  /// The points of one pixel of a drawn picture that takes `rays` of them: those of a square of
+  /// mirror_tile_px pixels go on from each other.
+  static LobePoints in_tile(const MirrorPixel& pixel, int rays) {
+    const int turn = pixel.x % mirror_tile_px + mirror_tile_px * (pixel.y % mirror_tile_px);
+    const glm::vec2 first = glm::fract(float(turn * rays) * step);
+    return {{first, first}};
+  }
   /// Passes over what so many samples of the pixel would take.
   void skip(int samples) {
     for (glm::vec2& point : last) point = glm::fract(point + float(samples * lobe_samples) * step);
@@ -67,6 +75,13 @@ vec3 ggx_half_vector(vec3 normal, float roughness, glm::vec2 point) {
   const vec3 t =
       glm::normalize(glm::cross(std::abs(normal.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), normal));
   return sine * std::cos(phi) * t + sine * std::sin(phi) * glm::cross(normal, t) + cosine * normal;
+}
+
+/// A unit direction turned by small tangents across it.
+vec3 beside(vec3 direction, glm::vec2 tangents) {
+  const vec3 right =
+      glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0)));
+  return glm::normalize(direction + tangents.x * right + tangents.y * glm::cross(right, direction));
 }
 
 /// Where a ray goes on behind a hit.
@@ -130,7 +145,8 @@ class Tracer {
 
   /// What the base and the coat of a mirror-like surface show, by mirror rays.
   MirrorLight mirror_light(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
-                           LobePoints& lobe_points, std::uint64_t& ray_count) const {
+                           LobePoints& lobe_points, std::uint64_t& ray_count,
+                           int base_rays = lobe_samples) const {
     const Surface& s = point.surface;
     const auto traced = [&](vec3 direction) {
       const vec3 away = kept_above(direction, point.geometric_normal);
@@ -143,25 +159,33 @@ class Tracer {
     const bool needs_sharp = s.clear_coat > 0.0f || s.roughness <= sharp_roughness;
     const vec3 sharp = needs_sharp ? traced(glm::reflect(cone.ray.direction, s.normal)) : vec3(0.0f);
     if (s.roughness <= sharp_roughness) return {sharp, sharp};
+    if (base_rays == 0) return {sharp, sharp};
     vec3 sum(0.0f);
-    for (int i = 0; i < lobe_samples; ++i)
+    for (int i = 0; i < base_rays; ++i)
       sum += traced(
           glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
-    return {sum / float(lobe_samples), sharp};
+    return {sum / float(base_rays), sharp};
   }
 
   /// What the mirror shows in a drawn pixel.
-  std::optional<MirrorLight> light_of_mirror(const MirrorPixel& pixel, vec3 eye, float spread,
-                                             LobePoints& lobe_points) const {
+  std::optional<MirrorLight> light_of_mirror(const MirrorPixel& pixel, vec3 eye, float spread) const {
     const float distance_m = glm::distance(eye, pixel.position);
-    const Cone cone{{eye, (pixel.position - eye) / distance_m}, 0.0f, spread};
+    const Cone cone{
+        {eye, beside((pixel.position - eye) / distance_m, spread * pixel.offset_px)}, 0.0f, spread};
     const float within_m = drawn_error_m + drawn_error_px * spread * distance_m;
     const std::optional<Hit> hit = mirror_near(cone, distance_m, within_m, pixel.object);
     if (!hit) return std::nullopt;
     const Cone seen = widened(cone, hit->distance_m);
     std::uint64_t ray_count = 0;
-    return mirror_light(shading_point(*hit, cone.ray.direction, seen.width_m), *hit, seen, 0, lobe_points,
-                        ray_count);
+    const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
+    const Surface& s = point.surface;
+    const float n_dot_v = std::clamp(-glm::dot(s.normal, cone.ray.direction), 1e-4f, 1.0f);
+    const float base = luminance(base_reflectance(s, n_dot_v)), coat = fresnel_of_coat(s, n_dot_v);
+    const int base_rays = base < weak_reflectance ? pixel.weak_base_rays : pixel.base_rays;
+    LobePoints lobe_points = LobePoints::in_tile(pixel, base_rays);
+    MirrorLight light = mirror_light(point, *hit, seen, 0, lobe_points, ray_count, base_rays);
+    light.sharp_share = coat + (s.roughness <= sharp_roughness ? (1.0f - coat) * base : 0.0f);
+    return light;
   }
 
  private:
@@ -448,14 +472,7 @@ void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shadin
   constexpr std::size_t pixels_per_task = 64;
   const Tracer tracer(rays, scene, sky, options);
   parallel_for(
-      pixels.size(),
-      [&](std::size_t i) {
-        const MirrorPixel& pixel = pixels[i];
-        Random random(options.seed, (std::uint64_t(std::uint32_t(pixel.y)) << 32) | std::uint32_t(pixel.x));
-        LobePoints lobe_points{
-            {glm::vec2(random.uniform(), random.uniform()), glm::vec2(random.uniform(), random.uniform())}};
-        light[i] = tracer.light_of_mirror(pixel, eye, spread, lobe_points);
-      },
+      pixels.size(), [&](std::size_t i) { light[i] = tracer.light_of_mirror(pixels[i], eye, spread); },
       pixels_per_task);
 }
 

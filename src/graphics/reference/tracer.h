@@ -65,21 +65,31 @@ ObjectPicture trace_objects(const RayScene& rays, const Camera& camera, int widt
 TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                             const Camera& camera, int width, int height, const TraceOptions& options);
 
+/// Rays for a rough base layer, for each sample of the pixel.
+inline constexpr int lobe_samples = 4;
+
+/// Pixels of a square of this side send their rays for a rough base in directions that together cover its
+/// lobe evenly: their mean has less noise than that of random ones.
+inline constexpr int mirror_tile_px = 5;
+
 /// A pixel of a drawn picture that shows a mirror-like surface.
 struct MirrorPixel {
-  int x, y;            ///< seed of its random numbers: the same pixel has the same ones in each frame
+  int x, y;            ///< in the picture: the same pixel takes the same directions of a lobe in each frame
   int object;          ///< index in the scene
   glm::vec3 position;  ///< that was drawn, in the world; a coarser mesh may have been drawn than rays hit
+  glm::vec2 offset_px{0.0f};                                    ///< of the sample from it, across the view
+  int base_rays = lobe_samples, weak_base_rays = lobe_samples;  ///< weak: of a base that reflects little
 };
 
 /// Light that a mirror-like surface reflects, each over its own lobe. Linear radiance.
 struct MirrorLight {
-  glm::vec3 base;  ///< what the base layer mirrors
-  glm::vec3 coat;  ///< what the clear coat mirrors
+  glm::vec3 base;            ///< what the base layer mirrors
+  glm::vec3 coat;            ///< what the clear coat mirrors
+  float sharp_share = 0.0f;  ///< of the surface's light that is a sharp mirror image; trace_mirrors alone
 };
 
 /// What the mirror-like surfaces in these pixels mirror, as trace_picture has it, one sample each: a ray for
-/// the coat, and as many as the lobe needs for a rough base. `eye`: of the picture; `spread`: width of a
+/// the coat, and as many as the pixel asks for a rough base. `eye`: of the picture; `spread`: width of a
 /// pixel at one metre. `light` has one entry per pixel: none where rays find no such surface near `position`.
 void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                    glm::vec3 eye, float spread, std::span<const MirrorPixel> pixels,

@@ -35,6 +35,11 @@ class TracedReflections final : public methods::Reflections {
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void gather_pixels();
+  bool differs(std::size_t pixel, std::size_t other, float exposure) const;
+  void gather_edges(float exposure);
+  void add_edge_samples(float exposure);
+  template <typename Visit>
+  void for_each_alike(std::size_t here, const Visit& visit) const;
   void smooth_rough_light();
 
   methods::MirrorPicture picture_;
@@ -43,7 +48,12 @@ class TracedReflections final : public methods::Reflections {
   methods::MirrorRays drawn_;
   std::vector<std::size_t> places_;  ///< of each traced pixel in `drawn_`
   std::vector<reference::MirrorPixel> pixels_;
+  std::vector<std::int32_t> pixel_at_;  ///< of each place in `drawn_`; -1: none
   std::vector<std::optional<reference::MirrorLight>> light_;
+  std::vector<std::uint8_t> is_edge_;                ///< of each pixel
+  std::vector<std::size_t> edges_;                   ///< pixels that mirror an edge
+  std::vector<reference::MirrorPixel> edge_pixels_;  ///< their further samples
+  std::vector<std::optional<reference::MirrorLight>> edge_light_;
   std::vector<glm::vec4> base_, smoothed_;
   std::vector<glm::vec3> coat_;
 };

@@ -86,8 +86,8 @@ TEST_F(TracedReflectionsTest, AgreesWithTheReference) {
   for (const float roughness : {0.0f, 0.3f}) {
     Show traced(room_with_mirror(roughness)), none(room_with_mirror(roughness), {4.0f, -5.5f, 1.5f}, false);
     traced.draw(), none.draw();
-    EXPECT_LT(traced.flip(), roughness > 0.1f ? 0.09 : 0.05) << roughness;
-    std::printf("%f %f\n", roughness, traced.flip());
+    // Without more samples at edges the sharp one has 0.032.
+    EXPECT_LT(traced.flip(), roughness > 0.1f ? 0.075 : 0.025) << roughness;
     EXPECT_GT(none.flip(), 0.3) << "the control: without the method";
   }
 }
