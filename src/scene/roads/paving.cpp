@@ -109,16 +109,23 @@ float error_m(const Row& row, const Row& before, const Row& after) {
   return largest;
 }
 
-/// Leaves out rows that lie on straight lines between others, greedily; time grows with the length of these
-/// lines, which end at `max_straight_rows`.
+/// Leaves out rows that lie on straight lines between others. The end of each line is sought by doubling its
+/// length, then by halving the last step: time grows with the rows, and with the logarithm of their number on
+/// a line, which `max_straight_rows` bounds.
 std::vector<Row> without_needless_rows(const std::vector<Row>& rows) {
+  const auto is_straight = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from + 1; i < to; ++i)
+      if (error_m(rows[i], rows[from], rows[to]) >= chord_m) return false;
+    return true;
+  };
   std::vector<Row> kept{rows.front()};
-  for (std::size_t last = 0, next = 2; last + 1 < rows.size(); ++next) {
-    bool is_straight = next < rows.size() && next - last <= max_straight_rows;
-    for (std::size_t i = last + 1; is_straight && i < next; ++i)
-      is_straight = error_m(rows[i], rows[last], rows[next]) < chord_m;
-    if (is_straight) continue;
-    last = next - 1;
+  for (std::size_t last = 0; last + 1 < rows.size();) {
+    const std::size_t max_length = std::min(max_straight_rows, rows.size() - 1 - last);
+    std::size_t length = 1, step = 1;
+    for (; length + step <= max_length && is_straight(last, last + length + step); step *= 2) length += step;
+    for (; step > 0; step /= 2)
+      if (length + step <= max_length && is_straight(last, last + length + step)) length += step;
+    last += length;
     kept.push_back(rows[last]);
   }
   return kept;
