@@ -82,13 +82,12 @@ int GltfMaterialWriter::add(const Texture& texture) {
   return int(textures_.size()) - 1;
 }
 
-int GltfMaterialWriter::add(const Model& model) {
+int GltfMaterialWriter::add(const Model& model, const std::vector<Material>& materials) {
   std::vector<int> written_textures;
   written_textures.reserve(model.textures.size());
   for (const Texture& texture : model.textures) written_textures.push_back(add(texture));
   const int first = int(materials_.size());
-  for (const Material& material : model.materials)
-    materials_.push_back(material_json(material, written_textures));
+  for (const Material& material : materials) materials_.push_back(material_json(material, written_textures));
   return first;
 }
 

@@ -18,9 +18,9 @@ class GltfMaterialWriter {
  public:
   using Json = nlohmann::json;
 
-  /// Adds the materials of `model`, which must outlive this, and returns the index of the first. Pictures
-  /// that several models have are one.
-  int add(const Model& model);
+  /// Adds `materials`, the model's or a paint over its textures, and returns the index of the first. `model`
+  /// must outlive this. Pictures that several models have are one.
+  int add(const Model& model, const std::vector<Material>& materials);
 
   /// Writes materials, textures, pictures' names and used extensions into the JSON of the file.
   void describe(Json& json, const std::filesystem::path& file) const;

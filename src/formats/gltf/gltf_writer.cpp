@@ -60,9 +60,10 @@ class Writer {
     nodes_.push_back({{"name", "z_up"}, {"rotation", {-half, 0.0f, 0.0f, half}}});
   }
 
-  /// All of `model` on nodes of an object, below the file's node `parent`.
-  Status add(const Model& model, const std::vector<ModelNode>& nodes, const std::string& name, int parent) {
-    Result<const WrittenModel*> shared = written(model);
+  /// All of `model`, in `materials`, on nodes of an object, below the file's node `parent`.
+  Status add(const Model& model, const std::vector<Material>& materials, const std::vector<ModelNode>& nodes,
+             const std::string& name, int parent) {
+    Result<const WrittenModel*> shared = written(model, materials);
     if (!shared) return shared.errors();
     const WrittenModel& parts = **shared;
     WrittenObject object{name, int(nodes_.size()), {}};
@@ -78,7 +79,7 @@ class Writer {
 
   Status add(const Object& object) {
     const int node = append(node_json(node_of(object.name, 0, object.world_from_model)), 0);
-    return add(*object.model, nodes_now(object), object.name, node);
+    return add(*object.model, object.materials(), nodes_now(object), object.name, node);
   }
 
   void add(const NamedCamera& camera) {
@@ -113,18 +114,40 @@ class Writer {
   }
 
  private:
-  /// What objects of one model share.
+  /// What objects of one model and paint share.
   struct WrittenModel {
+    int first_material;
     std::vector<WrittenMesh> meshes;
     std::vector<WrittenAnimation> animations;
   };
 
-  Result<const WrittenModel*> written(const Model& model) {
-    if (const auto found = models_.find(&model); found != models_.end()) return &found->second;
-    Result<std::vector<WrittenMesh>> meshes = write_meshes(model, materials_.add(model), chunk_, meshes_);
+  Result<const WrittenModel*> written(const Model& model, const std::vector<Material>& materials) {
+    if (const auto found = models_.find({&model, &materials}); found != models_.end()) return &found->second;
+    const auto other = models_.lower_bound({&model, nullptr});
+    if (other != models_.end() && other->first.first == &model)
+      return &models_.emplace(std::pair(&model, &materials), painted(other->second, model, materials))
+                  .first->second;
+    const int first_material = materials_.add(model, materials);
+    Result<std::vector<WrittenMesh>> meshes = write_meshes(model, first_material, chunk_, meshes_);
     if (!meshes) return meshes.errors();
-    return &models_.emplace(&model, WrittenModel{*std::move(meshes), write_keyframes(model, chunk_)})
+    return &models_
+                .emplace(std::pair(&model, &materials),
+                         WrittenModel{first_material, *std::move(meshes), write_keyframes(model, chunk_)})
                 .first->second;
+  }
+
+  /// The same meshes over the same data, in other materials.
+  WrittenModel painted(WrittenModel written, const Model& model, const std::vector<Material>& materials) {
+    const int first_material = materials_.add(model, materials);
+    for (WrittenMesh& mesh : written.meshes) {
+      Json copy = meshes_[std::size_t(mesh.mesh)];
+      for (Json& primitive : copy["primitives"])
+        primitive["material"] = primitive["material"].get<int>() - written.first_material + first_material;
+      mesh.mesh = int(meshes_.size());
+      meshes_.push_back(std::move(copy));
+    }
+    written.first_material = first_material;
+    return written;
   }
 
   int append(Json node, int parent) {
@@ -150,7 +173,7 @@ class Writer {
 
   GltfMaterialWriter materials_;
   GltfChunk chunk_;
-  std::map<const Model*, WrittenModel> models_;
+  std::map<std::pair<const Model*, const std::vector<Material>*>, WrittenModel> models_;
   Json nodes_ = Json::array(), meshes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array(),
        cameras_ = Json::array(), extensions_ = Json::object();
 };
@@ -197,13 +220,13 @@ Status Writer::write_container(const fs::path& file, const Json& json,
 
 Status write_gltf(const fs::path& file, const Model& model) {
   Writer writer;
-  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  if (Status status = writer.add(model, model.materials, model.nodes, "", 0); !status) return status;
   return writer.write(file);
 }
 
 Status write_gltf(const fs::path& file, const Model& model, const GltfOwnData& own) {
   Writer writer;
-  if (Status status = writer.add(model, model.nodes, "", 0); !status) return status;
+  if (Status status = writer.add(model, model.materials, model.nodes, "", 0); !status) return status;
   if (Status status = writer.add(own); !status) return status;
   return writer.write(file);
 }

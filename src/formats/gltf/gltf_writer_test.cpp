@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "base/files.h"
@@ -147,6 +148,27 @@ TEST(GltfWriter, ObjectsStandWhereTheSceneHasThem) {
   EXPECT_EQ(again.parts.size(), 3u);
   ASSERT_EQ(again.animations.size(), 2u);  // of each flag
   EXPECT_EQ(again.animations.front().name, "flag west: wave");
+  expect_valid(folder.path());
+}
+
+TEST(GltfWriter, PaintedObjectsShareTheDataOfTheirMeshes) {
+  const TestFolder folder;
+  const auto model = model_of(sphere(glm::vec3(0.0f), 1.0f, 64), matt(glm::vec3(0.5f)));
+  Object plain, red;
+  plain.name = "plain", plain.model = red.model = model, red.name = "red";
+  red.paint = std::make_shared<const std::vector<Material>>(1, matt({0.75f, 0.25f, 0.25f}));
+  ASSERT_TRUE(write_gltf(folder.path() / "one.glb", std::vector<const Object*>{&plain}, {}));
+  ASSERT_TRUE(write_gltf(folder.path() / "two.glb", std::vector<const Object*>{&plain, &red, &red}, {}));
+  const Model again = read(folder.path() / "two.glb");
+  ASSERT_EQ(again.parts.size(), 3u);
+  const auto count = [&](glm::vec3 colour) {
+    return std::ranges::count_if(again.parts, [&](const Part& part) {
+      return again.materials[std::size_t(part.material)].base_colour == colour;
+    });
+  };
+  EXPECT_EQ(count(glm::vec3(0.5f)), 1);
+  EXPECT_EQ(count({0.75f, 0.25f, 0.25f}), 2);
+  EXPECT_LT(fs::file_size(folder.path() / "two.glb"), fs::file_size(folder.path() / "one.glb") + 2000);
   expect_valid(folder.path());
 }
 

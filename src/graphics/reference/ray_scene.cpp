@@ -109,7 +109,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     const std::vector<glm::mat4> pose = scene::rest_pose(*model);
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       const scene::Part& part = model->parts[p];
-      rays_.place(*model, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
+      rays_.place(*model, model->materials, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
                   first_thing_ + placing.thing, false, true, false);
     }
     rays_.kept_.push_back(std::move(model));
@@ -236,18 +236,19 @@ void RayScene::add_object(const scene::Object& object, int number) {
   const bool is_still = !object.is_dynamic && object.deformed_meshes.empty();
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    place(model, p, object.mesh(p), object.world_from_model * pose[std::size_t(model.parts[p].node)], number,
-          object.takes_reflection, object.is_visible, is_still && placed_[&object.mesh(p)] == 1);
+    place(model, object.materials(), p, object.mesh(p),
+          object.world_from_model * pose[std::size_t(model.parts[p].node)], number, object.takes_reflection,
+          object.is_visible, is_still && placed_[&object.mesh(p)] == 1);
 }
 
-void RayScene::place(const scene::Model& model, std::size_t p, const Mesh& mesh,
-                     const glm::mat4& world_from_mesh, int number, bool takes_reflection, bool is_visible,
-                     bool may_join) {
+void RayScene::place(const scene::Model& model, const std::vector<scene::Material>& materials, std::size_t p,
+                     const Mesh& mesh, const glm::mat4& world_from_mesh, int number, bool takes_reflection,
+                     bool is_visible, bool may_join) {
   const scene::Part& source = model.parts[p];
   PlacedPart part{};
   part.mesh = &mesh;
   part.part = int(p);
-  part.material = &model.materials[std::size_t(source.material)];
+  part.material = &materials[std::size_t(source.material)];
   part.textures = &textures_of(model);
   part.world_from_mesh = world_from_mesh;
   part.object = number;

@@ -123,8 +123,9 @@ class RayScene {
   std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
   bool is_blocked(const Ray& ray, Passage* passage, bool passes_recorded = false) const;
   void add_object(const scene::Object& object, int number);
-  void place(const scene::Model& model, std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh,
-             int number, bool takes_reflection, bool is_visible, bool may_join);
+  void place(const scene::Model& model, const std::vector<scene::Material>& materials, std::size_t part,
+             const Mesh& mesh, const glm::mat4& world_from_mesh, int number, bool takes_reflection,
+             bool is_visible, bool may_join);
   void place(const PlacedPart& part, bool is_visible, bool may_join = false);
   void commit();
   bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);

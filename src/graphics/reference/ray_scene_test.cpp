@@ -48,6 +48,18 @@ scene::Scene three_things() {
   return scene;
 }
 
+TEST(RayScene, RaysSeeThePaintOfAnObject) {
+  scene::Scene scene = three_things();
+  const scene::Material red = scene::matt({0.9f, 0.1f, 0.1f});
+  scene.objects[1].paint = std::make_shared<const std::vector<scene::Material>>(1, red);
+  const RayScene rays(scene);
+  const auto colour_at = [&](float x) {
+    return rays.nearest_hit({{x, 0.5f, 9.0f}, {0, 0, -1}})->place->material->base_colour;
+  };
+  EXPECT_EQ(colour_at(0.99f), red.base_colour);
+  EXPECT_EQ(colour_at(3.0f), glm::vec3(0.5f)) << "the ground";
+}
+
 TEST(RayScene, UpdatesAgreeWithANewScene) {
   scene::Scene scene = three_things();
   RayScene rays(scene);

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
+#include <map>
 #include <utility>
 
 #include "base/memory_budget.h"
@@ -99,6 +100,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
 
   add_models(scene);
   add_levels(scene);
+  add_painted_parts(scene);
   add_deformed_parts(scene);
   add_lit_parts(scene);
   geometry_.upload();
@@ -119,8 +121,8 @@ void GpuScene::add_models(const scene::Scene& scene) {
     const auto [first, is_new] = first_part_of_model_.try_emplace(&model, int(parts_.size()));
     first_part_.push_back(first->second);
     if (!is_new) continue;
-    const int first_material = int(materials_.size());
-    upload_model_materials(model);
+    upload_textures(model);
+    const int first_material = add_materials(model, model.materials);
     for (const scene::Part& part : model.parts) {
       const bool lets_through = model.materials[std::size_t(part.material)].refracts();
       parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
@@ -179,6 +181,25 @@ void GpuScene::add_foliage_levels() {
   }
 }
 
+/// Objects of one paint have parts and materials of their own, over the geometry and textures of their model.
+void GpuScene::add_painted_parts(const scene::Scene& scene) {
+  std::map<std::pair<const scene::Model*, const void*>, int> known;  // first part
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    if (!object.paint) continue;
+    const auto [painted, is_new] =
+        known.try_emplace({object.model.get(), object.paint.get()}, int(parts_.size()));
+    const std::size_t first = std::size_t(std::exchange(first_part_[o], painted->second));
+    if (!is_new) continue;
+    assert(object.paint->size() == object.model->materials.size());
+    const int first_material = add_materials(*object.model, *object.paint);
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
+      parts_.push_back(PartRange(parts_[first + p]));
+      parts_.back().material = first_material + object.model->parts[p].material;
+    }
+  }
+}
+
 /// An object that deforms has parts of its own: those of its model, with other vertices where a mesh deforms.
 void GpuScene::add_deformed_parts(const scene::Scene& scene) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
@@ -232,17 +253,23 @@ void GpuScene::deform(const scene::Object& object, std::size_t o) {
   }
 }
 
-void GpuScene::upload_model_materials(const scene::Model& model) {
-  const std::size_t first_texture = textures_.size();
+void GpuScene::upload_textures(const scene::Model& model) {
+  first_texture_of_model_[&model] = textures_.size();
   const std::vector<char> is_cutout = scene::cutout_textures(model);
   std::vector<std::vector<Image8>> levels(model.textures.size());
   parallel_for(levels.size(),
                [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], is_cutout[i] != 0); });
   for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
+}
+
+/// Of a model whose textures are there. Returns the index of the first.
+int GpuScene::add_materials(const scene::Model& model, const std::vector<scene::Material>& materials) {
+  const std::size_t first_texture = first_texture_of_model_.at(&model);
+  const int first = int(materials_.size());
   const auto texture_or = [&](int index, GLuint plain) {
     return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
   };
-  for (const scene::Material& material : model.materials) {
+  for (const scene::Material& material : materials) {
     materials_.push_back({texture_or(material.base_colour_texture, white_),
                           texture_or(material.normal_texture, flat_normal_),
                           texture_or(material.surface_texture, white_),
@@ -253,6 +280,7 @@ void GpuScene::upload_model_materials(const scene::Model& model) {
     material_bytes_.resize(offset + std::size_t(block_stride_));
     std::memcpy(material_bytes_.data() + offset, &block, sizeof(block));
   }
+  return first;
 }
 
 void GpuScene::make_items(const scene::Scene& scene) {

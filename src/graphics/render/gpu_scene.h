@@ -88,7 +88,7 @@ class GpuScene {
   /// True if a static object appeared or was moved in the last update.
   bool is_newcomer(int object) const { return is_newcomer_[std::size_t(object)] != 0; }
 
-  /// All parts: first those of the models, then those of deforming objects.
+  /// All parts: first those of the models, then those of paints, then those of deforming objects.
   const std::vector<PartRange>& parts() const { return parts_; }
   /// Coarser levels of detail of a part, coarser from one to the next; empty where it has none.
   std::span<const LevelRange> levels_of(const PartRange& part) const {
@@ -131,10 +131,12 @@ class GpuScene {
   void add_levels(const scene::Scene& scene);
   void add_surface_levels(const scene::Scene& scene);
   void add_foliage_levels();
+  void add_painted_parts(const scene::Scene& scene);
   void add_deformed_parts(const scene::Scene& scene);
   void add_lit_parts(const scene::Scene& scene);
   void deform(const scene::Object& object, std::size_t o);
-  void upload_model_materials(const scene::Model& model);
+  void upload_textures(const scene::Model& model);
+  int add_materials(const scene::Model& model, const std::vector<scene::Material>& materials);
   void make_items(const scene::Scene& scene);
   void place(const scene::Scene& scene, std::size_t object);
   void find_body_shapes(const scene::Scene& scene);
@@ -143,7 +145,8 @@ class GpuScene {
   GLuint plain_texture(glm::u8vec4 colour);
 
   std::unordered_map<const scene::Model*, int> first_part_of_model_;
-  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, or its own if it deforms
+  std::unordered_map<const scene::Model*, std::size_t> first_texture_of_model_;
+  std::vector<int> first_part_;  ///< of each object, in parts_: its model's, its paint's, or its own
   GpuGeometry geometry_;
   GpuVertexLight vertex_light_;
   std::vector<PartRange> parts_;

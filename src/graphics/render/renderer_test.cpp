@@ -97,6 +97,37 @@ TEST_F(RendererTest, ASmallPictureIsShownEnlarged) {
           << corner.x << ", " << corner.y;
 }
 
+/// Three balls of one model in a row, the second and third in a paint of their own, or each of its own model.
+scene::Scene balls(bool share_their_model) {
+  const Mesh ball = sphere({0, 0, 1}, 1.0f);
+  scene::Scene scene;
+  add(scene, model_of(ground(30), matt(glm::vec3(0.3f))));
+  const auto shared = model_of(ball, matt(glm::vec3(0.5f)));
+  const scene::Material red = matt({0.6f, 0.1f, 0.1f}), blue = matt({0.1f, 0.1f, 0.6f});
+  for (const auto& [x, colour] : {std::pair(-3.0f, matt(glm::vec3(0.5f))), {0.0f, red}, {3.0f, blue}}) {
+    const int ball_object = add(scene, share_their_model ? shared : model_of(ball, colour), true,
+                                glm::translate(glm::mat4(1.0f), {x, 8.0f, 0.0f}));
+    if (share_their_model && x >= 0.0f)
+      scene.objects[std::size_t(ball_object)].paint =
+          std::make_shared<const std::vector<scene::Material>>(1, colour);
+  }
+  return scene;
+}
+
+TEST_F(RendererTest, PaintedObjectsLookAsModelsOfTheirOwn) {
+  Camera camera;
+  camera.world_from_camera = look_at({0, -2, 2}, {0, 8, 1});
+  const scene::Scene shared = balls(true), apart = balls(false);
+  const auto of_one = renderer_of(shared), of_three = renderer_of(apart);
+  draw(*of_one, shared, camera, 96, 54);
+  draw(*of_three, apart, camera, 96, 54);
+  EXPECT_EQ(of_one->read_radiance().pixels, of_three->read_radiance().pixels);
+  const GpuScene &one = of_one->gpu(), &three = of_three->gpu();
+  ASSERT_EQ(one.parts().size(), three.parts().size());
+  EXPECT_EQ(one.parts()[1].base_vertex, one.parts()[2].base_vertex) << "one geometry";
+  EXPECT_NE(three.parts()[1].base_vertex, three.parts()[2].base_vertex) << "control: three models";
+}
+
 TEST_F(RendererTest, AWallStandsWhereTrigonometrySays) {
   scene::Scene scene;
   add(scene, model_of(quad({-3, 10, 1}, {5, 10, 1}, {5, 10, 4}, {-3, 10, 4}), matt(glm::vec3(0.5f))));

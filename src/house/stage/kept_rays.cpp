@@ -17,8 +17,9 @@ std::uint64_t casters(const scene::Scene& scene) {
 /// shadows.
 bool are_alike(const scene::Scene& a, const scene::Scene& b) {
   const auto is_same = [](const scene::Object& one, const scene::Object& other) {
-    return one.model == other.model && one.takes_reflection == other.takes_reflection &&
-           one.is_dynamic == other.is_dynamic && one.deformed_meshes.size() == other.deformed_meshes.size();
+    return one.model == other.model && one.paint == other.paint &&
+           one.takes_reflection == other.takes_reflection && one.is_dynamic == other.is_dynamic &&
+           one.deformed_meshes.size() == other.deformed_meshes.size();
   };
   return std::ranges::equal(a.objects, b.objects, is_same) && casters(a) == casters(b);
 }

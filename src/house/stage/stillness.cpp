@@ -18,6 +18,7 @@ std::uint64_t state_of(const scene::Scene& scene, const Camera& camera, int widt
   for (const glm::vec3 value : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(value);
   for (const scene::Object& object : scene.objects) {
     hash.add(object.model.get());
+    hash.add(object.paint.get());
     hash.add(object.world_from_model);
     hash.add(object.pose);
     hash.add(object.is_visible);

@@ -63,11 +63,11 @@ struct Face {
   vec3 at(vec3 shares) const { return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2]; }
 };
 
-std::vector<Face> solid_faces(const scene::Model& model) {
+std::vector<Face> solid_faces(const scene::Model& model, const std::vector<scene::Material>& materials) {
   const std::vector<glm::mat4> model_from_node = scene::rest_pose(model);
   std::vector<Face> faces;
   for (const scene::Part& part : model.parts) {
-    const scene::Material& material = model.materials[std::size_t(part.material)];
+    const scene::Material& material = materials[std::size_t(part.material)];
     if (material.alpha_mode == scene::Alpha::blend) continue;
     const glm::mat4& to_model = model_from_node[std::size_t(part.node)];
     const std::vector<std::uint32_t>& indices = part.mesh.indices;
@@ -151,8 +151,8 @@ glm::ivec3 BodyField::size() {
   return glm::ivec3(Tracer{nothing}.field_cells);
 }
 
-BodyField body_field(const scene::Model& model) {
-  const std::vector<Face> faces = solid_faces(model);
+BodyField body_field(const scene::Model& model, const std::vector<scene::Material>& materials) {
+  const std::vector<Face> faces = solid_faces(model, materials);
   BodyField field{box_of(faces), {}};
   if (field.box.empty()) return field;
   const float reach_m = Tracer{field}.field_reach_m(0.5f * field.box.size());

@@ -21,9 +21,9 @@ struct BodyField {
   static glm::ivec3 size();  ///< in cells
 };
 
-/// Of a model's solid parts at rest; what blends is left out. What is not closed has its inside where its
-/// triangles turn their backs.
-BodyField body_field(const scene::Model& model);
+/// Of a model's solid parts at rest, in `materials`, the model's or those of an object; what blends is left
+/// out. What is not closed has its inside where its triangles turn their backs.
+BodyField body_field(const scene::Model& model, const std::vector<scene::Material>& materials);
 
 /// The distance at which a ray hits the body, `reach_m` where it does not: as distance_to_body in
 /// body_field.glsl, in the model's frame.

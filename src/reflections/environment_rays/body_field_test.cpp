@@ -40,8 +40,10 @@ scene::Model ball() {
   return model;
 }
 
+BodyField field_of(const scene::Model& model) { return body_field(model, model.materials); }
+
 TEST(BodyField, RaysHitABallWhereItIs) {
-  const BodyField field = body_field(ball());
+  const BodyField field = field_of(ball());
   const glm::vec3 centre(2, 3, 4);
   constexpr float cell_m = 2.0f / 17.0f;  // of the fewest cells
   Random random(3);
@@ -59,7 +61,7 @@ TEST(BodyField, RaysHitABallWhereItIs) {
 }
 
 TEST(BodyField, RaysThatLeaveTheBodyDoNotMeetWhereTheyStart) {
-  const BodyField field = body_field(ball());
+  const BodyField field = field_of(ball());
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
     const glm::vec3 normal = direction_of(random);
@@ -69,7 +71,7 @@ TEST(BodyField, RaysThatLeaveTheBodyDoNotMeetWhereTheyStart) {
 }
 
 TEST(BodyField, CellsHaveTheColourOfWhatIsNearest) {
-  const BodyField field = body_field(ball());
+  const BodyField field = field_of(ball());
   const glm::ivec3 size = BodyField::size();
   const auto cell_at = [&](glm::vec3 at) {
     const glm::ivec3 cell((at - field.box.min) / field.box.size() * glm::vec3(size));
@@ -80,15 +82,29 @@ TEST(BodyField, CellsHaveTheColourOfWhatIsNearest) {
   EXPECT_NEAR(cell_at({2, 3, 3}).x, 255 * 0.2, 1);
 }
 
+TEST(BodyField, PaintColoursTheSameBody) {
+  const scene::Model model = ball();
+  std::vector<scene::Material> paint = model.materials;
+  paint[0].base_colour = {0.04f, 0.04f, 0.81f};
+  const BodyField plain = field_of(model), painted = body_field(model, paint);
+  ASSERT_EQ(plain.cells.size(), painted.cells.size());
+  bool is_blue = false;
+  for (std::size_t i = 0; i < plain.cells.size(); ++i) {
+    ASSERT_EQ(plain.cells[i].w, painted.cells[i].w) << "the same distances";
+    is_blue |= plain.cells[i].z < 60 && painted.cells[i].z > 200;
+  }
+  EXPECT_TRUE(is_blue);
+}
+
 TEST(BodyField, NothingFlatAndUncolouredThingsAreStood) {
-  EXPECT_TRUE(body_field({}).box.empty());
-  EXPECT_EQ(distance_to_body(body_field({}), {}, {1, 0, 0}, 7.0f), 7.0f);
+  EXPECT_TRUE(field_of({}).box.empty());
+  EXPECT_EQ(distance_to_body(field_of({}), {}, {1, 0, 0}, 7.0f), 7.0f);
   scene::Model panel;
   panel.materials.resize(1);
   panel.parts.resize(1);
   panel.parts[0].mesh.positions = {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}};
   panel.parts[0].mesh.indices = {0, 1, 2, 0, 0, 0};
-  const float met = distance_to_body(body_field(panel), {-1, 0.6f, 0.4f}, {1, 0, 0}, 100.0f);
+  const float met = distance_to_body(field_of(panel), {-1, 0.6f, 0.4f}, {1, 0, 0}, 100.0f);
   EXPECT_NEAR(met, 1.0f, 0.05f);
 }
 

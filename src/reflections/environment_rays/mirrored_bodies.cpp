@@ -1,7 +1,7 @@
 #include "reflections/environment_rays/mirrored_bodies.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <map>
 
 #include "base/parallel.h"
 #include "reflections/methods/bindings.h"
@@ -31,18 +31,20 @@ gl::Texture upload(const std::vector<BodyField>& fields) {
 
 MirroredBodies::MirroredBodies(const scene::Scene& scene)
     : field_of_object_(scene.objects.size(), -1), body_of_object_(scene.objects.size(), -1) {
-  std::unordered_map<const scene::Model*, int> known;
-  std::vector<const scene::Model*> models;
+  std::map<std::pair<const scene::Model*, const void*>, int> known;  // by model and paint
+  std::vector<const scene::Object*> looks;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     if (!object.is_dynamic || !object.model) continue;
-    const auto [place, is_new] = known.try_emplace(object.model.get(), int(models.size()));
-    if (is_new) models.push_back(object.model.get());
+    const auto [place, is_new] =
+        known.try_emplace({object.model.get(), object.paint.get()}, int(looks.size()));
+    if (is_new) looks.push_back(&object);
     field_of_object_[o] = place->second;
   }
-  models.resize(std::min(models.size(), max_fields));
-  std::vector<BodyField> fields(models.size());
-  parallel_for(models.size(), [&](std::size_t i) { fields[i] = body_field(*models[i]); });
+  looks.resize(std::min(looks.size(), max_fields));
+  std::vector<BodyField> fields(looks.size());
+  parallel_for(looks.size(),
+               [&](std::size_t i) { fields[i] = body_field(*looks[i]->model, looks[i]->materials()); });
   std::ranges::transform(fields, std::back_inserter(boxes_), &BodyField::box);
   for (int& field : field_of_object_)
     if (field >= int(boxes_.size()) || (field >= 0 && boxes_[std::size_t(field)].empty())) field = -1;

@@ -1,6 +1,6 @@
 // Dynamic objects as mirror rays hit them: cars reflect one another, the people beside them, and themselves.
-// Each model's surface is a field of distances (body_field.h), each body a box in which its model's field
-// lies.
+// Each model's surface, in each of its paints, is a field of distances (body_field.h), each body a box in
+// which its field lies.
 #pragma once
 
 #include <vector>

@@ -70,9 +70,9 @@ void bind_near_picture(const gl::Program& program, GLuint texture, float share) 
 }
 
 /// What the first mirror-like material gives back, seen from before it.
-glm::vec3 mirror_colour(const scene::Model& model) {
+glm::vec3 mirror_colour(const std::vector<scene::Material>& materials) {
   constexpr float coat = 0.04f;
-  for (const scene::Material& material : model.materials)
+  for (const scene::Material& material : materials)
     if (material.is_mirror_like) return glm::mix(glm::vec3(coat), material.base_colour, material.metallic);
   return glm::vec3(coat);
 }
@@ -133,8 +133,10 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel refl
       uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       shows_all_(shows_all_objects(scene)),
       within_m_(near_object_settings(scene).within_m) {
-  for (const scene::Object& object : scene.objects)
+  for (const scene::Object& object : scene.objects) {
     model_of_object_.push_back(object.takes_reflection ? object.model.get() : nullptr);
+    colour_of_object_.push_back(mirror_colour(object.materials()));
+  }
 }
 
 /// All that may be seen in another.
@@ -198,7 +200,7 @@ void VirtualObjects::draw_own_reflections(const render::View& view) {
     bind(own_reflection_);
     own_reflection_.set("clip_from_reflector", view.clip_from_world * shown_[i].world_from_reflector);
     own_reflection_.set("viewer_in_reflector", shown_[i].viewer);
-    own_reflection_.set("mirror_colour", mirror_colour(*model_of_object_[std::size_t(shown_[i].object)]));
+    own_reflection_.set("mirror_colour", colour_of_object_[std::size_t(shown_[i].object)]);
     shown_[i].reflector->draw(*shown_[i].patch);
   }
   current_ = nullptr;

@@ -57,6 +57,7 @@ class VirtualObjects final : public methods::Overlay, public render::VirtualVert
 
   ReflectorsByModel reflectors_;
   std::vector<const scene::Model*> model_of_object_;
+  std::vector<glm::vec3> colour_of_object_;  ///< of its mirrors
   gl::Program patch_pixels_, own_reflection_;
   VirtualPicture picture_;
   VertexSearch vertex_search_;

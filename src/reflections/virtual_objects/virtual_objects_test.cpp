@@ -85,22 +85,39 @@ TEST_F(VirtualObjectsTest, TheMidpointSearchComesNearerWithEachIteration) {
   EXPECT_LT(draw(scene, eye, target).flip(), 0.5 * one);
 }
 
-/// The inside of a ball, so shallow that it hardly shows itself.
-Mesh shallow_bowl() {
+/// The inside of a ball below `rim`.
+Mesh bowl_below(float rim) {
   Mesh bowl = scene::sphere(glm::vec3(0.0f), 1.0f, 64);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < bowl.indices.size(); i += 3)
-    if (bowl.positions[bowl.indices[i]].z < -0.75f && bowl.positions[bowl.indices[i + 2]].z < -0.75f)
+    if (bowl.positions[bowl.indices[i]].z < rim && bowl.positions[bowl.indices[i + 2]].z < rim)
       kept.insert(kept.end(), {bowl.indices[i], bowl.indices[i + 2], bowl.indices[i + 1]});
   bowl.indices = kept;
   for (glm::vec3& normal : bowl.normals) normal = -normal;
   return bowl;
 }
 
+/// So shallow that it hardly shows itself.
+Mesh shallow_bowl() { return bowl_below(-0.75f); }
+
 TEST_F(VirtualObjectsTest, ABowlShowsThingsUpsideDown) {
   const glm::mat4 tilted =
       glm::rotate(glm::rotate(placed({0, 0.8f, 1.3f}), 0.4f, {0, 0, 1}), 1.2f, {1, 0, 0});
   EXPECT_LT(draw(among_boxes(shallow_bowl(), tilted), eye, target).flip(), 0.08);
+}
+
+TEST_F(VirtualObjectsTest, ABowlThatIsPaintedShowsItselfInItsPaint) {
+  const glm::mat4 tilted =
+      glm::rotate(glm::rotate(placed({0, 0.8f, 1.3f}), 0.4f, {0, 0, 1}), 1.2f, {1, 0, 0});
+  const scene::Material steel = render::mirror_box(1.0f)->materials.front();
+  scene::Material copper = steel;
+  copper.base_colour = {0.9f, 0.5f, 0.3f};
+  scene::Scene painted = reflector_maps::among_boxes(bowl_below(-0.2f), steel, tilted);
+  for (scene::Object& object : painted.objects)
+    if (object.takes_reflection)
+      object.paint = std::make_shared<const std::vector<scene::Material>>(1, copper);
+  const scene::Scene of_copper = reflector_maps::among_boxes(bowl_below(-0.2f), copper, tilted);
+  EXPECT_EQ(draw(painted, eye, target).ours.pixels, draw(of_copper, eye, target).ours.pixels);
 }
 
 /// In a dark room under a bright sky: what covers a part of a pixel shows nothing of the sky in the others.

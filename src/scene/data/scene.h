@@ -37,12 +37,18 @@ struct Object {
   bool is_visible = true;         ///< rendered, casts shadows, appears in reflections; may change at any time
   PlayedAnimation played = {};    ///< `animate` computes the pose and the deformed meshes
   std::vector<Mesh> deformed_meshes = {};  ///< deformed mesh of each part; empty: the model's meshes
+  /// Materials in place of the model's, one for each of them: the same car in another paint. They share the
+  /// model's meshes and textures, are as opaque, as two-sided and as mirror-like as those that they stand in
+  /// for, and refract as these do. Null: the model's.
+  std::shared_ptr<const std::vector<Material>> paint = nullptr;
 
   /// The present mesh of one of the model's parts: deformed, or the model's.
   const Mesh& mesh(std::size_t part) const {
     const bool is_deformed = !deformed_meshes.empty() && model->parts[part].deformation;
     return is_deformed ? deformed_meshes[part] : model->parts[part].mesh;
   }
+  /// The materials of the model's parts: painted, or the model's.
+  const std::vector<Material>& materials() const { return paint ? *paint : model->materials; }
 };
 
 /// The sun as a directional light.

@@ -47,6 +47,8 @@ void add_things(ContentHash& hash, const Scene& scene, Counts&& counts, CountsDa
     const auto [entry, is_new] = models.try_emplace(object.model.get(), 0);
     if (is_new) entry->second = model_key(*object.model);
     hash.add(entry->second);
+    if (object.paint)
+      for (const Material& material : *object.paint) add_material(hash, material);
     hash.add(object.world_from_model);
     hash.add(object.pose);
     for (const Mesh& mesh : object.deformed_meshes) {

@@ -41,6 +41,16 @@ TEST(SceneKey, DependsOnWhatRoomsLetBeSeen) {
   EXPECT_FALSE(setting.key || setting.static_key);
 }
 
+TEST(SceneKey, KnowsThePaintOfAnObject) {
+  Scene plain;
+  add(plain, model_of(ground(5.0f), matt(glm::vec3(0.5f))));
+  Scene painted = plain, same = plain;
+  painted.objects[0].paint = std::make_shared<const std::vector<Material>>(1, matt({0.5f, 0.1f, 0.1f}));
+  same.objects[0].paint = std::make_shared<const std::vector<Material>>(*painted.objects[0].paint);
+  EXPECT_NE(scene_key(painted), scene_key(plain));
+  EXPECT_EQ(scene_key(painted), scene_key(same)) << "equal paints, wherever they lie in memory";
+}
+
 TEST(SceneKey, OfShapesDoesNotKnowTheLight) {
   Scene noon;
   add(noon, model_of(ground(5.0f), matt(glm::vec3(0.5f))));

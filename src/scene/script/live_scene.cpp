@@ -303,7 +303,8 @@ void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::
     const auto place = std::find_if(places.begin(), places.end(), [&](int index) {
       const Object& object = scene.objects[std::size_t(index)];
       const bool both_play = (object.played.animation == no_index) == (built[i].played.animation == no_index);
-      return free.count(index) != 0 && object.model == built[i].model && both_play;
+      return free.count(index) != 0 && object.model == built[i].model && object.paint == built[i].paint &&
+             both_play;
     });
     if (place == places.end()) {
       places.push_back(int(scene.objects.size()));
