@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "base/test_folder.h"
 #include "house/rooms.h"
@@ -464,6 +466,28 @@ TEST_F(Kerbside, CarsLookAlongTheirLanesAndTakeTheirShareOfPlaces) {
   const std::size_t half = called(load("parkedCars(share=0.5)\n"), "parked car").size();
   EXPECT_NEAR(double(half), 0.5 * double(cars.size()), 0.2 * double(cars.size()));
   EXPECT_TRUE(called(load("parkedCars(share=0)\n"), "parked car").empty());
+}
+
+TEST_F(Kerbside, CarsOfABodyShareItsModelInAllTheirPaints) {
+  const auto count = [&](const std::string& share) {
+    std::set<const scene::Model*> bodies;
+    std::set<std::pair<const scene::Model*, const void*>> looks;
+    std::size_t cars = 0;
+    for (const scene::Object& car : called(load("parkedCars(share=" + share + ")\n"), "parked car")) {
+      ++cars, bodies.insert(car.model.get()), looks.insert({car.model.get(), car.paint.get()});
+      EXPECT_EQ(car.materials().size(), car.model->materials.size());
+    }
+    return std::array{cars, bodies.size(), looks.size()};
+  };
+  const auto [cars, bodies, looks] = count("1");
+  EXPECT_GT(cars, 60u);
+  EXPECT_EQ(bodies, 3u);
+  EXPECT_EQ(looks, 10u);
+  const auto [few_cars, few_bodies, few_looks] = count("0.08");
+  ASSERT_GT(few_cars, 2u);
+  ASSERT_LE(few_cars, 12u);
+  EXPECT_EQ(few_bodies, 1u) << "a short street has one body";
+  EXPECT_GT(few_looks, 1u) << "in several paints";
 }
 
 TEST_F(Kerbside, WhatComesFirstTakesItsPlacesFirst) {

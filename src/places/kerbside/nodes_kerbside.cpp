@@ -32,7 +32,8 @@ struct PlannedSeries {
   std::string object_name;  ///< of each; a number follows
   std::string of;           ///< pattern of the objects that are repeated; empty: `models`
   FileLocation where_of;
-  std::function<Models()> models;  ///< makes what is repeated where `of` is empty
+  /// Makes what is repeated at so many places where `of` is empty.
+  std::function<StreetModels(std::size_t places)> models;
   /// Grown plants in place of models; a null kind: none.
   vegetation::PlantRecipe plant = {};
   bool turns_at_random = false;  ///< as trees do
@@ -44,7 +45,7 @@ struct PlannedSeries {
 
 /// What is repeated: models, and how each is turned and scaled.
 struct Repeated {
-  std::shared_ptr<const scene::Model> model;
+  StreetModel look;
   glm::mat3 turn{1.0f};
 };
 
@@ -93,7 +94,7 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
                     .radius_m = float(node.number("clear"))};
   planned.object_name = "street tree";
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
-  planned.models = [height_m, seed] { return street_trees(height_m, seed); };
+  planned.models = [height_m, seed](std::size_t) { return street_trees(height_m, seed); };
   if (planned.of.empty()) planned.plant = {vegetation::find_kind(node.text("kind")), height_m, 0.0f, seed};
   planned.series.seed = seed, planned.turns_at_random = true;
   builder.add(std::move(planned));
@@ -157,21 +158,25 @@ void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builde
                     .radius_m = 0.28f};
   planned.object_name = kind.object_name;
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
-  planned.models = [make = kind.make] { return Models{std::make_shared<scene::Model>(make())}; };
+  planned.models = [make = kind.make](std::size_t) {
+    return StreetModels{{std::make_shared<scene::Model>(make())}};
+  };
   planned.series.seed = std::uint64_t(node.integer("seed"));
   builder.add(std::move(planned));
 }
 
-/// Empty, and an error of the builder, where no object has such a name.
-std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, scene::SceneBuilder& builder) {
+/// At so many places. Empty, and an error of the builder, where no object has such a name.
+std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, std::size_t places,
+                                       scene::SceneBuilder& builder) {
   std::vector<Repeated> repeated;
   if (planned.of.empty()) {
-    for (const auto& model : planned.models()) repeated.push_back({model});
+    if (places == 0) return repeated;  // nothing is made for them
+    for (const StreetModel& look : planned.models(places)) repeated.push_back({look});
     return repeated;
   }
   for (const scene::Object& object : builder.scene.objects)
     if (scene::matches(planned.of, object.name))
-      repeated.push_back({object.model, glm::mat3(object.world_from_model)});
+      repeated.push_back({{object.model, object.paint}, glm::mat3(object.world_from_model)});
   if (repeated.empty())
     builder.fail(error_at(planned.where_of,
                           "no object is called \"{}\"; give one a name, hide it with visible=0, "
@@ -201,10 +206,10 @@ void plant_series(const PlannedSeries& planned, FreeGround& ground, scene::Scene
 }
 
 void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
-  const std::vector<Repeated> repeated = what_is_repeated(planned, builder);
+  const std::vector<KerbPlace> places = take_kerb_places(builder.scene.roads, planned.series, ground);
+  const std::vector<Repeated> repeated = what_is_repeated(planned, places.size(), builder);
   if (repeated.empty()) return;
   Random random(planned.series.seed, 300);
-  const std::vector<KerbPlace> places = take_kerb_places(builder.scene.roads, planned.series, ground);
   if (builder.scene.objects.size() + places.size() > max_objects)
     return builder.fail(error_at(planned.where_of,
                                  "{} places for a {} with {} objects in the scene; {} is the most. "
@@ -220,7 +225,7 @@ void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilde
     const float angle = planned.turns_at_random ? turn : std::atan2(x.y, x.x);
     scene::Object object;
     object.name = fmt::format("{} {}", planned.object_name, ++number);
-    object.model = chosen.model;
+    object.model = chosen.look.model, object.paint = chosen.look.paint;
     object.world_from_model =
         glm::rotate(glm::translate(glm::mat4(1.0f), place.foot), angle, {0.0f, 0.0f, 1.0f}) *
         glm::mat4(chosen.turn);

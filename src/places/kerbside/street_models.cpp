@@ -1,5 +1,7 @@
 #include "places/kerbside/street_models.h"
 
+#include <set>
+
 #include "base/colour.h"
 #include "formats/meshes/simplification.h"
 #include "places/paper_city/car.h"
@@ -14,8 +16,9 @@ using city::Outline, city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
 
 constexpr int tree_shapes = 5;
-constexpr float car_error_m = 0.005f;  // two of five triangles stay; from 3 m on bodies look the same
-constexpr float whole = 10.0f;         // of panels: one square
+constexpr float car_error_m = 0.005f;      // two of five triangles stay; from 3 m on bodies look the same
+constexpr std::size_t cars_per_body = 12;  // in a short street they differ by their paint alone
+constexpr float whole = 10.0f;             // of panels: one square
 
 scene::Material material(const char* name, vec3 colour, float roughness) {
   scene::Material result;
@@ -89,22 +92,33 @@ scene::Model make_bollard() {
   return model;
 }
 
+std::size_t bodies_of(const StreetModels& models) {
+  std::set<const scene::Model*> bodies;
+  for (const StreetModel& each : models) bodies.insert(each.model.get());
+  return bodies.size();
+}
+
 }  // namespace
 
-Models street_trees(float height_m, std::uint64_t seed) {
-  Models models;
+StreetModels street_trees(float height_m, std::uint64_t seed) {
+  StreetModels models;
   for (int i = 0; i < tree_shapes; ++i)
     models.push_back(
-        std::make_shared<scene::Model>(city::make_medium_tree(height_m, seed + std::uint64_t(i))));
+        {std::make_shared<scene::Model>(city::make_medium_tree(height_m, seed + std::uint64_t(i)))});
   return models;
 }
 
-Models parked_cars() {
-  Models models;
-  for (scene::Model& car : city::city_cars()) {
-    if (car.name.starts_with("bus")) continue;
-    for (scene::Part& part : car.parts) part.mesh = scene::simplified(part.mesh, car_error_m);
-    models.push_back(std::make_shared<scene::Model>(std::move(car)));
+StreetModels parked_cars(std::size_t places) {
+  StreetModels models;
+  for (const city::VehicleKind& kind : city::city_vehicles()) {
+    if (kind.shape.name == "bus" || bodies_of(models) * cars_per_body >= places) continue;
+    scene::Model body = city::make_car(kind.shape, kind.paints.front());
+    body.name = body.nodes.front().name = kind.shape.name;
+    for (scene::Part& part : body.parts) part.mesh = scene::simplified(part.mesh, car_error_m);
+    const auto shared = std::make_shared<const scene::Model>(std::move(body));
+    for (const city::CarPaint& paint : kind.paints)
+      models.push_back(
+          {shared, std::make_shared<const std::vector<scene::Material>>(city::car_materials(paint))});
   }
   return models;
 }

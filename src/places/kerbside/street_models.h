@@ -10,13 +10,19 @@
 
 namespace parvis::kerbside {
 
-using Models = std::vector<std::shared_ptr<const scene::Model>>;
+/// A model in one of its paints.
+struct StreetModel {
+  std::shared_ptr<const scene::Model> model;
+  std::shared_ptr<const std::vector<scene::Material>> paint = nullptr;  ///< null: the model's own
+};
+using StreetModels = std::vector<StreetModel>;
 
 /// Trees of about 10,000 triangles, all of one height, each another shape.
-Models street_trees(float height_m, std::uint64_t seed);
+StreetModels street_trees(float height_m, std::uint64_t seed);
 
-/// The cars of the paper's city, without its buses.
-Models parked_cars();
+/// The cars of the paper's city, without its buses, for so many places: one body for up to a dozen of them,
+/// all three for more than two dozens, each in all of its paints. Cars of one body share its model.
+StreetModels parked_cars(std::size_t places);
 
 /// A kind of street furniture.
 struct FurnitureKind {

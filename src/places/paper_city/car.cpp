@@ -54,26 +54,35 @@ Image8 plate_picture(std::string_view text) {
   return canvas.pictures(1, 1).colour;
 }
 
-void add_materials(scene::Model& model, const CarPaint& paint) {
-  const float flake_roughness = paint.metallic > 0.0f ? 0.42f : 0.55f;
-  model.materials = {coated(material("paint", paint.colour, paint.metallic, flake_roughness)),
-                     coated(material("glass", glm::vec3(0.012f, 0.014f, 0.014f), 0.0f, 0.06f)),
-                     material("black", glm::vec3(0.018f), 0.0f, 0.55f),
-                     material("chrome", glm::vec3(0.62f, 0.63f, 0.64f), 1.0f, 0.08f),
-                     coated(material("lamp", glm::vec3(0.55f, 0.57f, 0.6f), 0.6f, 0.2f)),
-                     coated(material("tail_lamp", glm::vec3(0.42f, 0.012f, 0.01f), 0.0f, 0.3f)),
-                     coated(material("indicator", glm::vec3(0.6f, 0.2f, 0.02f), 0.0f, 0.3f)),
-                     material("rubber", glm::vec3(0.02f), 0.0f, 0.85f),
-                     material("alloy", glm::vec3(0.55f, 0.56f, 0.58f), 1.0f, 0.28f),
-                     material("plate", glm::vec3(1.0f), 0.0f, 0.4f),
-                     material("contact_shadow", glm::vec3(0.0f), 0.0f, 1.0f)};
-  model.materials[std::size_t(CarSurface::chrome)].is_mirror_like = true;
+void add_textures(scene::Model& model) {
   model.textures = {texture("plate", plate_picture("PV 2041 AR")),
                     texture("contact_shadow", shadow_picture())};
-  model.materials[plate].base_colour_texture = 0;
-  scene::Material& below = model.materials[shadow];
-  below.base_colour_texture = 1, below.alpha_mode = scene::Alpha::blend;
 }
+
+}  // namespace
+
+std::vector<scene::Material> car_materials(const CarPaint& paint) {
+  const float flake_roughness = paint.metallic > 0.0f ? 0.42f : 0.55f;
+  std::vector<scene::Material> materials{
+      coated(material("paint", paint.colour, paint.metallic, flake_roughness)),
+      coated(material("glass", glm::vec3(0.012f, 0.014f, 0.014f), 0.0f, 0.06f)),
+      material("black", glm::vec3(0.018f), 0.0f, 0.55f),
+      material("chrome", glm::vec3(0.62f, 0.63f, 0.64f), 1.0f, 0.08f),
+      coated(material("lamp", glm::vec3(0.55f, 0.57f, 0.6f), 0.6f, 0.2f)),
+      coated(material("tail_lamp", glm::vec3(0.42f, 0.012f, 0.01f), 0.0f, 0.3f)),
+      coated(material("indicator", glm::vec3(0.6f, 0.2f, 0.02f), 0.0f, 0.3f)),
+      material("rubber", glm::vec3(0.02f), 0.0f, 0.85f),
+      material("alloy", glm::vec3(0.55f, 0.56f, 0.58f), 1.0f, 0.28f),
+      material("plate", glm::vec3(1.0f), 0.0f, 0.4f),
+      material("contact_shadow", glm::vec3(0.0f), 0.0f, 1.0f)};
+  materials[std::size_t(CarSurface::chrome)].is_mirror_like = true;
+  materials[plate].base_colour_texture = 0;
+  scene::Material& below = materials[shadow];
+  below.base_colour_texture = 1, below.alpha_mode = scene::Alpha::blend;
+  return materials;
+}
+
+namespace {
 
 void add_part(scene::Model& model, const char* object, Mesh mesh, int material_index, int node = 0) {
   if (mesh.indices.empty()) return;
@@ -163,7 +172,8 @@ scene::Model make_car(const CarShape& shape, const CarPaint& paint) {
   scene::Model model;
   model.name = shape.name + "_" + paint.name;
   model.nodes[0].name = model.name;
-  add_materials(model, paint);
+  add_textures(model);
+  model.materials = car_materials(paint);
   CarMeshes body = body_meshes(shape);
   Bounds box;
   for (const Mesh& mesh : body) box.add(mesh.bounds());
@@ -181,19 +191,23 @@ scene::Model make_car(const CarShape& shape, const CarPaint& paint) {
   return model;
 }
 
-std::vector<scene::Model> city_cars() {
+std::vector<VehicleKind> city_vehicles() {
   const CarPaint white{"white", linear_from_srgb8(0xE6, 0xE6, 0xE2)}, black{"black", glm::vec3(0.012f)};
   const CarPaint silver{"silver", linear_from_srgb8(0xA8, 0xAC, 0xB0), 0.5f};
   const CarPaint grey{"grey", linear_from_srgb8(0x5A, 0x5F, 0x64), 0.4f};
   const CarPaint blue{"blue", linear_from_srgb8(0x1E, 0x46, 0x86), 0.2f},
       red{"red", linear_from_srgb8(0xA0, 0x1C, 0x1C)};
   const CarPaint green{"green", linear_from_srgb8(0x1E, 0x6A, 0x58)};
+  return {{saloon_shape(), {silver, black, white, blue, red}},
+          {hatchback_shape(), {grey, red, white}},
+          {van_shape(), {white, grey}},
+          {bus_shape(), {green}}};
+}
+
+std::vector<scene::Model> city_cars() {
   std::vector<scene::Model> cars;
-  for (const CarPaint& paint : {silver, black, white, blue, red})
-    cars.push_back(make_car(saloon_shape(), paint));
-  for (const CarPaint& paint : {grey, red, white}) cars.push_back(make_car(hatchback_shape(), paint));
-  for (const CarPaint& paint : {white, grey}) cars.push_back(make_car(van_shape(), paint));
-  cars.push_back(make_car(bus_shape(), green));
+  for (const VehicleKind& kind : city_vehicles())
+    for (const CarPaint& paint : kind.paints) cars.push_back(make_car(kind.shape, paint));
   return cars;
 }
 
