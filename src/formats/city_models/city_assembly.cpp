@@ -98,6 +98,8 @@ int CityAssembly::add_picture(const std::string& file, bool repeats) {
 
 void CityAssembly::warn(const std::string& message) {
   const FileLocation where{file_.string(), 0, 0};
+  const auto is_same = [&](const Error& warning) { return warning.message == message; };
+  if (std::ranges::any_of(warnings_, is_same)) return;
   if (++warning_count_ <= max_warnings) warnings_.push_back({message, where});
   if (warning_count_ == max_warnings + 1)
     warnings_.push_back({"more warnings of this kind are not shown", where});

@@ -61,7 +61,8 @@ class CityAssembly {
 
   /// Number of surfaces added, without those left out.
   std::size_t polygon_count() const { return polygon_count_; }
-  /// Records a warning about the file; after the first 20, further ones are only counted.
+  /// Records a warning about the file, once where it is the same; after the first 20, others are only
+  /// counted.
   void warn(const std::string& message);
 
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces

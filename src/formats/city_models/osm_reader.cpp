@@ -10,6 +10,7 @@
 #include "formats/city_models/osm_roads.h"
 #include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_trenches.h"
+#include "formats/city_models/osm_woods.h"
 #include "formats/terrain/utm.h"
 
 namespace parvis::scene {
@@ -63,6 +64,7 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
     add_osm_crossings(osm, place, roads, origin, city);
   }
   add_osm_plants_and_barriers(osm, place, ground, trenches, city);
+  add_osm_woods(osm, place, ground, trenches, city);
   add_osm_rails(osm, place, relief, ground, city);
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   Result<Model> model = city.finish(buildings);

@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/random.h"
 #include "base/test_folder.h"
+#include "formats/city_models/osm_woods.h"
 #include "formats/terrain/utm.h"
 #include "scene/data/test_scene.h"
 #include "scene/roads/road_builder.h"
@@ -372,6 +373,95 @@ TEST(Osm, TreesTakeFewTriangles) {
   for (const Part& part : town.model->parts)
     for (const glm::vec3& p : part.mesh.positions)
       EXPECT_TRUE(part.object != "SolitaryVegetationObject" || p.z < 0.01f || p.z > 1.25f) << p.z;
+}
+
+/// A square of 137 m by 111 m with a street through its middle and the house 1-2-3-4 beside it.
+std::string wood(const std::vector<std::pair<std::string, std::string>>& tags) {
+  return R"(<node id="41" lat="52.1595" lon="4.4895"/><node id="42" lat="52.1595" lon="4.4915"/>
+<node id="43" lat="52.1605" lon="4.4915"/><node id="44" lat="52.1605" lon="4.4895"/>)" +
+         way(200, "41 42 43 44 41", tags) + way(201, "12 14", {{"highway", "residential"}}) +
+         way(202, "1 2 3 4 1", {{"building", "yes"}});
+}
+
+TEST(Osm, WoodsHaveTreesBesideTheirWaysAndHouses) {
+  const Read town = read(osm(wood({{"natural", "wood"}})));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_EQ(town.warnings, "");
+  std::size_t triangles = 0;
+  const Bounds house = bounds_of(*town.model, "WallSurface");
+  const std::vector<glm::vec3>& street = town.model->roads.at(0).path;
+  for (const Part& part : town.model->parts) {
+    if (part.object != "SolitaryVegetationObject wood") continue;
+    triangles += part.mesh.triangle_count();
+    for (const glm::vec3& p : part.mesh.positions) {
+      if (p.z > 0.01f) continue;  // the trunk's foot
+      const glm::vec2 along = glm::normalize(glm::vec2(street.back() - street.front())),
+                      away = glm::vec2(p - street.front());
+      EXPECT_GT(std::abs(along.x * away.y - along.y * away.x), 5.0f) << "on the street";
+      EXPECT_FALSE(p.x > house.min.x && p.x < house.max.x && p.y > house.min.y && p.y < house.max.y);
+    }
+  }
+  const std::size_t trees = triangles / 12, room = std::size_t(137 * 111 / 49);
+  EXPECT_LT(trees, room);
+  EXPECT_GT(trees, room * 7 / 10);
+}
+
+std::size_t count(const Read& town, const std::string& name) {
+  std::size_t triangles = 0;
+  for (const Part& part : town.model->parts)
+    triangles += part.object == name ? part.mesh.triangle_count() : 0;
+  return triangles;
+}
+
+TEST(Osm, PondsInWoodsHaveNoTreesAndMissingNodesAreNamedOnce) {
+  const Read dry = read(osm(wood({{"natural", "wood"}})));
+  const Read wet = read(osm(wood({{"natural", "wood"}}) + way(203, "43 42 14 43", {{"natural", "water"}})));
+  ASSERT_TRUE(dry.model && wet.model);
+  EXPECT_LT(count(wet, "SolitaryVegetationObject wood"), count(dry, "SolitaryVegetationObject wood"));
+  const Read cut = read(osm(way(200, "1 2 3 99 4 1", {{"natural", "wood"}})));
+  ASSERT_TRUE(cut.model);
+  const std::size_t first = cut.warnings.find("its node 99 is not in the file");
+  ASSERT_NE(first, std::string::npos) << cut.warnings;
+  EXPECT_EQ(cut.warnings.find("its node 99", first + 1), std::string::npos) << cut.warnings;
+}
+
+TEST(Osm, WoodsHaveTheLeavesOfTheirTags) {
+  const std::string leaves = "SolitaryVegetationObject wood", needles = leaves + " needleleaved";
+  const Read spruces = read(osm(wood({{"landuse", "forest"}, {"leaf_type", "needleleaved"}})));
+  EXPECT_EQ(count(spruces, leaves), 0u);
+  EXPECT_GT(count(spruces, needles), 0u);
+  const Read mixed = read(osm(wood({{"landuse", "forest"}, {"leaf_type", "mixed"}})));
+  EXPECT_GT(count(mixed, leaves), count(mixed, needles) / 2);
+  EXPECT_GT(count(mixed, needles), count(mixed, leaves) / 2);
+}
+
+TEST(Osm, LargeWoodsAreThinnedWithAWarning) {
+  // The second outline crosses itself: its areas cancel each other.
+  for (const char* outline : {"1 2 3 4 1", "1 3 2 4 1"}) {
+    const Read wide =
+        read(R"(<osm version="0.6"><node id="1" lat="52.10" lon="4.40"/><node id="2" lat="52.10" lon="4.50"/>
+<node id="3" lat="52.20" lon="4.50"/><node id="4" lat="52.20" lon="4.40"/>)" +
+             way(100, outline, {{"natural", "wood"}}) + "</osm>");
+    ASSERT_TRUE(wide.model) << to_string(wide.model.errors());
+    EXPECT_NE(wide.warnings.find("ha: their trees stand"), std::string::npos) << wide.warnings;
+    const std::size_t trees = count(wide, "SolitaryVegetationObject wood") / 12;
+    EXPECT_LE(trees, max_wood_trees * 11 / 10) << outline;
+    EXPECT_GT(trees, max_wood_trees * 9 / 10) << outline;
+  }
+}
+
+TEST(Osm, TreesWithNeedlesSaySoAndAreSlim) {
+  const auto tree = [](const std::string& tags) {
+    return read(osm(
+        R"(<node id="31" lat="52.1600" lon="4.4910"><tag k="natural" v="tree"/><tag k="height" v="12"/>)" +
+        tags + "</node>"));
+  };
+  const Read larch = tree(R"(<tag k="genus" v="Larix"/><tag k="leaf_type" v="needleleaved"/>)"),
+             lime = tree("");
+  const Bounds slim = bounds_of(*larch.model, "SolitaryVegetationObject Larix needleleaved"),
+               wide = bounds_of(*lime.model, "SolitaryVegetationObject");
+  EXPECT_LT(slim.size().x, 0.8f * wide.size().x);
+  EXPECT_NEAR(slim.max.z, 12.0f, 1e-3f);
 }
 
 TEST(Osm, HedgesAndWallsStandAndRailsLie) {

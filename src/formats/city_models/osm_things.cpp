@@ -44,28 +44,19 @@ std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const Grou
   return line;
 }
 
-/// What the map says of a tree's kind, the most exact first.
+bool has_needles(const OsmTags& tags) { return tag(tags, "leaf_type") == "needleleaved"; }
+
+/// What the map says of a tree's kind, the most exact first. Needles are named beside the species: there are
+/// more genera of conifers than anybody lists.
 std::string species_of(const OsmTags& tags) {
   for (const char* key : {"species", "genus", "leaf_type"})
-    if (const std::string& value = tag(tags, key); !value.empty()) return value;
+    if (const std::string& value = tag(tags, key); !value.empty())
+      return has_needles(tags) && value != "needleleaved" ? value + " needleleaved" : value;
   return "";
 }
 
-/// Trunk and crown as two pyramids, foot to foot: 12 triangles.
 void add_tree(dvec3 foot, double height_m, const OsmTags& tags, CityAssembly& city) {
-  const LineLook look{{"tree", "SolitaryVegetationObject", species_of(tags)}};
-  const double radius_m = 0.25 * height_m, crown_m = std::max(0.35 * height_m, lowest_crown_m + 0.05);
-  const auto around = [&](int i, double radius, double up_m) {
-    const double angle = 2.0 * 3.14159265358979 * double(i) / 4.0;
-    return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), up_m);
-  };
-  const dvec3 top = foot + dvec3(0.0, 0.0, height_m),
-              base = foot + dvec3(0.0, 0.0, std::max(0.15 * height_m, lowest_crown_m));
-  for (int i = 0; i < 4; ++i) {
-    add_polygon({around(i, radius_m, crown_m), around(i + 1, radius_m, crown_m), top}, look, city);
-    add_polygon({around(i + 1, radius_m, crown_m), around(i, radius_m, crown_m), base}, look, city);
-    add_polygon({around(i, 0.12, 0.0), around(i + 1, 0.12, 0.0), base}, look, city);
-  }
+  add_osm_tree(foot, height_m, species_of(tags), has_needles(tags), city);
 }
 
 /// Points of roads, by cells of the plan.
@@ -188,6 +179,25 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
 }
 
 }  // namespace
+
+/// Trunk and crown as two pyramids, foot to foot.
+void add_osm_tree(dvec3 foot, double height_m, const std::string& kind, bool has_needles,
+                  CityAssembly& city) {
+  const LineLook look{{"tree", "SolitaryVegetationObject", kind}};
+  const double radius_m = (has_needles ? 0.18 : 0.25) * height_m,
+               crown_m = std::max((has_needles ? 0.2 : 0.35) * height_m, lowest_crown_m + 0.05);
+  const auto around = [&](int i, double radius, double up_m) {
+    const double angle = 2.0 * 3.14159265358979 * double(i) / 4.0;
+    return foot + dvec3(radius * std::cos(angle), radius * std::sin(angle), up_m);
+  };
+  const dvec3 top = foot + dvec3(0.0, 0.0, height_m),
+              base = foot + dvec3(0.0, 0.0, std::max(0.15 * height_m, lowest_crown_m));
+  for (int i = 0; i < 4; ++i) {
+    add_polygon({around(i, radius_m, crown_m), around(i + 1, radius_m, crown_m), top}, look, city);
+    add_polygon({around(i + 1, radius_m, crown_m), around(i, radius_m, crown_m), base}, look, city);
+    add_polygon({around(i, 0.12, 0.0), around(i + 1, 0.12, 0.0), base}, look, city);
+  }
+}
 
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
                                  const OsmTrenches& trenches, CityAssembly& city) {

@@ -6,6 +6,11 @@
 
 namespace parvis::scene {
 
+/// Adds a tree as a spindle of 12 triangles; those with needles are slimmer, and widest lower. `kind`
+/// follows the name SolitaryVegetationObject.
+void add_osm_tree(glm::dvec3 foot, double height_m, const std::string& kind, bool has_needles,
+                  CityAssembly& city);
+
 /// Adds trees (nodes, and every 8 m along rows) as spindles of a few triangles called
 /// SolitaryVegetationObject, which the node `greenery` replaces by trees; hedges, fences and walls.
 /// No tree stands in a trench.

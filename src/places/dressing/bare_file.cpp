@@ -140,7 +140,11 @@ std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& s
     for (std::size_t i = 0; i + 1 < street.path.size(); ++i)
       length_m += glm::distance(street.path[i], street.path[i + 1]);
   if (streets.empty() || length_m > furnished_m) return "";
-  const bool has_trees = has_surface(model, "SolitaryVegetationObject");
+  const bool has_trees =
+      std::ranges::any_of(model.parts, [&](const Part& part) {  // other than those of woods
+        return material_of(model, part).name == "SolitaryVegetationObject" &&
+               part.object.find(" wood") == std::string::npos;
+      });
   return std::string("streetFurniture(kind=\"lamps\")\nparkedCars(share=0.4)\n") +
          (has_trees ? "" : "streetTrees(kind=\"plane\", spacing=12, clear=2.5)\n");
 }

@@ -490,6 +490,13 @@ TEST_F(Kerbside, CarsOfABodyShareItsModelInAllTheirPaints) {
   EXPECT_GT(few_looks, 1u) << "in several paints";
 }
 
+TEST(MapTrees, ConifersAreKnownByTheirGenusOrTheirNeedles) {
+  EXPECT_EQ(plant_kind_of("SolitaryVegetationObject Pinus sylvestris needleleaved", "plane"), "pine");
+  EXPECT_EQ(plant_kind_of("SolitaryVegetationObject Picea abies", "plane"), "spruce");
+  EXPECT_EQ(plant_kind_of("SolitaryVegetationObject wood needleleaved", "plane"), "spruce");
+  EXPECT_EQ(plant_kind_of("SolitaryVegetationObject Ginkgo biloba", "plane"), "plane");
+}
+
 TEST_F(Kerbside, WhatComesFirstTakesItsPlacesFirst) {
   const std::size_t alone = called(load("streetTrees()\n"), "street tree").size();
   const std::size_t beside_few = called(load("parkedCars(share=0.2)\nstreetTrees()\n"), "street tree").size();

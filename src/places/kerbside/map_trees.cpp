@@ -21,12 +21,24 @@ struct Genus {
   std::string_view word;  ///< in lower case, of a name
   std::string_view kind;
 };
-constexpr std::array<Genus, 6> genera{{{"quercus", "oak"},
-                                       {"oak", "oak"},
-                                       {"platanus", "plane"},
-                                       {"acer", "plane"},
-                                       {"citrus", "orange"},
-                                       {"orange", "orange"}}};
+constexpr std::array<Genus, 18> genera{{{"quercus", "oak"},
+                                        {"oak", "oak"},
+                                        {"platanus", "plane"},
+                                        {"acer", "plane"},
+                                        {"citrus", "orange"},
+                                        {"orange", "orange"},
+                                        {"pinus", "pine"},
+                                        {"picea", "spruce"},
+                                        {"spruce", "spruce"},
+                                        {"abies", "spruce"},
+                                        {"pseudotsuga", "spruce"},
+                                        {"tsuga", "spruce"},
+                                        {"cedrus", "spruce"},
+                                        {"larix", "spruce"},
+                                        {"cupressus", "spruce"},
+                                        {"thuja", "spruce"},
+                                        {"taxus", "spruce"},
+                                        {"needleleaved", "spruce"}}};
 
 /// Triangles that share corners.
 struct Piece {

@@ -69,7 +69,7 @@ scene::NodeSchema street_trees_schema() {
       .attributes =
           {of_attribute("trees of `height`"),
            choice("kind", "light trees of the paper's city, or grown plants (plant) with every leaf",
-                  {"paper_city", "orange", "oak", "plane"})
+                  {"paper_city", "orange", "oak", "plane", "spruce", "pine"})
                .by_default("paper_city"),
            spacing_attribute("between trees", 2).by_default("10"),
            number("beside", "from the kerb to the trunk").in("m").between(0.3, 20).by_default("0.9"),

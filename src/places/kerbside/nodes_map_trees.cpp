@@ -48,20 +48,21 @@ struct PlannedTrees {
 };
 
 scene::NodeSchema grown_trees_schema() {
-  return {
-      .type = "grownTrees",
-      .help =
-          "Grown plants (plant) in place of the trees of a map or city model: oaks and planes where the "
-          "map names the species, else of `kind`. Each is as high as the map's, and no lower than the lowest "
-          "of its kind: 3 m for planes, 2 m for oaks, 1 m for orange trees.",
-      .attributes =
-          {text("of", "names of models of the scene, with * and ?").required(),
-           text("target", "names of the trees in the model, with * and ?")
-               .by_default("SolitaryVegetationObject*"),
-           choice("kind", "of trees without a species", {"orange", "oak", "plane"}).by_default("plane"),
-           integer("seed", "another one, other shapes").between(0, 1e9).by_default("1")},
-      .example = "model(name=\"town\", file=\"town.osm\")\ngrownTrees(of=\"town\")",
-      .is_laid_out_once = true};
+  return {.type = "grownTrees",
+          .help =
+              "Grown plants (plant) in place of the trees of a map or city model: oaks, planes, pines and "
+              "spruces where the map names the species or says that they have needles, else of `kind`. Each "
+              "is as high as the map's, and no lower than the lowest of its kind: 3 m for planes, 2 m for "
+              "oaks and pines, 1.5 m for spruces, 1 m for orange trees.",
+          .attributes = {text("of", "names of models of the scene, with * and ?").required(),
+                         text("target", "names of the trees in the model, with * and ?")
+                             .by_default("SolitaryVegetationObject*"),
+                         choice("kind", "of trees without a species",
+                                {"orange", "oak", "plane", "spruce", "pine"})
+                             .by_default("plane"),
+                         integer("seed", "another one, other shapes").between(0, 1e9).by_default("1")},
+          .example = "model(name=\"town\", file=\"town.osm\")\ngrownTrees(of=\"town\")",
+          .is_laid_out_once = true};
 }
 
 void build_grown_trees(const scene::Node& node, scene::SceneBuilder& builder) {
