@@ -73,6 +73,12 @@ float roughness_of(float shininess) {
 
 glm::vec3 linear(glm::vec3 srgb) { return linear_from_srgb(glm::clamp(srgb, 0.0f, 1.0f)); }
 
+/// What the objects of a name say beside it.
+std::string words_for(const std::string& name, const CityObject& object) {
+  if (name == "Road" || name == "SolitaryVegetationObject") return object.use;
+  return name == "WallSurface" ? words_of(object.kind) : "";
+}
+
 bool reaches_too_far(const std::vector<std::vector<glm::dvec3>>& rings) {
   return std::ranges::any_of(rings, [](const std::vector<glm::dvec3>& ring) {
     return std::ranges::any_of(ring, [](glm::dvec3 p) {
@@ -129,10 +135,9 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   std::vector<std::uint32_t> triangles = triangulated(rings, normal, points);
   if (turns_over && rings.size() == 1 && points.size() == 3) std::swap(triangles[1], triangles[2]);
   const bool is_pictured = surface.picture != no_index && surface.picture_uv.size() == points.size();
-  const bool has_use = name == "Road" || name == "SolitaryVegetationObject";
-  const std::string use = has_use && !object.use.empty() ? name + " " + object.use : name;
+  const std::string words = words_for(name, object);
   const PartKey key{name,
-                    use,
+                    words.empty() ? name : name + " " + words,
                     surface.material,
                     is_pictured ? surface.picture : no_index,
                     surface.is_of_solid,

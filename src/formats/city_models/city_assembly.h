@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "formats/terrain/building_kind.h"
 #include "scene/data/model.h"
 
 namespace parvis::scene {
@@ -19,8 +20,9 @@ namespace parvis::scene {
 /// The city object that a surface belongs to.
 struct CityObject {
   std::string name;
-  std::string type;  ///< "Building", "Road", "+Extension"; CityJSON's names
-  std::string use;   ///< function of a road ("voetpad"), species of a tree ("Quercus robur"), or empty
+  std::string type;     ///< "Building", "Road", "+Extension"; CityJSON's names
+  std::string use;      ///< function of a road ("voetpad"), species of a tree ("Quercus robur"), or empty
+  BuildingKind kind{};  ///< of a building
 };
 
 /// One polygon of a city object.
@@ -67,8 +69,9 @@ class CityAssembly {
 
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
   /// ("WallSurface"); roads' objects add their function,
-  /// trees' objects their species. A missing texture is a warning and replaced by a
-  /// checkerboard. Errors: no polygon at all (in `object_count` objects), or a coordinate that is not finite.
+  /// trees' objects their species, walls' objects the words of their building's kind. A missing texture is a
+  /// warning and replaced by a checkerboard. Errors: no polygon at all (in `object_count` objects), or a
+  /// coordinate that is not finite.
   Result<Model> finish(std::size_t object_count);
 
  private:

@@ -19,10 +19,12 @@
 #include <sstream>
 
 #include "base/exception_reason.h"
+#include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
 #include "formats/city_models/xml_guard.h"
+#include "formats/terrain/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {
@@ -190,7 +192,8 @@ class Reader {
       widen(geometry.getGeometry(i), matrix, low, high);
   }
 
-  void read_object(const citygml::CityObject& object) {
+  /// `whole`: of the building that the object is a part of.
+  void read_object(const citygml::CityObject& object, const BuildingKind& whole = {}) {
     ++object_count_;
     std::vector<Shown> all;
     gather(object, all);
@@ -198,7 +201,8 @@ class Reader {
     std::vector<double> levels;
     levels.reserve(all.size());
     for (const Shown& shown : all) levels.push_back(shown.geometry->getLOD());
-    object_ = {object.getId(), type_name(object), object.getAttribute("function")};
+    const BuildingKind kind = kind_of(object, whole);
+    object_ = {object.getId(), type_name(object), object.getAttribute("function"), kind};
     const auto wanted = wanted_level(levels, max_detail_);
     // A solid lists the surfaces that bound it a second time: those that have a name count, and come first.
     seen_.clear();
@@ -208,7 +212,15 @@ class Reader {
           read_geometry(*shown.geometry, shown.semantics, shown.file_from_geometry);
     add_surfaces();
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
-      if (!is_boundary(object.getChildCityObject(i).getType())) read_object(object.getChildCityObject(i));
+      if (!is_boundary(object.getChildCityObject(i).getType()))
+        read_object(object.getChildCityObject(i), kind);
+  }
+
+  static BuildingKind kind_of(const citygml::CityObject& object, const BuildingKind& whole) {
+    if (!is_building(type_name(object))) return {};
+    BuildingAttributes attributes;
+    for (const auto& [name, value] : object.getAttributes()) attributes.emplace(name, value.asString());
+    return completed(kind_of_building(attributes), whole);
   }
 
   void read_geometry(const citygml::Geometry& geometry, const std::string& semantics,

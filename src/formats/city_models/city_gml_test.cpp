@@ -34,6 +34,20 @@ Result<Model> read(const std::string& text) {
   return read_city_gml(folder.write("city.gml", text), warnings);
 }
 
+TEST(CityGml, WallsAreNamedAfterTheKindOfTheirBuilding) {
+  std::string text = wall();
+  const std::string before = "<bldg:boundedBy>";
+  text.insert(
+      text.find(before),
+      "<bldg:function>31001_2020</bldg:function><bldg:yearOfConstruction>1931</bldg:yearOfConstruction>"
+      "<bldg:storeysAboveGround>3</bldg:storeysAboveGround>");
+  const Result<Model> city = read(text);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  ASSERT_EQ(city->parts.size(), 1u);
+  EXPECT_EQ(city->parts.front().object, "WallSurface office 1919-1945 3-storeys");
+  EXPECT_EQ(city->materials.front().name, "WallSurface");
+}
+
 /// A building of 10 x 8 x 6 m as a closed shell of six named surfaces, which a solid lists once more.
 std::string box_building(const std::string& version) {
   const auto polygon = [](const std::string& kind, const std::string& corners) {
@@ -201,7 +215,7 @@ TEST(CityGml, ReadsATexturedBuilding) {
   Errors warnings;
   const Result<Model> city = read_city_gml(*file, warnings);
   ASSERT_TRUE(city) << to_string(city.errors());
-  EXPECT_GT(area_m2(*city, "WallSurface"), 100.0);
+  EXPECT_GT(area_m2(*city, "WallSurface dwelling"), 100.0) << "its function is 1070";
   EXPECT_GT(area_m2(*city, "RoofSurface"), 50.0);
   EXPECT_GT(area_m2(*city, "Window"), 1.0);
   EXPECT_TRUE(warnings.empty()) << to_string(warnings);

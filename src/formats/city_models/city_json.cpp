@@ -12,6 +12,7 @@
 #include "base/isolated_process.h"
 #include "base/json_guard.h"
 #include "base/memory_budget.h"
+#include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_json_sequence.h"
 #include "formats/city_models/city_lod.h"
@@ -229,7 +230,8 @@ class Reader {
   // --- objects
 
   void read_object(const std::string& name, const Json& object) {
-    object_ = {name, text(member(object, "type")), text(member(member(object, "attributes"), "function"))};
+    object_ = {name, text(member(object, "type")), text(member(member(object, "attributes"), "function")),
+               kind_of(object)};
     std::vector<const Json*> geometries;
     std::vector<double> levels;
     for (const Json& geometry : member(object, "geometry"))
@@ -247,6 +249,30 @@ class Reader {
                                        [&](const char* parts) { return !member(object, parts).empty(); });
     if (city_.polygon_count() == before && !has_parts)
       city_.warn(fmt::format("object \"{}\" has no polygons", name));
+  }
+
+  /// The value of an attribute as text; of a list (a building with several functions) the first.
+  static std::string attribute_text(const Json& value) {
+    const Json& first = value.is_array() ? element(value, 0) : value;
+    if (first.is_object()) return text(member(first, "value"));  // beside its "codeSpace"
+    return first.is_string() ? first.get<std::string>() : first.is_number() ? first.dump() : "";
+  }
+
+  static BuildingKind own_kind(const Json& object) {
+    if (!is_building(text(member(object, "type")))) return {};
+    BuildingAttributes attributes;
+    const Json& given = member(object, "attributes");
+    if (given.is_object())
+      for (const auto& [name, value] : given.items()) attributes.emplace(name, attribute_text(value));
+    return kind_of_building(attributes);
+  }
+
+  /// With what the building says of which the object is a part.
+  BuildingKind kind_of(const Json& object) const {
+    const std::string whole = text(element(member(object, "parents"), 0));
+    const BuildingKind own = own_kind(object);
+    return whole.empty() ? own
+                         : completed(own, own_kind(member(member(json_, "CityObjects"), whole.c_str())));
   }
 
   void add_surfaces() {

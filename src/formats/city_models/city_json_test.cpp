@@ -41,6 +41,26 @@ TEST(CityJson, AHouseKeepsItsSizeAndItsHole) {
   EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
 }
 
+TEST(CityJson, WallsAreNamedAfterTheKindOfTheirBuilding) {
+  const auto walls_of = [](const std::string& attributes) {
+    const Result<Model> city = read(
+        with(house(), R"("house":{"type":"Building",)",
+             R"("whole":{"type":"Building","attributes":{"oorspronkelijkbouwjaar":1911,"function":["1000"]}},
+                     "house":{"type":"BuildingPart","parents":["whole"],"attributes":)" +
+                 attributes + ","));
+    EXPECT_TRUE(city) << to_string(city.errors());
+    for (const Part& part : city->parts)
+      if (city->materials[std::size_t(part.material)].name == "WallSurface") return part.object;
+    return std::string();
+  };
+  EXPECT_EQ(walls_of("{}"), "WallSurface dwelling 1870-1918") << "of the whole";
+  EXPECT_EQ(walls_of(R"({"function":{"value":"1120"},"storeysAboveGround":2})"),
+            "WallSurface office 1870-1918 2-storeys");
+  EXPECT_EQ(walls_of(R"({"function":[[]],"storeysAboveGround":{},"yearOfConstruction":null})"),
+            "WallSurface dwelling 1870-1918");
+  EXPECT_EQ(walls_of("7"), "WallSurface dwelling 1870-1918");
+}
+
 TEST(CityJson, TheOriginIsKeptAndTheModelStandsAroundIt) {
   const Result<Model> city = read(house());
   ASSERT_TRUE(city);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "formats/city_models/building_attributes.h"
 #include "formats/city_models/osm_corners.h"
 #include "formats/city_models/osm_relief.h"
 #include "formats/city_models/osm_roofs.h"
@@ -182,6 +183,8 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
   };
   std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building");
   const std::size_t parts = drawn.size();
+  std::vector<BuildingKind> kinds;  // of those that are drawn
+  for (const OsmArea& part : drawn) kinds.push_back(kind_of_osm_building(*part.tags));
   for (OsmArea& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
   for (OsmArea& outline : areas.find(has_key("building"), "a building")) {
     outline.ground_m = lowest_m(outline.rings[0], ground);
@@ -190,11 +193,15 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
       if (drawn[i].tags == outline.tags || !holds(outline.rings[0], middle(drawn[i].rings[0]))) continue;
       has_parts = true;
       drawn[i].ground_m = outline.ground_m;  // the parts of a building stand level with each other
+      kinds[i] = completed(kinds[i], kind_of_osm_building(*outline.tags));
     }
-    if (!has_parts) drawn.push_back(std::move(outline));
+    if (has_parts) continue;
+    kinds.push_back(kind_of_osm_building(*outline.tags));
+    drawn.push_back(std::move(outline));
   }
   FlatRoofs flat;
-  for (const OsmArea& footprint : drawn) Building(footprint, {"building", "Building", ""}, city, flat).draw();
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    Building(drawn[i], {"building", "Building", "", kinds[i]}, city, flat).draw();
   flat.warn(city);
   return drawn.size();
 }

@@ -14,6 +14,7 @@
 #include "base/test_folder.h"
 #include "formats/city_models/osm_woods.h"
 #include "formats/terrain/utm.h"
+#include "scene/data/model_parts.h"
 #include "scene/data/test_scene.h"
 #include "scene/roads/road_builder.h"
 
@@ -173,6 +174,17 @@ TEST(Osm, PartsStandInPlaceOfTheirOutline) {
                               way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "8"}})));
   ASSERT_TRUE(house.model);
   EXPECT_NEAR(bounds_of(*house.model, "RoofSurface").max.z, 8.0f, 1e-4f);
+}
+
+TEST(Osm, WallsAreNamedAfterTheKindOfTheirBuilding) {
+  const Read city = read(osm(way(1, "1 2 3 4 1", {{"building", "office"}, {"start_date", "1955"}}) +
+                             way(2, "5 6 7 8 5", {{"building:part", "yes"}, {"building:levels", "5"}})));
+  ASSERT_TRUE(city.model);
+  for (const Part& part : city.model->parts)
+    if (city.model->materials[std::size_t(part.material)].name == "WallSurface") {
+      EXPECT_EQ(part.object, "WallSurface office 1946-1974 5-storeys");
+    }
+  EXPECT_EQ(matching_parts(*city.model, "WallSurface office*").size(), 1u);
 }
 
 TEST(Osm, MissingNodesAreReportedAndTheRestIsRead) {

@@ -54,6 +54,8 @@ Read read(const std::vector<OsmRing>& outlines, const std::string& shape) {
   return {std::move(model), to_string(warnings)};
 }
 
+constexpr const char* walls = "WallSurface 2-storeys";  // as building:levels says
+
 std::vector<vec3> positions(const Model& model, const std::string& object) {
   std::vector<vec3> found;
   for (const Part& part : model.parts)
@@ -80,7 +82,7 @@ glm::dvec3 directed_area_m2(const Model& model, const std::string& object) {
 /// The roof covers the outline once and lies between eaves and ridge, and the walls reach it.
 void expect_house(const Model& model, double plan_m2, double ridge_m) {
   const glm::dvec3 roof_m2 = directed_area_m2(model, "RoofSurface"),
-                   walls_m2 = directed_area_m2(model, "WallSurface");
+                   walls_m2 = directed_area_m2(model, walls);
   EXPECT_NEAR(roof_m2.z, plan_m2, 0.005 * plan_m2);
   EXPECT_NEAR(glm::length(roof_m2 + walls_m2 - glm::dvec3(0.0, 0.0, roof_m2.z)), 0.0, 0.02)
       << "open elsewhere than below";
@@ -91,7 +93,7 @@ void expect_house(const Model& model, double plan_m2, double ridge_m) {
     highest_m = std::max(highest_m, double(point.z));
   }
   EXPECT_NEAR(highest_m, ridge_m, 0.02);
-  for (const vec3& point : positions(model, "WallSurface"))
+  for (const vec3& point : positions(model, walls))
     EXPECT_TRUE(
         point.z < 1e-3f ||
         std::ranges::any_of(roof, [&](const vec3& other) { return glm::distance(point, other) < 1e-3f; }))
@@ -105,7 +107,7 @@ TEST(OsmWings, HipsStandOnThem) {
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
-  EXPECT_NEAR(area_m2(*house.model, "WallSurface"), 48.0 * eaves_m, 1.5) << "all walls end at the eaves";
+  EXPECT_NEAR(area_m2(*house.model, walls), 48.0 * eaves_m, 1.5) << "all walls end at the eaves";
 }
 
 TEST(OsmWings, GablesStandAtTheirEnds) {
@@ -113,7 +115,7 @@ TEST(OsmWings, GablesStandAtTheirEnds) {
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
-  EXPECT_NEAR(area_m2(*house.model, "WallSurface"), 48.0 * eaves_m + 2.0 * 0.5 * 5.0 * 1.5, 1.5);
+  EXPECT_NEAR(area_m2(*house.model, walls), 48.0 * eaves_m + 2.0 * 0.5 * 5.0 * 1.5, 1.5);
 }
 
 TEST(OsmWings, PointsAlongSidesAndSpikesChangeNothing) {

@@ -199,7 +199,7 @@ TriangleCount count_triangles(const scene::Scene& scene, Report& report) {
   count.plants = double(vegetation::plant_triangles(scene).stored);
   for (const scene::Object& object : scene.objects)
     for (const scene::Part& part : object.model->parts)
-      if (part.object == "facade" || part.object == "WallSurface" || part.object == "RoofSurface")
+      if (part.object == "facade" || part.object.starts_with("WallSurface") || part.object == "RoofSurface")
         count.buildings += double(part.mesh.triangle_count());
   return count;
 }
