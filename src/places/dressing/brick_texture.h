@@ -31,6 +31,18 @@ glm::vec2 brick_sheet_m(BrickSheet sheet);
 /// The pictures of a sheet.
 BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed);
 
+/// Mean colours of bricks, linear: red, orange, brown, yellow, whitened.
+std::array<glm::vec3, brick_colour_count> brick_colours();
+
+/// Bricks all over a canvas, in the colour of `painted_brick`. Alpha is the share of a texel that is not
+/// brick.
+void paint_bricks(city::SurfaceCanvas& canvas, std::uint32_t seed);
+/// The colour that `paint_bricks` paints them in, linear.
+glm::vec3 painted_brick();
+
+/// What is painted with `factor` times its colour where its alpha is 0, unchanged where it is 1; opaque.
+Image8 in_colour(const Image8& painted, glm::vec3 factor);
+
 /// Bricks on end over an opening whose top is at `top_m`, `half_m` to both sides of its middle `x_m`.
 void paint_brick_lintel(city::SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
 

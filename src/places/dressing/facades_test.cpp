@@ -306,6 +306,150 @@ TEST(Facades, HousesOfARowDifferAndASeedChangesThem) {
   EXPECT_NE(houses, dressed(2));
 }
 
+/// A wall of a building of this kind, dressed.
+scene::Model dressed_wall(const std::string& kind, float width = 12.0f, float top = 9.0f) {
+  scene::Model model = no_walls();
+  add_wall(model, 0.0f, width, 0.0f, top);
+  model.parts.front().object = "WallSurface " + kind;
+  add_facades(model, "WallSurface*", 3);
+  return model;
+}
+
+/// How many rows of the sheet "facade" a wall shows.
+float rows_of(const scene::Model& model, float rows_on_sheet) {
+  float low = 1e9f, high = -1e9f;
+  for (const std::size_t index : scene::matching_parts(model, "facade"))
+    if (const scene::Part& part = model.parts[index];
+        model.materials[std::size_t(part.material)].name == "facade")
+      for (const glm::vec2 uv : part.mesh.uvs) low = std::min(low, uv.y), high = std::max(high, uv.y);
+  return (high - low) * rows_on_sheet;
+}
+
+/// The share of a wall, as its colours and the glass of its texture show, that is smooth: panes.
+double glass_share(const scene::Model& model) {
+  double glass = 0.0, all = 0.0;
+  for (const scene::Part& part : model.parts) {
+    const scene::Material& paint = model.materials[std::size_t(part.material)];
+    if (part.mesh.indices.empty() || paint.surface_texture == scene::no_index) continue;
+    const Image8& surface = model.textures[std::size_t(paint.surface_texture)].image;
+    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+      const auto uv = [&](std::size_t k) { return part.mesh.uvs[part.mesh.indices[i + k]]; };
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      const double area = 0.5 * double(glm::length(glm::cross(at(1) - at(0), at(2) - at(0))));
+      constexpr int steps = 60;
+      int smooth = 0, count = 0;
+      for (int a = 0; a < steps; ++a)
+        for (int b = 0; a + b < steps; ++b, ++count) {
+          const glm::vec2 t =
+              uv(0) + (float(a) / steps) * (uv(1) - uv(0)) + (float(b) / steps) * (uv(2) - uv(0));
+          const glm::vec2 pixel = (t - glm::floor(t)) * glm::vec2(surface.width, surface.height);
+          smooth += surface.at(std::min(int(pixel.x), surface.width - 1),
+                               std::min(int(pixel.y), surface.height - 1))[1] < 50;
+        }
+      glass += area * double(smooth) / double(count), all += area;
+    }
+  }
+  return glass / all;
+}
+
+TEST(Facades, WithoutAKindWallsAreThoseOfNoCertainTime) {
+  const scene::Model named = dressed_wall(""), known = dressed_wall("dwelling");
+  for (const scene::Model* model : {&named, &known})
+    EXPECT_EQ(model->materials.size(), 1u + 3 * brick_colour_count) << "the common bricks alone";
+  EXPECT_NEAR(rows_of(named, brick_storeys), 2.0f, 1e-3f);
+}
+
+TEST(Facades, NamesOfOtherModelsAreNoKinds) {
+  scene::Model model = no_walls();
+  add_wall(model, 0.0f, 12.0f, 0.0f, 9.0f);
+  model.parts.front().object = "plaster office";
+  add_facades(model, "*");
+  EXPECT_EQ(model.materials.size(), 1u + 3 * brick_colour_count);
+}
+
+TEST(Facades, AsManyStoreysAsTheFileSays) {
+  for (const int storeys : {2, 3, 4}) {
+    const std::string word = fmt::format("{}-storeys", storeys);
+    EXPECT_NEAR(rows_of(dressed_wall(word, 12.0f, 10.4f), brick_storeys), float(storeys - 1), 1e-3f) << word;
+    EXPECT_NEAR(rows_of(dressed_wall("1946-1974 " + word, 12.0f, 10.4f), 2.0f), float(storeys - 1), 1e-3f);
+  }
+  EXPECT_NEAR(rows_of(dressed_wall("40-storeys", 12.0f, 9.0f), brick_storeys), 2.0f, 1e-3f)
+      << "storeys of 22 cm are not believed";
+}
+
+TEST(Facades, StoreysOfTheNineteenthCenturyAreHigherThanThoseAfterTheWar) {
+  EXPECT_LT(rows_of(dressed_wall("1870-1918", 12.0f, 20.0f), 2.0f) + 0.5f,
+            rows_of(dressed_wall("1946-1974", 12.0f, 20.0f), 2.0f));
+}
+
+TEST(Facades, UsesHaveTheirWindows) {
+  const double dwelling = glass_share(dressed_wall("dwelling 1946-1974")),
+               office = glass_share(dressed_wall("office 1946-1974")),
+               shop = glass_share(dressed_wall("shop 1946-1974")),
+               church = glass_share(dressed_wall("church 1870-1918", 20.0f, 12.0f));
+  EXPECT_GT(dwelling, 0.1);
+  EXPECT_GT(office, 1.3 * dwelling) << "bands of windows";
+  EXPECT_GT(shop, dwelling) << "a shop front";
+  EXPECT_GT(church, 0.1);
+  for (const char* blank : {"industry", "industry 1975-1999", "shed 1946-1974", "shed"})
+    EXPECT_LT(glass_share(dressed_wall(blank)), 0.01) << blank << ": gates at most";
+}
+
+TEST(Facades, TheFilesMaterialsAndColoursAreUsed) {
+  const auto plain_name = [](const std::string& kind) {
+    const scene::Model model = dressed_wall(kind, 1.2f);
+    return model.materials.back().name;
+  };
+  EXPECT_EQ(plain_name("plaster"), "plaster wall");
+  EXPECT_EQ(plain_name("1946-1974 stone white"), "stone wall");
+  EXPECT_EQ(plain_name("brick"), "brick wall");
+  const auto mean = [](const std::string& kind) {
+    const scene::Model model = dressed_wall(kind, 1.2f);
+    const Image8& image = model.textures[std::size_t(model.materials.back().base_colour_texture)].image;
+    glm::vec3 sum(0.0f);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        sum += glm::vec3(image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]);
+    return sum / float(image.width * image.height);
+  };
+  EXPECT_GT(mean("plaster white").z, mean("plaster yellow").z + 30.0f);
+  EXPECT_GT(mean("plaster red").x, mean("plaster green").x + 10.0f);
+}
+
+TEST(Facades, NeighboursOfTwoKindsInOnePlaneKeepTheirOwn) {
+  scene::Model row = no_walls();
+  add_wall(row, 0.0f, 10.0f, 0.0f, 9.0f);
+  row.parts.front().object = "WallSurface church";
+  row.parts.push_back(row.parts.front());
+  row.parts.back().object = "WallSurface dwelling";
+  row.parts.back().mesh = {};
+  add_quad(row.parts.back().mesh, {10, 0, 0}, {20, 0, 0}, {20, 0, 9}, {10, 0, 9});
+  fill_normals(row.parts.back().mesh);
+  row.parts.back().mesh.uvs.resize(4);
+  add_facades(row, "*", 1);
+  for (const std::size_t index : scene::matching_parts(row, "street level"))
+    for (const glm::vec3& p : row.parts[index].mesh.positions)
+      EXPECT_GT(p.x, 9.9f) << "churches have no street level";
+  EXPECT_NEAR(area_of(row, "facade"), 180.0, 0.01);
+}
+
+TEST(Facades, KindsOfARowDifferAndASeedChangesThem) {
+  const auto colours = [](std::uint64_t seed) {
+    scene::Model row = no_walls();
+    for (int i = 0; i < 12; ++i)
+      add_wall(row, 6.0f * float(i), 6.0f * float(i) + 6.0f, 0.0f, 6.0f + float(i % 4) * 1.5f);
+    row.parts.front().object = "WallSurface dwelling before-1870";
+    add_facades(row, "*", seed);
+    std::vector<double> areas;
+    for (const scene::Part& part : row.parts)
+      areas.push_back(double(part.mesh.positions.size()) + 1e-3 * double(part.material));
+    return areas;
+  };
+  EXPECT_GT(colours(1).size(), 4u);
+  EXPECT_EQ(colours(1), colours(1));
+  EXPECT_NE(colours(1), colours(2));
+}
+
 TEST(Facades, SmallWallsArePlain) {
   scene::Model model = house(12.0f, 1.5f);
   add_facades(model, "*");

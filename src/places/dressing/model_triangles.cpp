@@ -41,9 +41,11 @@ std::vector<ModelTriangle> take_triangles(
     DisjointSets points(part.mesh.positions.size());
     const std::size_t first = taken.size();
     std::vector<std::uint32_t> kept;
+    const bool is_city_wall = part.object.starts_with("WallSurface ");  // other names may say anything
+    const scene::BuildingKind kind = is_city_wall ? scene::kind_of_words(part.object) : scene::BuildingKind{};
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       ModelTriangle triangle;
-      triangle.node = part.node;
+      triangle.node = part.node, triangle.kind = kind;
       for (std::size_t k = 0; k < 3; ++k) {
         triangle.corners_in_node[k] = part.mesh.positions[part.mesh.indices[i + k]];
         triangle.corners[k] =

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/terrain/building_kind.h"
 #include "scene/data/model.h"
 
 namespace parvis::dressing {
@@ -22,6 +23,7 @@ struct ModelTriangle {
   std::size_t building = 0;  ///< number of its building: equal for connected triangles
   std::size_t surface =
       0;  ///< number of its surface in the file: equal where triangles share points of a mesh
+  scene::BuildingKind kind{};  ///< which the name of its part has words for
 };
 
 /// Removes the triangles that are wanted, by their part of the model and unit normal, from the parts that

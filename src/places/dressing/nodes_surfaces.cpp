@@ -33,11 +33,12 @@ void warn(scene::SceneBuilder& builder, const scene::Node& node, const scene::Mo
 scene::NodeSchema facades_schema() {
   return {.type = "facades",
           .help =
-              "Brick walls with doors, shops and windows for a city model whose buildings are bare volumes; "
-              "party "
-              "walls stay blank, pictures and windows of the model itself are kept. Materials that later "
-              "nodes can "
-              "change: \"street level\", \"facade\" and \"brick wall\".",
+              "Walls with doors, shops and windows for a city model whose buildings are bare volumes; by the "
+              "year, "
+              "use, storeys, material and colour of a building where its file says them, else bricks. Party "
+              "walls "
+              "stay blank, pictures and windows of the model itself are kept. Materials that later nodes can "
+              "change: \"street level\", \"facade\" and \"brick wall\", \"plaster wall\" and so on.",
           .attributes = {target_attribute(),
                          integer("seed", "another one, other houses").between(0, 1e9).by_default("1")},
           .stands_in = {"model"},

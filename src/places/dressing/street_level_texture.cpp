@@ -29,9 +29,9 @@ void paint_plinth(SurfaceCanvas& canvas, float foot) {
 
 /// A panelled leaf under a light, with a step before it.
 void paint_front_door(SurfaceCanvas& canvas, float x, float foot, float width_m, glm::vec3 wood,
-                      Random& random) {
+                      bool has_lintel, Random& random) {
   const Rect doorway{x - 0.5f * width_m, foot + 0.02f, x + 0.5f * width_m, foot + doorway_m};
-  paint_brick_lintel(canvas, x, doorway.y1, 0.5f * width_m + 0.08f);
+  if (has_lintel) paint_brick_lintel(canvas, x, doorway.y1, 0.5f * width_m + 0.08f);
   canvas.fill(doorway, matt(white_paint(), -0.12f, 0.5f));
   const Rect light{doorway.x0 + 0.08f, foot + leaf_m + 0.06f, doorway.x1 - 0.08f, doorway.y1 - 0.08f};
   canvas.fill(light, matt(glm::vec3(0.02f), -0.16f));
@@ -76,7 +76,7 @@ void paint_houses(SurfaceCanvas& canvas, float foot, bool has_wide_panes, Random
   for (int bay = 0; bay < brick_bays; ++bay) {
     const float x = brick_bay_m * (float(bay) + 0.5f);
     if (bay == door_bay)
-      paint_front_door(canvas, x, foot, has_wide_panes ? door_m + 0.6f : door_m, wood, random);
+      paint_front_door(canvas, x, foot, has_wide_panes ? door_m + 0.6f : door_m, wood, true, random);
     else if (has_wide_panes && bay % 2 == 1)
       paint_street_window(canvas, x, foot, 2.1f, 3, random);
     else
@@ -127,6 +127,22 @@ void paint_sheds(SurfaceCanvas& canvas, float foot, Random& random) {
 }
 
 }  // namespace
+
+void paint_street_level(SurfaceCanvas& canvas, const StreetLook& look, Random& random) {
+  paint_plinth(canvas, 0.0f);
+  for (int bay = 0; bay < brick_bays; ++bay) {
+    const float x = brick_bay_m * (float(bay) + 0.5f);
+    if (bay == door_bay) {
+      paint_front_door(canvas, x, 0.0f, door_m, look.door, look.has_lintels, random);
+      continue;
+    }
+    const WindowStyle& window = look.window;
+    if (look.has_lintels)
+      paint_brick_lintel(canvas, x, window.foot_m + window.height_m, 0.5f * window.width_m + 0.08f);
+    paint_window(canvas, window, x, 0.0f, random);
+  }
+  paint_shops(canvas, brick_storey_m, random);
+}
 
 void paint_street_level(SurfaceCanvas& canvas, Random& random) {
   const auto foot = [](StreetBand band) { return brick_storey_m * float(band); };

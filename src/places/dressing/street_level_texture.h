@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "places/paper_city/surface_canvas.h"
+#include "places/paper_city/window_texture.h"
 
 namespace parvis::dressing {
 
@@ -18,6 +19,17 @@ enum class StreetBand : std::uint8_t {
 inline constexpr int door_bay = 0;    ///< in the bands of houses
 inline constexpr int garage_bay = 1;  ///< in the band of sheds
 inline constexpr int small_window_bay = 3;
+
+/// How the street level of houses of one time looks.
+struct StreetLook {
+  city::WindowStyle window;
+  glm::vec3 door;            ///< linear
+  bool has_lintels = false;  ///< of bricks, over doors and windows
+};
+
+/// Paints a band of houses with a door in each `door_bay`, and above it one of shops, over a wall that covers
+/// the canvas.
+void paint_street_level(city::SurfaceCanvas& canvas, const StreetLook& look, Random& random);
 
 /// Paints all bands over a wall that covers the canvas.
 void paint_street_level(city::SurfaceCanvas& canvas, Random& random);

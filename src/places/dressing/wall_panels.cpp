@@ -58,14 +58,15 @@ std::vector<std::vector<Surface>> planes_of(const std::vector<ModelTriangle>& wa
     surface.triangles.push_back(i);
     surface.normal += doubled_area(walls[i]) * walls[i].normal;
   }
-  std::map<std::array<long, 3>, std::vector<Surface>> planes;
+  std::map<std::pair<std::array<long, 3>, scene::BuildingKind>, std::vector<Surface>> planes;
   const auto file = [&](Surface surface, glm::vec3 normal) {
     const ModelTriangle& first = walls[surface.triangles.front()];
     const float turn = std::atan2(normal.y, normal.x) / glm::two_pi<float>();  // -0.5 and 0.5 both face west
     surface.normal = normal;
-    planes[{long(first.building), (std::lround(turn * float(headings)) + headings) % headings,
-            std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)}]
-        .push_back(std::move(surface));
+    const std::array<long, 3> plane{long(first.building),
+                                    (std::lround(turn * float(headings)) + headings) % headings,
+                                    std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)};
+    planes[{plane, first.kind}].push_back(std::move(surface));
   };
   for (auto& [id, surface] : surfaces) {
     const float length = glm::length(surface.normal);
@@ -180,6 +181,7 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
     WallPanel& panel = panels.emplace_back();
     panel.normal = glm::normalize(glm::vec3(glm::vec2(surface.normal), 0.0f)), panel.along = along;
     panel.building = walls[surface.triangles.front()].building;
+    panel.kind = walls[surface.triangles.front()].kind;
     panel.offset_m = glm::dot(panel.normal, walls[surface.triangles.front()].corners[0]);
     panel.low = {place, 1e30f}, panel.high = {surface.high, -1e30f}, panel.eaves_m = 1e30f;
   };

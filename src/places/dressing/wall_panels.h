@@ -17,6 +17,7 @@ struct WallPanel {
   glm::vec2 low{0.0f}, high{0.0f};     ///< metres: places along `along`, and heights
   float eaves_m = 0.0f;                ///< height up to which the panel has its full width
   std::size_t building = 0;            ///< equal for connected walls
+  scene::BuildingKind kind{};          ///< equal within a panel
   bool has_openings = false;           ///< of the model itself
   bool is_party_wall = false;          ///< another house stands right before it
   bool stands_on_ground = true;        ///< false: on a roof
@@ -25,9 +26,9 @@ struct WallPanel {
 /// Wide and high enough for a window or a door.
 bool is_large(const WallPanel& panel);
 
-/// The panels of all walls. The polygons of the file, and steps of their tops, separate the walls of a row of
-/// houses in one plane. `openings` are points on the model's own windows and doors. Openings and other houses
-/// are sought for large panels alone.
+/// The panels of all walls. The polygons of the file, kinds of buildings, and steps of their tops, separate
+/// the walls of a row of houses in one plane. `openings` are points on the model's own windows and doors.
+/// Openings and other houses are sought for large panels alone.
 std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
                                    const std::vector<glm::vec3>& openings = {});
 
