@@ -447,6 +447,27 @@ TEST(Osm, WoodsHaveTheLeavesOfTheirTags) {
   EXPECT_GT(count(mixed, needles), count(mixed, leaves) / 2);
 }
 
+TEST(Osm, StreetsThatCannotBeMadeAreLeftOutTogether) {
+  std::string equal, star, ends;
+  for (int i = 0; i < 500; ++i) {
+    equal += way(1000 + i, "11 13", {{"highway", "residential"}});
+    const double angle = 0.01256 * i;
+    ends += fmt::format("<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>", 100 + i,
+                        52.16 + 0.0009 * std::sin(angle), 4.4905 + 0.0014 * std::cos(angle));
+    star += way(1000 + i, fmt::format("14 {}", 100 + i), {{"highway", "residential"}});
+  }
+  const Read one = read(osm(equal));
+  ASSERT_TRUE(one.model) << to_string(one.model.errors());
+  ASSERT_EQ(one.model->roads.size(), 1u);
+  EXPECT_EQ(one.model->roads[0].name, "way 1000");
+  EXPECT_NE(one.warnings.find("lies along"), std::string::npos) << one.warnings;
+  const Read crowded = read(osm(ends + star));
+  ASSERT_TRUE(crowded.model) << to_string(crowded.model.errors());
+  EXPECT_GT(crowded.model->roads.size(), 10u);
+  EXPECT_LE(crowded.model->roads.size(), 64u);
+  EXPECT_TRUE(build_road_graph(crowded.model->roads));
+}
+
 TEST(Osm, LargeWoodsAreThinnedWithAWarning) {
   // The second outline crosses itself: its areas cancel each other.
   for (const char* outline : {"1 2 3 4 1", "1 3 2 4 1"}) {

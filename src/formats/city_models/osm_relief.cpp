@@ -111,8 +111,8 @@ double OsmRelief::height_of_bridge(const OsmWay& bridge, const OpenWays& ways) c
     const auto from = place_(bridge.nodes[k]), to = place_(bridge.nodes[k + 1]);
     if (!from || !to) continue;
     ways.each_near(*from, *to, [&](const OpenWays::Segment& segment) {
-      is_over_way = segment.owner != &bridge && layer_of(segment.owner->tags) < layer &&
-                    cross(*from, *to, segment.a, segment.b);
+      is_over_way = segment.owner != &bridge && cross(*from, *to, segment.a, segment.b) &&
+                    layer_of(segment.owner->tags) < layer;
       return !is_over_way;
     });
   }

@@ -150,7 +150,8 @@ void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
   for (;;) {
     for (std::size_t i = 0; i < roads.size(); ++i)
       roads[i].where.line = int(i) + 1;  // by which errors name them
-    const Result<RoadGraph> graph = build_road_graph(roads);
+    // all that are wrong at once: as many graphs as roads, built one after the other, would take cubic time
+    const Result<RoadGraph> graph = build_road_graph(roads, roads.size() + 1);
     std::set<int> numbers;
     if (!graph)
       for (const Error& problem : graph.errors()) {

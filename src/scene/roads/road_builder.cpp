@@ -215,8 +215,8 @@ void add_crossing(RoadGraph& graph, std::span<Arm* const> arms, int crossing) {
 
 }  // namespace
 
-Result<RoadGraph> build_road_graph(std::span<const Road> roads) {
-  const Result<RoadNetwork> network = connect_roads(roads);
+Result<RoadGraph> build_road_graph(std::span<const Road> roads, std::size_t max_complaints) {
+  const Result<RoadNetwork> network = connect_roads(roads, max_complaints);
   if (!network) return network.errors();
 
   std::vector<Arm> arms;

@@ -16,7 +16,8 @@ namespace parvis::scene {
 /// turns round. A path whose first and last points coincide is a ring. Consecutive equal points are dropped.
 /// No roads give an empty graph. Errors, one for each bad road at its `where`: fewer than two different
 /// points, numbers that are not finite, no lanes or more than 8, a lane width or a speed limit that is not
-/// positive, a road that lies along another.
-Result<RoadGraph> build_road_graph(std::span<const Road> roads);
+/// positive; and of roads that lie along others or crowd one crossing `max_complaints` at most, the first of
+/// two that lie along each other being right.
+Result<RoadGraph> build_road_graph(std::span<const Road> roads, std::size_t max_complaints = 20);
 
 }  // namespace parvis::scene

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "scene/data/path.h"
 
@@ -154,6 +155,18 @@ TEST(RoadBuilder, CoincidentRoadsAreRefused) {
       build_road_graph(std::vector{road({{0, 0, 0}, {100, 0, 0}}), road({{120, 0.2f, 0}, {20, 0, 0}})});
   ASSERT_FALSE(graph.ok());
   EXPECT_NE(graph.errors()[0].message.find("lies along"), std::string::npos);
+}
+
+TEST(RoadBuilder, EachRoadThatLiesAlongAnEarlierOneIsNamedOnceWhereAllAreAskedFor) {
+  std::vector<Road> roads(100, road({{0, 0, 0}, {100, 0, 0}}));
+  for (std::size_t i = 0; i < roads.size(); ++i) roads[i].where = {"square.xp", int(i) + 1, 1};
+  const Result<RoadGraph> graph = build_road_graph(roads, roads.size() + 1);
+  ASSERT_FALSE(graph.ok());
+  std::set<int> lines;
+  for (const Error& problem : graph.errors()) lines.insert(problem.where.line);
+  EXPECT_EQ(graph.errors().size(), 99u);
+  EXPECT_EQ(lines.size(), 99u);
+  EXPECT_FALSE(lines.contains(1)) << "the first one stays";
 }
 
 }  // namespace

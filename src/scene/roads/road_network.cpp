@@ -14,8 +14,7 @@ namespace {
 constexpr float bridge_clearance_m = 3.0f;  // roads further apart than this in height pass over one another
 constexpr float shortest_street_m = 2.0f;   // what must remain between two crossings for both to stand
 constexpr int max_lanes_each_way = 8;
-constexpr std::size_t max_complaints = 20;  // about roads that lie along each other
-constexpr std::size_t max_arms = 64;        // of a crossing: lanes from each of them lead into each
+constexpr std::size_t max_arms = 64;  // of a crossing: lanes from each of them lead into each
 constexpr std::size_t max_streets = 200'000;
 constexpr double max_lanes_km = 20'000.0;  // of all lanes: a capital has a third of it
 constexpr float parallel_sine = 0.05f;     // 3 degrees
@@ -120,10 +119,12 @@ bool coincide(const Segment& s, const Segment& t, const Road& road_s, const Road
   return aside(from) < near && aside(to) < near && !is_bridge;
 }
 
-/// Looks at every pair of segments that come near one another.
+/// Looks at every pair of segments that come near one another. A road that lies along an earlier one is not
+/// looked at again: of many roads in one place, all pairs would take too long.
 class Meetings {
  public:
-  Meetings(std::span<const Road> roads, std::span<const MeasuredPath> paths) : roads_(roads), paths_(paths) {}
+  Meetings(std::span<const Road> roads, std::span<const MeasuredPath> paths, std::size_t max_complaints)
+      : roads_(roads), paths_(paths), max_complaints_(max_complaints), lies_along_(roads.size()) {}
 
   Result<Spots> find() {
     for (std::size_t road = 0; road < paths_.size(); ++road) {
@@ -136,8 +137,9 @@ class Meetings {
     const float widest = widest_m();
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment& s = segments[i];
-      for (std::size_t j = i + 1; j < segments.size(); ++j) {
+      for (std::size_t j = i + 1; j < segments.size() && !lies_along_[s.road]; ++j) {
         const Segment& t = segments[j];
+        if (lies_along_[t.road]) continue;
         const float reach = snap_m(s, t);
         if (west(t) > std::max(s.a.x, s.b.x) + widest) break;
         if (std::min(s.a.y, s.b.y) - reach > std::max(t.a.y, t.b.y)) continue;
@@ -172,8 +174,9 @@ class Meetings {
 
   void complain(const Segment& s, const Segment& t) {
     const std::size_t later = std::max(s.road, t.road), earlier = std::min(s.road, t.road);
-    if (known_.size() >= max_complaints || !known_.emplace(earlier, later).second) return;
-    if (known_.size() == max_complaints)
+    lies_along_[later] = true;
+    if (++complaints_ > max_complaints_) return;
+    if (complaints_ == max_complaints_)
       return errors_.push_back(error_at(roads_[later].where, "more roads lie along others"));
     errors_.push_back(error_at(
         roads_[later].where, "{} lies along {}: give one of them another path, or remove it",
@@ -217,7 +220,8 @@ class Meetings {
   std::span<const MeasuredPath> paths_;
   Spots result_;
   Errors errors_;
-  std::set<std::pair<std::size_t, std::size_t>> known_;
+  std::size_t max_complaints_, complaints_ = 0;
+  std::vector<bool> lies_along_;  ///< by road: along an earlier one
 };
 
 /// Cuts one road at its spots (indices in order along it); what lies between two that are too close is
@@ -238,7 +242,7 @@ void cut_road(const MeasuredPath& path, std::span<const std::size_t> in_order, S
 }
 
 /// Refuses what no town has, and what would make more turns than there is memory for.
-Status check_size(const RoadNetwork& network, std::span<const Road> roads) {
+Status check_size(const RoadNetwork& network, std::span<const Road> roads, std::size_t max_complaints) {
   if (network.streets.size() > max_streets)
     return error_at(roads.front().where, "the roads cut each other into {} streets; expected {} at most",
                     network.streets.size(), max_streets);
@@ -249,14 +253,19 @@ Status check_size(const RoadNetwork& network, std::span<const Road> roads) {
     return error_at(roads.front().where, "the roads have {:.0f} km of lanes; expected {:.0f} km at most",
                     lanes_km, max_lanes_km);
   std::vector<std::size_t> arms(std::size_t(network.node_count), 0);
+  std::set<std::size_t> crowding;  // roads
   for (const Street& street : network.streets)
     for (const int node : {street.start_node, street.end_node})
-      if (++arms[std::size_t(node)] > max_arms)
-        return error_at(
-            roads[street.road].where,
-            "{} meets so many others at one place that {} streets lead away from it, too many for "
-            "a crossing; leave some out",
-            name_of(roads[street.road], street.road), max_arms);
+      if (++arms[std::size_t(node)] > max_arms && crowding.size() < max_complaints)
+        crowding.insert(street.road);
+  Errors errors;
+  for (const std::size_t road : crowding)
+    errors.push_back(error_at(
+        roads[road].where,
+        "{} meets so many others at one place that more than {} streets lead away from it, too many for "
+        "a crossing; leave some out",
+        name_of(roads[road], road), max_arms));
+  if (!errors.empty()) return errors;
   return Done{};
 }
 
@@ -266,7 +275,7 @@ float half_width_m(const Road& road) {
   return road.lane_width_m * float(road.lanes_each_way) * (road.is_one_way ? 0.5f : 1.0f);
 }
 
-Result<RoadNetwork> connect_roads(std::span<const Road> roads) {
+Result<RoadNetwork> connect_roads(std::span<const Road> roads, std::size_t max_complaints) {
   Errors errors;
   std::vector<MeasuredPath> paths;
   for (std::size_t i = 0; i < roads.size(); ++i) {
@@ -277,7 +286,7 @@ Result<RoadNetwork> connect_roads(std::span<const Road> roads) {
   }
   if (!errors.empty()) return errors;
 
-  Result<Spots> found = Meetings(roads, paths).find();
+  Result<Spots> found = Meetings(roads, paths, max_complaints).find();
   if (!found) return found.errors();
   Spots& spots = *found;
 
@@ -301,7 +310,7 @@ Result<RoadNetwork> connect_roads(std::span<const Road> roads) {
                                start_node, end_node});
   }
   network.node_count = int(nodes.size());
-  if (Status status = check_size(network, roads); !status) return status.errors();
+  if (Status status = check_size(network, roads, max_complaints); !status) return status.errors();
   return network;
 }
 

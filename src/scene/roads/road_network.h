@@ -29,6 +29,6 @@ float half_width_m(const Road& road);
 
 /// Intersects the roads and cuts them at crossings; crossings closer together than the roads are wide are
 /// merged into one node. Errors: see build_road_graph.
-Result<RoadNetwork> connect_roads(std::span<const Road> roads);
+Result<RoadNetwork> connect_roads(std::span<const Road> roads, std::size_t max_complaints);
 
 }  // namespace parvis::scene
