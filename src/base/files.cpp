@@ -128,9 +128,11 @@ Roots::Roots(fs::path scene_folder, std::vector<fs::path> data_folders) {
 
 Result<fs::path> Roots::find(const std::string& name, const FileLocation& where) const {
   bool leads_out = true;
+  std::error_code problem;
   for (const fs::path& folder : folders_) {
     std::error_code code;
     const fs::path path = fs::weakly_canonical(folder / name, code);
+    if (code) problem = code;
     if (code || !is_below(path, folder)) continue;
     leads_out = false;
     const fs::file_type type = fs::status(path, code).type();
@@ -138,6 +140,9 @@ Result<fs::path> Roots::find(const std::string& name, const FileLocation& where)
     if (fs::exists(fs::file_status(type)))
       return error_at(where, "\"{}\" is neither a file nor a folder", name);
   }
+  if (leads_out && problem)
+    return error_at(where, "\"{}\" cannot be looked for in the scene's folder ({}); put the file there", name,
+                    problem.message());
   if (leads_out)
     return error_at(
         where, "\"{}\" leads out of the scene's folder; keep files below it or name their root with --data",

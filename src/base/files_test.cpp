@@ -40,6 +40,9 @@ TEST(Roots, PathsThatLeadOutAreRefusedWithTheirPlace) {
   const Result<fs::path> absent = roots.find("absent.txt", {});
   ASSERT_FALSE(absent);
   EXPECT_NE(absent.errors().front().message.find("no file"), std::string::npos);
+  const Result<fs::path> too_long = roots.find(std::string(300, 'n') + ".png", {});
+  ASSERT_FALSE(too_long);
+  EXPECT_NE(too_long.errors().front().message.find("File name too long"), std::string::npos);
 }
 
 TEST(Files, AFailedWriteLeavesNothing) {

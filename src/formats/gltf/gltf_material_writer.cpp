@@ -4,6 +4,7 @@
 #include <cctype>
 #include <mutex>
 
+#include "base/content_hash.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
 
@@ -38,12 +39,22 @@ bool is_same_picture(const Texture& a, const Texture& b) {
          a.image.height == b.image.height && a.image.pixels == b.image.pixels;
 }
 
+/// Of a file system, in bytes; half of it is left to the name of the file that the pictures belong to.
+constexpr std::size_t max_file_name = 255, max_picture_stem = 120;
+
 std::string file_name(const fs::path& file, const std::string& name) {
-  constexpr std::size_t max_name = 255;
   const std::string back = "_" + name;
   std::string stem = plain_name(file.stem().string());
-  stem.resize(std::min(stem.size(), max_name - std::min(max_name, back.size())));
+  stem.resize(std::min(stem.size(), max_file_name - back.size()));
   return stem + back;
+}
+
+std::uint64_t hash_of(const Texture& texture) {
+  ContentHash hash;
+  hash.add(texture.is_srgb), hash.add(texture.repeats);
+  hash.add(texture.image.width), hash.add(texture.image.height);
+  hash.add(texture.image.pixels);
+  return hash.value();
 }
 
 /// Solid glass. Its thickness is what panes of it have, and a hint for viewers that do not follow rays
@@ -70,13 +81,19 @@ Image8 without_alpha(const Image8& image) {
 }  // namespace
 
 int GltfMaterialWriter::add(const Texture& texture) {
-  for (std::size_t i = 0; i < textures_.size(); ++i)
-    if (is_same_picture(*textures_[i], texture)) return int(i);
-  const std::string stem = texture.name.empty() ? fmt::format("{}", textures_.size())
-                                                : plain_name(fs::path(texture.name).stem().string());
-  std::string name = stem + extension_of(texture);
-  for (int number = 2; std::find(names_.begin(), names_.end(), name) != names_.end(); ++number)
-    name = fmt::format("{}_{}{}", stem, number, extension_of(texture));
+  const std::uint64_t hash = hash_of(texture);
+  const auto [first, last] = textures_by_hash_.equal_range(hash);
+  for (auto same = first; same != last; ++same)
+    if (is_same_picture(*textures_[std::size_t(same->second)], texture)) return same->second;
+  textures_by_hash_.emplace(hash, int(textures_.size()));
+  const std::string stem =
+      texture.name.empty() ? fmt::format("{}", textures_.size())
+                           : plain_name(fs::path(texture.name).stem().string()).substr(0, max_picture_stem);
+  const char* extension = extension_of(texture);
+  std::string name = stem + extension;
+  // Numbers go on from the last one of this name: counted from 2 each time, they took cubic time.
+  for (int& number = last_number_[name]; !taken_names_.insert(name).second;)
+    name = fmt::format("{}_{}{}", stem, number = std::max(number + 1, 2), extension);
   textures_.push_back(&texture);
   names_.push_back(name);
   return int(textures_.size()) - 1;

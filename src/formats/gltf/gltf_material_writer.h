@@ -3,9 +3,12 @@
 // "extras".
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "base/partial_file.h"
@@ -35,7 +38,10 @@ class GltfMaterialWriter {
   void use(const char* extension);
 
   std::vector<const Texture*> textures_;
+  std::unordered_multimap<std::uint64_t, int> textures_by_hash_;
   std::vector<std::string> names_;  ///< of each texture's picture, without the file's own
+  std::unordered_set<std::string> taken_names_;
+  std::unordered_map<std::string, int> last_number_;  ///< that a name got because others have it, too
   Json materials_ = Json::array(), extensions_ = Json::array();
 };
 

@@ -197,6 +197,28 @@ TEST(GltfWriter, PicturesOfOneNameAreKeptApartAndEqualOnesAreOne) {
   expect_valid(folder.path());
 }
 
+TEST(GltfWriter, PicturesOfLongAndEqualNamesAreWritten) {
+  const TestFolder folder;
+  Model model = *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), matt(glm::vec3(1.0f)));
+  const std::string name(400, 'n');
+  for (const int grey : {10, 20, 30, 40})
+    model.textures.push_back(
+        {grey < 40 ? name : name + "_2", Image8(2, 2, 4, std::uint8_t(grey)), true, true});
+  for (int texture = 0; texture < 4; ++texture) {
+    model.materials.push_back(matt(glm::vec3(1.0f)));
+    model.materials.back().base_colour_texture = texture;
+    model.parts.push_back(model.parts.front());
+    model.parts.back().material = texture + 1;
+  }
+  const std::string file = std::string(251, 'f') + ".glb";
+  const Status status = write_gltf(folder.path() / file, model);
+  ASSERT_TRUE(status) << to_string(status.errors());
+  const Model again = read(folder.path() / file);
+  ASSERT_EQ(again.textures.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(again.textures[i].image.pixels.front(), 10 * (i + 1)) << "the picture of another";
+}
+
 TEST(GltfWriter, BlenderOpensWhatIsWritten) {
   if (std::system("command -v blender > /dev/null") != 0) GTEST_SKIP() << "skipped: blender is not installed";
   const TestFolder folder;
