@@ -1,8 +1,9 @@
 """Small input that asks for much work or memory: bounded, with a message."""
 
 import json
+import math
 
-from .cities import templates
+from .cities import osm, templates
 from .case import CAMERA, Case, scene, write
 from .gltf import instances, meshopt, zeros
 from .png import png
@@ -47,6 +48,14 @@ def crossing_roads(count, apart_m):
     return "\n".join(lines) + "\n" + CAMERA
 
 
+def ways(count, tags, between=0):
+    """Ways of a map between two nodes, or each from the first to one of its own, all round it."""
+    ends = between - 1 if between else count
+    points = [(0, 0), *((.004 * math.cos(6.28 * i / ends), .006 * math.sin(6.28 * i / ends)) for i in range(ends))]
+    return osm("".join(f'<node id="{i}" lat="{52.005 + lat:.8f}" lon="{4.005 + lon:.8f}"/>' for i, (lat, lon) in enumerate(points)) +
+               "".join(f'<way id="{i + 1}"><nd ref="0"/><nd ref="{i % ends + 1}"/>{tags}</way>' for i in range(count)))
+
+
 def scenarios(count, overrides):
     text = "".join(f'group(name="g{i}") {{ }}\n' for i in range(overrides))
     for s in range(count):
@@ -87,6 +96,9 @@ def cases():
     yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
     yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
     yield checked("2,000 roads that meet", lambda: "".join(f'road(path="0 0, {900 - i} {i}")\n' for i in range(0, 900)) + CAMERA, "refused")
+    for tags in ('<tag k="highway" v="residential"/>', '<tag k="highway" v="primary"/><tag k="bridge" v="yes"/><tag k="layer" v="1"/>'):
+        yield checked(f"3,000 ways between two nodes of a map, {tags[:30]}", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda t=tags: ways(3000, t, between=2)})
+    yield checked("3,000 ways from one node of a map", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda: ways(3000, '<tag k="highway" v="residential"/>')})
     yield checked("5,000 scenarios of 20 overrides", lambda: scenarios(5000, 20), seconds=120)
     yield checked("300 scenarios of 20 overrides", lambda: scenarios(300, 20), "done")
     comment = {"c.xp": lambda: b"# " + b"x" * 5_000_000 + b"\n"}

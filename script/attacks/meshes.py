@@ -7,6 +7,8 @@ import struct
 import zipfile
 
 from .case import SECRET, model_case, write, scene, CAMERA, Case
+from .png import png
+from .secret_picture import JPEG
 
 OBJ = "mtllib m.mtl\no sail\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
 
@@ -59,6 +61,35 @@ def ifc_spoiled(pattern, replacement):
     if text == pavilion():
         raise LookupError(f"{pattern}: nothing of the pavilion is replaced")
     return text
+
+
+def ifc_textured(texture):
+    """The pavilion whose surface styles have a picture, too."""
+    text = re.sub(rb"(#\d+=IFCSURFACESTYLE\([^;]*\([^)]*)\)\);", rb"\1,#900001));", pavilion())
+    if b"#900001" not in text:
+        raise LookupError("no surface style of the pavilion gets a picture")
+    return text.replace(b"ENDSEC;\nEND-ISO", b"#900001=IFCSURFACESTYLEWITHTEXTURES((#900002));\n#900002=" + texture + b"\nENDSEC;\nEND-ISO")
+
+
+def ifc_picture_cases():
+    """Pictures of surface styles, beside the file and in it."""
+    for path in ("../outside/secret.png", "../outside/secret.jpg", "link.png", "link.jpg", "/etc/passwd", "pipe", "file:///etc/passwd", "%2e%2e/outside/secret.png", "..\\\\outside\\\\secret.png",
+                 "t.avi", "x.null?RES=32768x32768", ".", "memory.jpg", "http://127.0.0.1:9/a.png", "a" * 5000):
+        yield model_case("ifc", f"a picture {path[:40]}", "m.ifc", lambda p=path: ifc_textured(b"IFCIMAGETEXTURE(.T.,.T.,$,$,$,'" + p.encode() + b"');"), "done",
+                         extra={"t.avi": b"ffconcat version 1.0\nfile ../outside/secret.png\n", "memory.jpg": JPEG[:40]})
+    for name, content in {"a right one": png(8, 8), "cut": png(8, 8)[:40], "that claims 32768 x 32768": png(32768, 32768, b"\0"), "a list of films": b"ffconcat version 1.0\nfile ../outside/secret.png\n",
+                          "a list of addresses": b"#EXTM3U\nlink.png", "no bytes": b"", "10 MB of ones": b"\xff" * 10_000_000}.items():
+        yield model_case("ifc", f"a picture in the file, {name}", "m.ifc",
+                         lambda c=content: ifc_textured(b"IFCBLOBTEXTURE(.T.,.T.,$,$,$,'PNG',\"0" + c.hex().upper().encode() + b"\");"), "done", seconds=90)
+    yield model_case("ifc", "a picture that is its own style", "m.ifc", lambda: ifc_textured(b"IFCSURFACESTYLEWITHTEXTURES((#900002));"))
+    for name, more in {"a place of 1e308": b"#900003=IFCCARTESIANTRANSFORMATIONOPERATOR2D($,$,#900004,1.E300);\n#900004=IFCCARTESIANPOINT((1.E308,1.E308));",
+                       "a place without numbers": b"#900003=IFCCARTESIANTRANSFORMATIONOPERATOR2D(#900004,$,#900005,0.);\n#900004=IFCDIRECTION((0.,0.));\n#900005=IFCCARTESIANPOINT(());"}.items():
+        yield model_case("ifc", f"a picture at {name}", "m.ifc", lambda m=more: ifc_textured(b"IFCIMAGETEXTURE(.T.,.T.,$,#900003,$,'t.png');\n" + m), extra={"t.png": png(8, 8)})
+    for name, corners in {"no corner": b"(1,-7,99999999)", "nothing": b"($,$,$)", "too few": b"(1)"}.items():
+        yield model_case("ifc", f"a picture laid on {name}", "m.ifc", lambda c=corners: ifc_textured(
+            b"IFCIMAGETEXTURE(.T.,.T.,$,$,$,'t.png');\n#900010=IFCINDEXEDTRIANGLETEXTUREMAP((#900002),#900011,#900013,(" + b",".join([c] * 1000) +
+            b"));\n#900011=IFCTRIANGULATEDFACESET(#900012,$,$,(" + b",".join([b"(1,2,3)"] * 1000) + b"),$);\n#900012=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));\n"
+            b"#900013=IFCTEXTUREVERTEXLIST(((0.,0.),(1.E400,1.)));"), extra={"t.png": png(8, 8)})
 
 
 def ifc_cases():
@@ -146,6 +177,7 @@ REFUSED = ["lws", "x3d", "x3db", "irr", "irrmesh", "assbin", "assxml", "smd", "m
 
 def cases():
     yield from ifc_cases()
+    yield from ifc_picture_cases()
     yield from inventor_cases()
     ply = ply_binary()
     for size in range(0, len(ply), 17):
