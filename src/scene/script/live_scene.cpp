@@ -10,6 +10,10 @@
 namespace parvis::scene {
 namespace {
 
+// Scenarios before one that extends them. Each is tried with all before it: the work grows with their
+// product.
+constexpr std::size_t max_extended = 256;
+
 template <class Nodes, class Visit>
 void for_each_inside(Nodes& nodes, const Visit& visit) {
   for (auto& node : nodes) {
@@ -203,8 +207,15 @@ Status LiveScene::prepare_scenarios(Scene& scene) {
     }
     std::set<const Node*> chain{scenario};
     const Node* base = scenario;
-    while (base->gives("extends") && chain.insert(find(base->text("extends"))).second)
+    while (base->gives("extends") && chain.size() <= max_extended + 1 &&
+           chain.insert(find(base->text("extends"))).second)
       base = find(base->text("extends"));
+    // One message for all of a chain, which may be of any length.
+    if (chain.size() > max_extended + 1)
+      return error_at(scenario->where_of("extends"),
+                      "scenario \"{}\" extends one that extends one, and so on, more than {} times; let it "
+                      "extend one with fewer before it",
+                      scenario->text("name"), max_extended);
     if (base->gives("extends"))
       errors.push_back(error_at(scenario->where_of("extends"), "scenarios extend each other in a circle"));
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
@@ -207,6 +209,16 @@ TEST_F(LiveSceneTest, OverridesOfWhatIsNotThereAreReportedWithTheirPlaces) {
     EXPECT_TRUE(holds(errors, expected)) << expected << "\nin\n" << errors;
   EXPECT_TRUE(
       holds(errors_of("scenario(name=a, extends=b) { }\nscenario(name=b, extends=a) { }"), "in a circle"));
+  const auto chain_of = [](int length) {
+    std::string chain = "scenario(name=s0) { }\n";
+    for (int i = 1; i <= length; ++i)
+      chain += "scenario(name=s" + std::to_string(i) + ", extends=s" + std::to_string(i - 1) + ") { }\n";
+    return chain;
+  };
+  load(chain_of(256));
+  const std::string too_long = errors_of(chain_of(5000));
+  EXPECT_TRUE(holds(too_long, "258:29: scenario \"s257\" extends one that extends one")) << too_long;
+  EXPECT_EQ(std::ranges::count(too_long, '\n'), 1) << too_long;
   load(square);
   EXPECT_TRUE(holds(to_string(live_.choose(scene_, "oack").errors()), "did you mean \"oaks\"?"));
 }
