@@ -409,6 +409,7 @@ class Reader {
   /// The same for rings that begin at another corner or run the other way round.
   static std::vector<std::array<double, 3>> corners_of(const std::vector<glm::dvec3>& ring) {
     std::vector<std::array<double, 3>> corners;
+    corners.reserve(ring.size());
     for (const glm::dvec3& point : ring) corners.push_back({point.x, point.y, point.z});
     std::ranges::sort(corners);
     return corners;

@@ -184,6 +184,7 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
   std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building");
   const std::size_t parts = drawn.size();
   std::vector<BuildingKind> kinds;  // of those that are drawn
+  kinds.reserve(drawn.size());
   for (const OsmArea& part : drawn) kinds.push_back(kind_of_osm_building(*part.tags));
   for (OsmArea& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
   for (OsmArea& outline : areas.find(has_key("building"), "a building")) {

@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/random.h"
 #include "base/test_folder.h"
+#include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_woods.h"
 #include "formats/terrain/utm.h"
 #include "scene/data/model_parts.h"
@@ -468,6 +469,21 @@ TEST(Osm, StreetsThatCannotBeMadeAreLeftOutTogether) {
   EXPECT_TRUE(build_road_graph(crowded.model->roads));
 }
 
+TEST(Osm, StreetsBeyondEveryNetworkAreLeftOutTogether) {
+  std::string nodes, streets;
+  for (int i = 0; i < 200; ++i) {
+    nodes += fmt::format(R"(<node id="{}" lat="{:.3f}" lon="4.4"/><node id="{}" lat="{:.3f}" lon="5.4"/>)",
+                         100 + 2 * i, 50.0 + 0.002 * i, 101 + 2 * i, 50.0 + 0.002 * i);
+    streets += way(1000 + i, fmt::format("{} {}", 100 + 2 * i, 101 + 2 * i), {{"highway", "residential"}});
+  }
+  const Read wide = read("<osm version=\"0.6\">" + nodes + streets + "</osm>");
+  ASSERT_TRUE(wide.model) << to_string(wide.model.errors());
+  EXPECT_TRUE(wide.model->roads.empty());
+  EXPECT_NE(wide.warnings.find("km of lanes; expected 20000 km at most; its streets are left out"),
+            std::string::npos)
+      << wide.warnings.substr(0, 2000);
+}
+
 TEST(Osm, LargeWoodsAreThinnedWithAWarning) {
   // The second outline crosses itself: its areas cancel each other.
   for (const char* outline : {"1 2 3 4 1", "1 3 2 4 1"}) {
@@ -481,6 +497,16 @@ TEST(Osm, LargeWoodsAreThinnedWithAWarning) {
     EXPECT_LE(trees, max_wood_trees * 11 / 10) << outline;
     EXPECT_GT(trees, max_wood_trees * 9 / 10) << outline;
   }
+}
+
+TEST(Osm, LongRowsOfTreesAreThinnedWithAWarning) {
+  std::string there_and_back;
+  for (int i = 0; i < 5; ++i) there_and_back += "31 32 ";
+  const Read rows = read(osm(R"(<node id="31" lat="52.1" lon="4.4"/><node id="32" lat="52.1" lon="5.4"/>)" +
+                             way(100, there_and_back, {{"natural", "tree_row"}})));
+  ASSERT_TRUE(rows.model) << to_string(rows.model.errors());
+  EXPECT_NE(rows.warnings.find("km long: their trees stand"), std::string::npos) << rows.warnings;
+  EXPECT_NEAR(double(count(rows, "SolitaryVegetationObject")) / 12.0, double(max_row_trees), 2.0);
 }
 
 TEST(Osm, TreesWithNeedlesSaySoAndAreSlim) {

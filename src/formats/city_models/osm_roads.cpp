@@ -145,13 +145,22 @@ class Roads {
   CityAssembly& city_;
 };
 
-/// Leaves out, and reports, the roads of which the road builder can make no lanes.
+/// Leaves out, and reports, the roads of which the road builder can make no lanes. A round finds all that are
+/// wrong by themselves; what it finds of the network as a whole, it blames on one road. Where that does not
+/// end soon, all roads are left out.
 void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
-  for (;;) {
+  constexpr int max_rounds = 16;
+  for (int round = 1;; ++round) {
     for (std::size_t i = 0; i < roads.size(); ++i)
       roads[i].where.line = int(i) + 1;  // by which errors name them
     // all that are wrong at once: as many graphs as roads, built one after the other, would take cubic time
     const Result<RoadGraph> graph = build_road_graph(roads, roads.size() + 1);
+    if (!graph && round > max_rounds) {
+      city.warn(fmt::format("{}; its streets are left out: cut out the part of the map that you need",
+                            graph.errors().front().message));
+      roads.clear();
+      return;
+    }
     std::set<int> numbers;
     if (!graph)
       for (const Error& problem : graph.errors()) {

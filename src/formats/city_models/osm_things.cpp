@@ -103,7 +103,26 @@ class RoadPoints {
 /// The same for the same tree: 7 to 11 m.
 double usual_tree_m(OsmId id) { return 7.0 + 0.5 * double(std::uint64_t(id) * 2654435761u % 9); }
 
-void add_row(const OsmWay& row, const OsmPlaces& place, const GroundOnMap& ground, CityAssembly& city) {
+bool is_row(const OsmWay& way) { return tag(way.tags, "natural") == "tree_row"; }
+
+/// Between the trees of rows: farther than usual where there would be too many.
+double step_in_rows(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city) {
+  double length_m = 0.0;
+  for (const OsmWay& way : osm.ways)
+    for (std::size_t i = 0; is_row(way) && i + 1 < way.nodes.size(); ++i)
+      if (const auto a = place(way.nodes[i]), b = place(way.nodes[i + 1]); a && b)
+        length_m += glm::distance(*a, *b);
+  const double step_m = std::max(row_step_m, length_m / double(max_row_trees));
+  if (step_m > row_step_m)
+    city.warn(fmt::format(
+        "its rows of trees are {:.0f} km long: their trees stand {:.0f} m apart; cut out the part of the map "
+        "that you need for denser ones",
+        1e-3 * length_m, step_m));
+  return step_m;
+}
+
+void add_row(const OsmWay& row, double step_m, const OsmPlaces& place, const GroundOnMap& ground,
+             CityAssembly& city) {
   double left_m = 0.0;  // until the next tree
   int count = 0;
   for (std::size_t i = 0; i + 1 < row.nodes.size(); ++i) {
@@ -115,7 +134,7 @@ void add_row(const OsmWay& row, const OsmPlaces& place, const GroundOnMap& groun
       const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
       add_tree({foot, ground ? ground(foot) : 0.0},
                metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), row.tags, city);
-      at_m += row_step_m;
+      at_m += step_m;
     }
     left_m = at_m - length_m;
   }
@@ -227,8 +246,9 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
       add_block(sides_of(line, -half_m, half_m, height_m), height_m, look, city);
     }
   }
+  const double step_m = step_in_rows(osm, place, city);
   for (const OsmWay& way : osm.ways)
-    if (tag(way.tags, "natural") == "tree_row") add_row(way, place, ground, city);
+    if (is_row(way)) add_row(way, step_m, place, ground, city);
 }
 
 void add_osm_rails(const OsmFile& osm, [[maybe_unused]] const OsmPlaces& place, const OsmRelief& relief,
