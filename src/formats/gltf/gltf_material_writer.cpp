@@ -189,6 +189,7 @@ void GltfMaterialWriter::describe(Json& json, const fs::path& file) const {
 
 Result<std::vector<PartialFile>> GltfMaterialWriter::write_pictures(const fs::path& file) const {
   std::vector<Result<PartialFile>> written;
+  written.reserve(names_.size());
   for (const std::string& name : names_)
     written.push_back(PartialFile::create(file.parent_path() / file_name(file, name)));
   std::vector<Errors> problems(written.size());

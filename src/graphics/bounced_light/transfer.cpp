@@ -83,7 +83,7 @@ std::uint64_t patch_key(vec3 position, vec3 normal, vec3 origin, float side_m) {
   const ivec3 cell(glm::floor((position + 0.1f * normal - origin) / side_m));
   const vec3 size = glm::abs(normal);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  const std::uint64_t facing = std::uint64_t(2 * axis + (normal[axis] > 0.0f ? 1 : 0));
+  const std::uint64_t facing = 2 * std::uint64_t(axis) + (normal[axis] > 0.0f ? 1 : 0);
   const auto part = [](int value) { return std::uint64_t(std::uint32_t(value + (1 << 19)) & 0xfffffu); };
   return (part(cell.x) << 43) | (part(cell.y) << 23) | (part(cell.z) << 3) | facing;
 }
@@ -256,7 +256,7 @@ std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shadi
 
 /// Sums of what places see, as two bands of spherical harmonics of irradiance.
 void Transfer::gather(const std::vector<vec3>& radiance, shading::BouncedLight& light) const {
-  std::vector<vec3> directions(std::size_t(ray_sets * rays_));
+  std::vector<vec3> directions(std::size_t(ray_sets) * std::size_t(rays_));
   for (int set = 0; set < ray_sets; ++set)
     for (int r = 0; r < rays_; ++r) directions[std::size_t(set * rays_ + r)] = ray_direction(r, rays_, set);
   parallel_for(

@@ -87,6 +87,7 @@ std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, 
       continue;
     }
     std::vector<CutPoint> polygon;
+    polygon.reserve(3);
     for (std::size_t k = 0; k < 3; ++k) polygon.push_back({triangle.corners[k], triangle.corners_in_node[k]});
     polygon = cut(polygon, [&](const CutPoint& point) { return glm::dot(axis, point.in_model) - low; });
     polygon = cut(polygon, [&](const CutPoint& point) { return high - glm::dot(axis, point.in_model); });

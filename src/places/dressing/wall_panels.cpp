@@ -162,10 +162,10 @@ void share_out(const Surface& surface, const std::vector<ModelTriangle>& walls, 
     const auto [low, high] =
         std::minmax({glm::dot(walls[i].corners[0], along), glm::dot(walls[i].corners[1], along),
                      glm::dot(walls[i].corners[2], along)});
-    auto panel =
-        std::ranges::upper_bound(panels.subspan(1), low, {}, [](const WallPanel& p) { return p.low.x; }) - 1;
-    do panel->triangles.push_back(i);
-    while (++panel != panels.end() && panel->low.x < high);
+    const auto begin = [](const WallPanel& panel) { return panel.low.x; };
+    auto panel = std::ranges::upper_bound(panels.subspan(1), low, {}, begin) - 1;
+    panel->triangles.push_back(i);
+    for (++panel; panel != panels.end() && panel->low.x < high; ++panel) panel->triangles.push_back(i);
   }
 }
 

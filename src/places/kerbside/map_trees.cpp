@@ -138,6 +138,7 @@ std::vector<Piece> merged(const std::vector<Piece>& pieces, const Root& root) {
     if (!is_new) known->second.bounds.add(pieces[i].bounds);
   }
   std::vector<Piece> result;
+  result.reserve(whole.size());
   for (const auto& [number, piece] : whole) result.push_back(piece);
   return result;
 }
@@ -197,6 +198,7 @@ Result<std::vector<MapTree>> take_trees(scene::Model& model, std::string_view ta
         target, pieces.size(), max_tree_pairs);
   pieces = merged(pieces, [&](std::size_t piece) { return trees->root(piece); });
   std::vector<MapTree> result;
+  result.reserve(pieces.size());
   for (const auto& [bounds, part] : pieces)
     result.push_back(
         {glm::vec3(glm::vec2(bounds.centre()), bounds.min.z), bounds.size().z, model.parts[part].object});
