@@ -48,15 +48,13 @@ WallMeasures measures_of(const WallLook& look);
 /// Mean colours that walls of a finish come in, linear.
 std::vector<glm::vec3> wall_colours(scene::WallFinish finish);
 
-/// The look of a building, and the number of its colour among those of its finish. What `kind` does not say
-/// is chosen at random: an office without a year is none of the oldest, walls are of what its time built
-/// with.
+/// The look of a building, and the number of its colour among those of its finish.
 struct ChosenWall {
   WallLook look;
   int colour;
 };
-/// Of a kind. What it does not say is chosen at random: an office without a year is none of the oldest, walls
-/// are of what their time built with.
+/// The wall of a building. What `kind` does not say is chosen at random: an office without a year is none of
+/// the oldest, walls are of what their time built with.
 ChosenWall chosen_wall(const scene::BuildingKind& kind, Random& random);
 
 /// A painted sheet; in_colour (brick_texture.h) gives its picture a colour divided by `painted`.
