@@ -1,6 +1,7 @@
 """City models, maps and terrain."""
 
 import json
+import math
 import struct
 
 from .case import CAMERA, Case, model_case, scene, write
@@ -22,7 +23,6 @@ def boundaries(value, kind="MultiSurface"):
 def star(points, step):
     """A polygon that crosses itself everywhere."""
     vertices, order, at = [], [], 0
-    import math
     for i in range(points):
         vertices.append([1000 * math.cos(6.28318 * i / points), 1000 * math.sin(6.28318 * i / points), 0])
     for _ in range(points):
@@ -46,6 +46,17 @@ def crossing(points, step):
         return f"{crossed:.1f} s, a plain polygon {plain:.1f} s" if crossed > 3 * plain + 1 else ""
 
     return Case("city", f"a star of {points} points, every {step}", build, "either", check=check)
+
+
+def different_holes(count):
+    """A plate with square holes beside each other."""
+    side = math.isqrt(count)
+    corners = [(0, 0), (9 * side, 0), (9 * side, 9 * side), (0, 9 * side)]
+    for i in range(count):
+        x, y = 3 + 5 * (i % side), 3 + 5 * (i // side)
+        corners += [(x, y), (x, y + 2), (x + 2, y + 2), (x + 2, y)]
+    rings = [[4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3] for i in range(count + 1)]
+    return city(vertices=[[x, y, 0] for x, y in corners], CityObjects={"a": {"type": "Building", "geometry": [{"type": "MultiSurface", "lod": "2", "boundaries": [rings]}]}})
 
 
 def templates(count):
@@ -114,6 +125,8 @@ def cases():
     for points, step in ((61, 30), (1001, 2), (1001, 500), (9001, 4500)):
         yield crossing(points, step)
     yield model_case("city", "20,000 equal holes", "m.json", lambda: boundaries([[[0, 1, 2]] + [[0, 1, 2]] * 20000]), seconds=60)
+    yield model_case("city", "6,000 different holes", "m.json", lambda: different_holes(6000), "done")
+    yield model_case("city", "20,000 different holes", "m.json", lambda: different_holes(20000), "refused", says="holes are too many")
     yield model_case("city", "3,000 templates of 2,000 surfaces", "m.json", lambda: templates(3000), seconds=120)
     for name in ("../outside/secret.png", "/etc/passwd", "link.png", "pipe"):
         yield model_case("city", f"texture {name}", "m.json", city(appearance={"textures": [{"type": "PNG", "image": name}], "vertices-texture": [[0, 0]]}))

@@ -127,8 +127,10 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   const bool turns_over = is_ground(name) && normal.z < 0.0 && !surface.is_of_solid;
   if (turns_over) normal = -normal;
   if (!can_be_triangulated(rings, normal))
-    return warn(fmt::format("a surface of {} crosses or covers itself more than {} times; it is left out",
-                            object.name, max_edge_crossings));
+    return warn(fmt::format(
+        "a surface of {} ({} holes) crosses or covers itself more than {} times, or its holes are too many "
+        "to be cut out; it is left out",
+        object.name, rings.size() - 1, max_edge_crossings));
   ++polygon_count_, ++polygons_of_[name];
 
   std::vector<glm::dvec3> points;
@@ -221,6 +223,9 @@ void CityAssembly::warn_of_implausible_counts() {
 
 Result<Model> CityAssembly::finish(std::size_t object_count) {
   const FileLocation where{file_.string(), 0, 0};
+  if (parts_.empty() && !warnings_.empty())
+    return error_at(where, "none of the {} city objects has polygons: {}", object_count,
+                    warnings_.front().message);
   if (parts_.empty()) return error_at(where, "none of the {} city objects has polygons", object_count);
   warn_of_implausible_counts();
   Model model;

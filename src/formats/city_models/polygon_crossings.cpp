@@ -14,11 +14,12 @@ struct Edge {
   glm::dvec2 a, b;  ///< a.x <= b.x
 };
 
-/// The plan whose axes are the two along which the surface is least foreshortened.
+/// The plan whose axes are the two along which the surface is least foreshortened, the tessellator's sweep
+/// first.
 glm::dvec2 in_plan(glm::dvec3 p, glm::dvec3 normal) {
   const glm::dvec3 size = glm::abs(normal);
   if (size.z >= size.x && size.z >= size.y) return {p.x, p.y};
-  return size.y >= size.x ? glm::dvec2(p.x, p.z) : glm::dvec2(p.y, p.z);
+  return size.y >= size.x ? glm::dvec2(p.z, p.x) : glm::dvec2(p.y, p.z);
 }
 
 double side(const Edge& edge, glm::dvec2 p) {
@@ -58,6 +59,7 @@ bool can_be_triangulated(const std::vector<std::vector<glm::dvec3>>& rings, glm:
   std::size_t points = 0;
   for (const std::vector<glm::dvec3>& ring : rings) points += ring.size();
   if (points * points / 2 <= max_edge_crossings) return true;  // whatever they do
+  if (points * rings.size() > max_ring_points) return false;
   const std::vector<Edge> edges = edges_of(rings, normal);
   std::size_t crossings = 0, pairs = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -45,6 +45,17 @@ TEST(PolygonCrossings, StarsAndEqualHolesAreNot) {
   EXPECT_FALSE(can_be_triangulated(rings, up));
 }
 
+TEST(PolygonCrossings, MoreHolesThanTheTessellatorCanJoinAreNot) {
+  const auto surface = [](int side) {
+    std::vector<Ring> rings{star(4, 1, 1000.0)};
+    for (int i = 0; i < side * side; ++i)
+      rings.push_back(star(4, 1, 1.0, {4.0 * (i % side) - 280.0, 4.0 * (i / side) - 280.0, 0.0}));
+    return rings;
+  };
+  EXPECT_TRUE(can_be_triangulated(surface(80), up));
+  EXPECT_FALSE(can_be_triangulated(surface(140), up)) << "would take 40 s";
+}
+
 TEST(PolygonCrossings, WallsAreSeenFromTheirFront) {
   Ring wall = star(1001, 500);
   for (glm::dvec3& p : wall) p = {p.x, 0.0, p.y};
