@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/reduction.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/transfer.h"
 #include "graphics/lamps/lamp_light.h"
@@ -38,13 +39,7 @@ Result<Image8> drawn(render::Renderer& renderer, const scene::Scene& scene, cons
           render::draw_frame(renderer, scene, {camera, supersample * width, supersample * height});
       !status)
     return status.errors();
-  const ImageF fine = renderer.read_radiance();
-  ImageF mean(width, height, 3, 0.0f);
-  for (int y = 0; y < fine.height; ++y)
-    for (int x = 0; x < fine.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        mean.at(x / supersample, y / supersample)[c] += fine.at(x, y)[c] / float(supersample * supersample);
-  return shading::tone_mapped_picture(mean, scene.exposure);
+  return shading::tone_mapped_picture(reduced(renderer.read_radiance(), supersample), scene.exposure);
 }
 
 void measure_update(const scene::Scene& city, Report& report) {
