@@ -9,8 +9,8 @@
 namespace parvis::light {
 namespace {
 
-constexpr float near_half_width_m = 90.0f;  // a texel is 4.4 cm: cornices and railings cast shadows
-constexpr float near_ahead_m = 40.0f;       // the window lies where the viewer looks
+constexpr float near_half_width_m = 60.0f;  // a texel is 2.9 cm: cornices and railings cast shadows
+constexpr float near_ahead_m = 25.0f;       // the window lies where the viewer looks
 // Middles of the window are this far apart: it is drawn again when the viewer comes nearer to another one.
 // They do not depend on where the viewer was: maps and films that several processes draw are equal to those
 // of one.

@@ -124,7 +124,7 @@ Result<FrameTimes> frame_times(render::Renderer& renderer, const scene::Scene& s
 }
 
 /// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the few
-/// samples that a picture has of each show which of them were met, not what a crown looks like.
+/// samples that a picture has of each show which of them they hit, not what a crown looks like.
 Result<Image8> drawn_finely(render::Renderer& renderer, scene::Scene& scene, const Camera& camera) {
   scene.data<PlantDetail>() = {.is_full = true};
   const Status status =
