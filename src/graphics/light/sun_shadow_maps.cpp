@@ -111,10 +111,10 @@ render::View SunShadowMaps::shadow_view(int map, const glm::mat4& clip_from_worl
 }
 
 /// Both maps of a spot light show its whole cone.
-render::View SunShadowMaps::aim_spot(int map) {
-  const glm::vec3 position = sun_.spot->position;
+render::View SunShadowMaps::aim_spot(const scene::Spot& spot, int map) {
+  const glm::vec3 position = spot.position;
   const glm::vec3 up = std::abs(to_sun_.z) < 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
-  const float half_angle = std::min(sun_.spot->half_angle + 0.01f, 1.5f);
+  const float half_angle = std::min(spot.half_angle + 0.01f, 1.5f);
   const float far_m = glm::distance(position, fixed_.centre()) + fixed_.radius() + moving_height_m;
   const glm::mat4 clip_from_world = glm::perspective(2.0f * half_angle, 1.0f, spot_near_m, far_m) *
                                     glm::lookAt(position, position - to_sun_, up);
@@ -149,7 +149,7 @@ render::View SunShadowMaps::aim(int map, glm::vec3 centre, float half_width_m) {
 void SunShadowMaps::aim_near(glm::vec3 position) {
   near_centre_ = position;
   maps_.growth = 0.0f, maps_.tile_count = 0;
-  near_views_ = {sun_.spot ? aim_spot(shading::shadow_near_map)
+  near_views_ = {sun_.spot ? aim_spot(*sun_.spot, shading::shadow_near_map)
                            : aim(shading::shadow_near_map, position, near_half_width(fixed_))};
 }
 
@@ -181,7 +181,7 @@ void SunShadowMaps::draw_near_fixed(const render::DrawView& draw) {
 
 void SunShadowMaps::draw_far(const render::DrawView& draw) {
   const glm::vec3 size = fixed_in_sun_.size();
-  far_view_ = sun_.spot ? aim_spot(shading::shadow_far_map)
+  far_view_ = sun_.spot ? aim_spot(*sun_.spot, shading::shadow_far_map)
                         : aim(shading::shadow_far_map, fixed_.centre(), 0.51f * std::max(size.x, size.y));
   draw(far_view_);
   far_is_drawn_ = true;

@@ -66,7 +66,7 @@ class SunShadowMaps final : public render::ShadowMethod {
   };
   void turn_to(const scene::SunLight& sun);
   render::View aim(int map, glm::vec3 centre, float half_width_m);
-  render::View aim_spot(int map);
+  render::View aim_spot(const scene::Spot& spot, int map);
   render::View shadow_view(int map, const glm::mat4& clip_from_world, float texel_m);
   void aim_near(glm::vec3 position);
   void aim_near(const NearMap& near);

@@ -50,8 +50,9 @@ Result<scene::Scene> make_grove(Report& report) {
                                           {oak, oak->height_m, 0.0f, std::uint64_t(1 + i % shapes)});
     if (!shape) return shape.errors();
     fewest = std::min(fewest, (*shape)->triangle_count());
+    const int row = i / columns;
     const glm::vec3 foot(spacing_m * (float(i % columns) - 9.5f) + random.uniform(-2.0f, 2.0f),
-                         spacing_m * (float(i / columns) + 1.0f) + random.uniform(-2.0f, 2.0f), 0.0f);
+                         spacing_m * float(row + 1) + random.uniform(-2.0f, 2.0f), 0.0f);
     const glm::mat4 world_from_plant =
         glm::rotate(glm::translate(glm::mat4(1.0f), foot), random.uniform(0.0f, 6.28f), glm::vec3(0, 0, 1));
     scene.data<vegetation::ScenePlants>().add({*shape, world_from_plant, true}, i);
