@@ -52,11 +52,11 @@ Status measure_cases(const BenchSetup& setup, const fs::path& program, const fs:
   if (!json.is_object()) return error("{}: is no report of script/attack", figures.string());
   for (const char* key : keys) report.add(key, json.value(key, -1.0));
   for (const auto& [tried, survived] : survivals) {
-    if (!json.contains(survived)) {
+    if (setup.is_quick && !json.contains(survived)) {
       report.skip(survived, "none was reached in the time of --quick");
       continue;
     }
-    report.add(survived, json.value(survived, 0.0));
+    report.add(survived, json.value(survived, -1.0));
     report.note(fmt::format("{}: of {} that were tried", survived, json.value(tried, 0)));
   }
   report.note(

@@ -89,13 +89,27 @@ void show_rows(int shown, scene::Scene& scene) {
     plant.is_visible = number++ < shown * columns;
 }
 
+/// Draws plants in some detail with `scale` times the pixels of a picture, across and down.
+Status draw(render::Renderer& renderer, scene::Scene& scene, const Camera& camera, const PlantDetail& detail,
+            int scale) {
+  scene.data<PlantDetail>() = detail;
+  Status status = render::draw_frame(renderer, scene, {camera, scale * width, scale * height});
+  scene.data<PlantDetail>() = {};
+  return status;
+}
+
 Result<Image8> drawn(render::Renderer& renderer, scene::Scene& scene, const Camera& camera,
                      const PlantDetail& detail) {
-  scene.data<PlantDetail>() = detail;
-  const Status status = render::draw_frame(renderer, scene, {camera, width, height});
-  scene.data<PlantDetail>() = {};
-  if (!status) return status.errors();
+  if (const Status status = draw(renderer, scene, camera, detail, 1); !status) return status.errors();
   return renderer.read_picture(scene.exposure);
+}
+
+/// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the few
+/// samples that a picture has of each show which of them they hit, not what a crown looks like.
+Result<Image8> drawn_finely(render::Renderer& renderer, scene::Scene& scene, const Camera& camera) {
+  if (const Status status = draw(renderer, scene, camera, {.is_full = true}, supersample); !status)
+    return status.errors();
+  return shading::tone_mapped_picture(reduced(renderer.read_radiance(), supersample), scene.exposure);
 }
 
 /// Frames while the viewer walks on.
@@ -122,17 +136,6 @@ Result<FrameTimes> frame_times(render::Renderer& renderer, const scene::Scene& s
   }
   times.cpu_ms = 1e3 * double(std::clock() - before) / CLOCKS_PER_SEC / double(frames);
   return times;
-}
-
-/// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the few
-/// samples that a picture has of each show which of them they hit, not what a crown looks like.
-Result<Image8> drawn_finely(render::Renderer& renderer, scene::Scene& scene, const Camera& camera) {
-  scene.data<PlantDetail>() = {.is_full = true};
-  const Status status =
-      render::draw_frame(renderer, scene, {camera, supersample * width, supersample * height});
-  scene.data<PlantDetail>() = {};
-  if (!status) return status.errors();
-  return shading::tone_mapped_picture(reduced(renderer.read_radiance(), supersample), scene.exposure);
 }
 
 struct PicturesOfGrove {
