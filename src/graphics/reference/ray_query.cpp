@@ -238,7 +238,8 @@ Ray embree_ray_around(const FineRay& ray, float margin_m) {
           float(std::min(ray.max_m - before + double(margin_m), 1e30))};
 }
 
-/// Embree's form of a packet; rays that are missing or not finite are left out.
+/// Embree's form of a packet; rays that are missing or not finite are left out. `valid` says so, and a ray that
+/// ends before it begins: without instructions for packets of 16 (AVX-512) Embree does not read `valid`.
 struct Packet {
   alignas(64) int valid[RayScene::packet_size];
   alignas(64) RTCRayHit16 rays;
@@ -246,9 +247,11 @@ struct Packet {
   template <class MakeRay>
   Packet(std::size_t count, const MakeRay& make_ray) {
     assert(count <= RayScene::packet_size);
+    constexpr Ray left_out{glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f};
     for (std::size_t i = 0; i < RayScene::packet_size; ++i) {
-      const Ray ray = i < count ? make_ray(i) : Ray{glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
+      Ray ray = i < count ? make_ray(i) : left_out;
       valid[i] = i < count && is_finite(ray) ? -1 : 0;
+      if (!valid[i]) ray = left_out;
       RTCRay16& r = rays.ray;
       r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
       r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
