@@ -8,6 +8,7 @@
 #include "graphics/gl/context.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
+#include "graphics/reference/photograph.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
@@ -51,6 +52,14 @@ class FacadeDrawableTest : public gl::ContextTest {
     reference::TraceOptions options;
     options.samples_per_pixel = 4;
     return reference::trace_picture(rays, scene_, sky, camera_, width, height, options).radiance;
+  }
+  ImageF photograph() const {
+    const reference::RayScene rays(scene_);
+    const shading::SkyLight sky = shading::make_sky_light(scene_.sky.picture, 1.0f, 0.0f);
+    reference::PhotographOptions options;
+    options.samples_per_pixel = 4;
+    options.paths.bounces = 0;
+    return reference::take_photograph(rays, scene_, sky, camera_, width, height, options)->radiance;
   }
   static double psnr(const Image8& a, const Image8& b) {
     double sum = 0.0;
@@ -116,17 +125,22 @@ TEST_F(FacadeDrawableTest, WhatIsInsertedCastsItsShadowOnThePhotographs) {
       << "the near wall's shadow on the far one is in the photographs, if anywhere";
   scene::add(scene_, scene::model_of(scene::box({-2.5f, 2.8f, 2.2f}, {-1.0f, 3.2f, 3.2f}),
                                      scene::matt(glm::vec3(0.5f))));
-  const ImageF lit_drawn = draw(), lit_traced = trace();
+  const ImageF lit_drawn = draw(), lit_traced = trace(), lit_photographed = photograph();
   shown.kept_in_shadow = kept;
-  const ImageF drawn = ratio(draw(), lit_drawn), traced = ratio(trace(), lit_traced);
+  const ImageF drawn = ratio(draw(), lit_drawn), traced = ratio(trace(), lit_traced),
+               photographed = ratio(photograph(), lit_photographed);
   const int shaded = count_below(traced, 0.5f);
   ASSERT_GT(shaded, 200);
   EXPECT_NEAR(*std::ranges::min_element(drawn.pixels), kept, 0.01f);
   EXPECT_NEAR(*std::ranges::min_element(traced.pixels), kept, 0.01f);
-  int wrong = 0;
-  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+  EXPECT_NEAR(*std::ranges::min_element(photographed.pixels), kept, 0.01f);
+  int wrong = 0, wrong_in_photograph = 0;
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i) {
     wrong += (drawn.pixels[i] < 0.6f) != (traced.pixels[i] < 0.6f);
+    wrong_in_photograph += (photographed.pixels[i] < 0.6f) != (traced.pixels[i] < 0.6f);
+  }
   EXPECT_LT(wrong, shaded / 8) << "pixels at the shadow's edge alone";
+  EXPECT_LT(wrong_in_photograph, shaded / 8) << "pixels at the shadow's edge alone";
   // The control: a sun a little to the side.
   scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.5f, -1.0f, 0.8f));
   const ImageF aside = ratio(draw(), lit_drawn);

@@ -46,7 +46,10 @@ scene::NodeSchema shadow_map_schema() {
                "of what the script places, these models and groups alone cast shadows; without it all do",
                {"group", "model"})
                .repeatable(),
-           reference("receivers", "these alone receive them; without it all do", {"group", "model"})
+           reference("receivers",
+                     "these alone receive them; without it all do. What photographs show has shadow_strength "
+                     "for that",
+                     {"group", "model"})
                .repeatable(),
            flag("updateNear",
                 "fitted maps begin at the nearest surface in view, not at the camera's near plane")

@@ -5,6 +5,7 @@
 
 #include "base/colour.h"
 #include "graphics/shading/glass.h"
+#include "graphics/shading/recorded_shadow.h"
 
 namespace parvis::reference {
 namespace {
@@ -123,6 +124,19 @@ vec3 PathTracer::lamps_at(const ShadingPoint& point, const Scatter& scatter, Pat
   return light;
 }
 
+/// The share of a photograph's light that shadows of what it does not show leave: as the renderer has it, but
+/// with the sun's disc in place of its middle.
+float PathTracer::kept_of_recorded(const ShadingPoint& point, Path& path) const {
+  if (!sun_.shines()) return 1.0f;
+  const vec3 to_sun = sun_.direction(path.numbers.next_2d());
+  const float facing = glm::dot(point.geometric_normal, to_sun);
+  if (facing <= 0.0f) return 1.0f;
+  ++path.ray_count;
+  const vec3 origin = point.position + off_surface_m * point.geometric_normal;
+  const float visible = rays_.is_blocked_by_inserted({origin, to_sun}, path.passage) ? 0.0f : 1.0f;
+  return shading::kept_recorded_light(point.kept_in_shadow, facing, visible);
+}
+
 /// Chooses where the path goes on; false where it ends.
 bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const {
   const glm::vec2 choices = path.numbers.next_2d();
@@ -187,6 +201,7 @@ PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequen
     const float width_m = path.width_m + path.spread * hit->distance_m;
     ShadingPoint point = shading_point(*hit, path.ray.direction, width_m);
     point.surface.normal = kept_above(point.surface.normal, -path.ray.direction);
+    if (point.kept_in_shadow < 1.0f) point.surface.emission *= kept_of_recorded(point, path);
     light += path.throughput * point.surface.emission;
     if (options_.bounces && bounce >= *options_.bounces) break;
     if (const scene::Material& glass = *hit->place->material; glass.refracts()) {

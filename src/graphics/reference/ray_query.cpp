@@ -238,8 +238,8 @@ Ray embree_ray_around(const FineRay& ray, float margin_m) {
           float(std::min(ray.max_m - before + double(margin_m), 1e30))};
 }
 
-/// Embree's form of a packet; rays that are missing or not finite are left out. `valid` says so, and a ray that
-/// ends before it begins: without instructions for packets of 16 (AVX-512) Embree does not read `valid`.
+/// Embree's form of a packet; rays that are missing or not finite are left out. `valid` says so, and a ray
+/// that ends before it begins: without instructions for packets of 16 (AVX-512) Embree does not read `valid`.
 struct Packet {
   alignas(64) int valid[RayScene::packet_size];
   alignas(64) RTCRayHit16 rays;
@@ -339,7 +339,7 @@ bool RayScene::is_blocked(const Ray& ray, Passage* passage, bool passes_recorded
   if (!is_finite(ray)) return false;
   QueryContext context(places_, {passage, passage ? 1u : 0u});
   context.passes_recorded = passes_recorded;
-  if (!passage || !passage->sees_backs) context.embree.filter = filter<true, true>;
+  if (!passage || !passage->sees_backs || passes_recorded) context.embree.filter = filter<true, true>;
   RTCRay query = embree_ray(ray);
   rtcOccluded1(top_, &context.embree, &query);
   return query.tfar < 0.0f;
@@ -352,5 +352,8 @@ std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage& passage) const
 bool RayScene::is_blocked(const Ray& ray) const { return is_blocked(ray, nullptr); }
 bool RayScene::is_blocked_by_inserted(const Ray& ray) const { return is_blocked(ray, nullptr, true); }
 bool RayScene::is_blocked(const Ray& ray, Passage& passage) const { return is_blocked(ray, &passage); }
+bool RayScene::is_blocked_by_inserted(const Ray& ray, Passage& passage) const {
+  return is_blocked(ray, &passage, true);
+}
 
 }  // namespace parvis::reference

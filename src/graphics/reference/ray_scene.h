@@ -107,6 +107,8 @@ class RayScene {
   bool is_blocked_by_inserted(const Ray& ray) const;
   /// True if a surface blocks the ray under the rules of a photograph.
   bool is_blocked(const Ray& ray, Passage& passage) const;
+  /// The same, but for what photographs show.
+  bool is_blocked_by_inserted(const Ray& ray, Passage& passage) const;
   /// is_blocked of each ray of a packet, each with its own `passages`: bit i is that of ray i.
   std::uint32_t are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const;
   /// nearest_hit of each ray of a packet, into `hits`.
