@@ -109,6 +109,23 @@ TEST(DayLightNode, AMessageChangesTheHour) {
   EXPECT_EQ(scene.sun, evening);
 }
 
+/// The thesis spells turbidity "turbidy", in scripts and so in messages.
+TEST(DayLightNode, AMessageKnowsTheSpellingsOfTheScript) {
+  const TestFolder folder;
+  auto loaded = load(folder, "dayLight(turbidy=3)\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::LiveScene live(std::move(loaded->script));
+  const scene::Node* node = live.find("%dayLight");
+  for (const char* text : {"turbidity 6", "turbidy 8"}) {
+    const Result<scene::Message> message = scene::parse_message(*node->schema, text, {});
+    ASSERT_TRUE(message) << to_string(message.errors());
+    ASSERT_TRUE(live.receive(*node, *message));
+    EXPECT_TRUE(live.refresh(loaded->scene).empty());
+  }
+  EXPECT_FLOAT_EQ(loaded->scene.data<DayLight>().air.turbidity, 8.0f);
+  EXPECT_FALSE(scene::parse_message(*node->schema, "turbid 8", {}));
+}
+
 TEST(DayLightNode, TheScriptsExposureMultiplies) {
   const TestFolder folder;
   const auto plain = load(folder, "dayLight()\n");

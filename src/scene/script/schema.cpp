@@ -111,7 +111,10 @@ const AttributeSchema* NodeSchema::find(const std::string& name) const {
 const MessageSchema* NodeSchema::find_message(const std::string& name) const {
   const auto found = std::find_if(messages.begin(), messages.end(),
                                   [&](const MessageSchema& m) { return edit_distance(m.name, name) == 0; });
-  return found == messages.end() ? nullptr : &*found;
+  if (found != messages.end()) return &*found;
+  // Messages that set an attribute go by its other spellings, too.
+  const AttributeSchema* attribute = find(name);
+  return attribute && attribute->name != name ? find_message(attribute->name) : nullptr;
 }
 
 void NodeSchema::complete_messages() {
