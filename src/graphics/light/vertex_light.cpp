@@ -120,14 +120,20 @@ reference::Frame turned_frame(glm::vec3 normal, std::size_t vertex) {
   return frame;
 }
 
-/// Mean colour of a surface that a ray hit.
+/// Mean of a texture, or white where the surface has none.
+glm::vec3 mean_of(const reference::PlacedPart& place, int texture) {
+  if (texture == scene::no_index) return glm::vec3(1.0f);
+  const reference::MipTexture& mips = (*place.textures)[std::size_t(texture)];
+  return glm::vec3(mips.sample(glm::vec2(0.5f), mips.size().x + mips.size().y));
+}
+
+/// Mean colour that a surface which a ray hit gives back matt. A surface texture has metallic in blue
+/// (glTF 2.0, section 3.9.2), by which the factor, 1 unless it is given, is multiplied.
 glm::vec3 albedo_of(const reference::PlacedPart& place) {
   if (place.surface) return glm::vec3(wall_albedo);
   const scene::Material& material = *place.material;
-  const glm::vec3 colour = (1.0f - material.metallic) * material.base_colour;
-  if (material.base_colour_texture == scene::no_index) return colour;
-  const reference::MipTexture& texture = (*place.textures)[std::size_t(material.base_colour_texture)];
-  return colour * glm::vec3(texture.sample(glm::vec2(0.5f), texture.size().x + texture.size().y));
+  const float metallic = material.metallic * mean_of(place, material.surface_texture).z;
+  return (1.0f - metallic) * material.base_colour * mean_of(place, material.base_colour_texture);
 }
 
 /// Light that a matt surface gives back to a vertex: of the sun, by a ray, and of the sky as if half of what
