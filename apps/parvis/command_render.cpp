@@ -33,6 +33,7 @@ struct Arguments : SceneArguments {
 };
 
 Status draw(house::Stage& stage, const Arguments& arguments, int width, int height) {
+  stage.play().settle();
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
   const int n = arguments.supersample;

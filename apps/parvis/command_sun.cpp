@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -41,17 +42,23 @@ Result<std::pair<int, int>> read_date(const std::string& text) {
   return std::pair{year, light::day_of_year(year, month, day)};
 }
 
-/// The place of the scene's dayLight, or --place.
+/// The place of the scene's dayLight, or --place with the hours of its time zone.
+light::PlaceAndTime read_place(const Arguments& arguments, const light::DayLight& day) {
+  light::PlaceAndTime place = day.when;
+  if (arguments.place.empty()) return place;
+  place.latitude_deg = arguments.place[0], place.longitude_deg = arguments.place[1];
+  place.time_zone_h = std::round(place.longitude_deg / 15.0);
+  return place;
+}
+
+/// From --from to --to.
 Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Scene& scene) {
   const light::DayLight& day = scene.data<light::DayLight>();
-  light::SunPeriod period{.place = day.when, .day_step = arguments.every};
-  if (!arguments.place.empty()) {
-    period.place.latitude_deg = arguments.place[0], period.place.longitude_deg = arguments.place[1];
-  } else if (!day.is_given) {
+  light::SunPeriod period{.place = read_place(arguments, day), .day_step = arguments.every};
+  if (arguments.place.empty() && !day.is_given)
     return error(
         "the scene has no place on the earth: add dayLight(latitude=, longitude=) to it or give --place "
         "LATITUDE LONGITUDE");
-  }
   const Result<std::pair<int, int>> from = read_date(arguments.from);
   const Result<std::pair<int, int>> to = read_date(arguments.to.empty() ? arguments.from : arguments.to);
   if (!from) return from.errors();
@@ -112,8 +119,9 @@ Status film_day(const Arguments& arguments) {
   if (!node) return error("a film of the day's shadows needs a scene with dayLight(...)");
   const Result<std::pair<int, int>> date = read_date(arguments.from);
   if (!date) return date.errors();
-  light::PlaceAndTime day = play.scene.data<light::DayLight>().when;
+  light::PlaceAndTime day = read_place(arguments, play.scene.data<light::DayLight>());
   day.year = date->first, day.day_of_year = date->second;
+  if (Status status = check(day); !status) return status.errors();
   const light::DaylightHours hours = light::daylight_hours(day);
   if (hours.is_polar_night()) return error("the sun does not rise on {}", arguments.from);
   const double from = std::max(hours.rise_h.value_or(0.0), 0.0),
@@ -121,6 +129,9 @@ Status film_day(const Arguments& arguments) {
 
   Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
+  live.set(*node, "latitude", day.latitude_deg);
+  live.set(*node, "longitude", day.longitude_deg);
+  live.set(*node, "standardMeridian", day.time_zone_h);
   live.set(*node, "year", long(day.year));
   live.set(*node, "julianDay", long(day.day_of_year));
   const int frames = int((to - from) * 60.0 / arguments.film_step_min) + 1;
@@ -129,6 +140,8 @@ Status film_day(const Arguments& arguments) {
     const double time = from + i * arguments.film_step_min / 60.0;
     live.set(*node, "timeOfDay", time);
     if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
+    play.clock.follow(play.scene);
+    play.settle();
     const Result<Camera> camera = (*stage)->camera(arguments.scene.camera);
     if (!camera) return camera.errors();
     (*stage)->draw(*camera, width, height);
@@ -163,8 +176,9 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(1, 366))
       ->capture_default_str();
   command
-      ->add_option("--place", arguments->place,
-                   "Latitude and longitude (east positive) in place of the scene's")
+      ->add_option(
+          "--place", arguments->place,
+          "Latitude and longitude (east positive) in place of the scene's, with the hours of its time zone")
       ->expected(2);
   command
       ->add_option("--area", arguments->area, "x and y of two corners in metres (default: the whole scene)")

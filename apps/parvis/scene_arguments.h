@@ -99,6 +99,7 @@ struct SceneArguments {
       if (Status status = live.choose(play->scene, scenarios.front()); !status) return status.errors();
     if (Status status = plan_presses(play->actions()); !status) return status.errors();
     play->advance(time_s);
+    play->settle();
     return play;
   }
 

@@ -45,7 +45,13 @@ bool is_near(const Bounds& bounds, const Bounds& other) {
 void LightingProcess::begin(scene::Scene& scene, action::SharedByProcesses& shared) {
   live_ = &shared.live;
   find_objects(scene);
+  settle(scene);
+}
+
+void LightingProcess::settle(scene::Scene& scene) {
+  is_settling_ = true;
   present(scene, 0.0);
+  is_settling_ = false;
 }
 
 void LightingProcess::find_objects(scene::Scene& scene) {
@@ -157,11 +163,10 @@ void LightingProcess::relight(scene::Scene& scene, const std::vector<LitObject*>
         changed, [&](const LitObject* other) { return is_near(other->bounds(), lit.bounds()); });
     if (is_neighbour && std::ranges::find(changed, &lit) == changed.end()) lit.restart();
   }
-  const bool has_time = is_first_ || budget_ms_ <= 0.0;
+  const bool has_time = is_settling_ || budget_ms_ <= 0.0;
   double rays_left = has_time ? 1e300 : budget_ms_ * rays_per_ms;
   if (!has_time) light_quickly(changed, rays_left);
   refine(rays_left);
-  is_first_ = false;
   auto& irradiance = scene.data<scene::VertexIrradiance>();
   for (LitObject& lit : lit_)
     if (lit.take_news()) irradiance.objects[std::size_t(lit.object())] = lit.light();

@@ -22,6 +22,7 @@ class LightingProcess final : public action::Process {
   std::string name() const override { return "lit objects"; }
   void begin(scene::Scene& scene, action::SharedByProcesses& shared) override;
   void present(scene::Scene& scene, double ahead_s) override;
+  void settle(scene::Scene& scene) override;
 
   /// How many rays the vertex has had that has had the fewest; 0 without lit objects.
   int rays() const;
@@ -57,7 +58,7 @@ class LightingProcess final : public action::Process {
   std::vector<bool> is_lit_;  ///< by object
   int rays_wanted_ = 256;
   double budget_ms_ = 0.0;
-  bool is_first_ = true;
+  bool is_settling_ = false;  ///< all rays at once, whatever the budget
   std::optional<SkySource> sky_source_;
   std::optional<light::SkyTable> sky_;
   scene::Scene casters_;  ///< static things and lit objects; others come and go

@@ -183,6 +183,48 @@ TEST_F(LitObjects, AMovedThingIsLitAgainFirstQuicklyThenBetter) {
   EXPECT_LT(std::abs(quick.y - truth.y), 0.5f * jump) << "even the quick light is nearer than the old one";
 }
 
+/// A picture that stands by itself does not show how many frames were drawn before it.
+TEST_F(LitObjects, HaveAllTheirRaysInAPictureWhateverTheBudget) {
+  const glm::mat4 behind_the_wall = glm::translate(glm::mat4(1.0f), vec3(0, 4.3f, 0));
+  const auto moved = [&](const std::string& budget) {
+    Running scene = run(street("rays=128, budget_ms=" + budget));
+    scene.object("ball").world_from_model = behind_the_wall;
+    scene.clock->advance(scene.scene, 0.02);
+    return scene;
+  };
+  Running hurried = moved("2"), unhurried = moved("0");
+  EXPECT_LT(hurried.rays(), 128);
+  hurried.clock->settle(hurried.scene);
+  EXPECT_GE(hurried.rays(), 128);
+  const std::vector<vec3>&found = hurried.light("ball")->parts[0].front,
+        &wanted = unhurried.light("ball")->parts[0].front;
+  ASSERT_EQ(found.size(), wanted.size());
+  // Sums of other lengths are rounded otherwise.
+  for (std::size_t v = 0; v < found.size(); ++v) EXPECT_NEAR(found[v].y, wanted[v].y, 1e-5f * wanted[v].y);
+}
+
+/// A surface texture has metallic in blue, by which the factor, 1 by default in glTF, is multiplied.
+TEST_F(LitObjects, HaveTheLightThatGroundWithASurfaceTextureGivesBack) {
+  const auto light_above = [&](std::uint8_t metallic) {
+    const auto ground = scene::model_of(scene::ground(40), scene::matt(vec3(0.5f)));
+    Image8 texel(1, 1, 4);
+    texel.pixels = {255, 255, metallic, 255};
+    ground->textures.push_back({"surface", std::move(texel), false, true});
+    ground->materials[0].surface_texture = 0, ground->materials[0].metallic = 1.0f;
+    EXPECT_TRUE(scene::write_gltf(folder_.path() / "paving.glb", *ground));
+    Running scene =
+        run("dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\nmodel(file=\"paving.glb\")\n"
+            "litVirtualObject(rays=256) { object(file=\"ball.glb\") }");
+    return scene.mean("ball").y;
+  };
+  Running plain =
+      run("dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\nmodel(file=\"ground.glb\")\n"
+          "litVirtualObject(rays=256) { object(file=\"ball.glb\") }");
+  const float matt = plain.mean("ball").y;
+  EXPECT_FLOAT_EQ(light_above(0), matt);
+  EXPECT_LT(light_above(255), 0.9f * matt) << "metal gives nothing back matt";
+}
+
 TEST_F(LitObjects, FollowTheSkyAndAreLeftAloneWhileNothingChanges) {
   Running scene = run(street("rays=64, budget_ms=0"));
   const auto noon = scene.scene.data<scene::VertexIrradiance>().objects;

@@ -26,6 +26,11 @@ Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
   return reported(clock.take_warnings());
 }
 
+void Play::settle() {
+  clock.settle(scene);
+  reported(clock.take_warnings());
+}
+
 Result<Camera> Play::camera(const std::string& name) const {
   if (name.empty())
     if (const std::optional<Camera> camera = actions().camera(scene)) return *camera;

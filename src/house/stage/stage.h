@@ -39,6 +39,8 @@ struct Play {
   /// Advances all processes by `seconds`. `visitor` is the eye's position, for processes near it. Returns the
   /// warnings, which are also printed on standard error.
   Errors advance(double seconds, const std::optional<glm::vec3>& visitor = std::nullopt);
+  /// Completes the present moment for a picture: SceneClock::settle. Warnings are printed on standard error.
+  void settle();
 
   /// The present pose of the named camera (it may follow an object). Without a name: that of a running tour,
   /// else the one chosen by a message, else the scene's first, else an overview. Errors list the existing

@@ -48,6 +48,8 @@ class Process {
   virtual bool looks() const { return false; }
   /// Puts into the scene what is to be seen `ahead_s`, less than a step, after the last step.
   virtual void present(scene::Scene&, double /*ahead_s*/) {}
+  /// Finishes what it has spread over the frames to come, for a picture that stands by itself.
+  virtual void settle(scene::Scene&) {}
   /// Does what the message to this node asks for. False where it is for another process, or for the node
   /// itself.
   virtual bool receive(scene::Scene&, const scene::Node&, const scene::Message&) { return false; }

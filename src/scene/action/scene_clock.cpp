@@ -45,6 +45,10 @@ void SceneClock::present(scene::Scene& scene, double ahead_s) {
   warn(shared_->live.refresh(scene));
 }
 
+void SceneClock::settle(scene::Scene& scene) {
+  for (Entry& entry : entries_) entry.process->settle(scene);
+}
+
 void SceneClock::deliver(scene::Scene& scene, const Delivery& delivery) {
   const scene::Node& node = *delivery.target;
   for (Entry& entry : entries_)

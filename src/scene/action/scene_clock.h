@@ -24,6 +24,9 @@ class SceneClock {
   void advance(scene::Scene& scene, double seconds, const Observer& observer = {});
   /// Shows the present moment once more, after another scenario has been chosen, say.
   void follow(scene::Scene& scene) { present(scene, due_s_); }
+  /// Finishes what processes have spread over frames to come: for pictures and films, whose frames must not
+  /// depend on those drawn before. After `advance` or `follow`.
+  void settle(scene::Scene& scene);
 
   /// A message from outside of the scene (a panel, the command line), delivered in the next step.
   Status send(const std::string& target, const std::string& message);
