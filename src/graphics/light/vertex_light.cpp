@@ -22,6 +22,9 @@ constexpr std::size_t max_places = 1'000'000;
 constexpr float wall_albedo = 0.35f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
+/// One ray of so many brings the light of what it hits, for all of them: such light is smooth, and its rays
+/// cost several times as much.
+constexpr std::size_t rays_per_bounce = 2;
 
 glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
@@ -123,8 +126,7 @@ reference::Frame turned_frame(glm::vec3 normal, std::size_t vertex) {
 /// Mean of a texture, or white where the surface has none.
 glm::vec3 mean_of(const reference::PlacedPart& place, int texture) {
   if (texture == scene::no_index) return glm::vec3(1.0f);
-  const reference::MipTexture& mips = (*place.textures)[std::size_t(texture)];
-  return glm::vec3(mips.sample(glm::vec2(0.5f), mips.size().x + mips.size().y));
+  return glm::vec3((*place.textures)[std::size_t(texture)].mean());
 }
 
 /// Mean colour that a surface which a ray hit gives back matt. A surface texture has metallic in blue
@@ -249,8 +251,8 @@ glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTabl
     packet.for_each([&](glm::vec3 direction, std::uint64_t ray, bool is_open) {
       if (is_open)
         sum += sky.radiance(direction);
-      else if (blocked == Blocked::bounces)
-        sum += bounced_radiance(scene, sky, {from, direction}, ray);
+      else if (blocked == Blocked::bounces && (ray - v) % rays_per_bounce == 0)
+        sum += float(rays_per_bounce) * bounced_radiance(scene, sky, {from, direction}, ray);
     });
   }
   return sum;

@@ -133,7 +133,7 @@ bool LightingProcess::follow_sky(const scene::Scene& scene) {
                    scene::sun_light(scene)};
   if (sky_source_ == source) return false;
   sky_source_ = std::move(source);
-  sky_.emplace(scene);
+  sky_ = std::make_unique<light::SkyTable>(scene);
   return true;
 }
 
@@ -207,6 +207,7 @@ const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& boun
                     glm::all(glm::greaterThanEqual(places_region_.max, bounds.max));
   if (fits) return *places_;
   std::vector<bool> was_visible;
+  was_visible.reserve(lit_.size());
   for (const LitObject& lit : lit_)
     was_visible.push_back(std::exchange(casters_.objects[std::size_t(lit.object())].is_visible, false));
   rays_->update(casters_);

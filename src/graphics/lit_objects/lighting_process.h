@@ -60,7 +60,7 @@ class LightingProcess final : public action::Process {
   double budget_ms_ = 0.0;
   bool is_settling_ = false;  ///< all rays at once, whatever the budget
   std::optional<SkySource> sky_source_;
-  std::optional<light::SkyTable> sky_;
+  std::unique_ptr<light::SkyTable> sky_;
   scene::Scene casters_;  ///< static things and lit objects; others come and go
   std::unique_ptr<reference::RayScene> rays_;
   std::vector<Standing> standing_;

@@ -90,6 +90,7 @@ Status SceneClock::send(const scene::Node& target, const scene::AttributeSchema&
 
 std::vector<Process*> SceneClock::processes() const {
   std::vector<Process*> all;
+  all.reserve(entries_.size());
   for (const Entry& entry : entries_) all.push_back(entry.process.get());
   return all;
 }
