@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include "base/progress.h"
@@ -30,8 +31,14 @@ void for_each_from(const Node& node, const Visit& visit) {
 
 bool is_scenario(const Node& node) { return node.schema->type == "scenario"; }
 
-/// Of a node that is to be seen, or not.
-void set_visible(Node& node, bool is_visible) { node.set("visible", is_visible); }
+/// Gives an attribute a value, and clears those that it stands in place of.
+void give(Node& node, const std::string& attribute, AttributeValue value) {
+  const std::vector<std::string>& replaced = node.schema->find(attribute)->in_place_of;
+  std::erase_if(node.attributes, [&](const NodeAttribute& each) {
+    return std::find(replaced.begin(), replaced.end(), each.schema->name) != replaced.end();
+  });
+  node.set(attribute, std::move(value));
+}
 
 }  // namespace
 
@@ -97,12 +104,11 @@ Node& LiveScene::change(const Node& node) {
 }
 
 void LiveScene::set(const Node& node, const std::string& attribute, AttributeValue value) {
-  Node& changing = change(node);
-  const std::vector<std::string>& replaced = node.schema->find(attribute)->in_place_of;
-  std::erase_if(changing.attributes, [&](const NodeAttribute& each) {
-    return std::find(replaced.begin(), replaced.end(), each.schema->name) != replaced.end();
+  std::erase_if(settings_, [&](const Setting& earlier) {
+    return earlier.node == &node && earlier.attribute == attribute;
   });
-  changing.set(attribute, std::move(value));
+  settings_.push_back({&node, attribute, value});
+  give(change(node), attribute, std::move(value));
 }
 
 const Node& LiveScene::unique_node(const std::string& type) {
@@ -130,7 +136,7 @@ Status LiveScene::hold(const Node& node, const std::string& attribute, const std
 
 bool LiveScene::receive(const Node& node, const Message& message) {
   const std::string& name = message.schema->name;
-  const auto show = [this](const Node& target, bool is_visible) { set_visible(change(target), is_visible); };
+  const auto show = [this](const Node& target, bool is_visible) { set(target, "visible", is_visible); };
   const bool can_hide = node.schema->find("visible") != nullptr;
   if (can_hide && (name == "show" || name == "hide" || name == "toggle")) {
     const Node* target =
@@ -191,6 +197,7 @@ Status LiveScene::choose(Scene& scene, const std::string& wanted) {
   if (chosen) change_by(*chosen);
   for (const auto& [node, values] : held_)
     for (const auto& [attribute, value] : values) set(*node, attribute, value);
+  settings_.clear();  // all of the scenario, or nothing
   if (Errors errors = refresh(scene); !errors.empty()) return errors;
   return Done{};
 }
@@ -246,6 +253,7 @@ Errors LiveScene::refresh(Scene& scene) {
   Errors errors;
   std::map<const Node*, std::vector<const Node*>> changed_by_builder;
   auto before = std::exchange(changed_, {});
+  const std::vector<Setting> settings = std::exchange(settings_, {});
   for (const auto& [node, attributes] : before) changed_by_builder[builder_of(*node)].push_back(node);
   for (const auto& [builder, nodes] : changed_by_builder) {
     Errors met;
@@ -257,8 +265,28 @@ Errors LiveScene::refresh(Scene& scene) {
                                "the {} is part of the node around it and stays as it is while the scene runs",
                                node->schema->type));
     }
-    if (!met.empty())
+    if (!met.empty()) {
       for (const Node* node : nodes) writable(*node).attributes = std::move(before[node]);
+      std::vector<Setting> of_nodes;
+      std::ranges::copy_if(settings, std::back_inserter(of_nodes), [&](const Setting& setting) {
+        return std::ranges::find(nodes, setting.node) != nodes.end();
+      });
+      if (builder && of_nodes.size() > 1) met = apply_singly(scene, *builder, of_nodes);
+    }
+    errors.insert(errors.end(), met.begin(), met.end());
+  }
+  return errors;
+}
+
+/// One value that cannot be built does not take with it what other messages have set at the same time.
+Errors LiveScene::apply_singly(Scene& scene, const Node& builder, const std::vector<Setting>& settings) {
+  Errors errors;
+  for (const Setting& setting : settings) {
+    Node& node = writable(*setting.node);
+    const std::vector<NodeAttribute> before = node.attributes;
+    give(node, setting.attribute, setting.value);
+    const Errors met = build_again(scene, builder);
+    if (!met.empty()) node.attributes = before;
     errors.insert(errors.end(), met.begin(), met.end());
   }
   return errors;

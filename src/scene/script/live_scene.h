@@ -64,11 +64,17 @@ class LiveScene {
   /// initial scenario. Reports all errors. Call it before the scene is rendered: it adds objects.
   Status prepare_scenarios(Scene& scene);
 
-  /// Rebuilds the nodes that changed. A node that cannot be built gets its previous attributes back and is
-  /// named in the errors.
+  /// Rebuilds the nodes that changed. Where a node cannot be built, each attribute that was set since the
+  /// last refresh and with which it cannot be gets its previous value back; the errors name the node.
   Errors refresh(Scene& scene);
 
  private:
+  struct Setting {
+    const Node* node;
+    std::string attribute;
+    AttributeValue value;
+  };
+
   Node& writable(const Node& node);
   Node& change(const Node& node);
   const Node* builder_of(const Node& node) const;
@@ -78,6 +84,7 @@ class LiveScene {
                    const std::vector<const Node*>& makers);
   NodeRange range_of(const Node& node) const;
   Errors build_again(Scene& scene, const Node& node);
+  Errors apply_singly(Scene& scene, const Node& builder, const std::vector<Setting>& settings);
   void change_by(const Node& scenario);
 
   Script script_;
@@ -85,6 +92,7 @@ class LiveScene {
   std::map<const Node*, const Node*> parents_;                 ///< of nodes that stand in others
   std::map<const Node*, std::vector<int>> objects_, cameras_;  ///< made by each node
   std::map<const Node*, std::vector<NodeAttribute>> changed_;  ///< and what they were at the last refresh
+  std::vector<Setting> settings_;  ///< since the last refresh: the last of each attribute, in their order
   std::map<Node*, std::vector<NodeAttribute>> as_written_;  ///< attributes of nodes that the scenario changed
   std::string scenario_;
   std::deque<Node> added_;  ///< beside the script's

@@ -189,6 +189,21 @@ TEST_F(SceneBuilderTest, WhatCannotBeRebuiltStaysAsItWas) {
   EXPECT_EQ(live_.find("a")->children[1].number("height"), 2.0);
 }
 
+TEST_F(SceneBuilderTest, AValueThatCannotBeBuiltLeavesTheOthersOfItsMoment) {
+  load(three);
+  const Node& fountain = *live_.find("a");
+  live_.set(fountain.children[1], "height", 7.0);
+  live_.set(fountain.children[0], "height", 0.0);
+  live_.set(fountain, "position", glm::vec3(4, 0, 0));
+  const Errors errors = live_.refresh(scene_);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].message.find("without water"), std::string::npos);
+  EXPECT_EQ(heights(), (std::vector{1.0f, 7.0f, 3.0f, 4.0f}));
+  EXPECT_EQ(fountain.children[0].number("height"), 1.0);
+  EXPECT_EQ(fountain.vec3("position"), glm::vec3(4, 0, 0));
+  EXPECT_TRUE(live_.refresh(scene_).empty()) << "nothing is left to be tried again";
+}
+
 TEST_F(SceneBuilderTest, FinishStepsSeeTheWholeSceneOnce) {
   load(three);
   EXPECT_EQ(scene_.data<WaterNeed>().metres_of_jets, 10.0f);
