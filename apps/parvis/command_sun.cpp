@@ -29,6 +29,8 @@ struct Arguments {
   double film_step_min = 5.0;
 };
 
+constexpr int max_days = 366;
+
 /// The year and the day of it.
 Result<std::pair<int, int>> read_date(const std::string& text) {
   int year = 0, month = 0, day = 0;
@@ -63,13 +65,57 @@ Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Sc
   const Result<std::pair<int, int>> to = read_date(arguments.to.empty() ? arguments.from : arguments.to);
   if (!from) return from.errors();
   if (!to) return to.errors();
-  if (from->first != to->first || from->second > to->second)
-    return error("--from {} --to {}: expected two dates of one year, the earlier first", arguments.from,
-                 arguments.to);
-  period.place.year = from->first, period.first_day = from->second, period.last_day = to->second;
+  int last_day = to->second;
+  for (int year = from->first; year < to->first; ++year) last_day += light::days_in_year(year);
+  if (from->first > to->first || from->second > last_day || last_day - from->second >= max_days)
+    return error("--from {} --to {}: expected two dates, the earlier first, with {} days at most",
+                 arguments.from, arguments.to, max_days);
+  period.place.year = from->first, period.first_day = from->second, period.last_day = last_day;
   period.place.day_of_year = from->second, period.place.time_of_day_h = 12.0;
   if (Status status = check(period.place); !status) return status.errors();
   return period;
+}
+
+/// The scene with what visitors may move at the place where the script puts it: it casts its shadow there.
+scene::Scene as_it_stands(const house::Play& play) {
+  scene::Scene scene = play.scene;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const scene::Node* maker = play.live().maker_of(scene, int(i));
+    const bool is_grabbed = maker && maker->schema->find("grab") && maker->flag("grab");
+    if (is_grabbed && scene.objects[i].played.animation == scene::no_index)
+      scene.objects[i].is_dynamic = false;
+  }
+  return scene;
+}
+
+void print_rule(const light::SunStudy& study, const light::SunPeriod& period) {
+  const light::OpenSpaceRule rule = light::open_space_rule(study);
+  if (rule.area_m2 == 0.0) {
+    fmt::print("no open ground: the rule of BRE 209 does not apply\n");
+    return;
+  }
+  const bool is_equinox =
+      period.first_day == light::day_of_year(period.place.year, 3, 21) && period.last_day == period.first_day;
+  fmt::print("open ground: {:.0f} m2, {:.1f} % of it with two hours or more{}\n", rule.area_m2,
+             100.0 * rule.share,
+             !is_equinox      ? " (BRE 209 asks for 21 March: --from 2026-03-21)"
+             : rule.is_kept() ? ": BRE 209 is kept (half of it)"
+                              : ": BRE 209 is NOT kept (it asks for half of it)");
+}
+
+/// As a clock shows them.
+std::string clock_time(double hours) {
+  const int minutes = int(std::lround(60.0 * hours) + 24 * 60) % (24 * 60);
+  return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+}
+
+void print_daylight(const light::SunPeriod& period, const std::string& date) {
+  const light::DaylightHours hours = light::daylight_hours(period.place);
+  if (hours.rise_h && hours.set_h)
+    fmt::print("{}: sunrise {}, sunset {}, at UTC{:+g}\n", date, clock_time(*hours.rise_h),
+               clock_time(*hours.set_h), period.place.time_zone_h);
+  else
+    fmt::print("{}: the sun does not {}\n", date, hours.is_polar_night() ? "rise" : "set");
 }
 
 Status study(const Arguments& arguments) {
@@ -86,22 +132,17 @@ Status study(const Arguments& arguments) {
                                  .processes = *processes};
   if (!arguments.area.empty())
     options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
-  const Result<light::SunStudy> result = light::study_sun(play->scene, options);
+  const Result<light::SunStudy> result = light::study_sun(as_it_stands(*play), options);
   if (!result) return result.errors();
   if (processes->is_first())
     if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
   processes->leave();
 
+  print_daylight(*period, arguments.from);
   fmt::print("hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
-             arguments.output.string(), arguments.is_ground_only ? "" : ", .glb");
-  const light::OpenSpaceRule rule = light::open_space_rule(*result);
-  const bool is_equinox = period->first_day == light::day_of_year(period->place.year, 3, 21) &&
-                          period->last_day == period->first_day;
-  fmt::print("open ground: {:.0f} m2, {:.1f} % of it with two hours or more{}\n", rule.area_m2,
-             100.0 * rule.share,
-             !is_equinox      ? " (BRE 209 asks for 21 March: --from 2026-03-21)"
-             : rule.is_kept() ? ": BRE 209 is kept (half of it)"
-                              : ": BRE 209 is NOT kept (it asks for half of it)");
+             arguments.output.string(),
+             result->surfaces.indices.empty() ? "" : ", .glb with its colours in _sun_hours.jpg");
+  print_rule(*result, *period);
   return Done{};
 }
 

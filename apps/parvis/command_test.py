@@ -4,6 +4,7 @@ Usage: command_test.py PARVIS [unittest's arguments]. Exit status 0 is done, 1 f
 """
 
 import base64
+import csv
 import json
 import math
 import os
@@ -359,6 +360,51 @@ class Reflections(BeforeAMirror):
         done = run("render", kitchen / "kitchen.xp", "--camera", "at the kettle", *cube_maps, *SIZE, "-o", picture)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(picture.exists())
+
+
+class HoursOfSun(BeforeAMirror):
+    """`parvis sun` over a plain."""
+
+    def study(self, *nodes, area=(-10, -10, 10, 10), options=("--from", "2026-03-21")):
+        """What is said, and the hours in the middle of the area."""
+        scene = self.write("scene.xp", "\n".join(['model(file="ground.obj")', *nodes]))
+        place = ["--place", "43.7", "7.27", "--area", *area, "--cell", "1"]
+        done = run("sun", scene, *place, *options, "-o", self.folder / "out")
+        hours = [float(row["hours"]) for row in csv.DictReader((self.folder / "out.csv").read_text().splitlines())]
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, hours[len(hours) // 2 + 10] if hours else None
+
+    def test_sunrise_and_the_files_are_named(self):
+        said, hours = self.study()
+        self.assertIn("2026-03-21: sunrise 05:3", said)
+        self.assertIn("sunset 17:4", said)
+        self.assertIn("BRE 209 is kept", said)
+        for name in [".png", ".csv", ".glb", "_sun_hours.jpg"]:
+            self.assertIn(name, said)
+            self.assertTrue((self.folder / f"out{name}").exists(), name)
+        self.assertGreater(hours, 11)
+
+    def test_what_visitors_may_move_casts_its_shadow(self):
+        self.write_quad("screen.obj", (40, -4, 0), (-40, -4, 0), (-40, -4, 30), (40, -4, 30))
+        self.assertLess(self.study('object(file="screen.obj", grab=1, wall=0)')[1], 2)
+        self.assertGreater(self.study('model(file="screen.obj", dynamic=1)')[1], 11)
+
+    def test_an_area_without_ground(self):
+        said, hours = self.study(area=(100, 100, 120, 120))
+        self.assertIn("no open ground", said)
+        self.assertNotIn("BRE 209 is", said)
+        self.assertNotIn(".glb", said)
+        self.assertIsNone(hours)
+
+    def test_a_winter(self):
+        winter = self.study(options=["--from", "2026-12-01", "--to", "2027-02-28", "--every", "15"])[1]
+        self.assertTrue(9 < winter < 10.5, winter)
+        scene = self.folder / "scene.xp"
+        for last in ["2026-11-30", "2027-12-02"]:
+            options = ["--place", "43.7", "7.27", "--from", "2026-12-01", "--to", last, "-o", self.folder / "out"]
+            done = run("sun", scene, *options)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("366 days at most", done.stderr)
 
 
 class SeveralProcesses(BeforeAMirror):

@@ -54,12 +54,12 @@ void append_finer(Mesh& result, const Mesh& mesh, float max_edge_m, glm::vec2 lo
   std::vector<std::array<std::uint32_t, 3>> left;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::array<std::uint32_t, 3> whole{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-    const glm::vec2 middle((fine.positions[whole[0]] + fine.positions[whole[1]] + fine.positions[whole[2]]) /
-                           3.0f);
-    if (middle.x < low.x || middle.y < low.y || middle.x > high.x || middle.y > high.y) continue;
     for (left.assign(1, whole); !left.empty();) {
       const std::array<std::uint32_t, 3> t = left.back();
       left.pop_back();
+      const glm::vec2 a2(fine.positions[t[0]]), b2(fine.positions[t[1]]), c2(fine.positions[t[2]]);
+      const glm::vec2 least = glm::min(a2, glm::min(b2, c2)), most = glm::max(a2, glm::max(b2, c2));
+      if (most.x < low.x || most.y < low.y || least.x > high.x || least.y > high.y) continue;
       float longest = 0.0f;
       std::size_t edge = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -67,6 +67,8 @@ void append_finer(Mesh& result, const Mesh& mesh, float max_edge_m, glm::vec2 lo
         if (length > longest) longest = length, edge = k;
       }
       if (longest <= max_edge_m) {
+        const glm::vec2 middle = (a2 + b2 + c2) / 3.0f;
+        if (middle.x < low.x || middle.y < low.y || middle.x > high.x || middle.y > high.y) continue;
         fine.indices.insert(fine.indices.end(), t.begin(), t.end());
         continue;
       }

@@ -23,6 +23,8 @@ std::vector<Day> days_of(const SunPeriod& period, double step_h, int parts) {
     const int count = std::min(period.day_step, period.last_day - first + 1);
     PlaceAndTime when = period.place;
     when.day_of_year = first + count / 2;
+    for (; when.day_of_year > days_in_year(when.year); ++when.year)
+      when.day_of_year -= days_in_year(when.year);
     Day day{.suns = {}, .counts = {}, .fine_h = step_h / parts, .days = count};
     const DaylightHours light = daylight_hours(when);
     if (light.is_polar_night()) {

@@ -77,6 +77,45 @@ TEST(SunHours, PolarNightHasNone) {
   EXPECT_EQ(sun_hours(rays, {{{0, 0, 0.02f}, {0, 0, 1}}}, winter)[0], 0.0f);
 }
 
+TEST(SunHours, ASeasonGoesOnIntoTheNextYear) {
+  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const reference::RayScene rays(scene);
+  const std::vector<SunPoint> plain{{{-20, -20, 0.02f}, {0, 0, 1}}};
+  const auto hours = [&](int year, int first_day, int last_day) {
+    return sun_hours(rays, plain, {.place = {.year = year}, .first_day = first_day, .last_day = last_day})[0];
+  };
+  const float december = hours(2026, 356, 365), january = hours(2027, 1, 30);
+  EXPECT_GT(january, december + 0.1f);
+  EXPECT_NEAR(hours(2026, 356, 395), (10.0f * december + 30.0f * january) / 40.0f, 1e-4f);
+}
+
+class Plaster final : public scene::TracedSurface {
+ public:
+  scene::TracedPoint point(const scene::TracedHit& hit) const override { return {.normal = hit.normal}; }
+};
+
+TEST(SunStudy, PhotographedSurfacesHaveHours) {
+  scene::Scene scene;
+  const auto wall = std::make_shared<Mesh>();
+  wall->positions = {{0, 0, 0}, {6, 0, 0}, {6, 0, 4}, {0, 0, 4}};
+  wall->normals.assign(4, {0, -1, 0}), wall->uvs.assign(4, {0, 0});
+  wall->indices = {0, 1, 2, 0, 2, 3};
+  scene.traced_kinds.push_back({.name = "wall",
+                                .count = [](const scene::Scene&) { return 1; },
+                                .trace =
+                                    [wall](const scene::Scene&, scene::TracedScene& traced) {
+                                      traced.add(wall, std::make_shared<Plaster>(), glm::mat4(1.0f), {});
+                                    },
+                                .is_recorded = true});
+  const SunStudyOptions options{.period = equinox, .cell_m = 1.0, .area = glm::dvec4(-3, -3, 9, 3)};
+  const Result<SunStudy> study = study_sun(scene, options);
+  ASSERT_TRUE(study) << to_string(study.errors());
+  ASSERT_FALSE(study->surfaces.positions.empty());
+  for (const glm::vec2 uv : study->surfaces.uvs) EXPECT_GT(uv.x, 0.9f) << "a wall to the south";
+  scene.traced_kinds[0].is_recorded = false;
+  EXPECT_FALSE(study_sun(scene, options)) << "leaves of trees, say";
+}
+
 TEST(SunStudy, PlanTableAndModel) {
   const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const Result<SunStudy> study =
@@ -132,13 +171,19 @@ TEST(FinerMesh, CoversTheSameArea) {
   mesh.indices = {0, 1, 2};
   Mesh fine;
   append_finer(fine, mesh, 0.5f, glm::vec2(-10), glm::vec2(10));
-  float area = 0.0f;
-  for (std::size_t i = 0; i < fine.indices.size(); i += 3) {
-    const glm::vec3 a = fine.positions[fine.indices[i]], b = fine.positions[fine.indices[i + 1]],
-                    c = fine.positions[fine.indices[i + 2]];
-    area += 0.5f * glm::cross(b - a, c - a).z;
-  }
-  EXPECT_NEAR(area, 17.5f, 1e-3f);
+  const auto area = [](const Mesh& of) {
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < of.indices.size(); i += 3) {
+      const glm::vec3 a = of.positions[of.indices[i]], b = of.positions[of.indices[i + 1]],
+                      c = of.positions[of.indices[i + 2]];
+      sum += 0.5f * glm::cross(b - a, c - a).z;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(area(fine), 17.5f, 1e-3f);
+  Mesh part;
+  append_finer(part, mesh, 0.1f, glm::vec2(5, 0.1f), glm::vec2(6, 0.6f));
+  EXPECT_NEAR(area(part), 0.5f, 0.04f) << "of a triangle whose middle lies outside";
   Mesh outside;
   append_finer(outside, mesh, 0.5f, glm::vec2(20), glm::vec2(30));
   EXPECT_TRUE(outside.positions.empty());

@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
+#include "scene/data/traced_scene.h"
 
 namespace parvis::light {
 namespace {
@@ -22,22 +26,45 @@ constexpr float ground_rise_m = 2.5f;  // what lies higher above the lowest surf
 constexpr double ground_reach_m = 20.0;
 constexpr int scale_px = 12;
 
-/// Parts that stand still and are seen: what has hours of sun. Leaves cast shadows, but have none.
-template <class Visit>
-void for_each_surface(const scene::Scene& scene, Visit&& visit) {
+using VisitMesh = std::function<void(const Mesh& mesh, const glm::mat4& world_from_mesh)>;
+
+/// Opaque meshes of what a room draws by itself.
+class OpaqueThings final : public scene::TracedScene {
+ public:
+  explicit OpaqueThings(const VisitMesh& visit) : visit_(visit) {}
+
+  void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
+           const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
+    if (placing.is_visible && !placing.is_dynamic && surface->alpha_mode() == scene::Alpha::opaque)
+      visit_(*mesh, world_from_mesh);
+  }
+  void add(std::shared_ptr<const scene::Model> /*model*/, const glm::mat4& /*world_from_model*/,
+           const scene::TracedPlacing& /*placing*/) override {}
+
+ private:
+  const VisitMesh& visit_;
+};
+
+/// Parts that stand still and are seen, and photographed surfaces: what has hours of sun. Leaves cast
+/// shadows, but have none.
+void for_each_surface(const scene::Scene& scene, const VisitMesh& visit) {
   for (const scene::Object& object : scene.objects) {
     if (object.is_dynamic || !object.is_visible) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts)
       if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
-        visit(part, object.world_from_model * pose[std::size_t(part.node)]);
+        visit(part.mesh, object.world_from_model * pose[std::size_t(part.node)]);
   }
+  OpaqueThings photographed(visit);
+  scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int /*first_thing*/) {
+    if (kind.is_recorded) kind.trace(scene, photographed);
+  });
 }
 
 Bounds bounds_of(const scene::Scene& scene) {
   Bounds bounds;
-  for_each_surface(scene, [&](const scene::Part& part, const glm::mat4& world_from_mesh) {
-    bounds.add(transformed(world_from_mesh, part.mesh.bounds()));
+  for_each_surface(scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+    bounds.add(transformed(world_from_mesh, mesh.bounds()));
   });
   return bounds;
 }
@@ -117,13 +144,13 @@ Status gather_surfaces(const scene::Scene& scene, const SunStudyOptions& options
   const glm::vec2 low(study.corner),
       high = low + glm::vec2(study.cell_m * glm::dvec2(study.columns, study.rows));
   std::size_t refused = 0;
-  for_each_surface(scene, [&](const scene::Part& part, const glm::mat4& world_from_mesh) {
-    const Bounds bounds = transformed(world_from_mesh, part.mesh.bounds());
+  for_each_surface(scene, [&](const Mesh& source, const glm::mat4& world_from_mesh) {
+    const Bounds bounds = transformed(world_from_mesh, source.bounds());
     const bool is_inside =
         bounds.max.x > low.x && bounds.min.x < high.x && bounds.max.y > low.y && bounds.min.y < high.y;
     if (!is_inside || refused != 0) return;
     Mesh mesh;
-    append(mesh, part.mesh, world_from_mesh);
+    append(mesh, source, world_from_mesh);
     append_finer(study.surfaces, mesh, float(options.cell_m), low, high);
     if (study.surfaces.positions.size() > max_vertices) refused = study.surfaces.positions.size();
   });
@@ -155,7 +182,7 @@ std::vector<float> divided_hours(const reference::RayScene& rays, const std::vec
 Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options) {
   const Bounds bounds = bounds_of(scene);
   if (bounds.min.x > bounds.max.x)
-    return error("the scene has nothing that stands still: there is no ground to study");
+    return error("the scene has nothing that stands still: there is nothing to study");
   Result<SunStudy> made = laid_out(bounds, options);
   if (!made) return made;
   SunStudy& study = *made;

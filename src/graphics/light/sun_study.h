@@ -64,7 +64,8 @@ OpenSpaceRule open_space_rule(const SunStudy& study);
 glm::vec3 hours_colour(double share);
 
 /// PREFIX.png (the plan, north up, one pixel per cell and a scale of hours below), PREFIX.csv (x, y, z, kind,
-/// hours of each cell) and PREFIX.glb (ground and facades in the same colours).
+/// hours of each cell) and, of a study that has surfaces, PREFIX.glb (ground and facades in the same colours,
+/// which PREFIX_sun_hours.jpg beside it holds).
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study);
 
 }  // namespace parvis::light
