@@ -84,9 +84,8 @@ void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
   parallel_for(
       study.cells.size(),
       [&](std::size_t i) {
-        const double column = double(i % std::size_t(study.columns)),
-                     row = double(i / std::size_t(study.columns));
-        const glm::dvec2 at = study.corner + study.cell_m * glm::dvec2(column + 0.5, row + 0.5);
+        const std::size_t row = i / std::size_t(study.columns), column = i % std::size_t(study.columns);
+        const glm::dvec2 at = study.corner + study.cell_m * (glm::dvec2(double(column), double(row)) + 0.5);
         const auto surface = surface_below(rays, {float(at.x), float(at.y), top + 1.0f});
         if (surface) study.cells[i] = {GroundCell::Kind::built, *surface, 0.0f};
       },
@@ -112,6 +111,7 @@ void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
     return result;
   };
   std::vector<float> heights;
+  heights.reserve(study.cells.size());
   for (const GroundCell& cell : study.cells)
     heights.push_back(cell.kind == GroundCell::Kind::nothing ? 1e30f : cell.position.z);
   const std::vector<float> around = lowest(lowest(heights, 1, 0), 0, 1);
@@ -195,6 +195,7 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
     if (Status status = gather_surfaces(scene, options, study); !status) return status.errors();
 
   std::vector<SunPoint> points;
+  points.reserve(study.cells.size() + study.surfaces.positions.size() + 1);
   for (const GroundCell& cell : study.cells)
     points.push_back({cell.position + glm::vec3(0, 0, lift_m), {0, 0, 1}});
   for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i)

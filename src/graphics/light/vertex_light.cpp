@@ -163,15 +163,14 @@ glm::vec3 from_below(glm::vec3 normal, const SkyTable& sky, Blocked blocked) {
 }
 
 /// Of a lamp in the sun's place: as bright at any distance, within its cone.
-glm::vec3 spot_light(const reference::RayScene& scene, const SkyTable& sky, const LitVertex& vertex,
-                     glm::vec3 from, std::size_t v) {
-  const glm::vec3 away = sky.spot()->position - from;
+glm::vec3 spot_light(const reference::RayScene& scene, const SkyTable& sky, const scene::Spot& spot,
+                     const LitVertex& vertex, glm::vec3 from, std::size_t v) {
+  const glm::vec3 away = spot.position - from;
   const float distance = glm::length(away);
   if (distance < lift_m) return glm::vec3(0.0f);
   const glm::vec3 direction = away / distance;
-  const float facing =
-      glm::dot(direction, vertex.normal) *
-      shading::spot_share(glm::dot(direction, sky.to_sun()), std::cos(sky.spot()->half_angle));
+  const float facing = glm::dot(direction, vertex.normal) *
+                       shading::spot_share(glm::dot(direction, sky.to_sun()), std::cos(spot.half_angle));
   reference::Passage passage{Random(v)};
   if (facing <= 0.0f || scene.is_blocked({from, direction, 1e-4f, distance}, passage)) return glm::vec3(0.0f);
   return facing * sky.sun_irradiance();
@@ -196,7 +195,8 @@ SkyTable::SkyTable(const scene::Scene& scene)
 void SkyTable::fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance) {
   texels_.resize(std::size_t(side) * side);
   const auto direction_of = [](std::size_t i) {
-    const glm::vec2 uv = (glm::vec2(float(int(i) % side), float(int(i) / side)) + 0.5f) / float(side);
+    const int row = int(i) / side, column = int(i) % side;
+    const glm::vec2 uv = (glm::vec2(float(column), float(row)) + 0.5f) / float(side);
     return shading::octahedral_direction(uv);
   };
   parallel_for(
@@ -223,7 +223,7 @@ glm::vec3 SkyTable::irradiance(glm::vec3 normal) const {
 glm::vec3 SkyTable::radiance(glm::vec3 direction) const {
   const glm::vec2 at = shading::octahedral_uv(direction) * float(side);
   const int x = std::clamp(int(at.x), 0, side - 1), y = std::clamp(int(at.y), 0, side - 1);
-  return texels_[std::size_t(y * side + x)];
+  return texels_[std::size_t(y) * side + std::size_t(x)];
 }
 
 VertexLight::VertexLight(std::vector<LitVertex> vertices) { restart(std::move(vertices)); }
@@ -262,7 +262,8 @@ glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTabl
                                  std::span<const glm::vec2> disc) const {
   const LitVertex& vertex = vertices_[v];
   const glm::vec3 from = lifted(vertex);
-  if (sky.spot()) return float(disc.size()) * spot_light(scene, sky, vertex, from, v);
+  if (const auto& spot = sky.spot())
+    return float(disc.size()) * spot_light(scene, sky, *spot, vertex, from, v);
   const reference::Frame frame = turned_frame(sky.to_sun(), v);
   glm::vec3 sum(0.0f);
   Packet packet(scene, from);
@@ -370,8 +371,8 @@ std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& ver
           sum += shares[k] * std::max(glm::dot(VisibilityPlaces::directions()[k], vertices[v].normal), 0.0f) *
                  radiance[k];
         result[v] = 6.2831853f / 64.0f * sum + from_below(vertices[v].normal, sky, blocked);
-        if (sky.spot()) {
-          result[v] += spot_light(scene, sky, vertices[v], lifted(vertices[v]), v);
+        if (const auto& spot = sky.spot()) {
+          result[v] += spot_light(scene, sky, *spot, vertices[v], lifted(vertices[v]), v);
           return;
         }
         const float facing = glm::dot(sky.to_sun(), vertices[v].normal);
