@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <iterator>
 #include <numeric>
 #include <unordered_set>
+#include <utility>
 
 #include "graphics/reference/ray_query.h"
 #include "scene/data/mip_levels.h"
@@ -75,6 +77,14 @@ float reach_of(const scene::Scene& scene) {
   }
   scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int) { kind.trace(scene, reach); });
   return reach.value();
+}
+
+/// Neither has moved to become the other.
+bool stand_alike(const PlacedPart& one, const PlacedPart& other) {
+  if (one.is_traced != other.is_traced) return false;
+  return !one.is_traced ||
+         (one.world_from_mesh == other.world_from_mesh && one.casts_shadow == other.casts_shadow &&
+          one.mesh->positions == other.mesh->positions && one.mesh->indices == other.mesh->indices);
 }
 
 }  // namespace
@@ -157,35 +167,62 @@ void RayScene::trace_things(const scene::Scene& scene) {
 }
 
 /// Traced things are described as a whole for each picture: only their meshes may be those of the last one.
-void RayScene::forget_things() {
+std::vector<std::unique_ptr<PlacedPart>> RayScene::forget_things() {
   for (std::size_t i = object_places_; i < places_.size(); ++i) {
     triangle_count_ -= places_[i]->mesh->triangle_count();
     rtcDetachGeometry(top_, instance_of(i));
   }
+  std::vector<std::unique_ptr<PlacedPart>> things(
+      std::make_move_iterator(places_.begin() + std::ptrdiff_t(object_places_)),
+      std::make_move_iterator(places_.end()));
   places_.resize(object_places_);
+  return things;
+}
+
+void RayScene::trace_things_again(const scene::Scene& scene) {
+  const std::vector<std::shared_ptr<const void>> last = std::exchange(kept_, {});
+  const std::vector<std::unique_ptr<PlacedPart>> before = forget_things();
+  trace_things(scene);
+  forget_meshes_but_those_placed();
+  const std::size_t after = places_.size() - object_places_;
+  for (std::size_t i = 0; i < std::max(before.size(), after); ++i) {
+    const PlacedPart* was = i < before.size() ? before[i].get() : nullptr;
+    const PlacedPart* is = i < after ? places_[object_places_ + i].get() : nullptr;
+    if (was && is && stand_alike(*was, *is)) continue;
+    for (const PlacedPart* place : {was, is})
+      if (place && place->is_traced) moved_.push_back(place->bounds);
+  }
 }
 
 bool RayScene::update(const scene::Scene& scene) {
   bool has_changed = false;
+  moved_.clear();
   std::size_t next = 0;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    Bounds before, after;  // of the parts that have moved
     for (std::size_t p = 0; p < object.model->parts.size(); ++p, ++next) {
       const Mesh& mesh = object.mesh(p);
-      has_changed |=
+      const PlacedPart& place = *places_[next];
+      const bool was_traced = place.is_traced;
+      const Bounds last = place.bounds;
+      bool has_moved =
           move(next, mesh, object.world_from_model * pose[std::size_t(object.model->parts[p].node)],
                object.is_visible);
-      if (&mesh == &object.model->parts[p].mesh || !places_[next]->is_traced) continue;
-      deform(next);
+      if (&mesh != &object.model->parts[p].mesh && place.is_traced) {
+        deform(next);
+        has_moved = true;
+      }
+      if (!has_moved) continue;
       has_changed = true;
+      if (was_traced) before.add(last);
+      if (place.is_traced) after.add(place.bounds);
     }
+    for (const Bounds& box : {before, after})
+      if (!box.empty()) moved_.push_back(box);
   }
   if (!scene.traced_kinds.empty()) {
-    std::vector<std::shared_ptr<const void>> last = std::move(kept_);
-    kept_.clear();
-    forget_things();
-    trace_things(scene);
-    forget_meshes_but_those_placed();
+    trace_things_again(scene);
     has_changed |= places_.size() > object_places_;  // they may have moved
   }
   if (has_changed) commit();
@@ -276,6 +313,7 @@ void RayScene::join(std::size_t place) {
   PlacedPart& part = *places_[place];
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
   part.is_joined = part.is_traced = true, part.is_mirrored = false;
+  part.bounds = transformed(part.world_from_mesh, part.mesh->bounds());
   const RTCGeometry geometry =
       triangles(*part.mesh, part.world_from_mesh, margin_m_, margin_m_ > 0.0f || has_filter(part));
   rtcAttachGeometryByID(joined_, geometry, unsigned(place));
@@ -306,6 +344,7 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   }
   part.mesh = &mesh;
   part.world_from_mesh = world_from_mesh;
+  part.bounds = transformed(world_from_mesh, mesh.bounds());
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
   part.is_mirrored = volume_of(world_from_mesh) < 0.0f;
   rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh));
@@ -382,6 +421,7 @@ void RayScene::set_corners(const Mesh& mesh, const glm::mat4& transform, float m
 void RayScene::deform(std::size_t place) {
   const Mesh& mesh = *places_[place]->mesh;
   const glm::mat4& world_from_mesh = places_[place]->world_from_mesh;
+  places_[place]->bounds = transformed(world_from_mesh, mesh.bounds());
   const RTCScene scene = mesh_scene(mesh, world_from_mesh);
   const RTCGeometry geometry = rtcGetGeometry(scene, 0);
   auto* const corners =

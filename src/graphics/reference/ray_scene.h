@@ -47,6 +47,7 @@ struct PlacedPart {
   bool is_mirrored;          ///< the transform turns right into left, and with it the winding of triangles
   bool is_traced;            ///< else rays pass it: it is hidden, empty, or flattened by its transform
   bool is_joined = false;    ///< its triangles are in the hierarchy of static meshes, in the world
+  Bounds bounds = {};        ///< in the world, as it was last placed or deformed
 };
 
 /// Nearest intersection of a ray. `place` belongs to the RayScene.
@@ -96,6 +97,9 @@ class RayScene {
   /// deformed. The objects and their models must be those of the scene that this was made of.
   /// True where anything has changed.
   bool update(const scene::Scene& scene);
+  /// Boxes about what moved, appeared, vanished or was deformed at the last update: of each object or traced
+  /// part one before and one after it.
+  std::span<const Bounds> moved() const { return moved_; }
 
   /// The nearest surface that the renderer would draw along the ray; none: the sky.
   std::optional<Hit> nearest_hit(const Ray& ray) const;
@@ -132,7 +136,8 @@ class RayScene {
   void commit();
   bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
   void trace_things(const scene::Scene& scene);
-  void forget_things();
+  void trace_things_again(const scene::Scene& scene);
+  std::vector<std::unique_ptr<PlacedPart>> forget_things();
   void forget_meshes_but_those_placed();
   void join(std::size_t place);
   void leave_joined(std::size_t place);
@@ -155,6 +160,7 @@ class RayScene {
   std::unordered_map<const Mesh*, RTCSceneTy*> mesh_scenes_;
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
+  std::vector<Bounds> moved_;
   std::size_t triangle_count_ = 0;
   float margin_m_ = 0.0f;  ///< by which triangles are grown; 0: Precision::coarse
 };

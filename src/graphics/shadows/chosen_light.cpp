@@ -10,6 +10,9 @@ using light::ShadowTechnique;
 constexpr float min_sun_height =
     0.02f;  // sine; below it shadows are longer than any place, and maps degenerate
 
+/// Of more boxes about what has moved a view starts over: to ask each pixel about them takes longer.
+constexpr std::size_t max_moved = 1024;
+
 /// The method of shadow_fit.h, for those that fit maps.
 light::ShadowMethod fitted_by(ShadowTechnique technique) {
   switch (technique) {
@@ -63,8 +66,13 @@ void ChosenShadows::follow(const scene::Scene& scene) {
     followed_ = std::make_unique<reference::RayScene>(
         scene, is_exact() ? reference::Precision::fine : reference::Precision::coarse);
     ++scene_version_;
-  } else if (followed_->update(scene)) {
-    ++scene_version_;
+  } else {
+    followed_->update(scene);
+    moved_.insert(moved_.end(), followed_->moved().begin(), followed_->moved().end());
+    if (moved_.size() > max_moved) {
+      ++scene_version_;
+      moved_.clear();
+    }
   }
   has_new_fixed_ = false;
 }
@@ -82,7 +90,8 @@ void ChosenShadows::update(const Camera& camera, const scene::SunLight& sun, std
 
 render::TracedSun ChosenShadows::trace_view(const Camera& camera, int width, int height) {
   if (!is_exact()) return 0;
-  traced_.trace(*followed_, scene_version_, sun_, camera, width, height, settings_.sun_samples);
+  traced_.trace(*followed_, scene_version_, moved_, sun_, camera, width, height, settings_.sun_samples);
+  moved_.clear();
   return traced_.upload();
 }
 

@@ -42,6 +42,7 @@ class ChosenShadows final : public render::ShadowMethod {
   std::unique_ptr<reference::RayScene> followed_;  ///< null where the method needs no rays
   bool has_new_fixed_ = false;
   std::uint64_t scene_version_ = 0;
+  std::vector<Bounds> moved_;  ///< since the view was traced
   TracedSun traced_;
 };
 
