@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/content_hash.h"
 #include "base/image.h"
+#include "base/result.h"
 #include "graphics/light/day_light_time.h"
 #include "graphics/light/sky_model.h"
 #include "scene/data/room_data.h"
@@ -20,7 +22,8 @@ struct DayLight {
   /// What it makes, sun and sky, is hashed where it is kept.
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
-  bool is_given = false;  ///< the scene has a node dayLight
+  bool is_given = false;                  ///< the scene has a node dayLight
+  std::optional<FileLocation> dome_node;  ///< the node skyDome
   PlaceAndTime when;
   Air air;
   SkyKind kind = SkyKind::atmosphere;

@@ -74,6 +74,29 @@ TEST(DayLightNode, SaysWhatIsWrong) {
   EXPECT_NE(message("skyDome(texture=\"no_such.hdr\")"), "");
 }
 
+TEST(DayLightNode, ReplacesSunAndSkyWhateverTheirOrder) {
+  const TestFolder folder;
+  const auto alone = load(folder, "dayLight()");
+  ASSERT_TRUE(alone) << to_string(alone.errors());
+  for (const char* others : {"sun()\nsky()\ndayLight()", "dayLight()\nsun()\nsky(intensity=3)"}) {
+    const auto loaded = load(folder, others);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    EXPECT_EQ(loaded->scene.sun, alone->scene.sun) << others;
+    EXPECT_EQ(loaded->scene.sky.file, alone->scene.sky.file) << others;
+    EXPECT_EQ(loaded->scene.sky.intensity, 1.0f) << others;
+  }
+}
+
+TEST(DayLightNode, ASkyDomeWithoutItIsRefused) {
+  const TestFolder folder;
+  for (const char* script : {"skyDome()", "sun()\nsky()\nskyDome()"}) {
+    const auto loaded = load(folder, script);
+    ASSERT_FALSE(loaded) << script;
+    EXPECT_NE(loaded.errors().front().message.find("add dayLight"), std::string::npos) << script;
+  }
+  EXPECT_TRUE(load(folder, "skyDome()\ndayLight()"));
+}
+
 TEST(DayLightNode, PolarNightIsDarkAndNoError) {
   const TestFolder folder;
   const auto loaded = load(folder, "dayLight(latitude=78.2, longitude=15.6, julianDay=355, timeOfDay=12)");

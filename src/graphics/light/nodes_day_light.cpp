@@ -93,6 +93,7 @@ scene::NodeSchema sky_dome_schema() {
 
 void build_sky_dome(const scene::Node& node, scene::SceneBuilder& builder) {
   DayLight& day = builder.scene.data<DayLight>();
+  day.dome_node = node.where;
   day.dome_heading = node.angle("heading_deg");
   const std::filesystem::path file = node.file("texture");
   if (file.empty()) {
@@ -111,11 +112,21 @@ void build_sky_dome(const scene::Node& node, scene::SceneBuilder& builder) {
   relight(node, builder);
 }
 
+/// Whatever their order in the script: a sky that nothing would show is an error.
+void check_sky_dome(scene::SceneBuilder& builder) {
+  const DayLight& day = builder.scene.data<DayLight>();
+  if (!day.is_given && day.dome_node)
+    builder.fail(error_at(*day.dome_node,
+                          "skyDome lies over the sky of dayLight: add dayLight(...), or take sky(file=...) "
+                          "for a photograph by itself"));
+}
+
 }  // namespace
 
 void add_day_light_nodes(scene::NodeRegistry& registry) {
   registry.add(day_light_schema(), build_day_light);
   registry.add(sky_dome_schema(), build_sky_dome);
+  registry.add_finish_step(check_sky_dome);
 }
 
 }  // namespace parvis::light

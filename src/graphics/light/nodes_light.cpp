@@ -21,7 +21,9 @@ using namespace attribute;
 
 NodeSchema sun_schema() {
   return {.type = "sun",
-          .help = "Sunlight; where to find the sun is given as a direction or as azimuth and elevation.",
+          .help =
+              "Sunlight; where to find the sun is given as a direction or as azimuth and elevation. "
+              "dayLight replaces it.",
           .attributes = {vec3("direction", "points to the sun; any length")
                              .by_default("0.45 -0.55 0.70")
                              .replacing({"azimuth_deg", "elevation_deg"})
@@ -60,6 +62,7 @@ void build_sun(const Node& node, SceneBuilder& builder) {
                                         : node.vec3("direction");
   if (glm::length(direction) < 1e-6f)
     return builder.fail(error_at(node.where_of("direction"), "the sun's direction has no length"));
+  if (builder.scene.data<light::DayLight>().is_given) return;
   light::set_sun(builder.scene, {glm::normalize(direction), node.vec3("irradiance")});
 }
 
@@ -67,7 +70,8 @@ NodeSchema sky_schema() {
   return {
       .type = "sky",
       .help =
-          "A picture of the whole sky: background and ambient light. Without a file the sky is plain blue.",
+          "A picture of the whole sky: background and ambient light. Without a file the sky is plain blue. "
+          "dayLight replaces it.",
       .attributes = {file("file", "equirectangular picture, twice as wide as high (.hdr, .exr)"),
                      number("intensity", "multiplies the picture").between(0, 1e6).by_default("1").live(),
                      angle("heading_deg",
@@ -80,6 +84,7 @@ NodeSchema sky_schema() {
 }
 
 void build_sky(const Node& node, SceneBuilder& builder) {
+  if (builder.scene.data<light::DayLight>().is_given) return;
   Sky& sky = builder.scene.sky;
   sky.intensity = float(node.number("intensity"));
   sky.heading = node.angle("heading_deg");

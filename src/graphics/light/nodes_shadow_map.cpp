@@ -37,19 +37,20 @@ scene::NodeSchema shadow_map_schema() {
           {choice("method",
                   "cached_cascades: two maps about the viewer, kept from frame to frame; cascades: four, "
                   "fitted to the view; perspective: the thesis's; light_space_perspective: its successor; "
-                  "rays: exact, with the sun's disc where nothing moves",
+                  "rays: exact, with the sun's disc where nothing has moved",
                   {shadow_technique_names.begin(), shadow_technique_names.end()})
                .by_default(shadow_technique_names[0])
                .live(),
-           reference(
-               "casters",
-               "of what the script places, these models and groups alone cast shadows; without it all do",
-               {"group", "model"})
+           reference("casters",
+                     "of models and objects, these and those of these groups alone cast shadows; without it "
+                     "all do. "
+                     "Trees, plants and what photographs show always cast them",
+                     {"group", "model", "object"})
                .repeatable(),
            reference("receivers",
                      "these alone receive them; without it all do. What photographs show has shadow_strength "
                      "for that",
-                     {"group", "model"})
+                     {"group", "model", "object"})
                .repeatable(),
            flag("updateNear",
                 "fitted maps begin at the nearest surface in view, not at the camera's near plane")
@@ -123,7 +124,7 @@ void choose(scene::SceneBuilder& builder, const std::vector<std::pair<std::strin
   for (const auto& [group, where] : groups) {
     const std::vector<int> objects = builder.objects_of(group);
     if (objects.empty())
-      builder.fail(error_at(where, "\"{}\" holds no model that could {} a shadow", group, role));
+      builder.fail(error_at(where, "\"{}\" holds no model or object that could {} a shadow", group, role));
     for (const int object : objects) refuses[std::size_t(object)] = false;
   }
 }

@@ -15,25 +15,26 @@ namespace {
 using namespace scene::attribute;
 
 scene::NodeSchema sun_path_schema() {
-  return {.type = "sunPath",
-          .help =
-              "Where the sun goes over a day, as an arc about a point with a bead at each full hour of the "
-              "clock: "
-              "of the place of dayLight, which stands before it.",
-          .attributes = {text("name", "by which other nodes refer to it"),
-                         integer("julianDay", "of the year; 0: 21 December, 21 March and 21 June together")
-                             .between(0, 366)
-                             .by_default("0")
-                             .live(),
-                         vec3("position", "of the point from which the sun is seen there")
-                             .in("m")
-                             .by_default("0 0 0")
-                             .live(),
-                         number("radius", "of the arcs").in("m").between(0.1, 10'000).by_default("40").live(),
-                         scene::visible_attribute()},
-          .example =
-              "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1)\n"
-              "sunPath(position=\"0 0 1.6\", radius=30)"};
+  return {
+      .type = "sunPath",
+      .help =
+          "Where the sun goes over a day, as an arc about a point with a bead at each full hour of the "
+          "clock: "
+          "of the place and the year of dayLight, which stands before it; messages to that do not move it.",
+      .attributes = {text("name", "by which other nodes refer to it"),
+                     integer("julianDay", "of the year; 0: 21 December, 21 March and 21 June together")
+                         .between(0, 366)
+                         .by_default("0")
+                         .live(),
+                     vec3("position", "of the point from which the sun is seen there")
+                         .in("m")
+                         .by_default("0 0 0")
+                         .live(),
+                     number("radius", "of the arcs").in("m").between(0.1, 10'000).by_default("40").live(),
+                     scene::visible_attribute()},
+      .example =
+          "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1)\n"
+          "sunPath(position=\"0 0 1.6\", radius=30)"};
 }
 
 void build_sun_path(const scene::Node& node, scene::SceneBuilder& builder) {
