@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/progress.h"
 #include "commands.h"
@@ -22,7 +23,8 @@ struct Arguments {
   SceneArguments scene;
   std::string from, to;
   std::vector<double> place, area;
-  double cell_m = 2.0, time_zone_h = 0.0;
+  std::optional<double> clock_h;
+  double cell_m = 2.0;
   int every = 1;
   bool is_ground_only = false;
   std::filesystem::path output, film;
@@ -44,12 +46,12 @@ Result<std::pair<int, int>> read_date(const std::string& text) {
   return std::pair{year, light::day_of_year(year, month, day)};
 }
 
-/// The place of the scene's dayLight, or --place with the hours of its time zone.
+/// The place of the scene's dayLight, or --place with its clock: by default that of the sun in whole hours.
 light::PlaceAndTime read_place(const Arguments& arguments, const light::DayLight& day) {
   light::PlaceAndTime place = day.when;
   if (arguments.place.empty()) return place;
   place.latitude_deg = arguments.place[0], place.longitude_deg = arguments.place[1];
-  place.time_zone_h = std::round(place.longitude_deg / 15.0);
+  place.time_zone_h = arguments.clock_h.value_or(std::round(place.longitude_deg / 15.0));
   return place;
 }
 
@@ -139,9 +141,10 @@ Status study(const Arguments& arguments) {
   processes->leave();
 
   print_daylight(*period, arguments.from);
-  fmt::print("hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
-             arguments.output.string(),
-             result->surfaces.indices.empty() ? "" : ", .glb with its colours in _sun_hours.jpg");
+  fmt::print(
+      "hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
+      arguments.output.string(),
+      result->surfaces.indices.empty() ? "" : ", _facades.csv, .glb with its colours in _sun_hours.jpg");
   print_rule(*result, *period);
   return Done{};
 }
@@ -217,10 +220,15 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(1, 366))
       ->capture_default_str();
   command
-      ->add_option(
-          "--place", arguments->place,
-          "Latitude and longitude (east positive) in place of the scene's, with the hours of its time zone")
+      ->add_option("--place", arguments->place,
+                   "Latitude and longitude (east positive) in place of the scene's")
       ->expected(2);
+  command
+      ->add_option("--clock", arguments->clock_h,
+                   "Hours by which the clock of --place is ahead of universal time (default: longitude / 15, "
+                   "in whole hours)")
+      ->check(CLI::Range(-12.0, 14.0))
+      ->needs("--place");
   command
       ->add_option("--area", arguments->area, "x and y of two corners in metres (default: the whole scene)")
       ->expected(4);

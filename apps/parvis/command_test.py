@@ -379,10 +379,15 @@ class HoursOfSun(BeforeAMirror):
         self.assertIn("2026-03-21: sunrise 05:3", said)
         self.assertIn("sunset 17:4", said)
         self.assertIn("BRE 209 is kept", said)
-        for name in [".png", ".csv", ".glb", "_sun_hours.jpg"]:
+        for name in [".png", ".csv", "_facades.csv", ".glb", "_sun_hours.jpg"]:
             self.assertIn(name, said)
             self.assertTrue((self.folder / f"out{name}").exists(), name)
         self.assertGreater(hours, 11)
+
+    def test_the_clock_of_a_place(self):
+        said, _ = self.study(options=["--from", "2026-03-21", "--clock", "1"])
+        self.assertIn("sunrise 06:3", said)
+        self.assertIn("UTC+1", said)
 
     def test_what_visitors_may_move_casts_its_shadow(self):
         self.write_quad("screen.obj", (40, -4, 0), (-40, -4, 0), (-40, -4, 30), (40, -4, 30))
@@ -395,6 +400,16 @@ class HoursOfSun(BeforeAMirror):
         self.assertNotIn("BRE 209 is", said)
         self.assertNotIn(".glb", said)
         self.assertIsNone(hours)
+
+    def test_a_facade_that_faces_north_sees_no_sun(self):
+        self.write_quad("south.obj", (-6, 0, 0), (6, 0, 0), (6, 0, 8), (-6, 0, 8))
+        self.write_quad("north.obj", (6, 1, 0), (-6, 1, 0), (-6, 1, 8), (6, 1, 8))
+        self.study('model(file="south.obj")', 'model(file="north.obj")')
+        rows = list(csv.DictReader((self.folder / "out_facades.csv").read_text().splitlines()))
+        south = [float(row["hours"]) for row in rows if float(row["normal_y"]) < -0.9]
+        north = [float(row["hours"]) for row in rows if float(row["normal_y"]) > 0.9]
+        self.assertGreater(min(south), 9)
+        self.assertLess(max(north), 1)
 
     def test_a_winter(self):
         winter = self.study(options=["--from", "2026-12-01", "--to", "2027-02-28", "--every", "15"])[1]

@@ -206,8 +206,9 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
   const std::vector<float> hours = divided_hours(rays, points, options);
   study.max_hours = std::max(double(hours.back()), 1e-3);
   for (std::size_t i = 0; i < study.cells.size(); ++i) study.cells[i].hours = hours[i];
+  study.surface_hours.assign(hours.begin() + std::ptrdiff_t(study.cells.size()), hours.end() - 1);
   for (std::size_t i = 0; i < study.surfaces.uvs.size(); ++i)
-    study.surfaces.uvs[i] = {0.002f + 0.996f * hours[study.cells.size() + i] / float(study.max_hours), 0.5f};
+    study.surfaces.uvs[i] = {0.002f + 0.996f * study.surface_hours[i] / float(study.max_hours), 0.5f};
   return made;
 }
 
@@ -271,6 +272,19 @@ Status write_model(const std::filesystem::path& file, const SunStudy& study) {
   return scene::write_gltf(file, model);
 }
 
+/// What stands upright; the plan has the rest.
+std::string facade_table(const SunStudy& study) {
+  constexpr float steep = 0.7f;  // sine of 45 degrees
+  std::string table = "x_m,y_m,z_m,normal_x,normal_y,normal_z,hours\n";
+  for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i) {
+    const glm::vec3 at = study.surfaces.positions[i], normal = study.surfaces.normals[i];
+    if (std::abs(normal.z) < steep)
+      table += fmt::format("{:.2f},{:.2f},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f}\n", at.x, at.y, at.z, normal.x,
+                           normal.y, normal.z, study.surface_hours[i]);
+  }
+  return table;
+}
+
 }  // namespace
 
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study) {
@@ -284,6 +298,7 @@ Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& stud
                       cell.kind == GroundCell::Kind::ground ? "ground" : "built", cell.hours);
   if (Status status = write_file(with(".csv"), table); !status) return status;
   if (study.surfaces.indices.empty()) return Done{};
+  if (Status status = write_file(with("_facades.csv"), facade_table(study)); !status) return status;
   return write_model(with(".glb"), study);
 }
 

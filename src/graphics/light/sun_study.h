@@ -49,6 +49,7 @@ struct SunStudy {
   double cell_m = 0.0, max_hours = 0.0;  ///< what an open plain has
   std::vector<GroundCell> cells;         ///< row 0 is the southernmost
   Mesh surfaces;                         ///< uv.x is the hours' share of `max_hours`
+  std::vector<float> surface_hours;      ///< of each of their vertices
   std::size_t rays_from = 0;             ///< points that rays start from
 };
 
@@ -64,8 +65,9 @@ OpenSpaceRule open_space_rule(const SunStudy& study);
 glm::vec3 hours_colour(double share);
 
 /// PREFIX.png (the plan, north up, one pixel per cell and a scale of hours below), PREFIX.csv (x, y, z, kind,
-/// hours of each cell) and, of a study that has surfaces, PREFIX.glb (ground and facades in the same colours,
-/// which PREFIX_sun_hours.jpg beside it holds).
+/// hours of each cell) and, of a study that has surfaces, PREFIX_facades.csv (position, normal and hours of
+/// each vertex of what stands upright) and PREFIX.glb (ground and facades in the same colours, which
+/// PREFIX_sun_hours.jpg beside it holds).
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study);
 
 }  // namespace parvis::light
