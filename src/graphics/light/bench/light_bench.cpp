@@ -93,19 +93,22 @@ Status count_negatives(const BenchSetup& setup, Report& report) {
     return !(seen.x >= 0.0f && seen.y >= 0.0f && seen.z >= 0.0f && std::isfinite(seen.x + seen.y + seen.z));
   };
   const int directions = setup.is_quick ? 400 : 4000;
+  const auto look = [&](SkyKind kind, const light::Air& air, double elevation) -> Status {
+    const auto sky = light::make_sky(kind, air, sun_at(elevation));
+    if (!sky) return sky.errors();
+    for (int i = 0; i < directions; ++i) {
+      const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(directions), turn = 2.39996323f * float(i);
+      const float across = std::sqrt(1.0f - z * z);
+      const glm::vec3 seen = (*sky)->sky_radiance_xyz({across * std::cos(turn), across * std::sin(turn), z});
+      ++samples, negative += is_bad(seen), negative_less += is_bad(seen - less);
+    }
+    return Done{};
+  };
   for (const double turbidity : {1.0, 1.1, 2.0, 3.0, 6.0, 11.5, 20.0, 64.0})
-    for (const double elevation : {-90.0, -18.0, -8.0, -4.0, -1.0, 0.0, 1.0, 5.0, 20.0, 60.0, 90.0})
-      for (const SkyKind kind : {SkyKind::atmosphere, SkyKind::preetham}) {
-        const auto sky = light::make_sky(kind, light::Air{turbidity}, sun_at(elevation));
-        if (!sky) return sky.errors();
-        for (int i = 0; i < directions; ++i) {
-          const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(directions), turn = 2.39996323f * float(i);
-          const float across = std::sqrt(1.0f - z * z);
-          const glm::vec3 seen =
-              (*sky)->sky_radiance_xyz({across * std::cos(turn), across * std::sin(turn), z});
-          ++samples, negative += is_bad(seen), negative_less += is_bad(seen - less);
-        }
-      }
+    for (const double albedo : {0.0, 0.2, 1.0})
+      for (const double elevation : {-90.0, -18.0, -8.0, -4.0, -1.0, 0.0, 1.0, 5.0, 20.0, 60.0, 90.0})
+        for (const SkyKind kind : {SkyKind::atmosphere, SkyKind::preetham})
+          if (Status status = look(kind, {turbidity, albedo}, elevation); !status) return status;
   report.add("sky_negative_samples", double(negative), up_to(0.0));
   report.add("sky_negative_samples_0.07_cd_less", double(negative_less));
   report.note(

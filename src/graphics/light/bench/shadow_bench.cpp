@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "graphics/light/bench/double_tracer.h"
+#include "graphics/light/bench/street_camera.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/render/frame_views.h"
@@ -168,15 +169,6 @@ struct Wrong {
   double percent() const { return pixels > 0 ? 100.0 * double(wrong) / double(pixels) : std::nan(""); }
 };
 
-Camera street_camera(const scene::Scene& city, int number, Random& random) {
-  Camera camera = city.cameras[std::size_t(number) % std::min<std::size_t>(city.cameras.size(), 5)].camera;
-  const float turn = random.uniform(0.0f, 6.2831853f);
-  const glm::vec3 eye =
-      camera.position_in_world() + glm::vec3(random.uniform(-2.0f, 2.0f), random.uniform(-2.0f, 2.0f), 0.0f);
-  camera.world_from_camera = look_at(eye, eye + glm::vec3(std::cos(turn), std::sin(turn), -0.05f));
-  return camera;
-}
-
 glm::vec3 any_sun(Random& random) {
   const float e = random.uniform(0.2f, 1.2f), a = random.uniform(0.0f, 6.2831853f);
   return glm::normalize(glm::vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
@@ -185,7 +177,7 @@ glm::vec3 any_sun(Random& random) {
 /// The renderer's own pixels of method rays, before the picture.
 Shares traced_shares(const reference::RayScene& rays, const scene::SunLight& sun, const Camera& camera) {
   shadows::TracedSun traced;
-  traced.trace(rays, 1, sun, camera, width, height, 1);
+  traced.trace(rays, 1, {}, sun, camera, width, height, 1);
   Shares shares(std::size_t(width) * height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -271,7 +263,7 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
   if (!drawn) return drawn.errors();
   const reference::RayScene rays(still, reference::Precision::fine);
   Camera camera = city.cameras.front().camera;
-  std::vector<double> rays_ms, maps_ms;
+  std::vector<double> rays_ms, maps_ms, control_ms;
   std::array<double, 2> cpu_ms{};  // of all cores, per picture: other programs on the machine leave it alone
   constexpr int pictures = 5;
   const auto cpu_of = [](const auto& body) {
@@ -281,16 +273,26 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
   };
   shadows::TracedSun traced;
   scene::SunLight sun = scene::sun_light(still);
-  traced.trace(rays, 1, sun, camera, 1280, 720, 1);
+  traced.trace(rays, 1, {}, sun, camera, 1280, 720, 1);
   for (int i = 0; i < pictures; ++i) {
     camera.world_from_camera[3] += glm::vec4(0.0f, 0.01f, 0.0f, 0.0f);
-    cpu_ms[0] += cpu_of(
-        [&] { rays_ms.push_back(milliseconds([&] { traced.trace(rays, 1, sun, camera, 1280, 720, 1); })); });
+    cpu_ms[0] += cpu_of([&] {
+      rays_ms.push_back(milliseconds([&] { traced.trace(rays, 1, {}, sun, camera, 1280, 720, 1); }));
+    });
+    // The control traces four times as many pixels.
+    shadows::TracedSun larger;
+    control_ms.push_back(milliseconds([&] { larger.trace(rays, 1, {}, sun, camera, 2560, 1440, 1); }));
     (*drawn)->set_sun(glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(i), 0.7f)));
     cpu_ms[1] += cpu_of([&] { maps_ms.push_back((*drawn)->beginning_ms(camera)); });
   }
   report.add("shadow_rays_over_depth_pass_time", median(rays_ms).value / median(maps_ms).value, up_to(0.5));
+  report.add("shadow_rays_over_depth_pass_time_control_of_4_times_the_pixels",
+             median(control_ms).value / median(maps_ms).value);
   report.add("shadow_rays_over_depth_pass_cpu_time", cpu_ms[0] / cpu_ms[1]);
+  const auto in_shade =
+      std::ranges::count_if(traced.pixels(), [](glm::vec2 pixel) { return pixel.x < 0.5f; });
+  report.note(fmt::format("the timed view: {:.1f} % of its pixels are in shade or face away from the sun",
+                          100.0 * double(in_shade) / double(traced.pixels().size())));
   report.note(
       fmt::format("rays {:.0f} ms ({:.0f} of all cores), both maps of cached_cascades after a new sun {:.0f} "
                   "ms ({:.0f}), "
