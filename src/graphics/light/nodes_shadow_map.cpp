@@ -1,6 +1,7 @@
 #include "graphics/light/nodes_shadow_map.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -121,7 +122,9 @@ void choose(scene::SceneBuilder& builder, const std::vector<std::pair<std::strin
             const char* role, std::vector<bool>& refuses) {
   if (groups.empty()) return;
   refuses.assign(builder.scene.objects.size(), true);
+  std::set<std::string> chosen;
   for (const auto& [group, where] : groups) {
+    if (!chosen.insert(group).second) continue;
     const std::vector<int> objects = builder.objects_of(group);
     if (objects.empty())
       builder.fail(error_at(where, "\"{}\" holds no model or object that could {} a shadow", group, role));

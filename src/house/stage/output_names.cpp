@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/content_hash.h"
@@ -44,10 +45,11 @@ std::vector<fs::path> series_files(const fs::path& output, char joint,
       parts[i] = names[i];
     else
       others.push_back(i);
+  std::map<std::string, int> numbers;  // the last that a part has
   for (const std::size_t i : others) {
     const std::string part = parts[i] = file_part(names[i]);
-    for (int number = 2; !taken.insert(parts[i]).second; ++number)
-      parts[i] = fmt::format("{}-{}", part, number);
+    int& number = numbers.try_emplace(part, 1).first->second;
+    while (!taken.insert(parts[i]).second) parts[i] = fmt::format("{}-{}", part, ++number);
   }
   std::vector<fs::path> files;
   files.reserve(parts.size());

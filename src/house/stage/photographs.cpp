@@ -19,47 +19,53 @@ namespace fs = std::filesystem;
 constexpr int max_cameras_of_circle = 1000;
 constexpr int points_across = 48;  // of the grid of points that a COLMAP model gets from each picture
 
-/// The files of the cameras' pictures.
-std::vector<fs::path> files_of(const fs::path& file, const PhotographJob& job) {
-  if (job.cameras.size() == 1) return {file};
-  std::vector<std::string> names;
-  names.reserve(job.cameras.size());
-  for (const scene::NamedCamera& camera : job.cameras) names.push_back(camera.name);
-  return series_files(file, '_', names);
-}
+/// The files of the cameras' pictures, one per camera in each list; none where none were asked for.
+struct Outputs {
+  explicit Outputs(const PhotographJob& job) {
+    std::vector<std::string> names;
+    names.reserve(job.cameras.size());
+    for (const scene::NamedCamera& camera : job.cameras) names.push_back(camera.name);
+    const auto files_of = [&](const fs::path& file) {
+      return file.empty() || names.size() == 1 ? std::vector<fs::path>(file.empty() ? 0 : 1, file)
+                                               : series_files(file, '_', names);
+    };
+    for (const fs::path& picture : job.pictures) pictures.push_back(files_of(picture));
+    depth = files_of(job.depth), alpha = files_of(job.alpha);
+  }
+  fs::path checkpoint(std::size_t camera) const {
+    return file_beside(pictures.front()[camera], ".checkpoint");
+  }
 
-fs::path checkpoint_of(std::size_t camera, const PhotographJob& job) {
-  return file_beside(files_of(job.pictures.front(), job)[camera], ".checkpoint");
-}
+  std::vector<std::vector<fs::path>> pictures;
+  std::vector<fs::path> depth, alpha;
+};
 
 bool is_linear(const fs::path& file) { return file.extension() == ".exr" || file.extension() == ".hdr"; }
 
 Status write_photograph(const reference::Photograph& photograph, const Image8& display, std::size_t camera,
-                        const PhotographJob& job) {
-  for (const fs::path& picture : job.pictures) {
-    const fs::path file = files_of(picture, job)[camera];
+                        const Outputs& outputs) {
+  for (const std::vector<fs::path>& files : outputs.pictures) {
+    const fs::path& file = files[camera];
     Status status = is_linear(file) ? write_image(file, photograph.radiance) : write_image(file, display);
     if (!status) return status;
   }
-  if (!job.depth.empty())
-    if (Status status = write_image(files_of(job.depth, job)[camera], photograph.depth_m); !status)
-      return status;
-  if (!job.alpha.empty()) return write_image(files_of(job.alpha, job)[camera], photograph.alpha);
+  if (!outputs.depth.empty())
+    if (Status status = write_image(outputs.depth[camera], photograph.depth_m); !status) return status;
+  if (!outputs.alpha.empty()) return write_image(outputs.alpha[camera], photograph.alpha);
   return Done{};
 }
 
-Status check(const PhotographJob& job) {
-  if (job.cameras.empty()) return error("the scene has no camera to photograph with");
+Status check(const PhotographJob& job, const Outputs& outputs) {
   if (!job.depth.empty() && !is_linear(job.depth))
     return error("--depth {}: expected a file in float, .exr", job.depth.string());
-  std::set<fs::path> files;
-  for (const std::vector<fs::path>& given : {job.pictures, {job.depth}, {job.alpha}})
-    for (const fs::path& output : given)
-      if (!output.empty())
-        for (const fs::path& file : files_of(output, job))
-          if (!files.insert(file.lexically_normal()).second)
-            return error("{}: two of the pictures would have this file; give each a name of its own",
-                         file.string());
+  std::set<fs::path> known;
+  std::vector<std::vector<fs::path>> all = outputs.pictures;
+  all.push_back(outputs.depth), all.push_back(outputs.alpha);
+  for (const std::vector<fs::path>& files : all)
+    for (const fs::path& file : files)
+      if (!known.insert(file.lexically_normal()).second)
+        return error("{}: two of the pictures would have this file; give each a name of its own",
+                     file.string());
   return Done{};
 }
 
@@ -91,7 +97,9 @@ Result<std::vector<scene::NamedCamera>> circle_of_cameras(glm::vec3 target, floa
 }
 
 Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
-  if (Status status = check(job); !status) return status;
+  if (job.cameras.empty()) return error("the scene has no camera to photograph with");
+  const Outputs outputs(job);
+  if (Status status = check(job, outputs); !status) return status;
   const reference::RayScene rays(scene);
   const shading::SkyLight sky =
       shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
@@ -100,19 +108,20 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
   for (std::size_t camera = 0; camera < job.cameras.size(); ++camera) {
     const scene::NamedCamera& named = job.cameras[camera];
     reference::PhotographOptions options = job.options;
-    options.checkpoint = checkpoint_of(camera, job);
+    options.checkpoint = outputs.checkpoint(camera);
     options.progress = fmt::format("photograph {}/{}, tiles", taken.size() + 1, job.cameras.size());
     const Result<reference::Photograph> photograph =
         reference::take_photograph(rays, scene, sky, named.camera, job.width, job.height, options);
     if (!photograph) return photograph.errors();
     if (!options.processes.is_first()) continue;
     displays.push_back(shading::tone_mapped_picture(photograph->radiance, scene.exposure));
-    if (Status status = write_photograph(*photograph, displays.back(), camera, job); !status) return status;
+    if (Status status = write_photograph(*photograph, displays.back(), camera, outputs); !status)
+      return status;
     const double millions = 1e-6 * double(photograph->rays);
     fmt::print("{}: {:.1f} million rays in {:.1f} s, {:.2f} million per second\n", named.name, millions,
                photograph->seconds, millions / photograph->seconds);
-    taken.push_back({files_of(job.pictures.front(), job)[camera].filename().string(), named.camera, job.width,
-                     job.height});
+    taken.push_back(
+        {outputs.pictures.front()[camera].filename().string(), named.camera, job.width, job.height});
   }
   if (!job.options.processes.is_first()) return Done{};
   if (!job.colmap_folder.empty()) {
@@ -123,7 +132,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
     if (Status status = scene::write_gltf_cameras(job.gltf_cameras, taken); !status) return status;
   std::error_code ignored;
   for (std::size_t camera = 0; camera < job.cameras.size(); ++camera)
-    fs::remove(checkpoint_of(camera, job), ignored);
+    fs::remove(outputs.checkpoint(camera), ignored);
   return Done{};
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "base/joined_triangles.h"
@@ -79,31 +81,51 @@ bool encloses(const Mesh& mesh, glm::vec3 point) {
   return std::abs(half_angle) > pi;
 }
 
-/// Joins the surfaces of cavities to the bodies of the same glass that they are in.
-void join_cavities(std::vector<GlassPiece>& found) {
+double volume_of(const Bounds& bounds) {
+  const glm::dvec3 size(bounds.size());
+  return size.x * size.y * size.z;
+}
+
+/// The surfaces of one body: the outermost, and how many are around this one.
+struct Nesting {
+  std::size_t outermost;
+  int depth = 0;
+};
+
+/// Surfaces do not cross: what is around the nearest one around a surface is around that one, too. So each
+/// asks for the nearest alone, and many surfaces in one another are soon sorted out.
+std::vector<Nesting> nested(const std::vector<GlassPiece>& found) {
   std::vector<Bounds> bounds;
   bounds.reserve(found.size());
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
+  std::vector<std::size_t> by_size(found.size());
+  std::iota(by_size.begin(), by_size.end(), std::size_t(0));
+  std::ranges::stable_sort(by_size, std::ranges::greater(),
+                           [&](std::size_t i) { return volume_of(bounds[i]); });
   const auto surrounds = [&](std::size_t i, std::size_t inner) {
     return found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
            encloses(found[i].mesh, found[inner].mesh.positions.front());
   };
-  std::vector<std::size_t> outermost(found.size());
-  std::vector<int> depth(found.size());
-  for (std::size_t inner = 0; inner < found.size(); ++inner) {
-    outermost[inner] = inner;
-    for (std::size_t i = 0; found[inner].is_closed && i < found.size(); ++i) {
-      if (!surrounds(i, inner)) continue;
-      ++depth[inner];
-      if (contains(bounds[i], bounds[outermost[inner]])) outermost[inner] = i;
-    }
+  std::vector<Nesting> nestings(found.size());
+  for (std::size_t n = 0; n < by_size.size(); ++n) {
+    const std::size_t inner = by_size[n];
+    nestings[inner].outermost = inner;
+    for (std::size_t k = n; found[inner].is_closed && k-- > 0;)
+      if (surrounds(by_size[k], inner)) {
+        nestings[inner] = {nestings[by_size[k]].outermost, nestings[by_size[k]].depth + 1};
+        break;
+      }
   }
+  return nestings;
+}
+
+/// Joins the surfaces of cavities to the bodies of the same glass that they are in.
+void join_cavities(std::vector<GlassPiece>& found) {
+  const std::vector<Nesting> nestings = nested(found);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (outermost[i] == i) continue;
-    std::size_t outer = outermost[i];
-    while (outermost[outer] != outer) outer = outermost[outer];
-    GlassPiece& body = found[outer];
-    body.volume += depth[i] % 2 == 1 ? -found[i].volume : found[i].volume;
+    if (nestings[i].outermost == i) continue;
+    GlassPiece& body = found[nestings[i].outermost];
+    body.volume += nestings[i].depth % 2 == 1 ? -found[i].volume : found[i].volume;
     append(body.mesh, found[i].mesh);
     for (const auto& [part, triangles] : found[i].triangles)
       for (const std::uint32_t triangle : triangles) body.triangles[part].push_back(triangle);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace parvis::scene {
 namespace {
 
@@ -33,6 +35,40 @@ TEST(OneWayStreets, TheOnlyWayToAPlaceStaysOpenBothWays) {
   EXPECT_TRUE(roads[2].is_one_way);
   EXPECT_FALSE(roads[3].is_one_way) << "who drives to its end must come back";
   EXPECT_FLOAT_EQ(roads[3].lane_width_m, car_lane_m);
+}
+
+/// Places that can be reached from the start of the first road.
+std::size_t reached_places(const std::vector<Road>& roads) {
+  std::vector<glm::vec3> reached{roads.front().path.front()};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const Road& road : roads)
+      for (const bool is_back : {false, true}) {
+        if (is_back && road.is_one_way) continue;
+        const glm::vec3 from = is_back ? road.path.back() : road.path.front(),
+                        to = is_back ? road.path.front() : road.path.back();
+        if (from == reached[i] && std::ranges::find(reached, to) == reached.end()) reached.push_back(to);
+      }
+  return reached.size();
+}
+
+TEST(OneWayStreets, InAGridOfThemOneStillGetsEverywhere) {
+  constexpr int side = 12;
+  const auto place = [](int x, int y) { return glm::vec3(float(50 * x), float(50 * y), 0.0f); };
+  std::vector<Road> roads;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      if (x > 0) roads.push_back(street(place(x - 1, y), place(x, y), 1.2f));
+      if (y > 0) roads.push_back(street(place(x, y - 1), place(x, y), 1.2f));
+    }
+  roads.push_back(street(place(3, 0), {150, -80, 0}, 1.2f));
+  make_narrow_streets_one_way(roads, car_lane_m);
+  const auto one_way = std::ranges::count_if(roads, &Road::is_one_way);
+  EXPECT_GT(one_way, std::ptrdiff_t(roads.size() / 2));
+  EXPECT_FALSE(roads.back().is_one_way) << "a dead end";
+  for (int i = 0; i < side; ++i) {
+    EXPECT_EQ(reached_places(roads), std::size_t(side * side + 1));
+    std::ranges::rotate(roads, roads.begin() + std::ptrdiff_t(roads.size() / side));
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "scene/roads/segment_finder.h"
+
 namespace parvis::scene {
 
 namespace {
@@ -134,17 +136,21 @@ class Meetings {
     std::vector<Segment> segments = segments_of(paths_);
     const auto west = [](const Segment& s) { return std::min(s.a.x, s.b.x); };
     std::ranges::stable_sort(segments, {}, west);
+    std::vector<PlanBox> boxes;
+    boxes.reserve(segments.size());
+    for (const Segment& s : segments)
+      boxes.push_back({glm::min(glm::vec2(s.a), glm::vec2(s.b)), glm::max(glm::vec2(s.a), glm::vec2(s.b))});
+    const SegmentFinder finder(boxes);
     const float widest = widest_m();
+    std::vector<std::size_t> near;
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment& s = segments[i];
-      for (std::size_t j = i + 1; j < segments.size() && !lies_along_[s.road]; ++j) {
+      if (lies_along_[s.road]) continue;
+      finder.find({boxes[i].min - widest, boxes[i].max + widest}, i, near);
+      for (const std::size_t j : near) {
+        if (lies_along_[s.road]) break;
         const Segment& t = segments[j];
-        if (lies_along_[t.road]) continue;
-        const float reach = snap_m(s, t);
-        if (west(t) > std::max(s.a.x, s.b.x) + widest) break;
-        if (std::min(s.a.y, s.b.y) - reach > std::max(t.a.y, t.b.y)) continue;
-        if (std::min(t.a.y, t.b.y) - reach > std::max(s.a.y, s.b.y)) continue;
-        look_at(s, t);
+        if (!lies_along_[t.road] && comes_near(boxes[i], boxes[j], snap_m(s, t))) look_at(s, t);
       }
     }
     if (!errors_.empty()) return std::move(errors_);
@@ -152,6 +158,10 @@ class Meetings {
   }
 
  private:
+  /// From north to south; from east to west the finder has looked.
+  static bool comes_near(const PlanBox& a, const PlanBox& b, float reach_m) {
+    return a.min.y - reach_m <= b.max.y && b.min.y - reach_m <= a.max.y;
+  }
   float snap_m(const Segment& s, const Segment& t) const {
     return std::max(half_width_m(roads_[s.road]), half_width_m(roads_[t.road]));
   }

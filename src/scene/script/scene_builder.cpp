@@ -1,8 +1,8 @@
 #include "scene/script/scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "base/camera_check.h"
 #include "scene/script/performer_file.h"
@@ -77,17 +77,27 @@ int SceneBuilder::maker_number(std::size_t object) const {
 }
 
 std::vector<int> SceneBuilder::objects_of(const std::string& name) const {
-  std::set<const Node*> makers;
+  if (named_.nodes != frames_.size() || named_.objects != object_makers_.size()) named_ = name_makers();
+  std::vector<int> objects;
   const std::function<void(const Node&)> add_from = [&](const Node& node) {
-    makers.insert(&node);
+    if (const auto made = named_.made_by.find(&node); made != named_.made_by.end())
+      objects.insert(objects.end(), made->second.begin(), made->second.end());
     for (const Node& inside : node.children) add_from(inside);
   };
-  for (const auto& [node, frame] : frames_)
-    if (node->schema->find("name") && node->gives("name") && node->text("name") == name) add_from(*node);
-  std::vector<int> objects;
-  for (std::size_t i = 0; i < object_makers_.size(); ++i)
-    if (makers.contains(object_makers_[i])) objects.push_back(int(i));
+  const auto [first, last] = named_.of_name.equal_range(name);
+  for (auto named = first; named != last; ++named) add_from(*named->second);
+  std::ranges::sort(objects);
+  objects.erase(std::ranges::unique(objects).begin(), objects.end());
   return objects;
+}
+
+SceneBuilder::Makers SceneBuilder::name_makers() const {
+  Makers makers;
+  makers.nodes = frames_.size(), makers.objects = object_makers_.size();
+  for (const auto& [node, frame] : frames_)
+    if (node->schema->find("name") && node->gives("name")) makers.of_name.emplace(node->text("name"), node);
+  for (std::size_t i = 0; i < object_makers_.size(); ++i) makers.made_by[object_makers_[i]].push_back(int(i));
+  return makers;
 }
 
 Script SceneBuilder::take_script() && {

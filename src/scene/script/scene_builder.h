@@ -121,7 +121,15 @@ class SceneBuilder {
   Script take_script() &&;
 
  private:
+  /// Which objects the nodes have made, and which nodes have a name: asked for once, not per name.
+  struct Makers {
+    std::size_t nodes = 0, objects = 0;  ///< of which this is known
+    std::unordered_multimap<std::string, const Node*> of_name;
+    std::unordered_map<const Node*, std::vector<int>> made_by;
+  };
+
   void build_one(const Node& node);
+  Makers name_makers() const;
   int maker_number(std::size_t object) const;
   template <SceneItem T>
   void add_made_by(int maker, std::vector<T> items) {
@@ -138,6 +146,7 @@ class SceneBuilder {
   std::unordered_map<const Node*, NodeFrame> frames_;
   std::vector<const Node*> object_makers_, camera_makers_;
   SharedModels models_;
+  mutable Makers named_;
   const std::unordered_map<const Node*, NodeFrame>* known_frames_ = nullptr;  ///< of a scene that is rebuilt
   Errors errors_, warnings_;
 };
