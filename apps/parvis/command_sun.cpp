@@ -82,6 +82,7 @@ Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Sc
 scene::Scene as_it_stands(const house::Play& play) {
   scene::Scene scene = play.scene;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!scene.objects[i].is_dynamic) continue;
     const scene::Node* maker = play.live().maker_of(scene, int(i));
     const bool is_grabbed = maker && maker->schema->find("grab") && maker->flag("grab");
     if (is_grabbed && scene.objects[i].played.animation == scene::no_index)

@@ -768,6 +768,20 @@ class Hostile(InAFolder):
             self.assertTrue(done.stderr, arguments)
             self.assertEqual(self.files(), ["m.obj", "scene.xp"])
 
+    def test_a_film_that_is_ended_leaves_nothing(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("skipped: no ffmpeg here")
+        for wait in [0.0, 0.05, 0.1]:
+            film = subprocess.Popen([PARVIS, "render", self.scene, *SIZE, "--seconds", "100", "-o", self.folder / "out.mp4"],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while film.poll() is None and not any(name.startswith(".partial") for name in self.files()):
+                time.sleep(0.01)
+            time.sleep(wait)
+            film.send_signal(signal.SIGHUP)  # to the program alone, not to ffmpeg
+            film.wait()
+            time.sleep(0.3)
+            self.assertFalse([name for name in self.files() if name.startswith(".partial")], wait)
+
     def test_a_material_library_outside_is_not_opened(self):
         outside = self.folder.parent / (self.folder.name + "-outside.mtl")
         outside.write_text("newmtl m\nKd 0.123 0.456 0.789\n")

@@ -91,8 +91,9 @@ Status synthesize(SynthesizeArguments arguments) {
     return status;
   if (arguments.held_out == 0) return Done{};
   arguments.capture.seed += 76;
-  return write(arguments.folder / "held_out",
-               trees::held_out_cameras(bounds, arguments.held_out, arguments.seed + 4),
+  const Result<std::filesystem::path> held_out = path_inside(arguments.folder, "held_out");
+  if (!held_out) return held_out.errors();
+  return write(*held_out, trees::held_out_cameras(bounds, arguments.held_out, arguments.seed + 4),
                arguments.name + "_held_out");
 }
 
@@ -145,6 +146,11 @@ Status mattes(const MatteArguments& arguments) {
     return error("--zones {}: there is no such folder", arguments.zones.string());
   std::filesystem::create_directories(arguments.output, code);
   if (code) return error("{}: the folder cannot be made: {}", arguments.output.string(), code.message());
+  std::map<std::filesystem::path, std::filesystem::path> file_of;
+  for (const std::filesystem::path& file : files)
+    if (const auto [known, is_new] = file_of.try_emplace(file.stem(), file); !is_new)
+      return error("{} and {} would have the same matte; rename one of them", known->second.string(),
+                   file.string());
   Progress progress("mattes", files.size());
   Errors problems;
   for (const std::filesystem::path& file : files) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/path_inside.h"
 #include "capture/photographs/panorama.h"
 #include "capture/photographs/set_file.h"
 #include "capture/photographs/stitch.h"
@@ -25,8 +26,11 @@ Result<photographs::PhotographSet> faces_of(const Arguments& arguments, const st
     return photographs::split_panorama(arguments.panorama, pictures, position, arguments.heading_deg);
   const std::filesystem::path source = arguments.panorama.lexically_normal();
   const std::string name = (source.has_filename() ? source : source.parent_path()).filename().string();
-  Result<photographs::StitchedSpot> spot = photographs::stitch(source, arguments.folder / "stitching" / name,
-                                                               name, position, arguments.heading_deg);
+  const Result<std::filesystem::path> work =
+      path_inside(arguments.folder, std::filesystem::path("stitching") / name);
+  if (!work) return work.errors();
+  Result<photographs::StitchedSpot> spot =
+      photographs::stitch(source, *work, name, position, arguments.heading_deg);
   if (!spot) return spot.errors();
   fmt::print(stderr, "{}", to_string(spot->problems));
   fmt::print("{} photographs stitched: focal length {:.0f} pixels, error {:.2f} pixels\n", spot->used,
@@ -36,6 +40,9 @@ Result<photographs::PhotographSet> faces_of(const Arguments& arguments, const st
 
 /// Writes the faces, and adds them to the photographs that the folder holds: a place has several panoramas.
 Status add_panorama(const Arguments& arguments) {
+  for (const char* name : {"faces", "masks", "stitching"})
+    if (const Result<std::filesystem::path> inside = path_inside(arguments.folder, name); !inside)
+      return inside.errors();
   const std::filesystem::path pictures = arguments.folder / "faces";
   const glm::dvec3 position(arguments.position[0], arguments.position[1], arguments.position[2]);
   photographs::PhotographSet set;

@@ -143,16 +143,24 @@ bool is_abandoned(const fs::path& path) {
   return is_free;
 }
 
-/// Removes what a program that was killed has left in a folder, of names with this front and back and
-/// `random` characters between them. Errors are ignored: it is only in the way.
-void remove_abandoned(const fs::path& folder, std::string_view front, std::size_t random,
-                      std::string_view back) {
+constexpr std::size_t random_digits = 8;
+
+/// Whether `name` is one of those that make_listed gives: "original" in place of the digits is somebody's
+/// own.
+bool is_made_name(std::string_view name, std::string_view front, std::string_view back) {
+  return name.starts_with(front) && name.ends_with(back) &&
+         name.size() == front.size() + random_digits + back.size() &&
+         name.substr(front.size(), random_digits).find_first_not_of("0123456789abcdef") ==
+             std::string_view::npos;
+}
+
+/// Removes what a program that was killed has left in a folder, of names with this front and back and random
+/// digits between them. Errors are ignored: it is only in the way.
+void remove_abandoned(const fs::path& folder, std::string_view front, std::string_view back) {
   std::error_code code;
   std::vector<fs::path> left;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, code))
-    if (const std::string name = entry.path().filename().string();
-        name.starts_with(front) && name.ends_with(back) &&
-        name.size() == front.size() + random + back.size() && is_abandoned(entry.path()))
+    if (is_made_name(entry.path().filename().string(), front, back) && is_abandoned(entry.path()))
       left.push_back(entry.path());
   for (const fs::path& path : left) fs::remove_all(path, code);
 }
@@ -169,8 +177,6 @@ struct Made {
   fs::path path;
   int slot = -1, lock = -1;
 };
-
-constexpr std::size_t random_digits = 8;
 
 /// Makes something whose name is `front`, random digits and `back`. It is listed before it is there, for a
 /// signal between the two would leave it. `make` says its descriptor, or -1 and why in errno. No path where
@@ -209,7 +215,7 @@ Made make_partial(const fs::path& file) {
   const std::size_t around = front.size() + random_digits + 1 + extension.size();
   if (around > max_name) return {};
   stem.resize(std::min(stem.size(), max_name - around));
-  remove_abandoned(file.parent_path(), front, random_digits, "-" + stem + extension);
+  remove_abandoned(file.parent_path(), front, "-" + stem + extension);
   return make_listed(file.parent_path(), front, "-" + stem + extension, [](const char* path) {
     return open(path, O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
   });
@@ -312,7 +318,7 @@ Status PartialFile::keep() {
 
 Result<PartialFolder> PartialFolder::create(const fs::path& folder) {
   const std::string front = ".unfinished-";
-  remove_abandoned(folder, front, random_digits, "");
+  remove_abandoned(folder, front, "");
   Made made = make_listed(folder, front, "", [](const char* path) {
     if (mkdir(path, 0744) != 0) return -1;
     const int lock = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);

@@ -35,6 +35,11 @@ Result<photographs::PhotographSet> written_cameras(const fs::path& written) {
   return photographs::photograph_set_of(*model, written).set;
 }
 
+/// Where a picture is kept until it is written in both places: whoever is stopped between has edited nothing.
+fs::path next_file(const fs::path& written, const std::string& photograph) {
+  return psd_file(written / "next", photograph);
+}
+
 /// Pictures that somebody saved after they were written.
 std::vector<std::string> edited_photographs(const fs::path& folder) {
   std::vector<std::string> names;
@@ -45,7 +50,9 @@ std::vector<std::string> edited_photographs(const fs::path& folder) {
   if (!set) return names;
   for (const photographs::Photograph& photo : set->photographs) {
     const fs::path now = psd_file(folder / "layers", photo.name), then = psd_file(written, photo.name);
-    if (fs::exists(now, code) && fs::exists(then, code) && !are_equal(now, then)) names.push_back(photo.name);
+    if (fs::exists(now, code) && fs::exists(then, code) && !are_equal(now, then) &&
+        !are_equal(now, next_file(written, photo.name)))
+      names.push_back(photo.name);
   }
   return names;
 }
@@ -158,9 +165,27 @@ Status check_files(const PlaceSource& source) {
   for (const photographs::Photograph& photo : source.photographs)
     for (const fs::path& file :
          {psd_file("layers", photo.name), psd_file(fs::path("layers") / "written", photo.name),
-          edits_file("", photo.name)})
+          next_file(fs::path("layers") / "written", photo.name), edits_file("", photo.name)})
       if (const Result<fs::path> inside = path_inside(source.folder, file); !inside) return inside.errors();
   return Done{};
+}
+
+/// Changes that were not collected, because they could not be read, are not written over.
+Status check_collected(const PlaceSource& source, const PlaceLayers& place) {
+  Errors errors;
+  std::error_code code;
+  for (const std::string& name : place.names) {
+    const fs::path now = psd_file(source.folder / "layers", name),
+                   then = psd_file(source.folder / "layers" / "written", name);
+    if (fs::exists(now, code) && !are_equal(now, then) &&
+        !are_equal(now, next_file(source.folder / "layers" / "written", name)))
+      errors.push_back(
+          error("{}: somebody has changed it, and the changes could not be taken over; save it as a PSD of "
+                "8-bit RGB "
+                "with its layers, or move it elsewhere to have it written again",
+                now.string()));
+  }
+  return errors.empty() ? Status(Done{}) : Status(errors);
 }
 
 void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -183,6 +208,7 @@ Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& s
 }
 
 Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& place) {
+  if (Status status = check_collected(source, place); !status) return status;
   const fs::path folder = source.folder / "layers", written = folder / "written";
   Progress progress("writing layered pictures", place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
@@ -194,8 +220,11 @@ Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& plac
     const PsdPicture psd =
         layered_picture(*picture, place.layered[i], chosen_pixels(place.filled[i], place.originals[i]),
                         item_buffer(place.model, place.views[i]).depths);
-    if (Status status = write_psd(psd_file(folder, place.names[i]), psd); !status) return status;
-    if (Status status = write_psd(psd_file(written, place.names[i]), psd); !status) return status;
+    const fs::path next = next_file(written, place.names[i]);
+    for (const fs::path& file : {next, psd_file(folder, place.names[i]), psd_file(written, place.names[i])})
+      if (Status status = write_psd(file, psd); !status) return status;
+    std::error_code code;
+    fs::remove(next, code);
     progress.advance();
   }
   photographs::PhotographSet set;

@@ -101,6 +101,10 @@ TEST(PlaceEdits, APictureThatCannotBeReadIsNamedAndLeftAsItIs) {
   EXPECT_NE(to_string(made.warnings).find("0001.psd"), std::string::npos) << to_string(made.warnings);
   EXPECT_EQ(*read_file(place.psd()), broken);
   EXPECT_EQ(made.names.size(), 4u) << "the rest goes on";
+  const Status status = write_layered_pictures(place.source, made);
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find("0001.psd"), std::string::npos) << to_string(status.errors());
+  EXPECT_EQ(*read_file(place.psd()), broken) << "somebody's work is not written over";
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <map>
 #include <sstream>
 
+#include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/photographs/picture.h"
 #include "capture/photographs/picture_header.h"
@@ -53,19 +55,28 @@ Image8 cropped(const Image8& image, glm::ivec2 margin) {
   return part;
 }
 
-fs::path pinhole_file(const fs::path& folder, const Photograph& photograph) {
-  fs::path name = photograph.name;
-  return (folder / "pinhole" / name).replace_extension(".png");
+Result<fs::path> pinhole_file(const fs::path& folder, const Photograph& photograph) {
+  return path_inside(folder, fs::path("pinhole") / (photograph.name + ".png"));
+}
+fs::path mask_beside(const fs::path& picture) { return fs::path(picture).replace_extension(".mask.png"); }
+
+std::string named_content(std::string_view name, const fs::path& file) {
+  const Result<std::string> bytes = read_file(file);
+  if (!bytes) return fmt::format("{}: none\n", name);
+  ContentHash hash;
+  hash.add_text(*bytes);
+  return fmt::format("{}: {} bytes, {:016x}\n", name, bytes->size(), hash.value());
 }
 
-/// All that the straightened picture depends on, as text beside it.
-std::string recipe_of(const Photograph& photograph) {
-  std::error_code code;
-  std::string text = fmt::format("{} {} x {}, {} bytes\n", int(photograph.lens.model), photograph.lens.width,
-                                 photograph.lens.height, fs::file_size(photograph.file, code));
-  if (!photograph.mask.empty())
-    text += fmt::format("mask of {} bytes\n", fs::file_size(photograph.mask, code));
+/// All that the straightened picture depends on, and what it became, as text beside it: a picture that is not
+/// what was made of this photograph is straightened once more.
+std::string recipe_of(const Photograph& photograph, const fs::path& straight) {
+  std::string text =
+      fmt::format("{} {} x {}\n", int(photograph.lens.model), photograph.lens.width, photograph.lens.height);
   for (const double parameter : photograph.lens.parameters) text += fmt::format("{:.17g}\n", parameter);
+  text += named_content("photograph", photograph.file) + named_content("picture", straight);
+  if (!photograph.mask.empty())
+    text += named_content("mask", photograph.mask) + named_content("picture's mask", mask_beside(straight));
   return text;
 }
 
@@ -77,7 +88,7 @@ Result<fs::path> straight_mask(const fs::path& picture, const Photograph& photog
   Image8 mask(straight.width - 2 * margin.x, straight.height - 2 * margin.y, 1);
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x) *mask.at(x, y) = straight.at(x + margin.x, y + margin.y)[3];
-  const fs::path file = fs::path(picture).replace_extension(".mask.png");
+  const fs::path file = mask_beside(picture);
   if (Status status = write_image(file, mask); !status) return status.errors();
   return file;
 }
@@ -96,17 +107,19 @@ Photograph with_cropped_lens(Photograph straight, int width, int height) {
 /// over if it was made of the same picture and lens.
 Result<Photograph> without_distortion(const fs::path& folder, const Photograph& photograph) {
   if (photographs::is_pinhole(photograph.lens)) return photograph;
-  const fs::path file = pinhole_file(folder, photograph),
-                 recipe_file = fs::path(file).replace_extension(".txt");
-  const std::string recipe = recipe_of(photograph);
+  const Result<fs::path> inside = pinhole_file(folder, photograph);
+  if (!inside) return inside.errors();
+  const fs::path& file = *inside;
+  const fs::path recipe_file = fs::path(file).replace_extension(".txt");
   std::error_code code;
   if (fs::exists(recipe_file, code))
-    if (const Result<std::string> known = read_file(recipe_file, 1 << 16); known && *known == recipe)
+    if (const Result<std::string> known = read_file(recipe_file, 1 << 16);
+        known && *known == recipe_of(photograph, file))
       if (const auto header = photographs::read_picture_header(file)) {
         Photograph straight = photograph;
         straight.lens = photographs::undistorted(photograph.lens);
         straight.file = file;
-        if (!photograph.mask.empty()) straight.mask = fs::path(file).replace_extension(".mask.png");
+        if (!photograph.mask.empty()) straight.mask = mask_beside(file);
         return with_cropped_lens(straight, header->width, header->height);
       }
   Photograph unmasked = photograph;
@@ -123,8 +136,21 @@ Result<Photograph> without_distortion(const fs::path& folder, const Photograph& 
     if (!mask) return mask.errors();
     straight.photograph.mask = *mask;
   }
-  if (Status status = write_file(recipe_file, recipe); !status) return status.errors();
+  if (Status status = write_file(recipe_file, recipe_of(photograph, file)); !status) return status.errors();
   return with_cropped_lens(straight.photograph, part.width, part.height);
+}
+
+/// Layered pictures are called as the photographs, with another ending.
+Status check_stems(const std::vector<Photograph>& photographs) {
+  std::map<fs::path, std::string> names;
+  for (const Photograph& photograph : photographs) {
+    const auto [known, is_new] =
+        names.try_emplace(fs::path(photograph.name).replace_extension(), photograph.name);
+    if (!is_new)
+      return error("{} and {} would have the same layered picture; rename one of them", known->second,
+                   photograph.name);
+  }
+  return Done{};
 }
 
 std::vector<std::string> words(const std::string& line) {
@@ -167,6 +193,7 @@ Result<PlaceSource> read_place(const fs::path& folder, std::vector<NamedMesh> me
   for (const std::string& name : left_out)
     if (!photographs::find(loaded->set, name))
       return error("{}: there is no photograph {} to leave out", folder.string(), name);
+  if (Status status = check_stems(loaded->set.photographs); !status) return status.errors();
   Progress progress("removing distortion", loaded->set.photographs.size());
   for (const Photograph& photograph : loaded->set.photographs) {
     progress.advance();
@@ -177,6 +204,7 @@ Result<PlaceSource> read_place(const fs::path& folder, std::vector<NamedMesh> me
     else
       source.notes.insert(source.notes.end(), straight.errors().begin(), straight.errors().end());
   }
+  if (source.photographs.empty() && !source.notes.empty()) return source.notes;
   return source;
 }
 

@@ -45,6 +45,11 @@ std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) 
   return text + fmt::format("model, cameras and choices {:016x}\n", hash.value());
 }
 
+/// With the state of what was made of it: a facade that came from elsewhere is packed again.
+std::string packed_recipe_of(const PlaceSource& source, const PlaceSettings& settings) {
+  return recipe_of(source, settings) + state_of(source.folder / "place.facade");
+}
+
 }  // namespace
 
 bool is_packed(const PlaceSource& source, const PlaceSettings& settings) {
@@ -52,11 +57,11 @@ bool is_packed(const PlaceSource& source, const PlaceSettings& settings) {
   if (!fs::exists(source.folder / "place.facade", code) || !fs::exists(source.folder / "place.xp", code))
     return false;
   const Result<std::string> known = read_file(recipe_file(source.folder), 1 << 24);
-  return known && *known == recipe_of(source, settings);
+  return known && *known == packed_recipe_of(source, settings);
 }
 
 Status remember_packed(const PlaceSource& source, const PlaceSettings& settings) {
-  return write_file(recipe_file(source.folder), recipe_of(source, settings));
+  return write_file(recipe_file(source.folder), packed_recipe_of(source, settings));
 }
 
 }  // namespace parvis::facades

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/file_set.h"
 #include "base/files.h"
 
 namespace parvis::photographs {
@@ -44,9 +45,9 @@ Status write_colmap_model(const fs::path& folder, const ColmapModel& model, Colm
   const bool is_binary = format == ColmapFormat::binary;
   const ColmapFiles files = is_binary ? colmap_binary(model) : colmap_text(model);
   const std::string extension = is_binary ? ".bin" : ".txt";
-  if (Status status = write_file(folder / ("cameras" + extension), files.cameras); !status) return status;
-  if (Status status = write_file(folder / ("images" + extension), files.images); !status) return status;
-  return write_file(folder / ("points3D" + extension), files.points);
+  return write_together({{folder / ("cameras" + extension), files.cameras},
+                         {folder / ("images" + extension), files.images},
+                         {folder / ("points3D" + extension), files.points}});
 }
 
 }  // namespace parvis::photographs

@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/json_guard.h"
+#include "base/path_inside.h"
 #include "capture/photographs/picture.h"
 
 namespace parvis::photographs {
@@ -26,8 +27,17 @@ fs::path found(const std::string& stored_path, const fs::path& folder) {
   return stored_path.empty() ? fs::path() : (folder / stored_path).lexically_normal();
 }
 
-/// Gains and mask of one photograph; false where the entry is none.
-bool apply(const Json& entry, const fs::path& folder, PhotographSet& set) {
+/// The file of a mask: in the place's folder, or in that of its pictures.
+Result<fs::path> mask_file(const std::string& stored_path, const fs::path& folder, const fs::path& pictures) {
+  const fs::path file = found(stored_path, folder);
+  for (const fs::path& root : {folder, pictures})
+    if (path_inside(root, fs::absolute(file))) return file;
+  return error("{}: a mask outside of {} and of the photographs' folder; copy it there, and mend {}",
+               stored_path, folder.string(), (folder / file_name).string());
+}
+
+/// Gains of one photograph; false where the entry is none.
+bool apply_gains(const Json& entry, PhotographSet& set) {
   if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return false;
   const std::string name = entry["name"];
   const Json gain = entry.value("gain", Json::array());
@@ -38,9 +48,18 @@ bool apply(const Json& entry, const fs::path& folder, PhotographSet& set) {
         if (!gain[std::size_t(c)].is_number() || !(gain[std::size_t(c)].get<double>() > 0.0)) return false;
         photograph.gain[c] = gain[std::size_t(c)].get<double>();
       }
-    if (entry.contains("mask") && entry["mask"].is_string()) photograph.mask = found(entry["mask"], folder);
   }
   return true;
+}
+
+/// The mask of one photograph. Error: it lies elsewhere.
+Status apply_mask(const Json& entry, const fs::path& folder, const fs::path& pictures, PhotographSet& set) {
+  if (!entry.contains("mask") || !entry["mask"].is_string()) return Done{};
+  const Result<fs::path> mask = mask_file(entry["mask"], folder, pictures);
+  if (!mask) return mask.errors();
+  for (Photograph& photograph : set.photographs)
+    if (photograph.name == entry["name"].get<std::string>()) photograph.mask = *mask;
+  return Done{};
 }
 
 }  // namespace
@@ -76,9 +95,11 @@ Result<LoadedSet> read_photograph_set(const fs::path& folder) {
   LoadedSet loaded = photograph_set_of(*model, pictures);
   const Json entries = json.value("photographs", Json::array());
   for (const Json& entry : entries)
-    if (!apply(entry, folder, loaded.set))
+    if (!apply_gains(entry, loaded.set))
       loaded.problems.push_back(
           error("{}: expected a name and three gains > 0 in {}", file, entry.dump().substr(0, 80)));
+    else if (Status status = apply_mask(entry, folder, pictures, loaded.set); !status)
+      return status.errors();
   fit_to_files(loaded, pictures);
   return loaded;
 }

@@ -1,10 +1,13 @@
 #include "formats/gltf/gltf_material_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 #include <mutex>
 
 #include "base/content_hash.h"
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
 
@@ -47,6 +50,29 @@ std::string file_name(const fs::path& file, const std::string& name) {
   std::string stem = plain_name(file.stem().string());
   stem.resize(std::min(stem.size(), max_file_name - back.size()));
   return stem + back;
+}
+
+/// The JSON of the .glb that is there now; empty where there is none.
+std::string json_of(const fs::path& file) {
+  constexpr std::uint32_t json_kind = 0x4e4f534a, max_json_bytes = 1u << 30;
+  std::ifstream in(file, std::ios::binary);
+  std::array<std::uint32_t, 5> head{};  // magic, version, size; size and kind of the first chunk
+  std::error_code code;
+  if (!fs::is_regular_file(file, code) || !in.read(reinterpret_cast<char*>(head.data()), sizeof head) ||
+      head[4] != json_kind || head[3] > max_json_bytes || head[3] > fs::file_size(file, code))
+    return "";
+  std::string json(head[3], ' ');
+  in.read(json.data(), std::streamsize(json.size()));
+  return json;
+}
+
+/// Whether a picture may be written over: it is one of the file's own, or the same already.
+bool is_ours(const fs::path& picture, std::string_view bytes, const std::string& json) {
+  std::error_code code;
+  if (!fs::exists(picture, code) || json.find('"' + picture.filename().string() + '"') != std::string::npos)
+    return true;
+  const Result<std::string> there = read_file(picture);
+  return there && *there == bytes;
 }
 
 std::uint64_t hash_of(const Texture& texture) {
@@ -193,13 +219,21 @@ Result<std::vector<PartialFile>> GltfMaterialWriter::write_pictures(const fs::pa
   for (const std::string& name : names_)
     written.push_back(PartialFile::create(file.parent_path() / file_name(file, name)));
   std::vector<Errors> problems(written.size());
+  const std::string json_before = json_of(file);
   parallel_for(written.size(), [&](std::size_t i) {
     const Image8& image = textures_[i]->image;
     const Result<std::string> bytes =
         encode_image(uses_alpha(image) ? image : without_alpha(image), file_name(file, names_[i]));
-    const Status status = !written[i] ? Status(written[i].errors())
-                          : !bytes    ? Status(bytes.errors())
-                                      : written[i]->write(*bytes);
+    const fs::path picture = file.parent_path() / file_name(file, names_[i]);
+    const Status status =
+        !written[i] ? Status(written[i].errors())
+        : !bytes    ? Status(bytes.errors())
+        : !is_ours(picture, *bytes, json_before)
+            ? Status(error(
+                  "{}: is there already, and is no picture of an earlier {}; move it, or choose another "
+                  "name",
+                  picture.string(), file.filename().string()))
+            : written[i]->write(*bytes);
     if (!status) problems[i] = status.errors();
   });
   Errors errors;

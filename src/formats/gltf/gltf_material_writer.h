@@ -28,7 +28,8 @@ class GltfMaterialWriter {
   /// Writes materials, textures, pictures' names and used extensions into the JSON of the file.
   void describe(Json& json, const std::filesystem::path& file) const;
   /// Writes the pictures beside `file`, NAME_TEXTURE.jpg for colour without alpha, else .png: each whole, but
-  /// not yet under its name.
+  /// not yet under its name. Error: a file of such a name is there and belongs to another model, or to
+  /// nobody.
   Result<std::vector<PartialFile>> write_pictures(const std::filesystem::path& file) const;
 
  private:

@@ -219,6 +219,27 @@ TEST(GltfWriter, PicturesOfLongAndEqualNamesAreWritten) {
     EXPECT_EQ(again.textures[i].image.pixels.front(), 10 * (i + 1)) << "the picture of another";
 }
 
+TEST(GltfWriter, PicturesOfOthersAreNotWrittenOver) {
+  const TestFolder folder;
+  const auto painted = [](std::uint8_t grey) {
+    Model model = *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), matt(glm::vec3(1.0f)));
+    model.textures.push_back({"wall.png", Image8(2, 2, 4, grey), true, true});
+    model.materials.front().base_colour_texture = 0;
+    return model;
+  };
+  ASSERT_TRUE(write_gltf(folder.path() / "a b.glb", painted(50)));
+  const Status other = write_gltf(folder.path() / "a_b.glb", painted(90));
+  ASSERT_FALSE(other) << "both have a_b_wall.png";
+  EXPECT_NE(to_string(other.errors()).find("a_b_wall.png"), std::string::npos) << to_string(other.errors());
+  EXPECT_FALSE(fs::exists(folder.path() / "a_b.glb"));
+  EXPECT_EQ(read(folder.path() / "a b.glb").textures.front().image.pixels.front(), 50);
+  EXPECT_TRUE(write_gltf(folder.path() / "a b.glb", painted(90))) << "its own picture changes";
+  EXPECT_TRUE(write_gltf(folder.path() / "a_b.glb", painted(90))) << "the same picture serves both";
+  ASSERT_TRUE(write_file(folder.path() / "mine_wall.png", "somebody's"));
+  EXPECT_FALSE(write_gltf(folder.path() / "mine.glb", painted(50)));
+  EXPECT_EQ(*read_file(folder.path() / "mine_wall.png"), "somebody's");
+}
+
 TEST(GltfWriter, BlenderOpensWhatIsWritten) {
   if (std::system("command -v blender > /dev/null") != 0) GTEST_SKIP() << "skipped: blender is not installed";
   const TestFolder folder;

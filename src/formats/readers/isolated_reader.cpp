@@ -1,5 +1,7 @@
 #include "formats/readers/isolated_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "base/memory_budget.h"
@@ -13,6 +15,9 @@ namespace fs = std::filesystem;
 /// What a reader may take: a start, and more for each megabyte of its file, ten times what the slowest of
 /// them was seen to need.
 constexpr double start_s = 30.0, s_per_mb = 6.0, max_s = 1800.0;
+/// Of memory; the start is for the pictures that a small model may show.
+constexpr std::uint64_t start_bytes = std::uint64_t{4} << 30, bytes_per_byte = 256,
+                        max_bytes = std::uint64_t{16} << 30;
 
 /// What libraries read of the system: map projections.
 constexpr std::array system_folders{"/usr/share/proj", "/usr/share/gdal"};
@@ -38,6 +43,8 @@ IsolationLimits limits_for(const fs::path& file) {
   std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
   limits.seconds = code ? start_s : std::min(start_s + s_per_mb * 1e-6 * double(size), max_s);
+  constexpr std::uint64_t full_size = (max_bytes - start_bytes) / bytes_per_byte;
+  limits.memory_bytes = start_bytes + bytes_per_byte * (code ? 0 : std::min<std::uint64_t>(size, full_size));
   limits.readable.push_back(fs::weakly_canonical(file, code).parent_path());
   limits.readable.insert(limits.readable.end(), system_folders.begin(), system_folders.end());
   return limits;

@@ -12,7 +12,7 @@ namespace parvis::formats {
 using ReadFunction = Result<scene::Model>(const std::filesystem::path& file, const ModelReading& reading,
                                           Errors& warnings);
 
-/// What a child that reads `file` may use: files below its folder, and time by its size.
+/// What a child that reads `file` may use: files below its folder, and memory and time by its size.
 IsolationLimits limits_for(const std::filesystem::path& file);
 
 /// Warnings as flat bytes: they stand before what a child returns.

@@ -10,9 +10,10 @@
 #include <optional>
 #include <utility>
 
-#include "base/files.h"
+#include "base/file_set.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/picture_codec.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
 #include "scene/data/traced_scene.h"
@@ -289,17 +290,18 @@ std::string facade_table(const SunStudy& study) {
 
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study) {
   const auto with = [&](const char* extension) { return std::filesystem::path(prefix.string() + extension); };
-  if (Status status = write_image(with(".png"), plan_of(study)); !status) return status;
+  const Result<std::string> plan = encode_image(plan_of(study), with(".png").string());
+  if (!plan) return plan.errors();
   std::string table = "x_m,y_m,z_m,kind,hours\n";
   for (const GroundCell& cell : study.cells)
     if (cell.kind != GroundCell::Kind::nothing)
       table +=
           fmt::format("{:.2f},{:.2f},{:.2f},{},{:.3f}\n", cell.position.x, cell.position.y, cell.position.z,
                       cell.kind == GroundCell::Kind::ground ? "ground" : "built", cell.hours);
-  if (Status status = write_file(with(".csv"), table); !status) return status;
-  if (study.surfaces.indices.empty()) return Done{};
-  if (Status status = write_file(with("_facades.csv"), facade_table(study)); !status) return status;
-  return write_model(with(".glb"), study);
+  std::vector<FileContent> files{{with(".png"), *plan}, {with(".csv"), std::move(table)}};
+  if (study.surfaces.indices.empty()) return write_together(files);
+  files.push_back({with("_facades.csv"), facade_table(study)});
+  return write_together(files, [&] { return write_model(with(".glb"), study); });
 }
 
 }  // namespace parvis::light

@@ -152,8 +152,8 @@ Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& sce
   const bool is_whole = !options.processes.is_first() || *finished == to_do.size();
   if (!is_whole)
     return error("interrupted: {} of {} tiles are done{}", tiles - to_do.size() + *finished, tiles,
-                 checkpoint ? fmt::format(" and kept in {}; the same command goes on from there",
-                                          options.checkpoint.string())
+                 checkpoint ? fmt::format(", and {} are kept in {}; the same command goes on from there",
+                                          checkpoint->tiles(), options.checkpoint.string())
                             : "");
   return photograph;
 }

@@ -25,16 +25,20 @@ class PhotographCheckpoint {
   PhotographCheckpoint& operator=(PhotographCheckpoint&&) = delete;
   ~PhotographCheckpoint();
 
-  /// Appends a tile; any thread may. A tile that cannot be written (full disk) is rendered once more after
-  /// an interruption: that costs time, the picture is the same.
+  /// Appends a tile; any thread may. After one that cannot be written (full disk) no more are: they are
+  /// rendered once more after an interruption, which costs time; the picture is the same.
   void keep(std::uint32_t tile, std::span<const float> values);
+  /// How many tiles the file holds.
+  std::size_t tiles() const { return tiles_; }
 
  private:
-  PhotographCheckpoint(std::filesystem::path file, std::FILE* stream)
-      : file_(std::move(file)), stream_(stream) {}
+  PhotographCheckpoint(std::filesystem::path file, std::FILE* stream, std::uint64_t key)
+      : file_(std::move(file)), stream_(stream), key_(key) {}
 
   std::filesystem::path file_;
-  std::FILE* stream_;
+  std::FILE* stream_;  ///< null after a write that failed
+  std::uint64_t key_;
+  std::size_t tiles_ = 0;
   std::mutex mutex_;
 };
 

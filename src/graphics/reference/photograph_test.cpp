@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "base/files.h"
 #include "base/test_folder.h"
+#include "graphics/reference/photograph_checkpoint.h"
 #include "graphics/reference/seen_points.h"
 #include "scene/data/test_scene.h"
 
@@ -41,6 +43,30 @@ void expect_same(const Photograph& a, const Photograph& b) {
   EXPECT_EQ(a.radiance.pixels, b.radiance.pixels);
   EXPECT_EQ(a.alpha.pixels, b.alpha.pixels);
   EXPECT_EQ(a.depth_m.pixels, b.depth_m.pixels);
+}
+
+TEST(PhotographCheckpoint, TilesOfOtherWorkUnderItsHeaderAreNotTaken) {
+  const TestFolder folder;
+  const fs::path file = folder.path() / "a.checkpoint", other = folder.path() / "b.checkpoint";
+  const std::vector<float> values{1.0f, 2.0f, 3.0f};
+  std::vector<std::uint32_t> found;
+  const auto open = [&](const fs::path& path, std::uint64_t key) {
+    found.clear();
+    return PhotographCheckpoint::open(
+        path, key, false, [&](std::uint32_t tile, std::span<const float>) { found.push_back(tile); });
+  };
+  for (const auto& [path, key] : {std::pair(file, 1u), std::pair(other, 2u)}) {
+    auto checkpoint = open(path, key);
+    ASSERT_TRUE(checkpoint) << to_string(checkpoint.errors());
+    checkpoint->keep(7, values);
+    EXPECT_EQ(checkpoint->tiles(), 1u);
+  }
+  ASSERT_TRUE(open(file, 1));
+  EXPECT_EQ(found, std::vector<std::uint32_t>{7});
+  constexpr std::size_t header = 16;
+  ASSERT_TRUE(write_file(file, read_file(file)->substr(0, header) + read_file(other)->substr(header)));
+  ASSERT_TRUE(open(file, 1));
+  EXPECT_TRUE(found.empty()) << "the tile of other work";
 }
 
 TEST(Photograph, IsTheSameForAnyNumberOfThreads) {

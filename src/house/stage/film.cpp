@@ -55,11 +55,12 @@ Result<Film> Film::open(const fs::path& file, int width, int height, int frames_
     return error("{}: films are written by the program ffmpeg, which is not installed", file.string());
   Result<PartialFile> partial = PartialFile::create(file);
   if (!partial) return partial.errors();
+  // ffmpeg gets the file that is there, not its name: else it would make it once more after a signal has
+  // removed it.
   const std::string command = fmt::format(
       "ffmpeg -y -loglevel error -f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i - "
-      "-c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
-      width, height, frames_per_second,
-      quoted("file:" + partial->path().string()));  // a name with a colon is no protocol
+      "-c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -movflags +faststart -f mp4 file:/dev/fd/3 3< {}",
+      width, height, frames_per_second, quoted(partial->path().string()));
   std::signal(SIGPIPE, SIG_IGN);  // an encoder that stops is noticed by a failed write, and does not end us
   std::FILE* pipe = popen(command.c_str(), "w");
   if (!pipe) return error("{}: ffmpeg cannot be started", file.string());

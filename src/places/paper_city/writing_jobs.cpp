@@ -31,6 +31,10 @@ Status make_folder(const fs::path& folder) {
 /// Moves every file of `from` into `to`, over files of the same name.
 Status move_files(const fs::path& from, const fs::path& to) {
   std::error_code code;
+  // Before the first is moved: later, the files of two places would be mixed.
+  for (const fs::directory_entry& entry : fs::directory_iterator(from, code))
+    if (const fs::path place = to / entry.path().filename(); fs::is_directory(place, code))
+      return error("{}: is a folder, where a file is to be written; move it elsewhere", place.string());
   for (const fs::directory_entry& entry : fs::directory_iterator(from, code)) {
     fs::rename(entry.path(), to / entry.path().filename(), code);
     if (code)
