@@ -12,6 +12,7 @@ import threading
 from . import faults
 from .caches import cut, flipped, instead, render, resealed
 from .case import Case, scene, write
+from .png import png
 
 BOX = "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nv -2 6 2\nv 2 6 2\nv 2 6 -2\nv -2 6 -2\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
 EYE = 'camera(name="eye", position="0 -25 8", target="0 0 4")\nsun()\n'
@@ -131,7 +132,36 @@ def leading_out(verb, link, target, expects="refused", says=""):
     return Case("capture", f"{' '.join(verb[:2])} beside {link} -> {target}", build, expects, says=says)
 
 
+def beside_link(name, link, verb, expects, says="", distorts=False):
+    """A folder of results that leads out, of a capture whose lens may have distortion."""
+
+    def build(folder):
+        for path, content in captured().items():
+            write(folder, path, content)
+        if distorts:
+            cameras = folder / "capture/cameras.txt"
+            lines = [line.split() for line in cameras.read_text().splitlines() if not line.startswith("#")]
+            cameras.write_text("".join(" ".join([words[0], "OPENCV", *words[2:8], "-0.05 0 0 0"]) + "\n" for words in lines))
+            for kept in ("capture/packed.txt", "capture/place.facade"):
+                (folder / kept).unlink()
+        write(folder, "spot/a.png", (folder / "capture/oak_000.png").read_bytes())
+        write(folder, "spot/b.png", (folder / "capture/oak_001.png").read_bytes())
+        write(folder, "panorama.png", png(64, 32))
+        place = folder / link
+        place.parent.mkdir(exist_ok=True)
+        place.symlink_to(os.path.relpath(folder / "../outside/keep", place.parent))
+        return [verb]
+
+    return Case("capture", f"{name} beside {link}", build, expects, says=says)
+
+
 def link_cases():
+    for stage in ("layers", "pack", "report"):
+        yield beside_link(f"facade {stage} of a lens with distortion", "capture/pinhole", ["facade", stage, "capture", "--model", "box.obj"], "refused", "pinhole", distorts=True)
+    for link in ("place/faces", "place/masks", "place/stitching"):
+        yield beside_link("facade panorama of a picture", link, ["facade", "panorama", "panorama.png", "-o", "place"], "refused", link)
+        yield beside_link("facade panorama of a spot", link, ["facade", "panorama", "spot", "-o", "place"], "refused", link)
+    yield beside_link("tree synthesize", "other/held_out", ["tree", "synthesize", "oak", "--views", "2", "--held-out", "1", "--size", "16x16", "--samples", "1", "-o", "other"], "refused", "held_out")
     for stage in ("layers", "fill", "pack", "report", "figures"):
         verb = ["facade", stage, "capture", "--model", "box.obj"]
         for link in ("capture/layers", "capture/layers/written", "capture/layers/edits"):

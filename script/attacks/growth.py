@@ -73,10 +73,53 @@ OBJ = {"m.mtl": "newmtl m\nmap_Kd t.png\n"}
 TEXTURED = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
 
 
+def narrow_streets(side):
+    """A grid of streets too narrow for two cars."""
+    apart, half, end = 4000, 200, 4000 * (side - 1) + 200  # cm
+    bands = [(i * apart - half, -half, i * apart + half, end) for i in range(side)]
+    bands += [(low, left, high, right) for left, low, right, high in bands]
+    corners = [[x, y, 0] for a, b, c, d in bands for x, y in ((a, b), (c, b), (c, d), (a, d))]
+    return json.dumps({"type": "CityJSON", "version": "1.1", "transform": {"scale": [0.01] * 3, "translate": [0, 0, 0]}, "vertices": corners,
+                       "CityObjects": {"a": {"type": "Road", "geometry": [{"type": "MultiSurface", "lod": "2", "boundaries": [[[4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3]] for i in range(len(bands))]}]}}})
+
+
+def cubes(count):
+    """Cubes in one another."""
+    corners = [(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)]
+    faces = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
+    return "".join("".join(f"v {x * s} {y * s} {z * s}\n" for x, y, z in corners) + "".join("f " + " ".join(str(c + 8 * i) for c in face) + "\n" for face in faces)
+                   for i, s in ((i, 1 + i * 1e-3) for i in range(count)))
+
+
+def roads_north(count, points):
+    return "".join('road(path="' + ", ".join(f"{0.3 * (i % 2)} {i + r * (points + 100)}" for i in range(points)) + '")\n' for r in range(count)) + CAMERA
+
+
+def many_casters(count):
+    models = "".join(f'model(file="m.obj", name="o{i}", position="{i % 300} {i // 300} 0")\n' for i in range(count))
+    return models + "shadowMap(" + ", ".join(f'casters="o{i}"' for i in range(count)) + ")\n" + CAMERA
+
+
+def cameras_of_signs(count):
+    """Names that are all the same in the name of a file."""
+
+    def build(folder):
+        names = ("".join("!?$%&*+,;:"[int(digit)] for digit in f"{i:05d}") for i in range(count))
+        script = scene(folder, "".join(f'camera(name="{name}", position="0 -9 2", target="0 0 1")\n' for name in names))
+        return [["reference", script, "--path-traced", "--all-cameras", "--size", "2x2", "--samples", "1", "-o", "out.png"]]
+
+    return Case("growth", f"{count} cameras named by signs", build, "done", seconds=60)
+
+
 def cases():
     streets = 'model(name="q", file="m.json")\nstreets(of="q")\n' + CAMERA
     for side in (100, 1000, 4000):
         yield checked(f"roads out of a surface of {side} m", streets, files={"m.json": lambda s=side: road_surface(s)}, seconds=90)
+    yield checked("60 x 60 narrow streets", streets, "done", files={"m.json": lambda: narrow_streets(60)})
+    yield checked("roads of 400,000 points to the north", lambda: roads_north(4, 99_999), "done")
+    yield checked("20,000 cubes of glass in one another", 'model(file="m.obj", dynamic=1) { material(preset="solid_glass") }\n' + CAMERA, "done", files={"m.obj": lambda: cubes(20_000)})
+    yield checked("25,000 casters of shadows", lambda: many_casters(25_000), "done", files={"m.obj": lambda: cubes(1)})
+    yield cameras_of_signs(1000)
     for apart in (60, 5):
         yield checked(f"200 x 200 roads that cross, {apart} m apart", lambda a=apart: crossing_roads(200, a), seconds=90)
     for apart in (60, 5):

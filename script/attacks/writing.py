@@ -148,7 +148,30 @@ def bad_output(verb, output, expects="refused"):
     return Case("output", f"{verb} to {output[:40]!r}", build, expects, needs_gl=verb in ("render", "film", "reference"))
 
 
+def kept_files(name, files, arguments, expects, says=""):
+    """Somebody's own files beside a result stay as they are."""
+
+    def build(folder):
+        script = place(folder)
+        for file in files:
+            write(folder, file, OLD)
+        return [[word if word != "SCENE" else script for word in words] for words in arguments]
+
+    def check(folder, results):
+        lost = [file for file in files if not (folder / file).exists() or (folder / file).read_bytes() != OLD]
+        return f"{', '.join(lost)} of somebody's own is gone" if lost else ""
+
+    return Case("own files", name, build, expects, check=check, says=says, needs_gl=any("render" in words or "reference" in words for words in arguments))
+
+
 def cases():
+    size = ["--size", "64x64"]
+    yield kept_files("a picture that an export would name", ["out_t.png", "out_t.jpg"], [["export", "SCENE", "-o", "out.glb"]], "refused", "out_t")
+    yield kept_files("names like those of partial files", [".partial-original-out.png", ".partial-projects-out.png/a.txt"], [["render", "SCENE", *size, "-o", "out.png"]], "done")
+    yield kept_files("a folder like an unfinished one", ["city/.unfinished-business/a.txt"], [["city", "kitchen", "-o", "city"]], "done")
+    yield kept_files("a checkpoint that is none", ["out.png.checkpoint"], [["reference", "SCENE", *size, "--path-traced", "--samples", "1", "--restart", "-o", "out.png"]], "refused", "checkpoint")
+    yield kept_files("a mask in the picture's place", [], [["reference", "SCENE", *size, "--samples", "1", "-o", "a.png", "--mask", "a.png"]], "refused", "a.png")
+    yield kept_files("two mattes of one name", [], [["tree", "matte", "same", "-o", "mattes"]], "refused")
     for limit in (1, 200, 1000):
         for extension in ("png", "jpg", "exr", "hdr", "tif", "bmp", "tga", "webp"):
             for verb in ("render", "reference", "photograph"):
