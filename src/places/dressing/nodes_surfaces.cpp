@@ -51,18 +51,22 @@ void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBui
 }
 
 scene::NodeSchema roofs_schema() {
-  return {.type = "roofs",
-          .help =
-              "Tiles on the sloping roofs of a city model, gravel on the flat ones. Materials that later "
-              "nodes can "
-              "change: \"roof tiles\" and \"flat roof\".",
-          .attributes = {target_attribute()},
-          .stands_in = {"model"},
-          .example = example_of("roofs(target=\"RoofSurface\")")};
+  return {
+      .type = "roofs",
+      .help =
+          "Tiles on the sloping roofs of a city model, gravel on the flat ones, parapets and chimneys. "
+          "Materials "
+          "that later nodes can change: \"roof tiles\", \"flat roof\", \"roof edge\", \"chimney\", \"roof "
+          "plant\".",
+      .attributes =
+          {target_attribute(),
+           flag("details", "parapets along flat roofs, chimneys, plant on large roofs").by_default("1")},
+      .stands_in = {"model"},
+      .example = example_of("roofs(target=\"RoofSurface\")")};
 }
 
 void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_roofs(model, node.text("target")) == 0) warn(builder, node, model, "roofs");
+  if (add_roofs(model, node.text("target"), node.flag("details")) == 0) warn(builder, node, model, "roofs");
 }
 
 scene::NodeSchema ground_schema() {

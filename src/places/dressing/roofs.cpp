@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "places/dressing/model_triangles.h"
+#include "places/dressing/roof_details.h"
 #include "places/paper_city/ground_texture.h"
 #include "places/paper_city/trim_texture.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 using city::SurfacePictures, city::gravel_pictures, city::gravel_sheet_m, city::roof_sheet_m,
     city::roof_tile_pictures;
-
-constexpr float flattest_tiles_z = 0.985f;  // cosine of 10 degrees: tiles on less would leak
 
 struct Tint {
   float share;  ///< of roofs that have this one or an earlier one
@@ -66,7 +65,7 @@ std::array<glm::vec2, 3> roof_uvs(const ModelTriangle& triangle, bool is_flat, f
 
 }  // namespace
 
-std::size_t add_roofs(scene::Model& model, std::string_view target) {
+std::size_t add_roofs(scene::Model& model, std::string_view target, bool has_details) {
   const std::vector<ModelTriangle> roofs =
       take_triangles(model, target, [](const scene::Part&, glm::vec3) { return true; });
   if (roofs.empty()) return 0;
@@ -85,6 +84,7 @@ std::size_t add_roofs(scene::Model& model, std::string_view target) {
         is_flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
     parts.add(roof, material, roof_uvs(roof, is_flat, is_flat ? gravel_sheet_m : roof_sheet_m));
   }
+  if (has_details) add_roof_details(model, roofs);
   return roofs.size();
 }
 

@@ -45,6 +45,73 @@ TEST(Roofs, FlatOnesHaveGravel) {
   EXPECT_EQ(material_name(model), "flat roof");
 }
 
+/// Adds a square roof of `side_m` whose ridge, if it rises, runs from west to east.
+void add_roof(scene::Model& model, glm::vec3 corner, float side_m, float rise_m) {
+  scene::Part part;
+  part.object = "RoofSurface";
+  const float half = 0.5f * side_m;
+  for (const glm::vec3 p : {glm::vec3(0, 0, 0),
+                            {side_m, 0, 0},
+                            {side_m, half, rise_m},
+                            {0, half, rise_m},
+                            {side_m, side_m, 0},
+                            {0, side_m, 0}})
+    part.mesh.positions.push_back(corner + p);
+  part.mesh.indices = {0, 1, 2, 0, 2, 3, 3, 2, 4, 3, 4, 5};
+  fill_normals(part.mesh);
+  part.mesh.uvs.resize(6);
+  model.parts.push_back(std::move(part));
+}
+
+/// The box around the parts of a name.
+Bounds bounds_of(const scene::Model& model, const std::string& object) {
+  Bounds bounds;
+  for (const scene::Part& part : model.parts)
+    if (part.object == object) bounds.add(part.mesh.bounds());
+  return bounds;
+}
+
+TEST(Roofs, LargeFlatOnesHaveAParapetAtTheirFreeEdges) {
+  scene::Model model;
+  model.materials.emplace_back();
+  add_roof(model, {0, 0, 5}, 10, 0);
+  add_roof(model, {10, 0, 5.1f}, 10, 0);  // a neighbour of the same height
+  add_roof(model, {0, 10, 9}, 10, 0);     // a higher one
+  add_roof(model, {40, 40, 3}, 4, 0);     // a shed
+  add_roofs(model, "RoofSurface");
+  const Bounds edges = bounds_of(model, "RoofEdge");
+  ASSERT_FALSE(edges.empty());
+  EXPECT_LT(edges.max.x, 21.0f) << "the shed has none";
+  EXPECT_NEAR(edges.min.x, -0.05f, 1e-4f);
+  EXPECT_GT(edges.max.z, 9.1f);
+  for (const scene::Part& part : model.parts) {
+    if (part.object != "RoofEdge") continue;
+    EXPECT_TRUE(check(part.mesh, "parapet").ok());
+    for (const glm::vec3 p : part.mesh.positions) {
+      const bool is_between = std::abs(p.x - 10.0f) < 0.1f && p.y > 0.5f && p.y < 9.5f;
+      EXPECT_FALSE(is_between) << "no parapet between equal neighbours";
+    }
+  }
+  scene::Model bare;
+  bare.materials.emplace_back();
+  add_roof(bare, {0, 0, 5}, 10, 0);
+  add_roofs(bare, "RoofSurface", false);
+  EXPECT_TRUE(bounds_of(bare, "RoofEdge").empty());
+}
+
+TEST(Roofs, ChimneysStandOnRidges) {
+  scene::Model model;
+  model.materials.emplace_back();
+  for (int i = 0; i < 12; ++i) add_roof(model, {30.0f * float(i), 0, 5}, 20, 6);
+  add_roofs(model, "RoofSurface");
+  const Bounds chimneys = bounds_of(model, "Chimney");
+  ASSERT_FALSE(chimneys.empty());
+  EXPECT_NEAR(chimneys.centre().y, 10.0f, 0.1f);
+  EXPECT_GT(chimneys.max.z, 11.5f);
+  EXPECT_GT(chimneys.min.z, 9.0f);
+  EXPECT_TRUE(bounds_of(model, "RoofEdge").empty());
+}
+
 TEST(Roofs, WithoutRoofsNothingChanges) {
   scene::Model model = roof(1.0f);
   EXPECT_EQ(add_roofs(model, "no such name"), 0u);

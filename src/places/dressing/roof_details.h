@@ -1,0 +1,18 @@
+// What stands on roofs: parapets along the free edges of flat ones, chimneys, and plant on large ones.
+#pragma once
+
+#include <vector>
+
+#include "places/dressing/model_triangles.h"
+
+namespace parvis::dressing {
+
+/// Cosine of 10 degrees: roofs whose normals have a smaller z are tiled, for tiles on less would leak.
+inline constexpr float flattest_tiles_z = 0.985f;
+
+/// Adds them to the model whose roofs these triangles are, as parts "RoofEdge", "Chimney" and "RoofPlant". An
+/// edge is free where no other roof lies beside it as high or higher. Small roofs stay bare; which of the
+/// others have what depends on the number of their building.
+void add_roof_details(scene::Model& model, const std::vector<ModelTriangle>& roofs);
+
+}  // namespace parvis::dressing
