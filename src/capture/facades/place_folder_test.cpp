@@ -39,7 +39,7 @@ struct DistortedPlace {
   }
 };
 
-TEST(PlaceFolder, StraightPicturesThatAreExchangedOrDamagedAreMadeAgain) {
+TEST(PlaceFolder, StraightPicturesThatAreExchangedOrDamagedAreStraightenedOnceMore) {
   const DistortedPlace place;
   ASSERT_EQ(place.read().photographs.size(), 4u);
   const std::string first = place.straight(0), last = place.straight(3);
