@@ -230,6 +230,10 @@ VertexLight::VertexLight(std::vector<LitVertex> vertices) { restart(std::move(ve
 
 void VertexLight::restart(std::vector<LitVertex> vertices) {
   vertices_ = std::move(vertices);
+  restart();
+}
+
+void VertexLight::restart() {
   sky_sums_.assign(vertices_.size(), glm::vec3(0.0f));
   sun_sums_.assign(vertices_.size(), glm::vec3(0.0f));
   rays_ = sun_rays_ = 0;

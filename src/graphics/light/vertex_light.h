@@ -63,7 +63,7 @@ class VertexLight {
   /// The object has moved, or the light has changed: what was traced no longer counts.
   void restart(std::vector<LitVertex> vertices);
   /// Restarts for the same vertices.
-  void restart() { restart(std::move(vertices_)); }
+  void restart();
 
   /// Adds `rays` directions of low discrepancy per vertex, cosine-weighted about its normal, and a quarter as
   /// many to the sun's disc. Same result for any number of threads, and however rays are divided into calls

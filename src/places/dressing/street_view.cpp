@@ -27,13 +27,26 @@ constexpr float overview_radius_m = 130.0f;
 constexpr int headings = 24;
 const glm::vec2 to_sun(-0.6f, -0.8f);  // in the afternoon
 
-/// What blocks the view of a person, in plan.
-scene::Mask obstacles(const scene::Scene& scene, const scene::PlaceHeights& place) {
+/// What blocks the view of a person, in plan, and how high it reaches.
+struct Obstacles {
+  scene::Mask mask;
+  scene::GroundRaster<float> tops;  ///< of the mask's cells
+
+  void add(glm::ivec2 cell, float top_m) {
+    if (!mask.contains(cell.x, cell.y)) return;
+    mask.at(cell.x, cell.y) = 1;
+    tops.at(cell.x, cell.y) = std::max(tops.at(cell.x, cell.y), top_m);
+  }
+};
+
+Obstacles obstacles(const scene::Scene& scene, const scene::PlaceHeights& place) {
   const scene::GroundGrid& plan = place.heights();
   const glm::vec2 size = plan.cell_m * glm::vec2(plan.width, plan.height);
   const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells(glm::ceil(size / cell_m));
-  scene::Mask mask(cells.x, cells.y, cell_m, plan.origin, 0);
+  Obstacles found{scene::Mask(cells.x, cells.y, cell_m, plan.origin, 0),
+                  scene::GroundRaster<float>(cells.x, cells.y, cell_m, plan.origin, -1e9f)};
+  const scene::Mask& mask = found.mask;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
     for (const scene::Part& part : object.model->parts) {
@@ -47,17 +60,15 @@ scene::Mask obstacles(const scene::Scene& scene, const scene::PlaceHeights& plac
         for (std::size_t k = 0; k < 3; ++k) {  // walls have no area in plan
           const glm::vec2 from(ring[k]), to(ring[(k + 1) % 3]);
           const int steps = 1 + int(glm::distance(from, to) / cell_m);
-          for (int step = 0; step <= steps; ++step) {
-            const glm::ivec2 cell = mask.cell_at(glm::mix(from, to, float(step) / float(steps)));
-            if (mask.contains(cell.x, cell.y)) mask.at(cell.x, cell.y) = 1;
-          }
+          for (int step = 0; step <= steps; ++step)
+            found.add(mask.cell_at(glm::mix(from, to, float(step) / float(steps))), top_m);
         }
         const std::vector<std::vector<glm::vec3>> rings{ring};
-        for (const glm::ivec2 cell : scene::cells_inside(mask, rings)) mask.at(cell.x, cell.y) = 1;
+        for (const glm::ivec2 cell : scene::cells_inside(mask, rings)) found.add(cell, top_m);
       }
     }
   }
-  return mask;
+  return found;
 }
 
 /// A spot on the ground and a heading.
@@ -68,7 +79,7 @@ struct Stand {
 class Judge {
  public:
   Judge(const scene::Scene& scene, const scene::PlaceHeights& place)
-      : mask_(obstacles(scene, place)), to_obstacle_(scene::distances_to(mask_, 1)) {}
+      : obstacles_(obstacles(scene, place)), to_obstacle_(scene::distances_to(mask_, 1)) {}
 
   /// Larger is better; negative where nobody can stand.
   float score(const Stand& stand) const {
@@ -81,7 +92,34 @@ class Judge {
            (0.6f + 0.4f * lit);
   }
 
+  /// From this stand toward the middle of what is seen there, and as high as to show it whole where that can
+  /// be.
+  View aimed(const Stand& stand, const glm::vec3& eye) const {
+    constexpr int rays = 41;
+    constexpr float half_angle = 0.6f, steepest = 0.35f;
+    glm::vec2 sum(0.0f);
+    float low = 0.0f, high = 0.0f;  // slopes from the eye
+    for (int i = 0; i < rays; ++i) {
+      const glm::vec2 direction =
+          turned(stand.ahead, half_angle * (2.0f * float(i) / float(rays - 1) - 1.0f));
+      const float distance = free_m(stand.spot, direction, longest_m);
+      const glm::ivec2 cell = mask_.cell_at(stand.spot + distance * direction);
+      if (distance >= longest_m || !mask_.contains(cell.x, cell.y)) continue;
+      sum += direction / std::max(distance, 10.0f);
+      high = std::max(high, (obstacles_.tops.at(cell.x, cell.y) - eye.z) / std::max(distance, 1.0f));
+      low = std::min(low, -eye_m / std::max(distance, 1.0f));
+    }
+    const glm::vec2 ahead = glm::length(sum) > 0.0f ? glm::normalize(sum) : stand.ahead;
+    const float slope = std::clamp(0.5f * (low + high), -steepest, steepest);
+    return {eye, glm::vec3(stand.spot + target_m * ahead, eye.z + target_m * slope)};
+  }
+
  private:
+  static glm::vec2 turned(glm::vec2 direction, float angle) {
+    return {direction.x * std::cos(angle) - direction.y * std::sin(angle),
+            direction.x * std::sin(angle) + direction.y * std::cos(angle)};
+  }
+
   /// How much of the street ahead has houses, 1: on both sides.
   float lined(const Stand& stand, float length_m) const {
     constexpr std::array looks_m{8.0f, 20.0f, 35.0f, 55.0f};
@@ -102,9 +140,8 @@ class Judge {
     constexpr float half_angle = 0.5f;
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
-      const float angle = half_angle * (2.0f * float(i) / float(rays - 1) - 1.0f);
-      const glm::vec2 direction(stand.ahead.x * std::cos(angle) - stand.ahead.y * std::sin(angle),
-                                stand.ahead.x * std::sin(angle) + stand.ahead.y * std::cos(angle));
+      const glm::vec2 direction =
+          turned(stand.ahead, half_angle * (2.0f * float(i) / float(rays - 1) - 1.0f));
       hits += free_m(stand.spot, direction, longest_m) < longest_m;
     }
     return float(hits) / float(rays);
@@ -119,7 +156,8 @@ class Judge {
     return up_to_m;
   }
 
-  scene::Mask mask_;
+  Obstacles obstacles_;
+  const scene::Mask& mask_ = obstacles_.mask;
   scene::GroundRaster<float> to_obstacle_;
 };
 
@@ -283,7 +321,8 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
   for (const Stand& stand : stands)
     if (const float score = judge.score(stand); score > best) best = score, chosen = &stand;
   if (chosen == nullptr || (roads.empty() && best < good_enough)) return outside_view(scene, place);
-  return view_of(*chosen, place);
+  const View along = view_of(*chosen, place);
+  return roads.empty() ? judge.aimed(*chosen, along.eye) : along;
 }
 
 View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const View& street) {

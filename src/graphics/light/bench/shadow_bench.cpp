@@ -179,9 +179,10 @@ Shares traced_shares(const reference::RayScene& rays, const scene::SunLight& sun
   shadows::TracedSun traced;
   traced.trace(rays, 1, {}, sun, camera, width, height, 1);
   Shares shares(std::size_t(width) * height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      shares[std::size_t(y * width + x)] = traced.pixels()[std::size_t((height - 1 - y) * width + x)].x;
+  constexpr std::size_t across = width, down = height;
+  for (std::size_t y = 0; y < down; ++y)
+    for (std::size_t x = 0; x < across; ++x)
+      shares[y * across + x] = traced.pixels()[(down - 1 - y) * across + x].x;
   return shares;
 }
 
