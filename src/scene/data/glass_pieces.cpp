@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -100,8 +99,7 @@ std::vector<Nesting> nested(const std::vector<GlassPiece>& found) {
   for (const GlassPiece& piece : found) bounds.push_back(piece.mesh.bounds());
   std::vector<std::size_t> by_size(found.size());
   std::iota(by_size.begin(), by_size.end(), std::size_t(0));
-  std::ranges::stable_sort(by_size, std::ranges::greater(),
-                           [&](std::size_t i) { return volume_of(bounds[i]); });
+  std::ranges::sort(by_size, {}, [&](std::size_t i) { return std::pair(-volume_of(bounds[i]), i); });
   const auto surrounds = [&](std::size_t i, std::size_t inner) {
     return found[i].is_closed && contains(bounds[i], bounds[inner]) && !contains(bounds[inner], bounds[i]) &&
            encloses(found[i].mesh, found[inner].mesh.positions.front());
