@@ -6,6 +6,8 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "scene/roads/segment_finder.h"
 
@@ -134,8 +136,9 @@ class Meetings {
       result_.add({road, paths_[road].length(), 0.0f});
     }
     std::vector<Segment> segments = segments_of(paths_);
-    const auto west = [](const Segment& s) { return std::min(s.a.x, s.b.x); };
-    std::ranges::stable_sort(segments, {}, west);
+    std::ranges::sort(segments, {}, [](const Segment& s) {
+      return std::tuple(std::min(s.a.x, s.b.x), s.road, s.index);  // from the west
+    });
     std::vector<PlanBox> boxes;
     boxes.reserve(segments.size());
     for (const Segment& s : segments)
@@ -304,7 +307,8 @@ Result<RoadNetwork> connect_roads(std::span<const Road> roads, std::size_t max_c
   for (std::size_t i = 0; i < spots.spots.size(); ++i) spots_of_road[spots.spots[i].road].push_back(i);
   std::vector<std::pair<std::size_t, std::size_t>> cuts;
   for (std::size_t road = 0; road < roads.size(); ++road) {
-    std::ranges::stable_sort(spots_of_road[road], {}, [&](std::size_t i) { return spots.spots[i].distance; });
+    std::ranges::sort(spots_of_road[road], {},
+                      [&](std::size_t i) { return std::pair(spots.spots[i].distance, i); });
     cut_road(paths[road], spots_of_road[road], spots, cuts);
   }
 

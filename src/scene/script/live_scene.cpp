@@ -255,7 +255,8 @@ Errors LiveScene::refresh(Scene& scene) {
   auto before = std::exchange(changed_, {});
   const std::vector<Setting> settings = std::exchange(settings_, {});
   for (const auto& [node, attributes] : before) changed_by_builder[builder_of(*node)].push_back(node);
-  for (const auto& [builder, nodes] : changed_by_builder) {
+  for (const auto& [builder, changed] : changed_by_builder) {
+    const std::vector<const Node*>& nodes = changed;
     Errors met;
     if (builder) {
       met = build_again(scene, *builder);
