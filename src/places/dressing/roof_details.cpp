@@ -337,8 +337,10 @@ void add_ridge_chimneys(const BuildingRoofs& building, Materials& materials, Ran
   if (length < 3.0f) return;
   if (random.chance(0.5f)) std::swap(from, to);
   const vec2 across = left_of(glm::normalize(vec2(to - from)));
-  for (float along = random.uniform(0.7f, 1.1f); along < length - 0.6f; along += house_m) {
-    const vec3 at = glm::mix(from, to, along / length);
+  const float first_m = random.uniform(0.7f, 1.1f);
+  const int houses = 1 + int(std::max(length - 0.6f - first_m, 0.0f) / house_m);
+  for (int house = 0; house < houses; ++house) {
+    const vec3 at = glm::mix(from, to, (first_m + float(house) * house_m) / length);
     const float high = at.z + random.uniform(0.6f, 1.1f);
     add_chimney(building.node, materials, vec2(at), across, at.z - 1.2f, high, random, builder);
   }

@@ -52,9 +52,10 @@ Obstacles obstacles(const scene::Scene& scene, const scene::PlaceHeights& place)
     for (const scene::Part& part : object.model->parts) {
       const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
       for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
-        std::vector<glm::vec3> ring;
+        std::vector<glm::vec3> ring(3);
         for (std::size_t k = 0; k < 3; ++k)
-          ring.emplace_back(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0f));
+          ring[k] =
+              glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0f));
         const float top_m = std::max({ring[0].z, ring[1].z, ring[2].z});
         if (top_m < place.at(glm::vec2(ring[0])) + blocked_m) continue;
         for (std::size_t k = 0; k < 3; ++k) {  // walls have no area in plan
@@ -148,7 +149,9 @@ class Judge {
   }
 
   float free_m(glm::vec2 from, glm::vec2 direction, float up_to_m) const {
-    for (float at = 0.0f; at < up_to_m; at += mask_.cell_m) {
+    const int steps = int(std::ceil(up_to_m / mask_.cell_m));
+    for (int step = 0; step < steps; ++step) {
+      const float at = float(step) * mask_.cell_m;
       const glm::ivec2 cell = mask_.cell_at(from + at * direction);
       if (!mask_.contains(cell.x, cell.y)) return up_to_m;
       if (mask_.at(cell.x, cell.y)) return at;
@@ -166,7 +169,9 @@ std::vector<Stand> stands_on(std::span<const scene::Road> roads, const scene::Pl
   for (const scene::Road& road : roads) {
     if (road.path.size() < 2) continue;
     const scene::MeasuredPath path(road.path);
-    for (float at = 0.5f * road_step_m; at < path.length(); at += road_step_m) {
+    const int steps = int(path.length() / road_step_m + 0.5f);
+    for (int step = 0; step < steps; ++step) {
+      const float at = (float(step) + 0.5f) * road_step_m;
       const glm::vec2 ahead(path.direction_at(at)), spot(path.at(at));
       if (!(glm::length(ahead) > 0.5f) || path.at(at).z < place.at(spot) - below_ground_m) continue;
       const glm::vec2 unit = glm::normalize(ahead), right(unit.y, -unit.x);
@@ -183,9 +188,10 @@ std::vector<Stand> stands_in_the_open(const scene::PlaceHeights& place) {
   const glm::vec2 size = plan.cell_m * glm::vec2(plan.width, plan.height);
   const scene::GroundRaster<float> to_built = scene::distances_to(place.built(), 1);
   std::vector<glm::vec2> spots;
-  for (float y = 0.0f; y < size.y; y += open_step_m)
-    for (float x = 0.0f; x < size.x; x += open_step_m) {
-      const glm::vec2 spot = plan.origin + glm::vec2(x, y);
+  const glm::ivec2 steps(glm::ceil(size / open_step_m));
+  for (int y = 0; y < steps.y; ++y)
+    for (int x = 0; x < steps.x; ++x) {
+      const glm::vec2 spot = plan.origin + open_step_m * glm::vec2(x, y);
       const glm::ivec2 cell = to_built.cell_at(spot);
       if (to_built.contains(cell.x, cell.y) && to_built.at(cell.x, cell.y) < near_built_m)
         spots.push_back(spot);
@@ -276,10 +282,12 @@ View view_from_above(glm::vec3 spot, glm::vec2 toward, float radius_m) {
 /// From so far away in this direction that the whole, from its foot to its top, is in the picture of a camera
 /// with the usual field of view.
 View facing_view(const Bounds& bounds, glm::vec2 toward, const scene::PlaceHeights& place) {
-  constexpr float step = 1.06f, max_radii = 12.0f;
+  constexpr float step = 1.06f;
+  constexpr int steps = 40;  // up to twelve radii
   const float radius_m = std::max(0.25f, bounds.radius());
   View view;
-  for (float radii = 1.2f; radii < max_radii; radii *= step) {
+  float radii = 1.2f;
+  for (int i = 0; i < steps; ++i, radii *= step) {
     const glm::vec2 spot = glm::vec2(bounds.centre()) + radii * radius_m * toward;
     const float height_m = std::min(eye_m, std::max(1.5f * bounds.size().z, 0.3f));
     view.eye = glm::vec3(spot, place.at(spot) + height_m);
@@ -345,8 +353,9 @@ View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const
       eye.x < built.min.x || eye.x > built.max.x || eye.y < built.min.y || eye.y > built.max.y;
   const glm::vec2 toward = glm::normalize(is_outside ? glm::vec2(eye - built.centre()) : to_sun);
   View view;
-  for (float radius_m = std::max(whole_m, smallest_m); radius_m < 4.0f * overview_radius_m;
-       radius_m *= 1.06f) {
+  constexpr int steps = 90;  // from the smallest up to four times the radius of a large place
+  float radius_m = std::max(whole_m, smallest_m);
+  for (int i = 0; i < steps; ++i, radius_m *= 1.06f) {
     view = view_from_above(built.centre(), toward, radius_m);
     if (fits(built, view)) break;
   }
