@@ -169,7 +169,7 @@ std::vector<Stand> stands_on(std::span<const scene::Road> roads, const scene::Pl
   for (const scene::Road& road : roads) {
     if (road.path.size() < 2) continue;
     const scene::MeasuredPath path(road.path);
-    const int steps = int(path.length() / road_step_m + 0.5f);
+    const int steps = int(std::lround(path.length() / road_step_m));
     for (int step = 0; step < steps; ++step) {
       const float at = (float(step) + 0.5f) * road_step_m;
       const glm::vec2 ahead(path.direction_at(at)), spot(path.at(at));
