@@ -33,7 +33,9 @@ GLSL_FUNCTION vec3 relief_hit(vec2 uv, vec2 uv_to_floor) {
     met = relief_depth(uv + deep * uv_to_floor);
   }
   if (met < deep - relief_tolerance) {
-    for (int i = 0; i < 6; ++i) {
+    // A view that grazes the surface moves by metres while it sinks: fewer halvings would leave the place so
+    // far behind the edge of the opening that no light finds out.
+    for (int i = 0; i < 10; ++i) {
       float middle = 0.5f * (open + deep);
       bool is_open = relief_depth(uv + middle * uv_to_floor) > middle;
       open = is_open ? middle : open;

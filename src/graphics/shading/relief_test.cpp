@@ -54,6 +54,15 @@ TEST(Relief, LightComesInWhereTheOpeningLetsIt) {
   EXPECT_EQ(groove.relief_light(vec3(0.3f, 0.5f, 0.0f), vec2(0.3f, 0.0f)), 1.0f);
 }
 
+TEST(Relief, TheLitSideOfAnOpeningIsLitUpToItsEdge) {
+  Groove groove;
+  const vec2 to_sun(-0.1f, 0.0f);  // over the side that is looked at
+  for (int i = 0; i < 200; ++i) {
+    const vec3 hit = groove.relief_hit(vec2(0.5f + 0.0005f * float(i), 0.5f), vec2(1.2f, 0.0f));
+    EXPECT_EQ(groove.relief_light(hit, to_sun), 1.0f) << hit.x << " " << hit.z;
+  }
+}
+
 TEST(Relief, CoordinatesMoveAsTheTexturesEdgesSay) {
   // A texture of 4 by 2 metres on a wall that faces south; the view sinks at 45 degrees toward the east.
   TextureFrame frame{vec3(4, 0, 0), vec3(0, 0, 2), vec2(1, 0), vec2(0, -1)};
