@@ -141,6 +141,12 @@ Status study(const Arguments& arguments) {
     if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
   processes->leave();
 
+  if (result->covered_m2 > 0.0)
+    fmt::print(
+        stderr,
+        "warning: {:.0f} m2 of ground lie under surfaces that face down alone; is a building inside out? "
+        "They count as built\n",
+        result->covered_m2);
   print_daylight(*period, arguments.from);
   fmt::print(
       "hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,

@@ -411,6 +411,15 @@ class HoursOfSun(BeforeAMirror):
         self.assertGreater(min(south), 9)
         self.assertLess(max(north), 1)
 
+    def test_a_building_inside_out_is_no_open_ground(self):
+        corners = [(x, y, z) for z in (0, 6) for x, y in ((-5, -5), (5, -5), (5, 5), (-5, 5))]
+        sides = ["4 3 2 1", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
+        vertices = "".join(f"v {x} {z} {-y}\n" for x, y, z in corners)
+        self.write("right.obj", vertices + "".join(f"f {side}\n" for side in sides))
+        self.write("inside_out.obj", vertices + "".join(f"f {' '.join(reversed(side.split()))}\n" for side in sides))
+        right, inside_out = (self.study(f'model(file="{name}.obj")')[0].split("open ground:")[1].split("m2")[0] for name in ("right", "inside_out"))
+        self.assertEqual(right, inside_out)
+
     def test_a_winter(self):
         winter = self.study(options=["--from", "2026-12-01", "--to", "2027-02-28", "--every", "15"])[1]
         self.assertTrue(9 < winter < 10.5, winter)

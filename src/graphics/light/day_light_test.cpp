@@ -87,6 +87,18 @@ TEST(DayLightNode, ReplacesSunAndSkyWhateverTheirOrder) {
   }
 }
 
+TEST(SunNode, DoesNotShineFromBelowTheHorizon) {
+  const TestFolder folder;
+  for (const char* below : {"sun(elevation_deg=-10)", "sun(direction=\"0 1 -0.2\")"}) {
+    const auto loaded = load(folder, below);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    EXPECT_EQ(loaded->scene.sun.irradiance, glm::vec3(0.0f)) << below;
+  }
+  const auto above = load(folder, "sun(elevation_deg=10)");
+  ASSERT_TRUE(above) << to_string(above.errors());
+  EXPECT_GT(above->scene.sun.irradiance.y, 1.0f);
+}
+
 TEST(DayLightNode, ASkyDomeWithoutItIsRefused) {
   const TestFolder folder;
   for (const char* script : {"skyDome()", "sun()\nsky()\nskyDome()"}) {

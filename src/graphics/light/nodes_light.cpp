@@ -32,7 +32,8 @@ NodeSchema sun_schema() {
                              .in("degrees")
                              .replacing({"direction"})
                              .live(),
-                         angle("elevation_deg", "height of the sun above the horizon")
+                         angle("elevation_deg",
+                               "height of the sun above the horizon; below it the sun does not shine")
                              .in("degrees")
                              .between(-90, 90)
                              .by_default("45")
@@ -63,7 +64,9 @@ void build_sun(const Node& node, SceneBuilder& builder) {
   if (glm::length(direction) < 1e-6f)
     return builder.fail(error_at(node.where_of("direction"), "the sun's direction has no length"));
   if (builder.scene.data<light::DayLight>().is_given) return;
-  light::set_sun(builder.scene, {glm::normalize(direction), node.vec3("irradiance")});
+  const bool is_up = direction.z > 0.0f;
+  light::set_sun(builder.scene,
+                 {glm::normalize(direction), is_up ? node.vec3("irradiance") : glm::vec3(0.0f)});
 }
 
 NodeSchema sky_schema() {

@@ -1,11 +1,11 @@
 // The sky of Preetham, Shirley and Smits 1999, A Practical Analytic Model for Daylight: the model of the
 // thesis. CIE XYZ; Y in W/m2/sr weighted by the eye (683 lm/W make it cd/m2).
 //
-// Departures, because the fit leaves its range: the zenith's luminance is negative below a turbidity of 1.1
-// (high sun) and above 11.5 (low sun), so that it is evaluated between 1.2 and 11; the rest is evaluated up
-// to 15; below the horizon the sun's elevation is 0 and the luminance falls by a factor of e each 1.25
-// degrees, as that of a clear twilight does; directions below the horizon show the horizon. What is left
-// below zero is zero.
+// Departures, because the fit leaves its range: below a turbidity of 2, where it begins, the distribution
+// over the sky passes through zero (at 1.645), and the zenith's luminance does so above 11.5 (low sun), so
+// that this is evaluated from 2 to 11 and the rest from 2 to 15; below the horizon the sun's elevation is 0
+// and the luminance falls by a factor of e each 1.25 degrees, as that of a clear twilight does; directions
+// below the horizon show the horizon. What is left below zero is zero.
 
 GLSL_FUNCTION float perez(float a, float b, float c, float d, float e, float cos_zenith, float angle,
                           float cos_angle) {
@@ -13,8 +13,8 @@ GLSL_FUNCTION float perez(float a, float b, float c, float d, float e, float cos
 }
 
 GLSL_FUNCTION vec3 preetham_xyz(vec3 direction, vec3 to_sun, float given_turbidity) {
-  float t = clamp(given_turbidity, 1.0f, 15.0f);
-  float zenith_t = clamp(given_turbidity, 1.2f, 11.0f);
+  float t = clamp(given_turbidity, 2.0f, 15.0f);
+  float zenith_t = clamp(given_turbidity, 2.0f, 11.0f);
   float sun_elevation = asin(clamp(to_sun.z, -1.0f, 1.0f));
   float s = min(1.57079633f - sun_elevation, 1.57f);  // zenith angle of the sun
   float cos_s = cos(s);

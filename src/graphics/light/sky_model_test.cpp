@@ -79,7 +79,7 @@ TEST(SkyModel, IsBlueAboveAndRedWhereTheSunSets) {
 
 TEST(SkyModel, IsNeverNegative) {
   for (const SkyKind kind : {SkyKind::atmosphere, SkyKind::preetham})
-    for (const double turbidity : {1.0, 3.0, 64.0})
+    for (const double turbidity : {1.0, 1.2, 1.5, 1.645, 1.8, 3.0, 64.0})
       for (const double elevation : {-90.0, -12.0, -4.0, 0.0, 2.0, 30.0, 90.0}) {
         const auto sky = sky_of(kind, turbidity, elevation);
         for (int i = 0; i < 500; ++i) {
@@ -92,6 +92,19 @@ TEST(SkyModel, IsNeverNegative) {
         const glm::vec3 sun = sky->sun_irradiance_xyz();
         ASSERT_TRUE(std::min({sun.x, sun.y, sun.z}) >= 0.0f);
       }
+}
+
+TEST(SkyModel, ByDayNoDirectionIsBlackOrBlinding) {
+  for (const SkyKind kind : {SkyKind::atmosphere, SkyKind::preetham})
+    for (const double turbidity : {1.0, 1.2, 1.5, 1.64, 1.66, 1.8, 2.0, 6.0}) {
+      const auto sky = sky_of(kind, turbidity, 45.0);
+      const float zenith = sky->sky_radiance_xyz({0, 0, 1}).y;
+      for (const float z : {0.02f, 0.1f, 0.3f, 0.7f}) {  // away from the sun
+        const float share = sky->sky_radiance_xyz({0, std::sqrt(1.0f - z * z), z}).y / zenith;
+        EXPECT_GT(share, 0.2f) << sky_kind_names[std::size_t(kind)] << ' ' << turbidity << ' ' << z;
+        EXPECT_LT(share, 12.0f) << sky_kind_names[std::size_t(kind)] << ' ' << turbidity << ' ' << z;
+      }
+    }
 }
 
 TEST(SkyModel, TheFittedZenithOfPreethamIsNegativeOutsideItsRange) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -81,6 +82,13 @@ std::optional<glm::vec3> surface_below(const reference::RayScene& rays, glm::vec
   return std::nullopt;
 }
 
+/// Whether something faces down over a point that rays from above have passed: a building inside out, or a
+/// roof of one side.
+bool is_below_backs(const reference::RayScene& rays, glm::vec3 ground) {
+  const auto hit = rays.nearest_hit({ground + glm::vec3(0, 0, lift_m), {0, 0, 1}, 1e-4f, 1e30f});
+  return hit && hit->place->material->alpha_mode == scene::Alpha::opaque;
+}
+
 void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
   parallel_for(
       study.cells.size(),
@@ -116,9 +124,18 @@ void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
   for (const GroundCell& cell : study.cells)
     heights.push_back(cell.kind == GroundCell::Kind::nothing ? 1e30f : cell.position.z);
   const std::vector<float> around = lowest(lowest(heights, 1, 0), 0, 1);
-  for (std::size_t i = 0; i < study.cells.size(); ++i)
-    if (study.cells[i].kind != GroundCell::Kind::nothing && heights[i] - around[i] < ground_rise_m)
-      study.cells[i].kind = GroundCell::Kind::ground;
+  std::atomic<std::size_t> covered = 0;
+  parallel_for(
+      study.cells.size(),
+      [&](std::size_t i) {
+        GroundCell& cell = study.cells[i];
+        if (cell.kind == GroundCell::Kind::nothing || heights[i] - around[i] >= ground_rise_m) return;
+        const bool is_covered = is_below_backs(rays, cell.position);
+        covered += is_covered ? 1 : 0;
+        if (!is_covered) cell.kind = GroundCell::Kind::ground;
+      },
+      256);
+  study.covered_m2 = double(covered) * study.cell_m * study.cell_m;
 }
 
 Result<SunStudy> laid_out(const Bounds& bounds, const SunStudyOptions& options) {

@@ -50,7 +50,9 @@ struct SunStudy {
   std::vector<GroundCell> cells;         ///< row 0 is the southernmost
   Mesh surfaces;                         ///< uv.x is the hours' share of `max_hours`
   std::vector<float> surface_hours;      ///< of each of their vertices
-  std::size_t rays_from = 0;             ///< points that rays start from
+  /// Ground under surfaces that face down alone (a building inside out), which counts as built.
+  double covered_m2 = 0.0;
+  std::size_t rays_from = 0;  ///< points that rays start from
 };
 
 /// Ground is the surface hit from above, below leaves and less than 2.5 m above the lowest surface within

@@ -1,6 +1,7 @@
 #include "graphics/light/bench/bounced_bench.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/reduction.h"
 #include "graphics/bounced_light/bounced_over.h"
@@ -52,13 +53,24 @@ Status measure_update(const scene::Scene& city, Report& report) {
   const double traced_ms = milliseconds([&] { light.update(city); });
   scene::Scene later = city;
   std::vector<double> samples, still_samples;
+  int followed = 0;
+  const auto brightness = [&] {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3 colour : light.bounced()->colours) sum += glm::dvec3(colour);
+    return sum.x + sum.y + sum.z;
+  };
+  if (!light.bounced()) return error("the scene has no bounced light");
   for (int i = 1; i <= 11; ++i) {
     later.sun.direction_to_sun =
         glm::normalize(city.sun.direction_to_sun + glm::vec3(0.02f * float(i), 0.0f, 0.0f));
+    const double before = brightness();
     samples.push_back(milliseconds([&] { light.update(later), glFinish(); }));
+    followed += std::abs(brightness() / before - 1.0) > 1e-4 ? 1 : 0;
     still_samples.push_back(milliseconds([&] { light.update(later), glFinish(); }));
   }
   const Median update = median(samples);
+  if (followed < int(samples.size()))
+    return error("only {} of {} updates changed the bounced light", followed, samples.size());
   report.add("bounced_light_update_ms", update.value, up_to(50.0));
   report.add("bounced_light_update_ms_of_a_sun_that_stays", median(still_samples).value);
   report.note(fmt::format("95 % interval {:.1f} to {:.1f} ms; the first light took {:.1f} s", update.low,

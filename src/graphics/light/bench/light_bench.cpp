@@ -96,15 +96,17 @@ Status count_negatives(const BenchSetup& setup, Report& report) {
   const auto look = [&](SkyKind kind, const light::Air& air, double elevation) -> Status {
     const auto sky = light::make_sky(kind, air, sun_at(elevation));
     if (!sky) return sky.errors();
+    const bool is_day = elevation > 0.0;
     for (int i = 0; i < directions; ++i) {
       const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(directions), turn = 2.39996323f * float(i);
       const float across = std::sqrt(1.0f - z * z);
       const glm::vec3 seen = (*sky)->sky_radiance_xyz({across * std::cos(turn), across * std::sin(turn), z});
-      ++samples, negative += is_bad(seen), negative_less += is_bad(seen - less);
+      const bool is_black = is_day && seen.y == 0.0f;  // what was negative before a clamp
+      ++samples, negative += is_bad(seen) || is_black, negative_less += is_bad(seen - less);
     }
     return Done{};
   };
-  for (const double turbidity : {1.0, 1.1, 2.0, 3.0, 6.0, 11.5, 20.0, 64.0})
+  for (const double turbidity : {1.0, 1.1, 1.3, 1.5, 1.645, 1.8, 2.0, 3.0, 6.0, 11.5, 20.0, 64.0})
     for (const double albedo : {0.0, 0.2, 1.0})
       for (const double elevation : {-90.0, -18.0, -8.0, -4.0, -1.0, 0.0, 1.0, 5.0, 20.0, 60.0, 90.0})
         for (const SkyKind kind : {SkyKind::atmosphere, SkyKind::preetham})
