@@ -1,7 +1,7 @@
 #include "graphics/light/bench/bounced_bench.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "base/reduction.h"
 #include "graphics/bounced_light/bounced_over.h"
@@ -54,18 +54,21 @@ Status measure_update(const scene::Scene& city, Report& report) {
   scene::Scene later = city;
   std::vector<double> samples, still_samples;
   int followed = 0;
-  const auto brightness = [&] {
-    glm::dvec3 sum(0.0);
-    for (const glm::vec3 colour : light.bounced()->colours) sum += glm::dvec3(colour);
-    return sum.x + sum.y + sum.z;
+  const auto has_changed = [&](const std::vector<glm::vec4>& before) {
+    double difference = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      difference += double(glm::distance(before[i], light.bounced()->lobes[i]));
+      all += double(glm::length(before[i]));
+    }
+    return difference > 1e-3 * all;
   };
   if (!light.bounced()) return error("the scene has no bounced light");
   for (int i = 1; i <= 11; ++i) {
     later.sun.direction_to_sun =
         glm::normalize(city.sun.direction_to_sun + glm::vec3(0.02f * float(i), 0.0f, 0.0f));
-    const double before = brightness();
+    const std::vector<glm::vec4> before = light.bounced()->lobes;
     samples.push_back(milliseconds([&] { light.update(later), glFinish(); }));
-    followed += std::abs(brightness() / before - 1.0) > 1e-4 ? 1 : 0;
+    followed += has_changed(before) ? 1 : 0;
     still_samples.push_back(milliseconds([&] { light.update(later), glFinish(); }));
   }
   const Median update = median(samples);
