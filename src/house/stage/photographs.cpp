@@ -56,6 +56,8 @@ Status write_photograph(const reference::Photograph& photograph, const Image8& d
 }
 
 Status check(const PhotographJob& job, const Outputs& outputs) {
+  for (const std::vector<fs::path>& files : outputs.pictures)
+    if (files.empty()) return error("a picture without a name: give -o the name of a file");
   if (!job.depth.empty() && !is_linear(job.depth))
     return error("--depth {}: expected a file in float, .exr", job.depth.string());
   std::set<fs::path> known;
