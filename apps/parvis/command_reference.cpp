@@ -2,11 +2,11 @@
 // --path-traced, photographs as a real camera would take them.
 #include <cmath>
 #include <csignal>
-#include <set>
 
 #include "base/image_io.h"
 #include "commands.h"
 #include "graphics/shading/tone_curve.h"
+#include "house/stage/output_names.h"
 #include "house/stage/photographs.h"
 #include "machines/processes.h"
 #include "scene_arguments.h"
@@ -45,20 +45,11 @@ Status write_traced(const Arguments& arguments, const reference::TracedPicture& 
   return Done{};
 }
 
-Status check_files(const Arguments& arguments) {
-  std::set<std::filesystem::path> known;
-  std::vector<std::filesystem::path> files = arguments.outputs;
-  if (!arguments.mask.empty()) files.push_back(arguments.mask);
-  for (const std::filesystem::path& file : files)
-    if (!known.insert(file.lexically_normal()).second)
-      return error("{}: two of the pictures would have this file; give each a name of its own",
-                   file.string());
-  return Done{};
-}
-
 Status trace(const Arguments& arguments) {
   int width = 0, height = 0;
-  if (Status status = check_files(arguments); !status) return status;
+  std::vector<std::filesystem::path> files = arguments.outputs;
+  if (!arguments.mask.empty()) files.push_back(arguments.mask);
+  if (Status status = house::check_different(files); !status) return status;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   if (arguments.cameras.size() > 1) return error("several cameras are for --path-traced only");

@@ -28,16 +28,24 @@ bool are_equal(const fs::path& a, const fs::path& b) {
   return in_a && in_b && *in_a == *in_b;
 }
 
+/// Where a picture is kept until it is written in both places: whoever is stopped between has edited nothing.
+fs::path next_file(const fs::path& written, const std::string& photograph) {
+  return psd_file(written / "next", photograph);
+}
+
+/// Whether the layered picture of a photograph is not what was written last.
+bool is_edited(const fs::path& folder, const std::string& photograph) {
+  const fs::path now = psd_file(folder / "layers", photograph), written = folder / "layers" / "written";
+  std::error_code code;
+  return fs::exists(now, code) && !are_equal(now, psd_file(written, photograph)) &&
+         !are_equal(now, next_file(written, photograph));
+}
+
 /// The photographs that the pictures were written of: their cameras alone, wherever their files are now.
 Result<photographs::PhotographSet> written_cameras(const fs::path& written) {
   const Result<photographs::ColmapModel> model = photographs::read_colmap_model(written);
   if (!model) return model.errors();
   return photographs::photograph_set_of(*model, written).set;
-}
-
-/// Where a picture is kept until it is written in both places: whoever is stopped between has edited nothing.
-fs::path next_file(const fs::path& written, const std::string& photograph) {
-  return psd_file(written / "next", photograph);
 }
 
 /// Pictures that somebody saved after they were written.
@@ -49,9 +57,7 @@ std::vector<std::string> edited_photographs(const fs::path& folder) {
   const Result<photographs::PhotographSet> set = written_cameras(written);
   if (!set) return names;
   for (const photographs::Photograph& photo : set->photographs) {
-    const fs::path now = psd_file(folder / "layers", photo.name), then = psd_file(written, photo.name);
-    if (fs::exists(now, code) && fs::exists(then, code) && !are_equal(now, then) &&
-        !are_equal(now, next_file(written, photo.name)))
+    if (fs::exists(psd_file(written, photo.name), code) && is_edited(folder, photo.name))
       names.push_back(photo.name);
   }
   return names;
@@ -173,18 +179,12 @@ Status check_files(const PlaceSource& source) {
 /// Changes that were not collected, because they could not be read, are not written over.
 Status check_collected(const PlaceSource& source, const PlaceLayers& place) {
   Errors errors;
-  std::error_code code;
-  for (const std::string& name : place.names) {
-    const fs::path now = psd_file(source.folder / "layers", name),
-                   then = psd_file(source.folder / "layers" / "written", name);
-    if (fs::exists(now, code) && !are_equal(now, then) &&
-        !are_equal(now, next_file(source.folder / "layers" / "written", name)))
+  for (const std::string& name : place.names)
+    if (is_edited(source.folder, name))
       errors.push_back(
           error("{}: somebody has changed it, and the changes could not be taken over; save it as a PSD of "
-                "8-bit RGB "
-                "with its layers, or move it elsewhere to have it written again",
-                now.string()));
-  }
+                "8-bit RGB with its layers, or move it elsewhere to have it written again",
+                psd_file(source.folder / "layers", name).string()));
   return errors.empty() ? Status(Done{}) : Status(errors);
 }
 

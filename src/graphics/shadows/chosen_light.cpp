@@ -68,7 +68,7 @@ void ChosenShadows::follow(const scene::Scene& scene) {
     ++scene_version_;
   } else {
     followed_->update(scene);
-    moved_.insert(moved_.end(), followed_->moved().begin(), followed_->moved().end());
+    if (is_exact()) moved_.insert(moved_.end(), followed_->moved().begin(), followed_->moved().end());
     if (moved_.size() > max_moved) {
       ++scene_version_;
       moved_.clear();

@@ -60,6 +60,15 @@ std::vector<fs::path> series_files(const fs::path& output, char joint,
   return files;
 }
 
+Status check_different(const std::vector<fs::path>& files) {
+  std::set<fs::path> known;
+  for (const fs::path& file : files)
+    if (!known.insert(file.lexically_normal()).second)
+      return error("{}: two of the pictures would have this file; give each a name of its own",
+                   file.string());
+  return Done{};
+}
+
 fs::path file_beside(const fs::path& file, std::string_view ending) {
   return fs::path(file).replace_filename(fitting(file.filename().string(), ending));
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.h"
+
 namespace parvis::house {
 
 /// A file for each of `names`, beside `output`: PICTURE.png and "oaks" make PICTURE-oaks.png where `joint` is
@@ -14,6 +16,9 @@ namespace parvis::house {
 /// same: a name that needs no replacement has its own file, and others that come to it get "-2", "-3".
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& output, char joint,
                                                 const std::vector<std::string>& names);
+
+/// Error: two of the files are one. For the pictures of one command.
+Status check_different(const std::vector<std::filesystem::path>& files);
 
 /// `file` with `ending` after its extension (PICTURE.png.checkpoint). Where that is longer than names may be
 /// (255 bytes), it is cut, with a hash of the whole.

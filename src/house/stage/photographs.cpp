@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/camera_check.h"
 #include "base/image_io.h"
@@ -60,15 +59,11 @@ Status check(const PhotographJob& job, const Outputs& outputs) {
     if (files.empty()) return error("a picture without a name: give -o the name of a file");
   if (!job.depth.empty() && !is_linear(job.depth))
     return error("--depth {}: expected a file in float, .exr", job.depth.string());
-  std::set<fs::path> known;
-  std::vector<std::vector<fs::path>> all = outputs.pictures;
-  all.push_back(outputs.depth), all.push_back(outputs.alpha);
-  for (const std::vector<fs::path>& files : all)
-    for (const fs::path& file : files)
-      if (!known.insert(file.lexically_normal()).second)
-        return error("{}: two of the pictures would have this file; give each a name of its own",
-                     file.string());
-  return Done{};
+  std::vector<fs::path> all = outputs.depth;
+  all.insert(all.end(), outputs.alpha.begin(), outputs.alpha.end());
+  for (const std::vector<fs::path>& files : outputs.pictures)
+    all.insert(all.end(), files.begin(), files.end());
+  return check_different(all);
 }
 
 }  // namespace

@@ -32,8 +32,6 @@ float area_of(const ModelTriangle& triangle) {
   return 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
 }
 
-bool is_flat(const ModelTriangle& triangle) { return std::abs(triangle.normal.z) > flattest_tiles_z; }
-
 /// Roofs by squares of the plan.
 class RoofFinder {
  public:
@@ -362,6 +360,11 @@ void add_plant(const BuildingRoofs& building, const ModelTriangle& roof, const M
 }
 
 }  // namespace
+
+bool is_flat(const ModelTriangle& roof) {
+  constexpr float flattest_tiles_z = 0.985f;  // cosine of 10 degrees
+  return std::abs(roof.normal.z) > flattest_tiles_z;
+}
 
 void add_roof_details(scene::Model& model, const std::vector<ModelTriangle>& roofs) {
   const RoofFinder finder(roofs);

@@ -7,8 +7,8 @@
 
 namespace parvis::dressing {
 
-/// Cosine of 10 degrees: roofs whose normals have a smaller z are tiled, for tiles on less would leak.
-inline constexpr float flattest_tiles_z = 0.985f;
+/// Less steep than 10 degrees, where tiles would leak.
+bool is_flat(const ModelTriangle& roof);
 
 /// Adds them to the model whose roofs these triangles are, as parts "RoofEdge", "Chimney" and "RoofPlant". An
 /// edge is free where no other roof lies beside it as high or higher. Small roofs stay bare; which of the

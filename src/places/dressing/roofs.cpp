@@ -78,11 +78,11 @@ std::size_t add_roofs(scene::Model& model, std::string_view target, bool has_det
 
   DressedParts parts(model, "RoofSurface");
   for (const ModelTriangle& roof : roofs) {
-    const bool is_flat = std::abs(roof.normal.z) > flattest_tiles_z;
+    const bool flat = is_flat(roof);
     const float choice = Random(roof.building + 1).uniform();
     const int material =
-        is_flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
-    parts.add(roof, material, roof_uvs(roof, is_flat, is_flat ? gravel_sheet_m : roof_sheet_m));
+        flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
+    parts.add(roof, material, roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m));
   }
   if (has_details) add_roof_details(model, roofs);
   return roofs.size();
