@@ -25,7 +25,9 @@ Status measure(const Arguments& arguments) {
           bench.run({house::all_rooms(), arguments.is_quick, arguments.part, arguments.kept}, report);
       !status)
     return status;
-  return arguments.json.empty() ? Status(Done{}) : report.write(arguments.json);
+  if (!arguments.json.empty())
+    if (Status status = report.write(arguments.json); !status) return status;
+  return report.controls();
 }
 
 }  // namespace

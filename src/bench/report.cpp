@@ -50,9 +50,23 @@ void Report::add(const std::string& key, double value) {
 
 void Report::add(const std::string& key, double value, const Target& target) {
   add(key, value);
-  const bool is_met = target.is_floor ? value >= target.limit : value <= target.limit;  // NaN meets none
-  note(fmt::format("{}: {} {} {}", key, is_met ? "meets" : "MISSES",
+  note(fmt::format("{}: {} {} {}", key, target.is_met_by(value) ? "meets" : "MISSES",
                    target.is_floor ? ">=" : "<=", target.limit));
+}
+
+void Report::add_control(const std::string& key, double value, const Target& target) {
+  add(key, value);
+  const bool has_failed = std::isfinite(value) && !target.is_met_by(value);
+  if (!has_failed) passed_controls_.push_back(key);
+  note(fmt::format("{}: the control {} {} {}", key, has_failed ? "fails, as it must," : "DOES NOT FAIL",
+                   target.is_floor ? ">=" : "<=", target.limit));
+}
+
+Status Report::controls() const {
+  if (passed_controls_.empty()) return Done{};
+  return error(
+      "controls reach the targets that they must miss, so that the figures beside them show nothing: {}",
+      fmt::join(passed_controls_, ", "));
 }
 
 void Report::add(const std::string& key, const Median& median) {

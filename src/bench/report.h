@@ -28,6 +28,9 @@ double percentile(std::vector<double> values, double share);
 struct Target {
   double limit = 0.0;
   bool is_floor = false;  ///< the figure is to be at least so much, else at most
+
+  /// Whether a figure reaches it; what is no number does not.
+  bool is_met_by(double value) const { return is_floor ? value >= limit : value <= limit; }
 };
 /// At most so much.
 inline Target up_to(double limit) { return {limit, false}; }
@@ -42,6 +45,9 @@ class Report {
   void add(const std::string& key, double value);
   /// The same, with a row that says whether it meets its target.
   void add(const std::string& key, double value, const Target& target);
+  /// The figure of a control, a case in which what is measured is broken: it must miss the figure's target. A
+  /// row says so; where it does not, the figure shows nothing, and `controls` fails.
+  void add_control(const std::string& key, double value, const Target& target);
   /// The median counts; its interval stands in a row.
   void add(const std::string& key, const Median& median);
   /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
@@ -49,13 +55,15 @@ class Report {
   /// Adds a row of text: how a figure was measured, on which machine.
   void note(std::string row);
 
+  /// Fails, with their keys, where controls have met their targets.
+  Status controls() const;
   /// {"bench": NAME, "figures": {KEY: number, ...}, "rows": [...]}
   Status write(const std::filesystem::path& file) const;
 
  private:
   std::string name_;
   std::vector<std::pair<std::string, double>> figures_;
-  std::vector<std::string> rows_;
+  std::vector<std::string> rows_, passed_controls_;
 };
 
 }  // namespace parvis::bench

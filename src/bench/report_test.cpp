@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -29,6 +30,20 @@ TEST(Report, WritesFiguresAsNumbersAndSaysWhatIsSkipped) {
   EXPECT_EQ(json["bench"], "import_export");
   EXPECT_EQ(json["figures"], nlohmann::json({{"loaded_ms", 12.5}}));
   EXPECT_EQ(json["rows"].back(), "errors is skipped: node is absent");
+}
+
+TEST(Report, NamesControlsThatDoNotFail) {
+  Report report("light");
+  report.add_control("error_of_a_wrong_sun", 2.0, up_to(0.5));
+  report.add_control("share_without_it", 0.5, {.limit = 0.9, .is_floor = true});
+  EXPECT_TRUE(report.controls());
+  report.add_control("error_of_another_wrong_sun", 0.4, up_to(0.5));
+  report.add_control("nothing_was_measured", std::nan(""), up_to(0.5));
+  const Status status = report.controls();
+  ASSERT_FALSE(status);
+  EXPECT_NE(to_string(status.errors()).find(": error_of_another_wrong_sun, nothing_was_measured"),
+            std::string::npos)
+      << to_string(status.errors());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "capture/trees/tree_drawable.h"
 #include "graphics/shading/sky.h"
 #include "graphics/shading/surface.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::trees {
 namespace {
@@ -134,12 +135,15 @@ scene::TracedKind traced_trees() {
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     std::unordered_map<const TreeLevels*, std::shared_ptr<const Mesh>> meshes;
     const auto sky = std::make_shared<const MeanSky>(scene);
-    int thing = 0;
-    for (const SceneTree& tree : scene_trees(scene)) {
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const SceneTrees& trees = scene.data<SceneTrees>();
+    for (std::size_t i = 0; i < trees.items.size(); ++i) {
+      const SceneTree& tree = trees.items[i];
       std::shared_ptr<const Mesh>& mesh = meshes[tree.tree.get()];
       if (!mesh) mesh = std::make_shared<const Mesh>(boxes_of(tree.tree->levels.front().grid));
       traced.add(mesh, std::make_shared<const TreeSurface>(tree, sky, scene.sun.direction_to_sun),
-                 tree.world_from_leaning_tree(), {thing++, tree.sways(), tree.is_visible, true});
+                 tree.world_from_leaning_tree(),
+                 {int(i), tree.sways(), tree.is_visible, shadows.casts_item_of(trees.makers[i])});
     }
   };
   return kind;

@@ -23,6 +23,7 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/data/sun_shadows.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
@@ -203,6 +204,10 @@ TEST_F(TreeDisplayTest, ItsShadowHasTheDensityOfItsCrown) {
   };
   EXPECT_LT(mean(shaded, width / 2 - 30), 0.8 * mean(open, width / 2 - 30));
   EXPECT_NEAR(mean(shaded, width / 2 + 60), mean(open, width / 2 + 60), 1.0) << "toward the sun";
+  scene_.data<scene::SunShadows>().caster_nodes = {{1, 1}};  // it is of node 0
+  const auto alone = renderer();
+  EXPECT_NEAR(mean(drawn(*alone), width / 2 - 30), mean(open, width / 2 - 30), 1.0)
+      << "where others alone cast shadows";
 }
 
 TEST_F(TreeDisplayTest, ATreeThatSwaysIsDrawnAsRaysSeeIt) {

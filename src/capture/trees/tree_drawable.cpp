@@ -107,7 +107,9 @@ class TreeDrawable final : public render::Drawable {
     sun_ = scene::sun_light(scene);
     if (const Status status = upload(scene); !status) fmt::print(stderr, "{}", to_string(status.errors()));
     things_.begin_update(trees.size());
-    trees_ = trees, bounds_.resize(trees.size()), swaying_.clear();
+    trees_ = trees, bounds_.resize(trees.size()), casts_shadow_.resize(trees.size()), swaying_.clear();
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const std::vector<int>& makers = scene.data<SceneTrees>().makers;
     for (std::size_t i = 0; i < trees.size(); ++i) {
       SceneTree& tree = trees_[i];
       tree.world_from_tree = tree.world_from_leaning_tree(), tree.lean_m = glm::vec2(0.0f);
@@ -118,6 +120,7 @@ class TreeDrawable final : public render::Drawable {
           i, {is_static ? tree.tree.get() : nullptr, is_static ? tree.world_from_tree : glm::mat4(1.0f),
               is_static && tree.is_visible, all, is_static ? all : Bounds()});
       bounds_[i] = tree.is_visible ? all : Bounds();
+      casts_shadow_[i] = shadows.casts_item_of(makers[i]);
       if (!is_static && tree.is_visible) swaying_.push_back(all);
     }
   }
@@ -131,8 +134,9 @@ class TreeDrawable final : public render::Drawable {
     DrawList& list = list_of(view);
     list.billboards.clear();
     std::vector<std::pair<float, std::size_t>> seen;
+    const bool is_shadow = view.kind == ViewKind::shadow;
     for (std::size_t i = 0; i < trees_.size(); ++i)
-      if (trees_[i].is_visible && atlas_.holds(trees_[i].tree.get()) &&
+      if (trees_[i].is_visible && (casts_shadow_[i] || !is_shadow) && atlas_.holds(trees_[i].tree.get()) &&
           culling.shows(first_thing_ + int(i), {trees_[i].sways(), things_.is_newcomer(i)}) &&
           culling.may_see(bounds_[i]) && !culling.is_hidden(bounds_[i]))
         seen.emplace_back(glm::distance(bounds_[i].centre(), view.position_in_world), i);
@@ -282,10 +286,11 @@ class TreeDrawable final : public render::Drawable {
   gl::VertexArray vertex_array_ = gl::VertexArray::create();
   TreeAtlas atlas_;
   std::vector<const TreeLevels*> uploaded_;
-  std::vector<SceneTree> trees_;  // as of the last update
-  render::StaticThings things_;   // those that stand still
-  std::vector<Bounds> bounds_;    // of each tree; empty while it is hidden
-  std::vector<Bounds> swaying_;   // of those that sway and are visible
+  std::vector<SceneTree> trees_;    // as of the last update
+  render::StaticThings things_;     // those that stand still
+  std::vector<Bounds> bounds_;      // of each tree; empty while it is hidden
+  std::vector<bool> casts_shadow_;  // each tree
+  std::vector<Bounds> swaying_;     // of those that sway and are visible
   // The main view's list and memory are its own: other views are drawn between its preparation and its
   // drawing.
   render::StreamBuffer main_stream_, other_stream_;

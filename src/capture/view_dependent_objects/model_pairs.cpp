@@ -1,7 +1,9 @@
 #include "capture/view_dependent_objects/model_pairs.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 
+#include "base/camera_check.h"
 #include "base/files.h"
 #include "capture/photographs/camera_files.h"
 
@@ -11,8 +13,6 @@ namespace {
 using photographs::ViewOfPicture;
 
 constexpr std::uint64_t max_camera_bytes = std::uint64_t{256} << 20;  // a model may be the camera's file
-
-glm::vec3 place_of(const ViewOfPicture& view) { return glm::vec3(view.world_from_camera[3]); }
 
 std::string names_of(const std::vector<ViewOfPicture>& views) {
   std::vector<std::string> names;
@@ -93,7 +93,7 @@ class PairReader {
     const Result<std::vector<ViewOfPicture>> views = photographs::parse_thesis_cameras(
         "camera=\"" + std::get<std::string>(attribute.value) + '"', attribute.where.file);
     if (views && views->size() == 1)
-      pairs_.back().viewpoint = place_of(views->front());
+      take(views->front(), attribute.where);
     else
       errors_.push_back(error_at(
           attribute.where, "expected camera=\"x y z h p r fov aspect\": 8 numbers, fov between 0 and 180"));
@@ -113,7 +113,7 @@ class PairReader {
     if (views->size() > 1)
       return errors_.push_back(error_at(attribute.where, "holds {} viewpoints: say which by cameraName= ({})",
                                         views->size(), names_of(*views)));
-    pairs_.back().viewpoint = place_of(views->front());
+    take(views->front(), attribute.where);
   }
 
   void take_name(const scene::NodeAttribute& attribute) {
@@ -132,7 +132,20 @@ class PairReader {
     if (found == views->end())
       return errors_.push_back(error_at(attribute.where, "{} has no camera \"{}\"; it has {}",
                                         last_file_.filename().string(), name, names_of(*views)));
-    pairs_.back().viewpoint = place_of(*found);
+    take(*found, attribute.where);
+  }
+
+  void take(const ViewOfPicture& view, const FileLocation& where) {
+    const glm::vec3 place(view.world_from_camera[3]);
+    const std::string named = view.name.empty() ? "" : fmt::format(" \"{}\"", view.name);
+    if (!glm::all(glm::lessThanEqual(glm::abs(place), glm::vec3(max_coordinate_m))))
+      errors_.push_back(
+          error_at(where, "the viewpoint{} stands further than {:g} m away", named, max_coordinate_m));
+    if (!(view.fov > 0.0 && view.fov < glm::pi<double>()))
+      errors_.push_back(
+          error_at(where, "the viewpoint{} sees {:.6g} degrees: expected more than 0 and less than 180",
+                   named, glm::degrees(view.fov)));
+    pairs_.back().viewpoint = place;
   }
 
   void fail(const Errors& errors, const FileLocation& where) {

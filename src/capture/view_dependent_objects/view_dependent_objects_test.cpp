@@ -246,6 +246,9 @@ TEST_F(VdObject, SaysWhatIsWrong) {
   holds("vdobject(file=\"bus.pfb\", camera=\"0 0 0 0 0 0 30 1\")",
         "no .glb, .gltf, .iv or .wrl of that name");
   holds("vdobject(file=\"car.glb\", camera=\"0 0 0 0 0 0 30 1\", numBlendPass=5)", "from 1 to 4");
+  holds("vdobject(file=\"car.glb\", camera=\"1e30 0 0 0 0 0 30 1\")", "further than 1e+09 m away");
+  folder_.write("blind.wrl", "#VRML V2.0 utf8\nDEF c Viewpoint { position 0 2 5 fieldOfView 0 }\n");
+  holds("vdobject(file=\"car.glb\", cameraFile=\"blind.wrl\")", "\"c\" sees 0 degrees");
   EXPECT_TRUE(load("vdobject(file=\"car.glb\", cameraFile=\"two.wrl\", cameraName=\"b\")"));
 }
 

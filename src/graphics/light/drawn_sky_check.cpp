@@ -5,16 +5,15 @@
 #include <vector>
 
 #include "graphics/light/day_light.h"
-#include "graphics/light/sky_model.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/render/renderer.h"
 
 namespace parvis::light {
 
-Result<double> drawn_sky_error(double elevation_deg, float turned_deg) {
+Result<double> drawn_sky_error(SkyKind kind, double turbidity, double elevation_deg, float turned_deg) {
   constexpr int size = 128;
-  const auto sky = make_sky(SkyKind::atmosphere, Air{3.0},
+  const auto sky = make_sky(kind, Air{turbidity},
                             SolarPosition{.azimuth_deg = 180.0,
                                           .zenith_deg = 90.0 - elevation_deg,
                                           .geometric_elevation_deg = elevation_deg});

@@ -43,16 +43,17 @@ scene::NodeSchema shadow_map_schema() {
                .by_default(shadow_technique_names[0])
                .live(),
            reference("casters",
-                     "of models and objects, these and those of these groups alone cast shadows; without it "
-                     "all do. "
-                     "Trees, plants and what photographs show always cast them",
-                     {"group", "model", "object"})
-               .repeatable(),
+                     "of models, objects, plants and trees, these and those of these groups alone cast "
+                     "shadows; without it all do. What photographs show always casts them",
+                     {"group", "model", "object", "plant", "tree"})
+               .repeatable()
+               .kept(),
            reference("receivers",
-                     "these alone receive them; without it all do. What photographs show has shadow_strength "
-                     "for that",
+                     "of models and objects, these and those of these groups alone receive them; without it "
+                     "all do. What photographs show has shadow_strength for that",
                      {"group", "model", "object"})
-               .repeatable(),
+               .repeatable()
+               .kept(),
            flag("updateNear",
                 "fitted maps begin at the nearest surface in view, not at the camera's near plane")
                .by_default("1")
@@ -84,7 +85,8 @@ scene::NodeSchema shadow_map_schema() {
       .example =
           "shadowMap(method=\"light_space_perspective\")\n"
           "timer(period_s=10, onTime=\"5, %shadowMap, lightAngle 30\")",
-      .is_unique = true};
+      .is_unique = true,
+      .is_implied = true};
 }
 
 void build_shadow_map(const scene::Node& node, scene::SceneBuilder& builder) {
@@ -117,19 +119,31 @@ void build_shadow_map(const scene::Node& node, scene::SceneBuilder& builder) {
   }
 }
 
-/// All objects but those in the groups refuse; none where no group is named.
-void choose(scene::SceneBuilder& builder, const std::vector<std::pair<std::string, FileLocation>>& groups,
-            const char* role, std::vector<bool>& refuses) {
-  if (groups.empty()) return;
+/// Whether the node or one inside it makes something that stands in the scene.
+bool holds_any(const scene::Node& node) {
+  const bool is_around_others = node.schema->type == "group" || node.schema->type == "scenario";
+  return !is_around_others || std::ranges::any_of(node.children, holds_any);
+}
+
+/// All objects but those in the groups refuse; none where no group is named. Returns the groups' nodes.
+std::vector<scene::NodeRange> choose(scene::SceneBuilder& builder,
+                                     const std::vector<std::pair<std::string, FileLocation>>& groups,
+                                     const char* role, std::vector<bool>& refuses) {
+  std::vector<scene::NodeRange> nodes;
+  if (groups.empty()) return nodes;
   refuses.assign(builder.scene.objects.size(), true);
   std::set<std::string> chosen;
   for (const auto& [group, where] : groups) {
     if (!chosen.insert(group).second) continue;
-    const std::vector<int> objects = builder.objects_of(group);
-    if (objects.empty())
-      builder.fail(error_at(where, "\"{}\" holds no model or object that could {} a shadow", group, role));
-    for (const int object : objects) refuses[std::size_t(object)] = false;
+    const scene::Node* node = builder.find(group);
+    if (!node || !holds_any(*node)) {
+      builder.fail(error_at(where, "\"{}\" holds nothing that could {} a shadow", group, role));
+      continue;
+    }
+    nodes.push_back(builder.range_of(*node));
+    for (const int object : builder.objects_of(group)) refuses[std::size_t(object)] = false;
   }
+  return nodes;
 }
 
 }  // namespace
@@ -140,7 +154,7 @@ void add_shadow_map_node(scene::NodeRegistry& registry) {
     const ShadowGroups groups = builder.scene.data<ShadowGroups>();
     if (groups.casters.empty() && groups.receivers.empty()) return;
     scene::SunShadows& shadows = builder.scene.data<scene::SunShadows>();
-    choose(builder, groups.casters, "cast", shadows.casts_none);
+    shadows.caster_nodes = choose(builder, groups.casters, "cast", shadows.casts_none);
     choose(builder, groups.receivers, "receive", shadows.receives_none);
   });
 }

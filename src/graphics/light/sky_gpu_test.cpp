@@ -28,11 +28,11 @@ TEST_F(SkyOnGpu, AWrongTableIsSeen) {
 
 TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
   for (const double elevation : {-3.0, 2.0, 10.0, 70.0}) {
-    const Result<double> error = drawn_sky_error(elevation);
+    const Result<double> error = drawn_sky_error(SkyKind::atmosphere, 3.0, elevation);
     ASSERT_TRUE(error) << to_string(error.errors());
     EXPECT_LE(*error, 1e-3) << elevation;
   }
-  EXPECT_GT(*drawn_sky_error(10.0, 1.0f), 1e-2) << "turned by a degree";
+  EXPECT_GT(*drawn_sky_error(SkyKind::atmosphere, 3.0, 10.0, 1.0f), 1e-2) << "turned by a degree";
 }
 
 }  // namespace

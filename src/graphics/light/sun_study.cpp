@@ -214,11 +214,9 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
 
   std::vector<SunPoint> points;
   points.reserve(study.cells.size() + study.surfaces.positions.size() + 1);
-  for (const GroundCell& cell : study.cells)
-    points.push_back({cell.position + glm::vec3(0, 0, lift_m), {0, 0, 1}});
+  for (const GroundCell& cell : study.cells) points.push_back(lifted(cell.position, {0, 0, 1}));
   for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i)
-    points.push_back(
-        {study.surfaces.positions[i] + lift_m * study.surfaces.normals[i], study.surfaces.normals[i]});
+    points.push_back(lifted(study.surfaces.positions[i], study.surfaces.normals[i]));
   study.rays_from = points.size();
   points.push_back({{0.0f, 0.0f, bounds.max.z + 1.0f}, {0, 0, 1}});  // nothing stands higher
   const std::vector<float> hours = divided_hours(rays, points, options);
@@ -229,6 +227,8 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
     study.surfaces.uvs[i] = {0.002f + 0.996f * study.surface_hours[i] / float(study.max_hours), 0.5f};
   return made;
 }
+
+SunPoint lifted(glm::vec3 position, glm::vec3 normal) { return {position + lift_m * normal, normal}; }
 
 OpenSpaceRule open_space_rule(const SunStudy& study) {
   std::size_t open = 0, sunny = 0;

@@ -60,6 +60,9 @@ struct SunStudy {
 /// vertices.
 Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options);
 
+/// The point of a surface from which a study looks for the sun: 2 cm off it.
+SunPoint lifted(glm::vec3 position, glm::vec3 normal);
+
 /// Of the open ground of a study of 21 March.
 OpenSpaceRule open_space_rule(const SunStudy& study);
 

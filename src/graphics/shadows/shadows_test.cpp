@@ -319,6 +319,24 @@ TEST_F(ShadowMapNode, ChoosesCastersAndReceiversByTheirGroups) {
   }
   EXPECT_EQ(casters, "0110");
   EXPECT_EQ(receivers, "0011");
+  // What is no object is known by its node: the group a is the second, the object c the fifth.
+  std::string by_node;
+  for (int node = 0; node < 6; ++node) by_node += shadows.casts_item_of(node) ? '1' : '0';
+  EXPECT_EQ(by_node, "011110") << "the group, what it holds, and no other";
+}
+
+TEST_F(ShadowMapNode, IsThereForMessagesAndScenariosThatNameIt) {
+  const auto loaded = load("scenario(name=\"lamp\") { override(of=\"%xpShadowMap\", spot=1) }\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_TRUE(scene::find_node(loaded->script.nodes, "%shadowMap"));
+  auto other = load("scenario(name=\"exact\") { override(of=\"%shadowMap\", method=\"rays\") }\n");
+  ASSERT_TRUE(other) << to_string(other.errors());
+  scene::LiveScene live(std::move(other->script));
+  ASSERT_TRUE(live.choose(other->scene, "exact"));
+  EXPECT_EQ(other->scene.data<light::ShadowSettings>().technique, ShadowTechnique::rays);
+  const auto none = load("sun(direction=\"0 1 1\")\n");
+  ASSERT_TRUE(none) << to_string(none.errors());
+  EXPECT_FALSE(scene::find_node(none->script.nodes, "%shadowMap")) << "nobody speaks of it";
 }
 
 TEST_F(ShadowMapNode, SaysWhatIsWrong) {
@@ -328,7 +346,11 @@ TEST_F(ShadowMapNode, SaysWhatIsWrong) {
   };
   EXPECT_NE(message("shadowMap(casters=\"trees\")").find("no node of the scene has this name"),
             std::string::npos);
-  EXPECT_NE(message("group(name=\"trees\") { }\nshadowMap(casters=\"trees\")").find("holds no model"),
+  EXPECT_NE(message("group(name=\"trees\") { }\nshadowMap(casters=\"trees\")").find("holds nothing that"),
+            std::string::npos);
+  EXPECT_NE(message("group(name=\"a\") { sun() }\nshadowMap()\nscenario(name=\"s\") { "
+                    "override(of=\"%shadowMap\", casters=\"a\") }")
+                .find("keeps, once the scene is loaded, its \"casters\""),
             std::string::npos);
   EXPECT_NE(message("shadowMap(lightDirection=\"0 0 0\")").find("no length"), std::string::npos);
   EXPECT_NE(message("shadowMap(lightAngle=180)").find("lightAngle"), std::string::npos);

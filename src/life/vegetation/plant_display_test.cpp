@@ -14,6 +14,7 @@
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
+#include "scene/data/sun_shadows.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::vegetation {
@@ -179,6 +180,19 @@ TEST_F(PlantDisplay, ItCastsItsShadowFromFarAsFromNear) {
   const double shaded = mean(drawn(*kept)), by_rays = mean(traced(*kept, 8));
   EXPECT_LT(shaded, lit - 3.0) << "it casts a shadow";
   EXPECT_NEAR(shaded, by_rays, 2.0);
+}
+
+TEST_F(PlantDisplay, CastsNoShadowWhereOthersAloneDo) {
+  plant("oak", {-9, 12, 0});
+  camera_.world_from_camera = look_at({-16, 17.5f, 30}, {-16, 17.51f, 0});
+  camera_.vertical_fov = 0.3f;
+  scene_.data<scene::SunShadows>().caster_nodes = {{0, 0}};
+  const Image8 with = drawn(*renderer());
+  scene_.data<scene::SunShadows>().caster_nodes = {{1, 4}};  // it is of node 0
+  const auto kept = renderer();
+  const Image8 without = drawn(*kept);
+  EXPECT_GT(flip(with, without), 0.02);
+  EXPECT_LT(flip(without, traced(*kept, 8)), 0.5 * flip(with, without)) << "as the ray tracer sees it";
 }
 
 TEST_F(PlantDisplay, IsPickedAndHiddenAsAThing) {

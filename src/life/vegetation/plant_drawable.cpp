@@ -19,6 +19,7 @@
 #include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
 #include "scene/data/mip_levels.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::vegetation {
 namespace {
@@ -105,6 +106,8 @@ class PlantDrawable final : public render::Drawable {
     const std::vector<ScenePlant>& plants = scene_plants(scene);
     const bool is_new_detail = !(detail_ == scene.data<PlantDetail>());  // kept shadow maps show another
     detail_ = scene.data<PlantDetail>();
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const std::vector<int>& makers = scene.data<ScenePlants>().makers;
     upload_shapes(plants);
     things_.begin_update(plants.size(), !is_new_detail);
     plants_.resize(plants.size());
@@ -114,6 +117,7 @@ class PlantDrawable final : public render::Drawable {
       things_.update(i, {plant.shape.get(), plant.world_from_plant, plant.is_visible, all, all});
       plants_[i] = placed(plant, first_thing_ + int(i));
       plants_[i].is_newcomer = things_.is_newcomer(i);
+      plants_[i].casts_shadow = shadows.casts_item_of(makers[i]);
     }
   }
   render::Extents extents() const override { return things_.extents(); }

@@ -48,6 +48,7 @@ void PlantSelection::gather(const View& view, const Culling& culling, const Plan
   };
   for (std::size_t i = 0; i < plants_.size(); ++i) {
     const PlacedPlant& plant = plants_[i];
+    if (view.kind == ViewKind::shadow && !plant.casts_shadow) continue;
     if (!plant.is_visible || !culling.shows(plant.thing, {false, plant.is_newcomer}) ||
         !culling.may_see(plant.bounds) || culling.is_hidden(plant.bounds))
       continue;

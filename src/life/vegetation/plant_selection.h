@@ -19,6 +19,7 @@ struct PlacedPlant {
   int thing = 0;       ///< number behind the scene's objects
   bool is_visible = true;
   bool is_newcomer = false;  ///< appeared or was moved in this frame
+  bool casts_shadow = true;
 };
 
 /// The plant as it stands, numbered.

@@ -9,6 +9,7 @@
 #include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/paper_city/leaf_texture.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::vegetation {
 namespace {
@@ -93,9 +94,12 @@ scene::TracedKind traced_plants() {
   kind.count = [](const scene::Scene& scene) { return int(scene_plants(scene).size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
     std::unordered_map<const PlantShape*, TracedShape> shapes;
-    int thing = 0;
-    for (const ScenePlant& plant : scene_plants(scene)) {
-      const scene::TracedPlacing placing{thing++, false, plant.is_visible, true};
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const ScenePlants& plants = scene.data<ScenePlants>();
+    for (std::size_t i = 0; i < plants.items.size(); ++i) {
+      const ScenePlant& plant = plants.items[i];
+      const scene::TracedPlacing placing{int(i), false, plant.is_visible,
+                                         shadows.casts_item_of(plants.makers[i])};
       TracedShape& shape = shapes[plant.shape.get()];
       if (!shape.leaves) shape = traced_shape(plant.shape);
       const float scale = placed(plant, 0).scale;

@@ -88,7 +88,10 @@ void forget_other_states(const scene::Scene& scene, const std::set<fs::path>& ke
   std::vector<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(scene::baked_folder(scene), code))
     if (is_state(entry.path()) && !kept.contains(entry.path())) others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove_all(other, code);
+  for (const fs::path& other : others) {
+    if (!fs::is_symlink(fs::symlink_status(other, code))) scene::remove_other_files(other, extension, {});
+    fs::remove(other, code);  // unless somebody keeps something else there
+  }
 }
 
 }  // namespace parvis::reference_maps

@@ -184,6 +184,22 @@ TEST_F(MapCacheTest, StatesThatAreNotAskedForAreForgottenAndOtherFilesStay) {
   EXPECT_TRUE(fs::exists(old.folder().parent_path() / "mine"));
 }
 
+TEST_F(MapCacheTest, ForgettingAStateLeavesWhatOthersKeepInItsFolderAndBehindLinks) {
+  keep();
+  const MapCache old(scene_);
+  const fs::path baked = old.folder().parent_path(), outside = folder_.path() / "outside";
+  ASSERT_TRUE(write_file(old.folder() / "notes.txt", "mine"));
+  fs::create_directories(outside);
+  ASSERT_TRUE(write_file(outside / "0001.map", "mine"));
+  fs::create_directory_symlink(outside, baked / "0123456789abcdef");
+  scene_.sky.intensity = 2.0f;
+  keep();
+  forget_other_states(scene_, {MapCache(scene_).folder()});
+  EXPECT_FALSE(fs::exists(old.file(2)));
+  EXPECT_TRUE(fs::exists(old.folder() / "notes.txt"));
+  EXPECT_TRUE(fs::exists(outside / "0001.map"));
+}
+
 TEST_F(MapCacheTest, ASceneMadeInMemoryKeepsNothing) {
   scene_.file.clear();
   EXPECT_TRUE(MapCache(scene_).folder().empty());

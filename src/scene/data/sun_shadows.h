@@ -1,7 +1,8 @@
-// What the shadows of a scene come from, beside its sun: a lamp in the sun's place, and objects that cast or
+// What the shadows of a scene come from, beside its sun: a lamp in the sun's place, and things that cast or
 // receive none. Photographs of the scene (reference/path_tracer.h) know no such wishes.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -28,9 +29,17 @@ struct SunShadows {
 
   std::optional<Spot> spot;                     ///< none: the sun is infinitely far away
   std::vector<bool> casts_none, receives_none;  ///< by the index of an object; those beyond do
+  /// Of items of rooms (Scene::items) those that these nodes have made cast; empty: all do.
+  std::vector<NodeRange> caster_nodes = {};
 
   /// Does an object cast shadows?
   bool casts(std::size_t object) const { return object >= casts_none.size() || !casts_none[object]; }
+  /// Does an item cast shadows that the node of this number has made (ItemsOf::makers)?
+  bool casts_item_of(int maker) const {
+    return caster_nodes.empty() || std::ranges::any_of(caster_nodes, [&](const NodeRange& nodes) {
+             return maker >= nodes.first && maker <= nodes.last;
+           });
+  }
   /// Does it receive those of others?
   bool receives(std::size_t object) const { return object >= receives_none.size() || !receives_none[object]; }
   /// All of it.
@@ -38,6 +47,7 @@ struct SunShadows {
     if (spot) hash.add(glm::vec4(spot->position, spot->half_angle));
     for (const std::vector<bool>* flags : {&casts_none, &receives_none})
       for (const bool flag : *flags) hash.add(flag);
+    for (const NodeRange& nodes : caster_nodes) hash.add(nodes.first), hash.add(nodes.last);
   }
 };
 

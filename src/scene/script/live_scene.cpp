@@ -45,8 +45,7 @@ void give(Node& node, const std::string& attribute, AttributeValue value) {
 LiveScene::LiveScene(Script script) : script_(std::move(script)) {
   for_each_inside(script_.nodes, [this](Node& node) {
     if (node.schema->is_unique)
-      for (const std::string& type : {node.schema->type, thesis_class(node.schema->type)})
-        by_name_.emplace("%" + type, &node);
+      for (const std::string& name : unique_names(node.schema->type)) by_name_.emplace(name, &node);
     if (node.schema->find("name") && node.gives("name")) by_name_.emplace(node.text("name"), &node);
     for (const Node& child : node.children) parents_.emplace(&child, &node);
   });

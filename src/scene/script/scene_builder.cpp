@@ -76,28 +76,39 @@ int SceneBuilder::maker_number(std::size_t object) const {
   return maker ? frames_.at(maker).number : -1;
 }
 
+const Node* SceneBuilder::find(const std::string& name) const {
+  const auto found = makers().of_name.find(name);
+  return found == makers().of_name.end() ? nullptr : found->second;
+}
+
+NodeRange SceneBuilder::range_of(const Node& node) const {
+  const auto frame = frames_.find(&node);
+  if (frame == frames_.end()) return {};  // a part of another node
+  NodeRange range{frame->second.number, frame->second.number};
+  for (const Node& inside : node.children) range.last = std::max(range.last, range_of(inside).last);
+  return range;
+}
+
 std::vector<int> SceneBuilder::objects_of(const std::string& name) const {
-  if (named_.nodes != frames_.size() || named_.objects != object_makers_.size()) named_ = name_makers();
   std::vector<int> objects;
   const std::function<void(const Node&)> add_from = [&](const Node& node) {
-    if (const auto made = named_.made_by.find(&node); made != named_.made_by.end())
+    if (const auto made = makers().made_by.find(&node); made != makers().made_by.end())
       objects.insert(objects.end(), made->second.begin(), made->second.end());
     for (const Node& inside : node.children) add_from(inside);
   };
-  const auto [first, last] = named_.of_name.equal_range(name);
-  for (auto named = first; named != last; ++named) add_from(*named->second);
+  if (const Node* node = find(name)) add_from(*node);
   std::ranges::sort(objects);
-  objects.erase(std::ranges::unique(objects).begin(), objects.end());
   return objects;
 }
 
-SceneBuilder::Makers SceneBuilder::name_makers() const {
-  Makers makers;
-  makers.nodes = frames_.size(), makers.objects = object_makers_.size();
+const SceneBuilder::Makers& SceneBuilder::makers() const {
+  if (named_.nodes == frames_.size() && named_.objects == object_makers_.size()) return named_;
+  named_ = {};
+  named_.nodes = frames_.size(), named_.objects = object_makers_.size();
   for (const auto& [node, frame] : frames_)
-    if (node->schema->find("name") && node->gives("name")) makers.of_name.emplace(node->text("name"), node);
-  for (std::size_t i = 0; i < object_makers_.size(); ++i) makers.made_by[object_makers_[i]].push_back(int(i));
-  return makers;
+    if (node->schema->find("name") && node->gives("name")) named_.of_name.emplace(node->text("name"), node);
+  for (std::size_t i = 0; i < object_makers_.size(); ++i) named_.made_by[object_makers_[i]].push_back(int(i));
+  return named_;
 }
 
 Script SceneBuilder::take_script() && {

@@ -90,8 +90,13 @@ class SceneBuilder {
     registry_.find(node.schema->type)->change(node, model, *this);
   }
 
+  /// The node of this name; null if none that has been built has it. For finish steps: a node that is rebuilt
+  /// does not know the others.
+  const Node* find(const std::string& name) const;
+  /// The numbers of a node that has been built and of those inside it.
+  NodeRange range_of(const Node& node) const;
   /// Indices of the objects that the node of this name, or those inside it, have made so far. For finish
-  /// steps: a node that is rebuilt does not know the others.
+  /// steps.
   std::vector<int> objects_of(const std::string& name) const;
 
   /// Frame of the node that is being built: world from the node's parent.
@@ -124,12 +129,12 @@ class SceneBuilder {
   /// Which objects the nodes have made, and which nodes have a name: asked for once, not per name.
   struct Makers {
     std::size_t nodes = 0, objects = 0;  ///< of which this is known
-    std::unordered_multimap<std::string, const Node*> of_name;
+    std::unordered_map<std::string, const Node*> of_name;
     std::unordered_map<const Node*, std::vector<int>> made_by;
   };
 
   void build_one(const Node& node);
-  Makers name_makers() const;
+  const Makers& makers() const;
   int maker_number(std::size_t object) const;
   template <SceneItem T>
   void add_made_by(int maker, std::vector<T> items) {

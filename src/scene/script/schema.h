@@ -50,6 +50,7 @@ struct AttributeSchema {
   std::vector<std::string> refers_to = {};  ///< types of the nodes that a reference may name; empty: any name
   std::vector<std::string> spellings = {};  ///< other names that are understood
   bool is_live = false;  ///< may change while the scene runs: a message of its name sets it
+  bool is_kept = false;  ///< as it was when the scene was loaded: scenarios cannot change it
   std::vector<std::string> in_place_of = {};  ///< attributes that a message to this one clears
   bool is_required = false;
   bool is_repeatable = false;
@@ -81,6 +82,8 @@ struct AttributeSchema {
   }
   /// `is_live`.
   AttributeSchema live() && { return is_live = true, std::move(*this); }
+  /// `is_kept`.
+  AttributeSchema kept() && { return is_kept = true, std::move(*this); }
   /// `is_required`.
   AttributeSchema required() && { return is_required = true, std::move(*this); }
   /// `is_repeatable`.
@@ -109,6 +112,9 @@ struct NodeSchema {
   std::string example = {};                                ///< a script that uses it
   std::vector<MessageSchema> messages = {};                ///< beside those that its live attributes give it
   bool is_unique = false;                                  ///< stands at most once in a scene
+  /// Unique, and in every scene: one that is not written has all its defaults. Messages and scenarios may
+  /// name it.
+  bool is_implied = false;
   bool is_laid_out_once = false;  ///< when the scene is loaded: later it can only be shown or hidden
   /// Name of the attribute that names a node whose attributes this one takes, too; empty: takes none.
   std::string takes_attributes_of = {};

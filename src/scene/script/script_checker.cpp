@@ -18,6 +18,7 @@ class Checker {
 
   Result<std::vector<Node>> scene(const fs::path& script) {
     std::vector<Node> nodes = file(script, top_level, {script.string()});
+    add_implied(nodes);
     if (!is_incomplete_)
       resolve_names(nodes, names_, roots_, [this](Error error) { fail(std::move(error)); });
     if (!errors_.empty()) return std::move(errors_);
@@ -33,6 +34,7 @@ class Checker {
   void check_place(const ScriptNode& written, const NodeSchema& schema, const std::string& file,
                    const std::string& parent);
   void check_unique(const std::string& type, const FileLocation& where);
+  void add_implied(std::vector<Node>& nodes);
   std::vector<Node> included(const Node& include, const std::string& parent);
   void note_name(const std::string& name, const FileLocation& where);
 
@@ -185,6 +187,37 @@ void Checker::note_name(const std::string& name, const FileLocation& where) {
   if (!is_new)
     fail(error_at(where, "the name \"{}\" is taken: {}:{} has it already; names are unique in a scene", name,
                   earlier->second.file, earlier->second.line));
+}
+
+/// Where something is said of a node by one of its names; null: nowhere.
+const FileLocation* place_of_reference(const std::vector<Node>& nodes,
+                                       const std::array<std::string, 2>& names) {
+  const auto is_among = [&](const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const Node& node : nodes) {
+    for (const NodeAttribute& attribute : node.attributes) {
+      const Event* event = std::get_if<Event>(&attribute.value);
+      const bool is_reference = attribute.schema->type == AttributeType::reference;
+      if ((is_reference && is_among(attribute.text)) || (event && is_among(event->target)))
+        return &attribute.where;
+    }
+    if (const FileLocation* inside = place_of_reference(node.children, names)) return inside;
+  }
+  return nullptr;
+}
+
+/// Nodes that every scene has, where the script speaks of them and does not write them.
+void Checker::add_implied(std::vector<Node>& nodes) {
+  for (const NodeType& type : registry_.types()) {
+    const NodeSchema& schema = type.schema;
+    if (!schema.is_implied || unique_nodes_.contains(schema.type)) continue;
+    const FileLocation* asked = place_of_reference(nodes, unique_names(schema.type));
+    if (!asked) continue;
+    Node node;
+    node.schema = &schema, node.where = *asked;
+    nodes.push_back(std::move(node));
+  }
 }
 
 /// The nodes of the file that `include` names: they stand in its place.

@@ -33,8 +33,7 @@ class NameResolver {
 void NameResolver::know_nodes(const std::vector<Node>& nodes) {
   for (const Node& node : nodes) {
     if (node.schema->is_unique)
-      for (const std::string& type : {node.schema->type, thesis_class(node.schema->type)})
-        nodes_.emplace("%" + type, &node);
+      for (const std::string& name : unique_names(node.schema->type)) nodes_.emplace(name, &node);
     if (node.schema->find("name") && node.gives("name")) nodes_.emplace(node.text("name"), &node);
     know_nodes(node.children);
   }
@@ -141,7 +140,8 @@ void NameResolver::resolve_override(Node& node) {
     const AttributeSchema* attribute = schema.find(written.name);
     std::vector<std::string> known;
     for (const AttributeSchema& each : schema.attributes)
-      if (each.name != "name" && (each.is_live || !schema.is_laid_out_once)) known.push_back(each.name);
+      if (each.name != "name" && !each.is_kept && (each.is_live || !schema.is_laid_out_once))
+        known.push_back(each.name);
     if (!attribute || std::find(known.begin(), known.end(), attribute->name) == known.end()) {
       if (attribute && schema.is_laid_out_once)
         fail(error_at(at_name, "{} \"{}\" is laid out once: its \"{}\" is the same in all scenarios",

@@ -1,6 +1,7 @@
 // "Did you mean": the known name nearest to a misspelt one.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,5 +17,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
 
 /// The class of a node type as the thesis's scripts may write it (appendix A): xpShadowMap for shadowMap.
 std::string thesis_class(std::string_view type);
+/// How references and messages name the one node of a unique type: "%TYPE", of both spellings.
+std::array<std::string, 2> unique_names(std::string_view type);
 
 }  // namespace parvis::scene

@@ -153,7 +153,8 @@ Status measure_bounced_light(const BenchSetup& setup, const scene::Scene& city, 
                               flips[0], flips[1]));
     }
   report.add("flip_to_photograph_over_without_bounces", flip_with / flip_without, up_to(0.6));
-  report.add("flip_to_photograph_over_half_exposed_control", flip_darkened / flip_without);
+  report.add_control("flip_to_photograph_over_half_exposed_control", flip_darkened / flip_without,
+                     up_to(0.6));
   report.add("flip_between_two_photographs", flip_of_noise);
   report.note(
       "flip_between_two_photographs: of the first view, by another seed: noise that no picture can match");

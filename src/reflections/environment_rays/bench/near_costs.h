@@ -19,7 +19,7 @@ Result<NearCosts> near_costs(house::Stage& stage, const methods::Settings& shipp
                              int views, int repeats);
 
 /// `near_cost_ratio_rerendered_over_mem`, in street-level views of a near car in which ten of the city's
-/// thirty are seen, and `traced_cost_over_mem`, in near views of one car; each with a control.
+/// thirty are seen, with a control.
 Status measure_near_costs(house::Stage& stage, const methods::Settings& shipped, bool is_quick,
                           Report& report);
 

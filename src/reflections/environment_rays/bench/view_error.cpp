@@ -41,12 +41,15 @@ reference::TracedPicture traced(house::Stage& stage, const NearView& view, int w
 
 Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                                 std::size_t views, int width, int height,
-                                                const NearViewWish& wish, const Truth& truth) {
+                                                const NearViewWish& wish, const Truth& truth,
+                                                const std::function<Status(const NearView&)>& also) {
   NearViews near_views(stage, width, height, wish);
   std::vector<ViewFlips> flips;
   for (std::size_t i = 0; i < views; ++i) {
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
+    if (also)
+      if (Status status = also(*view); !status) return status.errors();
     const reference::TracedPicture right = traced(stage, *view, width, height, truth);
     const Image8 expected = shading::tone_mapped_picture(right.radiance, stage.scene().exposure);
     flips.push_back({is_at_crossing(stage.scene(), view->car), {}});

@@ -1,6 +1,7 @@
 // How near the truth reflections are: FLIP inside the reflective pixels of near cars, against the ray tracer.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "bench/judged_method.h"
@@ -21,10 +22,12 @@ struct Truth {
   bool has_exact_shadows = false;  ///< else the renderer's shadow maps
 };
 
-/// Judges methods over the first `views` near views of the stage's traffic, at width x height.
+/// Judges methods over the first `views` near views of the stage's traffic, at width x height. `also` is
+/// called with each view, for what else is to be measured in it.
 Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                                                 std::size_t views, int width, int height,
-                                                const NearViewWish& wish = {}, const Truth& truth = {});
+                                                const NearViewWish& wish = {}, const Truth& truth = {},
+                                                const std::function<Status(const NearView&)>& also = {});
 
 /// The mean over views of one method's FLIP.
 double mean_flip(const std::vector<ViewFlips>& views, std::size_t method);
