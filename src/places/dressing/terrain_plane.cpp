@@ -13,16 +13,15 @@ namespace {
 constexpr float below_own_m = 0.25f;  // where the place's own ground begins, the terrain goes on beneath it
 constexpr float below_level_m = 0.008f;  // the same where that ground is level: no step is to be seen
 constexpr float overlap_cells = 2.5f, level_overlap_cells = 1.5f;  // of the two grounds
-constexpr float below_cracks_m = 0.4f;   // deep below the place's own ground, where it is not steep
-constexpr float uneven_below_m = 0.15f;  // of cells there that are drawn as one
-constexpr float max_bank_m = 2.0f;       // of height within a cell there
-constexpr float even_m = 0.01f;          // heights of cells that are drawn as one
-constexpr float straight_m = 0.6f;       // of the edge of paved ground, across such cells
-constexpr int max_block = 32;            // cells on a side of such a block
-constexpr int max_even_points = 15;      // of an edge, one after the other
-constexpr float paved_m = 14.0f;         // from what is built
-constexpr float paved_wander_m = 6.0f;   // of the edge of the paved ground
-constexpr float far_sheets = 3.0f;       // size of pictures far away: fewer repeats
+constexpr float below_cracks_m = 0.4f;                             // deep below the place's own ground
+constexpr float uneven_below_m = 0.15f;                            // of cells there that are drawn as one
+constexpr float even_m = 0.01f;                                    // heights of cells that are drawn as one
+constexpr float straight_m = 0.6f;                     // of the edge of paved ground, across such cells
+constexpr int max_block = 32;                          // cells on a side of such a block
+constexpr int max_even_points = 15;                    // of an edge, one after the other
+constexpr float paved_m = 14.0f;                       // from what is built
+constexpr float paved_wander_m = 6.0f;                 // of the edge of the paved ground
+constexpr float far_sheets = 3.0f;                     // size of pictures far away: fewer repeats
 constexpr float skirt_m = 2.0f, skirt_drop_m = 0.05f;  // of the land around, inward and down
 constexpr float level_after_m = 700.0f;                // beyond the place
 constexpr std::array ring_factors{1.0f, 1.06f, 1.15f, 1.3f, 1.6f, 2.2f, 3.4f, 6.0f, 12.0f, 30.0f, 80.0f};
@@ -245,14 +244,10 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
   };
   std::vector<CellBlock> below = even_blocks(
       cells, [&](int x, int y) { return !is_deep(x, y); }, deep_corner, uneven_below_m);
-  // A bank takes level squares as low as its foot; steps, as of trenches, have walls of their own.
-  std::vector<CellBlock> banks;
-  std::erase_if(below, [&](const CellBlock& block) {
-    if (is_even(block, deep_corner, uneven_below_m)) return false;
-    if (is_even(block, deep_corner, max_bank_m)) banks.push_back(block);
-    return true;
-  });
-  add(below, deep_corner);
+  // A bank takes level squares below its foot, so that nothing is seen of them where a trench has walls.
+  const auto banks = std::ranges::partition(
+      below, [&](const CellBlock& block) { return is_even(block, deep_corner, uneven_below_m); });
+  add({below.begin(), banks.begin()}, deep_corner);
   for (const CellBlock& bank : banks) {
     const float z = lowest_around(heights, bank) - below_cracks_m;
     const auto level = [&](glm::ivec2 at) { return Corner{glm::vec3(heights.centre_of(at), z), -1.0f}; };

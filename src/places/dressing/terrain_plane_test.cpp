@@ -41,7 +41,7 @@ scene::Scene village(float hill_m) {
 }
 
 struct Extent {
-  double area_m2 = 0.0;  ///< of what lies higher than 0.1 m below 0
+  double area_m2 = 0.0, plan_m2 = 0.0;  ///< of what lies higher than 0.1 m below 0; of all, from above
   float lowest_m = 1e9f, highest_m = -1e9f;
   std::size_t triangles = 0;
 };
@@ -52,8 +52,9 @@ Extent extent_of(const scene::Model& model) {
     extent.triangles += part.mesh.triangle_count();
     for (std::size_t i = 0; i < part.mesh.indices.size(); i += 3) {
       const auto corner = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
-      if (corner(0).z > -0.1f)
-        extent.area_m2 += 0.5 * double(glm::cross(corner(1) - corner(0), corner(2) - corner(0)).z);
+      const double plan_m2 = 0.5 * double(glm::cross(corner(1) - corner(0), corner(2) - corner(0)).z);
+      if (corner(0).z > -0.1f) extent.area_m2 += plan_m2;
+      extent.plan_m2 += plan_m2;
     }
     for (const glm::vec3& p : part.mesh.positions)
       extent.lowest_m = std::min(extent.lowest_m, p.z), extent.highest_m = std::max(extent.highest_m, p.z);
@@ -86,6 +87,26 @@ TEST(TerrainPlane, TakesFewTrianglesAroundLevelGroundAndHasNoStepThere) {
 TEST(TerrainPlane, GoesOnBelowUnevenGround) {
   const Extent extent = extent_of(near_terrain(scene::PlaceHeights(village(2.0f), {}, 80.0f), {}));
   EXPECT_LT(extent.lowest_m, -2.0f - 0.2f);
+}
+
+TEST(TerrainPlane, LiesBelowCracksWhereTheGroundHasHighSteps) {
+  scene::Scene terraces = village(0.0f);
+  auto model = std::make_shared<scene::Model>(*terraces.objects[0].model);
+  Mesh& ground = model->parts[0].mesh;
+  ground = {};
+  for (const glm::vec3 low : {glm::vec3(-100, -100, 0), glm::vec3(0.05f, -100, 4)}) {
+    const auto first = std::uint32_t(ground.positions.size());
+    for (const glm::vec2 corner :
+         {glm::vec2(0, 0), glm::vec2(100, 0), glm::vec2(100, 200), glm::vec2(0, 200)})
+      ground.positions.push_back(low + glm::vec3(corner, 0.0f));
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) ground.indices.push_back(first + corner);
+  }
+  terraces.objects[0].model = model;
+  const scene::PlaceHeights place(terraces, {}, 80.0f);
+  const scene::HeightRaster& heights = place.heights();
+  const double all_m2 =
+      double(heights.width - 1) * double(heights.height - 1) * double(heights.cell_m * heights.cell_m);
+  EXPECT_NEAR(extent_of(near_terrain(place, {})).plan_m2, all_m2, 1e-4 * all_m2);
 }
 
 }  // namespace
