@@ -19,6 +19,7 @@ constexpr float alone_m = 70.0f;      // a town model no larger is one house
 constexpr double dense_share = 0.12;  // of the ground, which is built over
 constexpr float margin_m = 60.0f;     // of ground around the place, for choosing views
 constexpr float steep = 0.7f;         // cosine of 45 degrees: green that rises so was measured from the air
+constexpr float upright = 0.3f;       // of 73 degrees: what is steeper is a wall
 constexpr float furnished_m =
     6000.0f;                       // of streets; kerbs of larger places stay bare: pictures would take long
 constexpr int max_scripts = 1000;  // of one name in a folder
@@ -77,15 +78,16 @@ bool is_dense(const Model& model, const std::string& ground) {
   return area_of(model, "RoofSurface") > dense_share * area_of(model, ground);
 }
 
-bool rises_to_treetops(const Model& model) {
+/// True if a triangle of this name is steeper than the angle of this cosine.
+bool has_steeper(const Model& model, const std::string& name, float cosine) {
   for (const Part& part : model.parts) {
-    if (material_of(model, part).name != "PlantCover") continue;
+    if (material_of(model, part).name != name) continue;
     const std::vector<std::uint32_t>& indices = part.mesh.indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
       const glm::vec3 a = part.mesh.positions[indices[i]];
       const glm::vec3 area =
           glm::cross(part.mesh.positions[indices[i + 1]] - a, part.mesh.positions[indices[i + 2]] - a);
-      if (glm::length(area) > 1e-3f && std::abs(area.z) < steep * glm::length(area)) return true;
+      if (glm::length(area) > 1e-3f && std::abs(area.z) < cosine * glm::length(area)) return true;
     }
   }
   return false;
@@ -119,6 +121,8 @@ std::string dressing_of(const Model& model) {
   const bool has_windows = has_surface(model, "Window") || has_surface(model, "Door");
   if (is_bare(model, "WallSurface") && !has_windows) add("facades(target=\"WallSurface\")");
   if (is_bare(model, "RoofSurface") && !has_windows) add("roofs(target=\"RoofSurface\")");
+  if (is_bare(model, "GenericCityObject") && has_steeper(model, "GenericCityObject", upright))
+    add("facades(target=\"GenericCityObject\", openings=0)");  // garden walls, quays
   if (is_bare(model, "TINRelief"))
     add(is_dense(model, "TINRelief") ? "ground(target=\"TINRelief\", surface=\"paving\")"
                                      : "ground(target=\"TINRelief\", surface=\"lawn\")");
@@ -128,8 +132,8 @@ std::string dressing_of(const Model& model) {
   if (is_bare(model, "TransportSquare")) add("ground(target=\"TransportSquare\", surface=\"paving\")");
   if (is_bare(model, "Road")) nodes += dressing_of_roads(model);
   if (is_bare(model, "PlantCover"))
-    add(rises_to_treetops(model) ? "greenery(target=\"PlantCover\")"
-                                 : "ground(target=\"PlantCover\", surface=\"lawn\")");
+    add(has_steeper(model, "PlantCover", steep) ? "greenery(target=\"PlantCover\")"
+                                                : "ground(target=\"PlantCover\", surface=\"lawn\")");
   return nodes;
 }
 

@@ -55,6 +55,16 @@ TEST(BareFile, BareVolumesAreDressed) {
   EXPECT_EQ(script.find("TINRelief"), std::string::npos) << "nothing that would match nothing";
 }
 
+TEST(BareFile, WallsThatAreNoHousesHaveNoWindows) {
+  Model model = street_of_houses();
+  EXPECT_EQ(bare_scene(model, "a.city.json").find("openings"), std::string::npos);
+  add_part(model, "GenericCityObject", scene::ground(5));
+  EXPECT_EQ(bare_scene(model, "a.city.json").find("openings"), std::string::npos) << "it has no walls";
+  add_part(model, "GenericCityObject", scene::box({0, 0, 0}, {5, 0.3f, 2}));
+  EXPECT_NE(bare_scene(model, "a.city.json").find("facades(target=\"GenericCityObject\", openings=0)"),
+            std::string::npos);
+}
+
 TEST(BareFile, WindowsOfAModelAreNotPaintedOver) {
   Model model = street_of_houses();
   add_part(model, "Window", scene::quad({3, 6, 3}, {4, 6, 3}, {4, 6, 4}, {3, 6, 4}));

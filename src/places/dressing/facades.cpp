@@ -213,8 +213,8 @@ struct StripSheet {
 class Dresser {
  public:
   Dresser(DressedParts& parts, const std::vector<ModelTriangle>& walls, WallMaterials& materials,
-          std::uint64_t seed)
-      : parts_(parts), walls_(walls), materials_(materials), seed_(seed) {}
+          std::uint64_t seed, bool has_openings)
+      : parts_(parts), walls_(walls), materials_(materials), seed_(seed), has_openings_(has_openings) {}
 
   void dress(const WallPanel& panel) {
     panel_ = &panel;
@@ -228,7 +228,7 @@ class Dresser {
     const float width_m = panel.high.x - panel.low.x, height_m = eaves_m_ - foot_m_;
     Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
     const bool is_side = !panel.stands_on_ground && width_m < narrowest_on_roof_m;
-    if (panel.has_openings || panel.is_party_wall || is_side || !is_large(panel))
+    if (!has_openings_ || panel.has_openings || panel.is_party_wall || is_side || !is_large(panel))
       return plain(bottom_m, top_m);
     plain(bottom_m, foot_m_);
     if (panel.kind.use == scene::BuildingUse::church)
@@ -339,6 +339,7 @@ class Dresser {
   const std::vector<ModelTriangle>& walls_;
   WallMaterials& materials_;
   std::uint64_t seed_;
+  bool has_openings_;
   const WallPanel* panel_ = nullptr;
   HouseStyle style_{};
   std::vector<ModelTriangle> pieces_;     ///< of the panel
@@ -347,7 +348,7 @@ class Dresser {
 
 }  // namespace
 
-std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed) {
+std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed, bool has_openings) {
   const std::set<const scene::Part*> own_openings = opening_parts(model);
   const std::vector<glm::vec3> openings = middles_of(own_openings, model);
   const std::vector<ModelTriangle> walls =
@@ -358,7 +359,7 @@ std::size_t add_facades(scene::Model& model, std::string_view target, std::uint6
   if (walls.empty()) return 0;
   WallMaterials materials(model);
   DressedParts parts(model, "facade");
-  Dresser dresser(parts, walls, materials, seed);
+  Dresser dresser(parts, walls, materials, seed, has_openings);
   for (const WallPanel& panel : wall_panels(walls, openings)) dresser.dress(panel);
   return walls.size();
 }

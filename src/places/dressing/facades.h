@@ -17,7 +17,9 @@ namespace parvis::dressing {
 /// churches; the storeys are as many as named. Whole storeys end at the eaves; gables, party walls, walls of
 /// less than 1.6 m and walls that have windows of the model are bricks alone; low ones are sheds. Walls with
 /// a picture, and the model's own windows and doors ("Window" or "Door" is in the name of the object or the
-/// material), are left as they are. Returns the number of triangles changed.
-std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed = 1);
+/// material), are left as they are. Without openings (`has_openings`) all of them are bricks alone, as of
+/// garden walls and quays. Returns the number of triangles changed.
+std::size_t add_facades(scene::Model& model, std::string_view target, std::uint64_t seed = 1,
+                        bool has_openings = true);
 
 }  // namespace parvis::dressing

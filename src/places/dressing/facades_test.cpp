@@ -456,6 +456,13 @@ TEST(Facades, SmallWallsArePlain) {
   EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].name, "brick wall");
 }
 
+TEST(Facades, WithoutOpeningsWallsAreBricksAlone) {
+  scene::Model model = house(12.0f, 6.0f);
+  add_facades(model, "*", 1, false);
+  ASSERT_EQ(model.parts.size(), 2u);
+  EXPECT_EQ(model.materials[std::size_t(model.parts[1].material)].name, "brick wall");
+}
+
 TEST(Facades, WithoutWallsNothingChanges) {
   scene::Model model = house(8.0f, 6.0f);
   EXPECT_EQ(add_facades(model, "no such name"), 0u);

@@ -40,13 +40,15 @@ scene::NodeSchema facades_schema() {
               "stay blank, pictures and windows of the model itself are kept. Materials that later nodes can "
               "change: \"street level\", \"facade\" and \"brick wall\", \"plaster wall\" and so on.",
           .attributes = {target_attribute(),
-                         integer("seed", "another one, other houses").between(0, 1e9).by_default("1")},
+                         integer("seed", "another one, other houses").between(0, 1e9).by_default("1"),
+                         flag("openings", "0: walls alone, as of gardens and quays").by_default("1")},
           .stands_in = {"model"},
           .example = example_of("facades(target=\"WallSurface\")")};
 }
 
 void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_facades(model, node.text("target"), std::uint64_t(node.integer("seed"))) == 0)
+  if (add_facades(model, node.text("target"), std::uint64_t(node.integer("seed")), node.flag("openings")) ==
+      0)
     warn(builder, node, model, "walls");
 }
 
