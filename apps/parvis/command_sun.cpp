@@ -175,8 +175,7 @@ Status film_day(const Arguments& arguments) {
   if (Status status = check(day); !status) return status.errors();
   const light::DaylightHours hours = light::daylight_hours(day);
   if (hours.is_polar_night()) return error("the sun does not rise on {}", arguments.from);
-  const double from = std::max(hours.rise_h.value_or(0.0), 0.0),
-               to = std::min(hours.set_h.value_or(24.0), 23.99);
+  const double from = hours.rise_h.value_or(0.0), to = hours.set_h.value_or(23.99);
 
   Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
@@ -184,12 +183,13 @@ Status film_day(const Arguments& arguments) {
   live.set(*node, "longitude", day.longitude_deg);
   live.set(*node, "standardMeridian", day.time_zone_h);
   live.set(*node, "year", long(day.year));
-  live.set(*node, "julianDay", long(day.day_of_year));
   const int frames = int((to - from) * 60.0 / arguments.film_step_min) + 1;
   Progress progress("film of the day", std::size_t(frames));
   for (int i = 0; i < frames; ++i, progress.advance()) {
-    const double time = from + i * arguments.film_step_min / 60.0;
-    live.set(*node, "timeOfDay", time);
+    // Where the clock is far from the sun, the sun's day begins or ends on another one of the clock's.
+    const double time = from + i * arguments.film_step_min / 60.0, days = std::floor(time / 24.0);
+    live.set(*node, "julianDay", std::clamp(long(day.day_of_year) + long(days), 1L, 365L));
+    live.set(*node, "timeOfDay", time - 24.0 * days);
     if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
     play.clock.follow(play.scene);
     play.settle();

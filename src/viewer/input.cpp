@@ -93,7 +93,7 @@ void Input::on_button(int button, int action) {
   const bool was_dragging = std::exchange(is_dragging_, action == GLFW_PRESS);
   if (is_dragging_)
     pressed_at_ = cursor_;
-  else if (was_dragging && panel_.is_open && glm::distance(cursor_, pressed_at_) < farthest_click)
+  else if (was_dragging && glm::distance(cursor_, pressed_at_) < farthest_click)
     choose_what_is_below_the_cursor();
 }
 
@@ -102,7 +102,8 @@ void Input::choose_what_is_below_the_cursor() {
   glfwGetWindowSize(window_, &points.x, &points.y);
   glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
   const glm::ivec2 pixel(glm::floor(cursor_ * glm::dvec2(pixels) / glm::dvec2(glm::max(points, 1))));
-  if (const scene::Node* node = visit_.node_at(pixel)) panel_.choose(visit_.live(), *node);
+  if (panel_.is_open)
+    if (const scene::Node* node = visit_.node_at(pixel)) panel_.choose(visit_.live(), *node);
   visit_.probe(pixel);
 }
 

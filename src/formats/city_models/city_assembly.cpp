@@ -175,8 +175,10 @@ Material CityAssembly::material_of(const PartKey& key) const {
     material.alpha = 1.0f - std::clamp(own.transparency, 0.0f, 1.0f);
     if (material.alpha < 1.0f) material.alpha_mode = Alpha::blend;
   }
+  // Without its picture a surface is what its file says of shapes alone, and can be dressed as such.
+  if (picture == no_index || is_missing_[std::size_t(picture)]) return material;
   material.base_colour_texture = picture;
-  if (picture != no_index) material.base_colour = glm::vec3(1.0f);
+  material.base_colour = glm::vec3(1.0f);
   return material;
 }
 
@@ -190,9 +192,10 @@ void CityAssembly::read_pictures(Model& model) {
     pictures_[i].image = picture ? *std::move(picture) : placeholder_picture();
   });
   std::size_t missing = 0;
+  for (const Errors& list : problems) is_missing_.push_back(!list.empty());
   for (const Errors& list : problems) {
     if (!list.empty() && ++missing > max_named_pictures) continue;
-    for (const Error& problem : list) warn(problem.message + "; a checker stands for it");
+    for (const Error& problem : list) warn(problem.message + "; its surfaces are plain");
   }
   if (missing > max_named_pictures)
     warn(
@@ -221,12 +224,27 @@ void CityAssembly::warn_of_implausible_counts() {
   expect("WallSurface", "RoofSurface");
 }
 
+/// Houses higher than the place is wide: their plan is in degrees.
+bool CityAssembly::is_in_degrees() const {
+  constexpr float narrow_m = 1.0f, high_m = 2.0f;
+  Bounds bounds;
+  for (const auto& [key, mesh] : parts_) bounds.add(mesh.bounds());
+  const glm::vec3 size = bounds.size();
+  const bool has_houses = polygons_of_.contains("WallSurface") || polygons_of_.contains("RoofSurface");
+  return has_houses && std::max(size.x, size.y) < narrow_m && size.z > high_m;
+}
+
 Result<Model> CityAssembly::finish(std::size_t object_count) {
   const FileLocation where{file_.string(), 0, 0};
   if (parts_.empty() && !warnings_.empty())
     return error_at(where, "none of the {} city objects has polygons: {}", object_count,
                     warnings_.front().message);
   if (parts_.empty()) return error_at(where, "none of the {} city objects has polygons", object_count);
+  if (is_in_degrees())
+    return error_at(
+        where,
+        "its houses are higher than the whole place is wide: its coordinates seem to be degrees of "
+        "longitude and latitude. Convert it to metres, with cjio or citygml-tools, say");
   warn_of_implausible_counts();
   Model model;
   model.name = file_.stem().string();

@@ -70,7 +70,7 @@ class CityAssembly {
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
   /// ("WallSurface"); roads' objects add their function,
   /// trees' objects their species, walls' objects the words of their building's kind. A missing texture is a
-  /// warning and replaced by a checkerboard. Errors: no polygon at all (in `object_count` objects), or a
+  /// warning, and its surfaces are plain. Errors: no polygon at all (in `object_count` objects), or a
   /// coordinate that is not finite.
   Result<Model> finish(std::size_t object_count);
 
@@ -82,6 +82,7 @@ class CityAssembly {
                      const std::vector<std::uint32_t>& triangles, glm::vec3 normal);
   Material material_of(const PartKey& key) const;
   void warn_of_implausible_counts();
+  bool is_in_degrees() const;
   void read_pictures(Model& model);
 
   std::filesystem::path file_;
@@ -93,6 +94,7 @@ class CityAssembly {
   std::vector<CityMaterial> materials_;
   std::map<std::array<float, 8>, int> known_materials_;
   std::vector<Texture> pictures_;
+  std::vector<bool> is_missing_;  ///< of each picture, once they are read
   std::map<PartKey, Mesh> parts_;
 };
 

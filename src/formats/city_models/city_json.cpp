@@ -238,6 +238,7 @@ class Reader {
       if (has_surfaces(geometry)) geometries.push_back(&geometry), levels.push_back(level_of(geometry));
     const std::size_t before = city_.polygon_count();
     surfaces_of_object_.clear();
+    has_listed_kinds_ = false;
     known_rings_.clear();
     if (const auto best = wanted_level(levels, max_detail_))
       for (std::size_t i = 0; i < geometries.size();
@@ -277,6 +278,7 @@ class Reader {
 
   void add_surfaces() {
     if (is_building(object_.type)) {
+      drop_listed_kinds_that_are_all_alike();
       drop_implausible_semantics(surfaces_of_object_);
       infer_semantics(surfaces_of_object_);
     }
@@ -349,11 +351,23 @@ class Reader {
   }
 
   /// The kind of each surface; nothing where the file gives one kind to all surfaces of a solid, which has
-  /// several, or, as writers of versions 0.2 and 0.3 did, calls every surface a wall.
-  const Json& told(const Json& semantics) const {
-    const Json& values = semantics.is_array() ? semantics : member(semantics, "values");
-    const bool must_differ = is_solid_ || semantics.is_array();
-    return must_differ && is_one_for_all(values) ? nothing() : values;
+  /// several.
+  const Json& told(const Json& semantics) {
+    has_listed_kinds_ = has_listed_kinds_ || semantics.is_array();
+    if (semantics.is_array()) return semantics;
+    const Json& values = member(semantics, "values");
+    return is_solid_ && is_one_for_all(values) ? nothing() : values;
+  }
+
+  /// Writers of versions 0.2 and 0.3, which list a kind per surface, called every surface of a building a
+  /// wall, in however many geometries.
+  void drop_listed_kinds_that_are_all_alike() {
+    std::vector<CitySurface>& surfaces = surfaces_of_object_;
+    const bool are_alike = std::ranges::all_of(surfaces, [&](const CitySurface& surface) {
+      return surface.semantics == surfaces.front().semantics;
+    });
+    if (!has_listed_kinds_ || surfaces.size() < 2 || !are_alike) return;
+    for (CitySurface& surface : surfaces) surface.semantics.clear();
   }
 
   /// Of values in lists that are nested as the boundaries are.
@@ -456,6 +470,7 @@ class Reader {
   std::set<std::vector<std::array<double, 3>>> known_rings_;  ///< of that object
   const Json* surfaces_ = nullptr;
   bool is_solid_ = false;
+  bool has_listed_kinds_ = false;  ///< of that object
 };
 
 }  // namespace

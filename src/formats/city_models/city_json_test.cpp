@@ -98,6 +98,15 @@ TEST(CityJson, BadFilesAreRefusedByName) {
   expect("[]", "no CityJSON");
 }
 
+TEST(CityJson, CoordinatesInDegreesAreRefused) {
+  std::string degrees = house();
+  const std::string scale = "\"scale\":[0.001,0.001,0.001]";
+  ASSERT_NE(degrees.find(scale), std::string::npos);
+  const Result<Model> city = read(with(degrees, scale, "\"scale\":[0.00000001,0.00000001,0.001]"));
+  ASSERT_FALSE(city);
+  EXPECT_NE(to_string(city.errors()).find("seem to be degrees"), std::string::npos);
+}
+
 TEST(CityJson, Version02AsItWasPublishedIsRead) {
   const std::string early = with(with(house(), "\"CityJSON\"", "\"CityModel\""), "\"1.1\"",
                                  "\"http://www.cityjson.org/version/0.2\"");
@@ -117,6 +126,21 @@ std::string house_in_three() {
     {"type":"MultiSurface","lod":2,"boundaries":[[[0,1,2,3]]]},
     {"type":"MultiSurface","lod":2,"boundaries":[[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]})" +
          all.substr(end + 1);
+}
+
+TEST(CityJson, KindsThatAListCallsWallsInAllGeometriesAreInferred) {
+  std::string early = with(with(house_in_three(), "\"CityJSON\"", "\"CityModel\""), "\"1.1\"",
+                           "\"http://www.cityjson.org/version/0.2\"");
+  early = with(early, R"("lod":2,"boundaries":[[[4,5,6,7],[8,11,10,9]]])",
+               R"("lod":2,"boundaries":[[[4,5,6,7],[8,11,10,9]]],"semantics":["WallSurface"])");
+  early = with(early, R"("lod":2,"boundaries":[[[0,1,2,3]]])",
+               R"("lod":2,"boundaries":[[[0,1,2,3]]],"semantics":["WallSurface"])");
+  early = with(early, R"([[3,0,4,7]]])",
+               R"([[3,0,4,7]]],"semantics":["WallSurface","WallSurface","WallSurface","WallSurface"])");
+  const Result<Model> city = read(early);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3) << "of a geometry with one surface";
+  EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
 }
 
 TEST(CityJson, AllGeometriesOfTheChosenLevelAreRead) {
@@ -398,7 +422,9 @@ TEST(CityJson, PicturesMayLieInTheUsualFolderBesideTheFile) {
   // Alone, without its folder of pictures, it names a few of those that are missing and counts the others.
   const TestFolder folder;
   std::filesystem::copy(*two, folder.path());
-  ASSERT_TRUE(read_city_model(folder.path() / two->filename(), warnings));
+  const Result<Model> bare = read_city_model(folder.path() / two->filename(), warnings);
+  ASSERT_TRUE(bare);
+  for (const Material& material : bare->materials) EXPECT_EQ(material.base_colour_texture, no_index);
   EXPECT_EQ(warnings.size(), 4u) << to_string(warnings);
   EXPECT_NE(to_string(warnings).find("11 pictures more of 14"), std::string::npos) << to_string(warnings);
 }

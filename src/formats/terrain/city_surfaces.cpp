@@ -61,8 +61,12 @@ bool is_building(const std::string& object_type) {
 }
 
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up) {
+  const std::string type = type_name(object_type);
+  // Walls and roofs of a bridge are no houses', and what of a road is driven on is road.
+  const bool is_of_structure = (type == "Bridge" || type == "Tunnel") && semantics.ends_with("Surface");
+  if (is_of_structure || semantics == "TrafficArea") return type;
   if (find(semantics)) return semantics;
-  if (!is_building(object_type)) return type_name(object_type);
+  if (!is_building(object_type)) return type;
   constexpr float steep = 0.34f;  // cosine of 70 degrees
   if (up > steep) return "RoofSurface";
   return up < -steep ? "GroundSurface" : "WallSurface";

@@ -7,9 +7,9 @@
 
 namespace parvis::scene {
 
-/// The name that a surface's material gets: its own semantics ("RoofSurface"), its object's type ("Road"), or
-/// for buildings (extensions' too) without semantics the one that its slope suggests. `up` is the z of its
-/// unit normal.
+/// The name that a surface's material gets: its own semantics ("RoofSurface"), its object's type ("Road"; of
+/// bridges and tunnels also for their walls and roofs, of roads for traffic areas), or for buildings
+/// (extensions' too) without semantics the one that its slope suggests. `up` is the z of its unit normal.
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up);
 
 /// Is an object of this CityJSON type a building, or a part or an extension of one?

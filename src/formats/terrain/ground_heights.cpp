@@ -15,9 +15,10 @@ namespace {
 
 constexpr float finest_cell_m = 0.5f;
 constexpr float max_cells = 16e6f;
-constexpr float above_or_below_m = 2.5f;   // of a lane: beyond are roofs, bridges, cellars
-constexpr float largest_thing_m2 = 40.0f;  // that is no ground: cars, benches, crowns, kiosks
-constexpr float steepest = 0.25f;          // of ground: what rises faster is the edge of a thing
+constexpr float above_or_below_m = 2.5f;       // of a lane: beyond are roofs, bridges, cellars
+constexpr float above_or_below_deck_m = 0.5f;  // of a lane on a bridge: beyond are parapets
+constexpr float largest_thing_m2 = 40.0f;      // that is no ground: cars, benches, crowns, kiosks
+constexpr float steepest = 0.25f;              // of ground: what rises faster is the edge of a thing
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Whether light stops at the material: leaves and panes are no ground.
@@ -116,16 +117,18 @@ void GroundHeights::note_object(const Object& object, HeightRaster& unnamed_m) {
     const auto corner = [&](std::size_t i) {
       return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
     };
+    const float reach_m = part.object.starts_with("Bridge") ? above_or_below_deck_m : above_or_below_m;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
-      note_triangle(names_ground ? heights_m_ : unnamed_m, corner(i), corner(i + 1), corner(i + 2));
+      note_triangle(names_ground ? heights_m_ : unnamed_m, corner(i), corner(i + 1), corner(i + 2), reach_m);
   }
 }
 
-void GroundHeights::note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+void GroundHeights::note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c,
+                                  float reach_m) {
   each_height(heights_m, a, b, c, [&](glm::ivec2 cell, float height_m) {
     const float lane_m = lane_heights_m_.at(cell.x, cell.y);
     float& known_m = heights_m.at(cell.x, cell.y);
-    if (std::abs(height_m - lane_m) < above_or_below_m && !(known_m >= height_m)) known_m = height_m;
+    if (std::abs(height_m - lane_m) < reach_m && !(known_m >= height_m)) known_m = height_m;
   });
 }
 

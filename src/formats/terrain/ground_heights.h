@@ -25,7 +25,7 @@ class GroundHeights {
  private:
   void note_lanes(const RoadGraph& roads, float reach_m);
   void note_object(const Object& object, HeightRaster& unnamed_m);
-  void note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void note_triangle(HeightRaster& heights_m, glm::vec3 a, glm::vec3 b, glm::vec3 c, float reach_m);
   void add_without_things(HeightRaster unnamed_m);
 
   HeightRaster lane_heights_m_;  ///< of the nearest lane; NaN beyond reach

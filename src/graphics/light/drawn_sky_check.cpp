@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "graphics/light/day_light.h"
+#include "graphics/light/spectrum.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/render/renderer.h"
 
 namespace parvis::light {
 
-Result<double> drawn_sky_error(SkyKind kind, double turbidity, double elevation_deg, float turned_deg) {
+Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double elevation_deg,
+                                      float turned_deg) {
   constexpr int size = 128;
   const auto sky = make_sky(kind, Air{turbidity},
                             SolarPosition{.azimuth_deg = 180.0,
@@ -32,7 +34,10 @@ Result<double> drawn_sky_error(SkyKind kind, double turbidity, double elevation_
   const gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
   glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
-  double maximum = 0.0;
+  DrawnSkyError error;
+  double off_model = 0.0, luminance_of_all = 0.0;
+  const float turn = -glm::radians(turned_deg);
+  const glm::mat3 turned(std::cos(turn), std::sin(turn), 0, -std::sin(turn), std::cos(turn), 0, 0, 0, 1);
   for (int face = 0; face < 6; ++face) {
     glm::vec3 ahead(0.0f);
     ahead[face / 2] = face % 2 ? 1.0f : -1.0f;
@@ -53,19 +58,24 @@ Result<double> drawn_sky_error(SkyKind kind, double turbidity, double elevation_
       for (int x = 0; x < size; ++x) {
         const glm::vec2 at(float(x) + 0.5f, float(size - y) - 0.5f);
         glm::vec3& value = expected[std::size_t(y * size + x)];
-        value = shading::sky_radiance(expected_sky, reference::camera_ray(camera, size, size, at).direction,
-                                      0.0f);
+        const glm::vec3 direction = reference::camera_ray(camera, size, size, at).direction;
+        value = shading::sky_radiance(expected_sky, direction, 0.0f);
         mean += double(value.y) / double(size * size);
+        const glm::vec3 model =
+            glm::max(rec709_from_xyz((*sky)->sky_radiance_xyz(turned * direction)), glm::vec3(0.0f));
+        const glm::vec3 off = glm::abs(glm::vec3(drawn[std::size_t(y * size + x)]) - model);
+        off_model += double(off.x + off.y + off.z) / 3.0, luminance_of_all += double(model.y);
       }
     for (std::size_t i = 0; i < drawn.size(); ++i)
       for (int c = 0; c < 3; ++c) {
-        const double error = std::abs(double(drawn[i][c]) - double(expected[i][c])) /
-                             std::max({double(expected[i][c]), mean, 1e-12});
-        if (std::isnan(error)) return error;
-        maximum = std::max(maximum, error);
+        const double off = std::abs(double(drawn[i][c]) - double(expected[i][c])) /
+                           std::max({double(expected[i][c]), mean, 1e-12});
+        error.of_build = std::isnan(off) ? off : std::max(error.of_build, off);
+        if (std::isnan(off)) return error;
       }
   }
-  return maximum;
+  error.of_model = off_model / std::max(luminance_of_all, 1e-12);
+  return error;
 }
 
 }  // namespace parvis::light

@@ -1,4 +1,4 @@
-// How far the sky that the renderer draws is from its C++ build.
+// How far the sky that the renderer draws is from its C++ build, and from the model itself.
 #pragma once
 
 #include "base/result.h"
@@ -6,10 +6,17 @@
 
 namespace parvis::light {
 
-/// The largest difference of a channel in six views of a clear sky, relative to the value or to the view's
-/// mean luminance, whichever is larger; NaN where either side is. `turned_deg` turns the sky of the C++
-/// build: a control. Needs a current OpenGL context.
-Result<double> drawn_sky_error(SkyKind kind, double turbidity, double sun_elevation_deg,
-                               float turned_deg = 0.0f);
+/// Differences in six views of a clear sky; NaN where either side is no number.
+struct DrawnSkyError {
+  /// To the C++ build of what draws: the largest of a channel, relative to the value or to the view's mean
+  /// luminance, whichever is larger.
+  double of_build = 0.0;
+  /// To the model in the same directions: the mean over pixels and channels, relative to the mean luminance.
+  double of_model = 0.0;
+};
+
+/// `turned_deg` turns what the drawn sky is compared with: a control. Needs a current OpenGL context.
+Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double sun_elevation_deg,
+                                      float turned_deg = 0.0f);
 
 }  // namespace parvis::light

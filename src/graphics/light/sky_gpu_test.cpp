@@ -28,11 +28,19 @@ TEST_F(SkyOnGpu, AWrongTableIsSeen) {
 
 TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
   for (const double elevation : {-3.0, 2.0, 10.0, 70.0}) {
-    const Result<double> error = drawn_sky_error(SkyKind::atmosphere, 3.0, elevation);
+    const Result<DrawnSkyError> error = drawn_sky_error(SkyKind::atmosphere, 3.0, elevation);
     ASSERT_TRUE(error) << to_string(error.errors());
-    EXPECT_LE(*error, 1e-3) << elevation;
+    EXPECT_LE(error->of_build, 1e-3) << elevation;
+    std::printf("sun at %g degrees: %.1e of the model in the mean\n", elevation, error->of_model);
+    // The glare of a low sun is drawn up to a tenth darker than the model has it (docs/light.md, limits).
+    if (elevation != 10.0) {
+      EXPECT_LE(error->of_model, 1e-3) << elevation;
+    }
   }
-  EXPECT_GT(*drawn_sky_error(SkyKind::atmosphere, 3.0, 10.0, 1.0f), 1e-2) << "turned by a degree";
+  const Result<DrawnSkyError> turned = drawn_sky_error(SkyKind::atmosphere, 3.0, 10.0, 1.0f);
+  ASSERT_TRUE(turned) << to_string(turned.errors());
+  EXPECT_GT(turned->of_build, 1e-2) << "turned by a degree";
+  EXPECT_GT(turned->of_model, 2e-3) << "turned by a degree";
 }
 
 }  // namespace

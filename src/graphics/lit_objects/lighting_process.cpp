@@ -62,7 +62,6 @@ void LightingProcess::find_objects(scene::Scene& scene) {
   for (const scene::Node* node : nodes) {
     const std::vector<int> objects = live_->objects_of(*node);
     if (objects.empty()) warn(error_at(node->where, "{} holds no object that could be lit", lit_type));
-    rays_wanted_ = int(node->integer("rays"));
     for (const int object : objects) {
       texels += LitObject::texel_count(scene.objects[std::size_t(object)]);
       if (texels > scene::max_lit_texels) {
@@ -74,6 +73,7 @@ void LightingProcess::find_objects(scene::Scene& scene) {
       }
       std::vector<std::string> odd;
       lit_.emplace_back(scene, object, odd);
+      lit_nodes_.push_back(node);
       for (const std::string& sentence : odd) warn(error_at(node->where, "{}", sentence));
       irradiance.objects.resize(scene.objects.size());
       irradiance.objects[std::size_t(object)] = lit_.back().light();
@@ -141,11 +141,15 @@ void LightingProcess::present(scene::Scene& scene, double /*ahead_s*/) {
   if (lit_.empty()) return;
   std::vector<const scene::Node*> nodes;
   find_lit_nodes(live_->nodes(), nodes);
-  rays_wanted_ = 0, budget_ms_ = 0.0;
+  budget_ms_ = 0.0;
+  bool has_unhurried = false;
   for (const scene::Node* node : nodes) {
-    rays_wanted_ = std::max(rays_wanted_, int(node->integer("rays")));
     budget_ms_ = std::max(budget_ms_, node->number("budget_ms"));
+    has_unhurried = has_unhurried || node->number("budget_ms") <= 0.0;
   }
+  if (has_unhurried) budget_ms_ = 0.0;  // a frame that waits for one waits for all
+  for (std::size_t i = 0; i < lit_.size(); ++i)
+    for (VertexBlock& block : lit_[i].blocks()) block.rays_wanted = int(lit_nodes_[i]->integer("rays"));
   const bool is_new_place = follow_casters(scene), is_new_sky = follow_sky(scene);
   std::vector<LitObject*> changed;
   for (LitObject& lit : lit_) {
@@ -225,20 +229,21 @@ void LightingProcess::refine(double rays_left) {
   for (LitObject& lit : lit_)
     if (casters_.objects[std::size_t(lit.object())].is_visible)
       for (VertexBlock& block : lit.blocks())
-        if (block.light.rays() < rays_wanted_) blocks.push_back(&block);
+        if (block.light.rays() < block.rays_wanted) blocks.push_back(&block);
   const auto fewest = [](const VertexBlock* block) { return block->light.rays(); };
   std::vector<VertexBlock*> lit;
   while (rays_left > 0.0 && !blocks.empty()) {
     const auto next = std::ranges::min_element(blocks, {}, fewest);
     VertexBlock& block = **next;
-    const int round = rays_left > 1e200 ? rays_wanted_ - block.light.rays() : rays_per_round;
+    const int round = rays_left > 1e200 ? block.rays_wanted - block.light.rays() : rays_per_round;
     block.light.refine(*rays_, *sky_, (round + 3) / 4 * 4, light::Blocked::bounces);
     rays_left -= cost(block, round);
     if (std::ranges::find(lit, &block) == lit.end()) lit.push_back(&block);
-    if (block.light.rays() >= rays_wanted_) blocks.erase(next);
+    if (block.light.rays() >= block.rays_wanted) blocks.erase(next);
   }
   for (VertexBlock* block : lit)
-    if (block->light.rays() >= std::min(min_shown_rays, rays_wanted_)) block->show(block->light.irradiance());
+    if (block->light.rays() >= std::min(min_shown_rays, block->rays_wanted))
+      block->show(block->light.irradiance());
 }
 
 int LightingProcess::rays() const {

@@ -55,8 +55,8 @@ class LightingProcess final : public action::Process {
 
   const scene::LiveScene* live_ = nullptr;
   std::vector<LitObject> lit_;
-  std::vector<bool> is_lit_;  ///< by object
-  int rays_wanted_ = 256;
+  std::vector<const scene::Node*> lit_nodes_;  ///< of each
+  std::vector<bool> is_lit_;                   ///< by object
   double budget_ms_ = 0.0;
   bool is_settling_ = false;  ///< all rays at once, whatever the budget
   std::optional<SkySource> sky_source_;

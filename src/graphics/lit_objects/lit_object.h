@@ -18,6 +18,7 @@ struct VertexBlock {
   bool is_behind;
   light::VertexLight light;
   std::vector<glm::vec3> shown;  ///< what renderers are to have: as long as `light.vertices()`
+  int rays_wanted = 256;         ///< in the end, per vertex
   bool is_shown = false;         ///< at least once
   bool is_new = false;           ///< renderers do not have it yet
 

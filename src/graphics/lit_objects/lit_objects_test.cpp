@@ -225,6 +225,18 @@ TEST_F(LitObjects, HaveTheLightThatGroundWithASurfaceTextureGivesBack) {
   EXPECT_LT(light_above(255), 0.9f * matt) << "metal gives nothing back matt";
 }
 
+TEST_F(LitObjects, NodesHaveTheirOwnRaysAndNoneHurriesOneThatHasTime) {
+  Running scene = run(street("rays=16") +
+                      "litVirtualObject(rays=64, budget_ms=0) { object(name=\"other\", "
+                      "file=\"ball.glb\", position=\"5 0 0\", grab=1) }\n");
+  EXPECT_EQ(scene.rays(), 16) << "the fewest";
+  scene.object("other").world_from_model = glm::translate(glm::mat4(1.0f), vec3(4, 0, 0));
+  scene.clock->advance(scene.scene, 0.02);
+  const vec3 at_once = scene.mean("other");
+  scene.clock->settle(scene.scene);
+  EXPECT_EQ(scene.mean("other"), at_once) << "it had all its rays in the frame of its move";
+}
+
 TEST_F(LitObjects, FollowTheSkyAndAreLeftAloneWhileNothingChanges) {
   Running scene = run(street("rays=64, budget_ms=0"));
   const auto noon = scene.scene.data<scene::VertexIrradiance>().objects;

@@ -43,7 +43,9 @@ bool passes(const Bounds& box, glm::vec3 eye, int axis) {
          box.min[axis] - max_wall_m <= eye[axis] && eye[axis] <= box.max[axis] + max_wall_m;
 }
 
-Hits look_around(const std::vector<std::pair<render::FixedPart, Bounds>>& parts, glm::vec3 eye) {
+using Parts = std::vector<std::pair<render::FixedPart, Bounds>>;
+
+Hits look_around(const Parts& parts, glm::vec3 eye) {
   Hits hits;
   for (const auto& [part, box] : parts) {
     std::array<bool, 3> is_passed{};
@@ -61,15 +63,31 @@ Hits look_around(const std::vector<std::pair<render::FixedPart, Bounds>>& parts,
   return hits;
 }
 
+/// False where nothing lies below any lane, as far as some of them tell.
+bool have_ground(const std::vector<scene::Lane>& lanes, const Parts& parts) {
+  constexpr std::size_t max_tried = 64, down = 5;
+  constexpr float above_m = 1.0f, max_below_m = 5.0f;
+  const std::size_t step = lanes.size() / max_tried + 1;
+  for (std::size_t i = 0; i < lanes.size(); i += step) {
+    const glm::vec3 middle = lanes[i].points[lanes[i].points.size() / 2];
+    if (look_around(parts, middle + glm::vec3(0, 0, above_m))[down].distance_m < max_below_m) return true;
+  }
+  return lanes.empty();
+}
+
 }  // namespace
 
 Errors check_place(const scene::Scene& scene) {
   Errors warnings;
   if (scene.cameras.empty()) return warnings;
-  std::vector<std::pair<render::FixedPart, Bounds>> parts;
+  Parts parts;
   render::for_each_fixed_object_part(scene, [&](const render::FixedPart& part) {
     if (part.is_visible) parts.emplace_back(part, transformed(part.world_from_mesh, part.mesh.bounds()));
   });
+  if (!have_ground(scene.roads.lanes, parts))
+    warnings.push_back(
+        error("nothing lies below the roads: add terrain_plane() for the ground, and paving() for "
+              "their surfaces"));
   for (const scene::NamedCamera& camera : scene.cameras) {
     if (!camera.follows.empty()) continue;
     const Hits hits = look_around(parts, camera.camera.position_in_world());

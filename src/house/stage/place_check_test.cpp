@@ -44,5 +44,15 @@ TEST(PlaceCheck, WhatIsHiddenIsNotThere) {
   EXPECT_TRUE(check_place(place).empty());
 }
 
+TEST(PlaceCheck, RoadsOverNothingAreNamed) {
+  scene::Scene place = house_with_camera({5, -4, 1.7f});
+  place.roads.lanes.emplace_back().points = {{-50, -20, 0}, {0, -20, 0}, {50, -20, 0}};
+  EXPECT_TRUE(check_place(place).empty());
+  place.objects.front().is_visible = false;
+  const Errors warnings = check_place(place);
+  ASSERT_EQ(warnings.size(), 1u) << to_string(warnings);
+  EXPECT_NE(to_string(warnings).find("nothing lies below the roads"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace parvis::house

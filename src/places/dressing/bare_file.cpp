@@ -115,10 +115,11 @@ std::string dressing_of_roads(const Model& model) {
 }
 
 /// The nodes that dress a city model, where the file itself says nothing of walls, roofs and ground.
-std::string dressing_of(const Model& model) {
+std::string dressing_of(const Model& model, bool is_alone) {
   std::string nodes;
   const auto add = [&](const char* node) { nodes += fmt::format("  {}\n", node); };
-  const bool has_windows = has_surface(model, "Window") || has_surface(model, "Door");
+  // A house that shows its windows is as its file wants it. In a town, facades leave such walls alone.
+  const bool has_windows = is_alone && (has_surface(model, "Window") || has_surface(model, "Door"));
   if (is_bare(model, "WallSurface") && !has_windows) add("facades(target=\"WallSurface\")");
   if (is_bare(model, "RoofSurface") && !has_windows) add("roofs(target=\"RoofSurface\")");
   if (is_bare(model, "GenericCityObject") && has_steeper(model, "GenericCityObject", upright))
@@ -199,7 +200,7 @@ std::string bare_scene(const Model& model, const std::string& file) {
 
   std::string script = fmt::format("// Made up by parvis for {}; change it as you like.\n", file);
   script += fmt::format("model(name=\"place\", file={}{})", quoted(file), is_exhibit ? ", reflective=1" : "");
-  if (const std::string dressing = is_town ? dressing_of(model) : std::string(); !dressing.empty())
+  if (const std::string dressing = is_town ? dressing_of(model, is_alone) : std::string(); !dressing.empty())
     script += fmt::format(" {{\n{}}}", dressing);
   script += '\n';
   if (!surfaces.empty()) script += "streets(of=\"place\")\n";

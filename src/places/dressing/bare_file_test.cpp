@@ -66,9 +66,13 @@ TEST(BareFile, WallsThatAreNoHousesHaveNoWindows) {
 }
 
 TEST(BareFile, WindowsOfAModelAreNotPaintedOver) {
-  Model model = street_of_houses();
-  add_part(model, "Window", scene::quad({3, 6, 3}, {4, 6, 3}, {4, 6, 4}, {3, 6, 4}));
-  EXPECT_EQ(bare_scene(model, "lod3.gml").find("facades("), std::string::npos);
+  const Mesh window = scene::quad({3, 6, 3}, {4, 6, 3}, {4, 6, 4}, {3, 6, 4});
+  Model house;
+  add_part(house, "WallSurface", scene::box({0, 6, 0}, {12, 16, 9})), add_part(house, "Window", window);
+  EXPECT_EQ(bare_scene(house, "lod3.gml").find("facades("), std::string::npos);
+  Model town = street_of_houses();
+  add_part(town, "Window", window);
+  EXPECT_NE(bare_scene(town, "town.gml").find("facades("), std::string::npos) << "the others have none";
   Model pictured = street_of_houses();
   pictured.textures.emplace_back();
   pictured.materials.front().base_colour_texture = 0;

@@ -97,7 +97,9 @@ class Judge {
   /// be.
   View aimed(const Stand& stand, const glm::vec3& eye) const {
     constexpr int rays = 41;
-    constexpr float half_angle = 0.6f, steepest = 0.35f;
+    constexpr float half_angle = 0.6f;
+    constexpr float steepest =
+        0.13f;  // of a view of 36 degrees in height: the horizon stays in its lower third
     glm::vec2 sum(0.0f);
     float low = 0.0f, high = 0.0f;  // slopes from the eye
     for (int i = 0; i < rays; ++i) {

@@ -110,6 +110,7 @@ TEST(Paving, AStreetBelowABridgeStaysOnTheGround) {
   };
   add_level("LandUse", {-100, -100}, {100, 100}, 0.0f);
   add_level("Bridge", {-6, -90}, {6, 90}, 5.4f);
+  for (const float x : {-6.0f, 5.0f}) add_level("Bridge", {x, -90}, {x + 1.0f, 90}, 6.4f);  // parapets
   Scene scene;
   scene.objects.emplace_back().model = model;
   Road below, above;

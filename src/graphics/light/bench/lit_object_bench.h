@@ -6,7 +6,7 @@
 namespace parvis::bench {
 
 /// The keys relight_shipped_*: a crown of 10,000 vertices in the paper's city is moved, with the budget that
-/// ships, and what its vertices show from frame to frame is compared with 16,384 rays each.
+/// ships, and what its vertices show from frame to frame is compared with 4,096 rays each.
 Status measure_lit_object(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench
