@@ -337,8 +337,11 @@ class Reader {
     const Json &boundaries = member(geometry, "boundaries"), &semantics = member(geometry, "semantics");
     const Json& appearance = member(json_, "appearance");
     is_solid_ = type.find("Solid") != std::string::npos;
+    const bool has_list = semantics.is_array();
+    has_listed_kinds_ = has_listed_kinds_ || has_list;
     const Attached attached{
-        &told(semantics), &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
+        has_list ? &semantics : &told(semantics),
+        &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
         &themed(member(geometry, "texture"), member(appearance, "default-theme-texture"))};
     surfaces_ = &member(semantics, "surfaces");
     if (type == "MultiSurface" || type == "CompositeSurface")
@@ -351,10 +354,8 @@ class Reader {
   }
 
   /// The kind of each surface; nothing where the file gives one kind to all surfaces of a solid, which has
-  /// several.
-  const Json& told(const Json& semantics) {
-    has_listed_kinds_ = has_listed_kinds_ || semantics.is_array();
-    if (semantics.is_array()) return semantics;
+  /// several. In versions 0.2 and 0.3 the semantics are that list.
+  const Json& told(const Json& semantics) const {
     const Json& values = member(semantics, "values");
     return is_solid_ && is_one_for_all(values) ? nothing() : values;
   }

@@ -61,7 +61,7 @@ bool is_building(const std::string& object_type) {
 }
 
 std::string surface_name(const std::string& semantics, const std::string& object_type, float up) {
-  const std::string type = type_name(object_type);
+  std::string type = type_name(object_type);
   // Walls and roofs of a bridge are no houses', and what of a road is driven on is road.
   const bool is_of_structure = (type == "Bridge" || type == "Tunnel") && semantics.ends_with("Surface");
   if (is_of_structure || semantics == "TrafficArea") return type;

@@ -57,13 +57,14 @@ Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double ele
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
         const glm::vec2 at(float(x) + 0.5f, float(size - y) - 0.5f);
-        glm::vec3& value = expected[std::size_t(y * size + x)];
+        const std::size_t i = std::size_t(y) * size + std::size_t(x);
+        glm::vec3& value = expected[i];
         const glm::vec3 direction = reference::camera_ray(camera, size, size, at).direction;
         value = shading::sky_radiance(expected_sky, direction, 0.0f);
         mean += double(value.y) / double(size * size);
         const glm::vec3 model =
             glm::max(rec709_from_xyz((*sky)->sky_radiance_xyz(turned * direction)), glm::vec3(0.0f));
-        const glm::vec3 off = glm::abs(glm::vec3(drawn[std::size_t(y * size + x)]) - model);
+        const glm::vec3 off = glm::abs(glm::vec3(drawn[i]) - model);
         off_model += double(off.x + off.y + off.z) / 3.0, luminance_of_all += double(model.y);
       }
     for (std::size_t i = 0; i < drawn.size(); ++i)

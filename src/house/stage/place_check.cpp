@@ -31,7 +31,7 @@ void meet(std::array<glm::vec3, 3> corners, glm::vec3 eye, int axis, int object,
   const float sum = a + b + c;  // its sign: whether the triangle faces along the axis
   if (sum == 0.0f) return;
   const float along = (a * corners[0][axis] + b * corners[1][axis] + c * corners[2][axis]) / sum;
-  Hit& hit = hits[std::size_t(2 * axis + (along < 0.0f ? 1 : 0))];
+  Hit& hit = hits[2 * std::size_t(axis) + (along < 0.0f ? 1 : 0)];
   if (std::abs(along) >= hit.distance_m) return;
   hit = {std::abs(along), object, (sum > 0.0f) == (along > 0.0f)};
 }

@@ -168,9 +168,10 @@ std::vector<StudiedPoint> chosen_points(const light::SunStudy& study, std::size_
     all.push_back(
         {light::lifted(study.surfaces.positions[i], study.surfaces.normals[i]), study.surface_hours[i]});
   std::vector<StudiedPoint> chosen;
+  chosen.reserve(count);
   const auto choose = [&](std::size_t first, std::size_t last) {
-    const double step = std::max(1.0, double(last - first) / double(count / 2));
-    for (double at = double(first); at < double(last); at += step) chosen.push_back(all[std::size_t(at)]);
+    const std::size_t wanted = std::min(count / 2, last - first);
+    for (std::size_t i = 0; i < wanted; ++i) chosen.push_back(all[first + i * (last - first) / wanted]);
   };
   choose(0, of_plan), choose(of_plan, all.size());
   return chosen;
