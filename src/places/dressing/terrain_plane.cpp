@@ -171,6 +171,7 @@ std::vector<std::array<Corner, 3>> triangles_of(const CellBlock& block, const sc
   const Corner a = corner(block.low.x, block.low.y), c = corner(high.x, high.y);
   const Corner middle{0.5f * (a.position + c.position), 0.5f * (a.edge_m + c.edge_m)};
   std::vector<std::array<Corner, 3>> triangles;
+  triangles.reserve(outline.size());
   for (std::size_t i = 0; i < outline.size(); ++i)
     triangles.push_back({outline[i], outline[(i + 1) % outline.size()], middle});
   return triangles;
@@ -280,6 +281,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   const glm::vec2 middle = 0.5f * (heights.centre_of({0, 0}) + heights.centre_of(last));
   const float radius_m = glm::distance(middle, heights.centre_of(last));
   std::vector<float> edge_heights;
+  edge_heights.reserve(edge.size());
   for (const glm::vec3& p : edge) edge_heights.push_back(p.z);
   std::ranges::nth_element(edge_heights, edge_heights.begin() + std::ptrdiff_t(edge.size() / 2));
   const float level_m = edge_heights[edge.size() / 2];
