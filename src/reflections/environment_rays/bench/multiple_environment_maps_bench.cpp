@@ -295,6 +295,7 @@ Status measure(const BenchSetup& setup, Report& report) {
       [&] { return measure_other_places(setup.house, shipped(), folder.path, setup.is_quick, report); }};
   static_assert(std::size(measures) == part_names.size());
   std::vector<BenchPart> parts;
+  parts.reserve(part_names.size());
   for (std::size_t i = 0; i < part_names.size(); ++i) parts.push_back({part_names[i], measures[i]});
   return run_parts(setup, parts);
 }
