@@ -188,7 +188,8 @@ Status film_day(const Arguments& arguments) {
   for (int i = 0; i < frames; ++i, progress.advance()) {
     // Where the clock is far from the sun, the sun's day begins or ends on another one of the clock's.
     const double time = from + i * arguments.film_step_min / 60.0, days = std::floor(time / 24.0);
-    live.set(*node, "julianDay", std::clamp(long(day.day_of_year) + long(days), 1L, 365L));
+    const long last_day = std::max(365L, long(day.day_of_year));
+    live.set(*node, "julianDay", std::clamp(long(day.day_of_year) + long(days), 1L, last_day));
     live.set(*node, "timeOfDay", time - 24.0 * days);
     if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
     play.clock.follow(play.scene);
