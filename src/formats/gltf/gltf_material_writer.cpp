@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
+#include <cstring>
 #include <mutex>
 
 #include "base/content_hash.h"
+#include "base/file_front.h"
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
@@ -55,15 +56,13 @@ std::string file_name(const fs::path& file, const std::string& name) {
 /// The JSON of the .glb that is there now; empty where there is none.
 std::string json_of(const fs::path& file) {
   constexpr std::uint32_t json_kind = 0x4e4f534a, max_json_bytes = 1u << 30;
-  std::ifstream in(file, std::ios::binary);
   std::array<std::uint32_t, 5> head{};  // magic, version, size; size and kind of the first chunk
-  std::error_code code;
-  if (!fs::is_regular_file(file, code) || !in.read(reinterpret_cast<char*>(head.data()), sizeof head) ||
-      head[4] != json_kind || head[3] > max_json_bytes || head[3] > fs::file_size(file, code))
-    return "";
-  std::string json(head[3], ' ');
-  in.read(json.data(), std::streamsize(json.size()));
-  return json;
+  const Result<std::string> front = read_front(file, sizeof head);
+  if (!front || front->size() < sizeof head) return "";
+  std::memcpy(head.data(), front->data(), sizeof head);
+  if (head[4] != json_kind || head[3] > max_json_bytes) return "";
+  const Result<std::string> json = read_front(file, sizeof head + head[3]);
+  return json ? json->substr(sizeof head) : "";
 }
 
 /// Whether a picture may be written over: it is one of the file's own, or the same already.

@@ -2,6 +2,7 @@
 #include "formats/gltf/gltf_writer.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -238,6 +239,15 @@ TEST(GltfWriter, PicturesOfOthersAreNotWrittenOver) {
   ASSERT_TRUE(write_file(folder.path() / "mine_wall.png", "somebody's"));
   EXPECT_FALSE(write_gltf(folder.path() / "mine.glb", painted(50)));
   EXPECT_EQ(*read_file(folder.path() / "mine_wall.png"), "somebody's");
+}
+
+TEST(GltfWriter, APipeInTheWayIsRefused) {
+  const TestFolder folder;
+  const fs::path pipe = folder.path() / "out.glb";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Status written = write_gltf(pipe, flag());
+  ASSERT_FALSE(written);
+  EXPECT_NE(to_string(written.errors()).find("not a regular file"), std::string::npos);
 }
 
 TEST(GltfWriter, BlenderOpensWhatIsWritten) {
