@@ -103,6 +103,38 @@ TEST_F(IfcTest, StylesGiveColoursAndGlass) {
   EXPECT_NEAR(material(model, *wall).base_colour.x, 0.75f, 0.02f) << "sRGB 0.88";
 }
 
+TEST_F(IfcTest, MaterialsGiveColoursToWhatHasNoStyle) {
+  const auto has_red_wall = [&](const std::string& given) {
+    const Model model = read(changed("#78=IFCSTYLEDITEM(#77,(#33),$);", given));
+    return std::ranges::any_of(model.parts, [&](const Part& part) {
+      return part.object == "IfcWallStandardCase Wall:Render 300" &&
+             material(model, part).base_colour == glm::vec3(1.0f, 0.0f, 0.0f);
+    });
+  };
+  const std::string paint =  // red, of the wall #84 or of its type
+      "#90001=IFCCOLOURRGB($,1.0,0.,0.);\n#90002=IFCSURFACESTYLESHADING(#90001,$);\n"
+      "#90003=IFCSURFACESTYLE('Red',.BOTH.,(#90002));\n#90004=IFCSTYLEDITEM($,(#90003),$);\n"
+      "#90005=IFCSTYLEDREPRESENTATION(#13,$,$,(#90004));\n#90006=IFCMATERIAL('Paint',$,$);\n"
+      "#90007=IFCMATERIALDEFINITIONREPRESENTATION($,$,(#90005),#90006);\n";
+  const std::string layers =
+      "#90008=IFCMATERIAL('Air',$,$);\n#90009=IFCMATERIALLAYER(#90008,10.,$,$,$,$,$);\n"
+      "#90010=IFCMATERIALLAYER(#90006,20.,$,$,$,$,$);\n#90011=IFCMATERIALLAYERSET((#90009,#90010),$,$);\n"
+      "#90012=IFCMATERIALLAYERSETUSAGE(#90011,.AXIS2.,.POSITIVE.,0.,$);\n";
+  const std::string type =
+      "#90020=IFCWALLTYPE('00000000000000000000zz',#5,'W',$,$,$,$,$,$,.STANDARD.);\n"
+      "#90021=IFCRELDEFINESBYTYPE('00000000000000000000zy',#5,$,$,(#84),#90020);\n";
+  const auto associated = [](const char* object, const char* with) {
+    return std::string("#90030=IFCRELASSOCIATESMATERIAL('00000000000000000000zx',#5,$,$,(") + object + ")," +
+           with + ");\n";
+  };
+  EXPECT_FALSE(has_red_wall(""));
+  EXPECT_TRUE(has_red_wall(paint + associated("#84", "#90006")));
+  EXPECT_TRUE(has_red_wall(paint + layers + associated("#84", "#90012")));
+  EXPECT_TRUE(has_red_wall(paint + type + associated("#90020", "#90006")));
+  EXPECT_FALSE(has_red_wall("#78=IFCSTYLEDITEM(#77,(#33),$);\n" + paint + associated("#84", "#90006")))
+      << "what a body itself is styled as goes first";
+}
+
 /// The pavilion with some more entities, and with one text for another.
 class TexturedIfcTest : public IfcTest {
  protected:

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <ifcpp/IFC4/include/IfcAnnotation.h>
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
+#include <ifcpp/IFC4/include/IfcColourRgb.h>
 #include <ifcpp/IFC4/include/IfcFeatureElementSubtraction.h>
 #include <ifcpp/IFC4/include/IfcGrid.h>
 #include <ifcpp/IFC4/include/IfcIndexedColourMap.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcNormalisedRatioMeasure.h>
 #include <ifcpp/IFC4/include/IfcSpace.h>
+#include <ifcpp/IFC4/include/IfcSurfaceStyle.h>
+#include <ifcpp/IFC4/include/IfcSurfaceStyleShading.h>
 #include <ifcpp/IFC4/include/IfcVirtualElement.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
@@ -19,6 +23,7 @@
 #include <map>
 #include <set>
 
+#include "formats/ifc/ifc_styles.h"
 #include "formats/ifc/ifc_text.h"
 
 namespace parvis::scene {
@@ -101,6 +106,24 @@ std::optional<IfcLook> look_of(const std::vector<std::shared_ptr<AppearanceData>
   return std::nullopt;
 }
 
+float value_of(const std::shared_ptr<IfcNormalisedRatioMeasure>& measure) {
+  return measure ? glm::clamp(float(measure->m_value), 0.0f, 1.0f) : 0.0f;
+}
+
+/// By the materials that the object is made of. Of a wall of several layers the first that has a style shows.
+std::optional<IfcLook> look_of_material(const IfcObjectDefinition& object, IfcTextures& textures) {
+  for (const IfcSurfaceStyle* style : material_styles_of(object))
+    for (const auto& element : style->m_Styles)
+      if (const auto* shading = dynamic_cast<const IfcSurfaceStyleShading*>(element.get());
+          shading && shading->m_SurfaceColour) {
+        const IfcColourRgb& colour = *shading->m_SurfaceColour;
+        return IfcLook{{value_of(colour.m_Red), value_of(colour.m_Green), value_of(colour.m_Blue)},
+                       1.0f - value_of(shading->m_Transparency),
+                       textures.picture_of_style(style->m_entity_id)};
+      }
+  return std::nullopt;
+}
+
 /// The triangles of one body, which is triangulated; those that are not finite are dropped.
 void add_triangles(const carve::mesh::MeshSet<3>& body, carve::math::Matrix world_from_body,
                    IfcTextures& textures, IfcShape& shape) {
@@ -164,12 +187,14 @@ void add_product(ProductShapeData& product, const std::shared_ptr<IfcObjectDefin
                  .is_closed = false,
                  .corners = {},
                  .uvs = {}};
+  const std::optional<IfcLook> of_material = look_of_material(*object, textures);
   for (const auto& representation : product.m_vec_representations) {
     if (!representation || !is_body(*representation)) continue;
     for (const auto& item : representation->m_vec_item_data) {
       shape.look = look_of(item->m_vec_item_appearances, textures);
       if (!shape.look) shape.look = look_of(representation->m_vec_representation_appearances, textures);
       if (!shape.look) shape.look = look_of(product.getAppearances(), textures);
+      if (!shape.look) shape.look = of_material;
       add_bodies(shape, item->m_meshsets, true, world_from_product, textures, shapes);
       add_bodies(shape, item->m_meshsets_open, false, world_from_product, textures, shapes);
     }

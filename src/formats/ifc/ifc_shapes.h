@@ -1,5 +1,5 @@
 // The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in
-// ifc_shapes.cpp and ifc_textures.
+// ifc_shapes.cpp, ifc_styles and ifc_textures.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@
 
 namespace parvis::scene {
 
-/// How a body looks, by a surface style of the file.
+/// How a body looks, by a surface style of the file: its own, or that of the material it is made of.
 struct IfcLook {
   glm::vec3 colour{0.8f};                             ///< sRGB, 0..1
   float alpha = 1.0f;                                 ///< 1: opaque

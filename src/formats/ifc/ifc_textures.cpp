@@ -17,9 +17,7 @@
 #include <ifcpp/IFC4/include/IfcParameterValue.h>
 #include <ifcpp/IFC4/include/IfcPolyLoop.h>
 #include <ifcpp/IFC4/include/IfcPositiveInteger.h>
-#include <ifcpp/IFC4/include/IfcPresentationStyleAssignment.h>
 #include <ifcpp/IFC4/include/IfcReal.h>
-#include <ifcpp/IFC4/include/IfcStyledItem.h>
 #include <ifcpp/IFC4/include/IfcSurfaceStyle.h>
 #include <ifcpp/IFC4/include/IfcSurfaceStyleWithTextures.h>
 #include <ifcpp/IFC4/include/IfcTextureMap.h>
@@ -33,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/ifc/ifc_styles.h"
 #include "formats/ifc/ifc_text.h"
 
 namespace parvis::scene {
@@ -94,20 +93,6 @@ std::array<std::int64_t, 3> place_of(dvec3 point) {
 dvec2 along_surface(dvec3 point, dvec3 normal) {
   if (std::abs(normal.z) > 0.7 * glm::length(normal)) return dvec2(point);
   return {glm::dot(dvec2(point), glm::normalize(dvec2(-normal.y, normal.x))), point.z};
-}
-
-/// The surface styles of an entity: itself, or what a styled item names.
-std::vector<const IfcSurfaceStyle*> styles_of(const BuildingEntity* entity) {
-  std::vector<const IfcSurfaceStyle*> found;
-  if (const auto* style = dynamic_cast<const IfcSurfaceStyle*>(entity)) found.push_back(style);
-  if (const auto* item = dynamic_cast<const IfcStyledItem*>(entity))
-    for (const auto& each : item->m_Styles) {
-      if (const auto* style = dynamic_cast<const IfcSurfaceStyle*>(each.get())) found.push_back(style);
-      if (const auto* assigned = dynamic_cast<const IfcPresentationStyleAssignment*>(each.get()))
-        for (const auto& one : assigned->m_Styles)
-          if (const auto* style = dynamic_cast<const IfcSurfaceStyle*>(one.get())) found.push_back(style);
-    }
-  return found;
 }
 
 }  // namespace
