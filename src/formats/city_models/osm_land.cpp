@@ -87,9 +87,9 @@ const Cover* cover_of(const OsmTags& tags) {
   return found == covers.end() ? nullptr : &*found;
 }
 
+/// Pavements and crossings belong to the carriageway that they lie along or across.
 const Ribbon* ribbon_of(const OsmTags& tags) {
-  // Pavements and crossings belong to the carriageway that they lie along or across.
-  if (is_underground(tags) || is_bridge(tags) || tag(tags, "area") == "yes") return nullptr;
+  if (is_underground(tags) || tag(tags, "area") == "yes") return nullptr;
   for (const char* use : {"sidewalk", "crossing"})
     if (has(tags, "footway", use) || has(tags, "cycleway", use)) return nullptr;
   const auto found = std::ranges::find_if(
@@ -106,6 +106,12 @@ double width_m(const OsmTags& tags, double usual_m) {
 
 }  // namespace
 
+double half_path_m(const OsmTags& tags) {
+  const Ribbon* ribbon = ribbon_of(tags);
+  if (!ribbon || std::string_view(ribbon->key) != "highway") return 0.0;
+  return 0.5 * width_m(tags, ribbon->width_m);
+}
+
 void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, const OsmTrenches& trenches,
                   CityAssembly& city) {
   const OsmAreas areas(osm, place, city);
@@ -120,7 +126,7 @@ void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, c
   }
   for (const OsmWay& way : osm.ways) {
     const Ribbon* ribbon = ribbon_of(way.tags);
-    if (!ribbon || (way.is_closed() && cover_of(way.tags))) continue;
+    if (!ribbon || is_bridge(way.tags) || (way.is_closed() && cover_of(way.tags))) continue;
     std::vector<dvec3> line;
     for (const OsmId node : way.nodes)
       if (const auto point = place(node)) line.emplace_back(*point, ground_m);

@@ -11,4 +11,7 @@ namespace parvis::scene {
 void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, const OsmTrenches& trenches,
                   CityAssembly& city);
 
+/// Half the width of a footpath, cycleway, flight of steps or track; 0 for all else.
+double half_path_m(const OsmTags& tags);
+
 }  // namespace parvis::scene

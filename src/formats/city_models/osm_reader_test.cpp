@@ -255,6 +255,44 @@ TEST(Osm, BridgesLeaveClearanceAndRampsLeadUpToThem) {
     }
 }
 
+TEST(Osm, RailwaysAndPathsHaveBridgesOfTheirOwn) {
+  const auto bridge_of = [](const std::vector<std::pair<std::string, std::string>>& tags) {
+    const Read town = read(osm(street_and_bridge(tags)));
+    EXPECT_TRUE(town.model) << to_string(town.model.errors());
+    return bounds_of(*town.model, "Bridge");
+  };
+  for (const char* railway : {"rail", "tram"}) {
+    const Bounds bridge = bridge_of({{"railway", railway}, {"bridge", "yes"}, {"layer", "1"}});
+    EXPECT_NEAR(bridge.max.z, 6.4f, 0.05f) << railway;
+  }
+  const Bounds path = bridge_of({{"highway", "footway"}, {"bridge", "yes"}, {"layer", "1"}, {"width", "2"}});
+  EXPECT_NEAR(path.max.z, 6.4f, 0.05f);
+}
+
+TEST(Osm, WhatGoesAlongOnAStreetsBridgeHasNoParapetsOfItsOwn) {
+  const auto highest_between_parapets = [](const std::string& beside) {
+    const Read town =
+        read(osm(street_and_bridge({{"highway", "primary"}, {"bridge", "yes"}, {"layer", "1"}}) + beside));
+    EXPECT_TRUE(town.model) << to_string(town.model.errors());
+    const float middle = town.model->roads[1].path[0].x;
+    float highest = -1.0f;
+    for (const Part& part : town.model->parts)
+      for (std::size_t i = 0; part.object == "Bridge" && i < part.mesh.positions.size(); ++i)
+        if (const glm::vec3 p = part.mesh.positions[i]; std::abs(p.x - middle) < 4.0f)
+          highest = std::max(highest, p.z);
+    return highest;
+  };
+  const float alone = highest_between_parapets("");
+  EXPECT_LT(alone, 5.5f);
+  for (const char* key : {"railway", "highway"}) {
+    const std::string value = std::string(key) == "railway" ? "tram" : "cycleway";
+    EXPECT_LT(highest_between_parapets(
+                  way(103, "21 22", {{key, value}, {"bridge", "yes"}, {"layer", "1"}, {"width", "2"}})),
+              5.5f)
+        << value;
+  }
+}
+
 TEST(Osm, BridgesOverNothingAreLow) {
   const Read town = read(osm(way(100, "11 12 13", {{"highway", "primary"}, {"bridge", "yes"}})));
   ASSERT_TRUE(town.model);

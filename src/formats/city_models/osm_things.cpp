@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "formats/city_models/osm_land.h"
+#include "formats/city_models/osm_segments.h"
 #include "formats/city_models/osm_shapes.h"
 
 namespace parvis::scene {
@@ -19,7 +21,8 @@ constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, bal
 constexpr double ballast_lift_m = 0.03;
 constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
 constexpr double deck_m = 0.9, parapet_m = 1.0, parapet_width_m = 0.25;
-constexpr double beside_m = 3.1;        // of a deck beside the carriageway: pavements
+constexpr double beside_m = 3.1;  // of a deck beside the carriageway: pavements
+constexpr double beside_track_m = 0.6;
 constexpr double below_road_m = 0.02;   // carriageways lie on the deck
 constexpr double embankment_run = 1.5;  // per metre of height
 
@@ -181,11 +184,12 @@ void add_abutment(dvec3 at, dvec2 along, double half_m, double above_m, const Li
 }
 
 void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground, double half_m,
-              const LineLook& deck, CityAssembly& city) {
+              bool has_parapets, const LineLook& deck, CityAssembly& city) {
   const std::vector<dvec3> line = on_ground(points, ground);
   if (line.size() < 2) return;
   add_block(sides_of(line, -half_m, half_m, -below_road_m), deck_m, deck, city);
   for (const double side : {-1.0, 1.0}) {
+    if (!has_parapets) break;
     const double outer_m = side * half_m, inner_m = side * (half_m - parapet_width_m);
     add_block(
         sides_of(line, std::min(outer_m, inner_m), std::max(outer_m, inner_m), parapet_m - below_road_m),
@@ -196,6 +200,53 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
   add_abutment(line[last], glm::normalize(dvec2(line[last] - line[last - 1])), half_m, points[last].above_m,
                deck, city);
 }
+
+/// What a way's deck carries to either side of its middle line.
+struct DeckWidth {
+  double half_m = 0.0;  ///< 0: it needs no deck
+  bool is_of_street = false;
+};
+
+DeckWidth deck_width_of(const OsmWay& way, const std::function<double(const OsmWay&)>& half_carriageway_m) {
+  if (const double half_m = half_carriageway_m(way); half_m > 0.0) return {half_m + beside_m, true};
+  if (is_rail(way.tags)) return {ballast_half_m + beside_track_m, false};
+  const double half_m = half_path_m(way.tags);
+  return {half_m > 0.0 ? half_m + parapet_width_m : 0.0, false};
+}
+
+/// Decks of streets, by which trams and paths go that maps have as ways of their own.
+class StreetDecks {
+ public:
+  void add(const std::vector<RaisedPoint>& points, double half_m) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      segments_.add(points[i].place, points[i + 1].place, half_m);
+  }
+  /// Whether one lies under, or right beside, the middle of a deck.
+  bool carry(const std::vector<RaisedPoint>& points, double half_m) const {
+    if (points.size() < 2) return false;
+    const dvec2 a = points[points.size() / 2 - 1].place, b = points[points.size() / 2].place;
+    const dvec2 middle = 0.5 * (a + b), along = b - a;
+    const double length_m = glm::length(along);
+    if (length_m <= 0.0) return false;
+    const dvec2 aside = dvec2(along.y, -along.x) / length_m * max_aside_m;
+    bool is_carried = false;
+    segments_.each_near(middle - aside, middle + aside, [&](const auto& segment) {
+      const dvec2 run = segment.b - segment.a;
+      const double square = glm::dot(run, run);
+      const double share =
+          square > 0.0 ? std::clamp(glm::dot(middle - segment.a, run) / square, 0.0, 1.0) : 0.0;
+      const double apart_m = glm::distance(middle, segment.a + share * run);
+      const bool is_parallel = std::abs(glm::dot(run, along)) > 0.8 * std::sqrt(square) * length_m;
+      is_carried = is_parallel && apart_m < segment.owner + half_m + beside_m;
+      return !is_carried;
+    });
+    return is_carried;
+  }
+
+ private:
+  static constexpr double max_aside_m = 40.0;
+  OsmSegments<double> segments_;  ///< with half the width of the deck
+};
 
 }  // namespace
 
@@ -279,17 +330,23 @@ void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOn
                      const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city) {
   const LineLook deck{{"Bridge", "Bridge", ""}}, top{{"Bridge", "Bridge", ""}};
   const LineLook slope{{"embankment", "PlantCover", ""}};
+  StreetDecks streets;
+  for (const OsmWay& way : osm.ways)
+    if (const DeckWidth width = deck_width_of(way, half_width_m); width.is_of_street && is_bridge(way.tags))
+      streets.add(relief.profile(way), width.half_m);
   for (const OsmWay& way : osm.ways) {
-    const double half_m = half_width_m(way);
-    if (half_m <= 0.0 || is_underground(way.tags)) continue;
+    const DeckWidth width = deck_width_of(way, half_width_m);
+    if (width.half_m <= 0.0 || is_underground(way.tags)) continue;
+    const bool is_tram = tag(way.tags, "railway") == "tram";
     const std::vector<RaisedPoint> points = relief.profile(way);
     if (is_bridge(way.tags)) {
-      add_deck(points, ground, half_m + beside_m, deck, city);
-      continue;
+      const bool is_carried = !width.is_of_street && streets.carry(points, width.half_m);
+      if (!is_tram || !is_carried) add_deck(points, ground, width.half_m, !is_carried, deck, city);
+    } else if (!is_tram) {  // trams climb in the street
+      each_stretch(points, 1.0, [&](const std::vector<RaisedPoint>& raised) {
+        add_embankment(raised, ground, width.half_m, top, slope, city);
+      });
     }
-    each_stretch(points, 1.0, [&](const std::vector<RaisedPoint>& raised) {
-      add_embankment(raised, ground, half_m + beside_m, top, slope, city);
-    });
   }
 }
 

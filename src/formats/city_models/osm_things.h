@@ -25,8 +25,9 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
 void add_osm_rails(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,
                    const GroundOnMap& ground, CityAssembly& city);
 
-/// Adds decks with parapets below bridges, abutments at their ends, and embankments below ramps.
-/// `half_width_m` gives half the width of a way's carriageway, 0 where it has none.
+/// Adds decks with parapets below bridges of streets, railways and paths, abutments at their ends, and
+/// embankments below ramps. Trams on a bridge of a street have none of their own, and paths beside one no
+/// parapets. `half_width_m` gives half the width of a way's carriageway, 0 where it has none.
 void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
                      const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city);
 
