@@ -32,10 +32,7 @@ TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
     ASSERT_TRUE(error) << to_string(error.errors());
     EXPECT_LE(error->of_build, 1e-3) << elevation;
     std::printf("sun at %g degrees: %.1e of the model in the mean\n", elevation, error->of_model);
-    // The glare of a low sun is drawn up to a tenth darker than the model has it (docs/light.md, limits).
-    if (elevation != 10.0) {
-      EXPECT_LE(error->of_model, 1e-3) << elevation;
-    }
+    EXPECT_LE(error->of_model, 1e-3) << elevation;
   }
   const Result<DrawnSkyError> turned = drawn_sky_error(SkyKind::atmosphere, 3.0, 10.0, 1.0f);
   ASSERT_TRUE(turned) << to_string(turned.errors());

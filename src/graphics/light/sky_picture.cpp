@@ -1,6 +1,7 @@
 #include "graphics/light/sky_picture.h"
 
 #include "base/image_io.h"
+#include "graphics/shading/sky.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::light {
@@ -18,7 +19,7 @@ std::optional<ImageF> read_sky_picture(const scene::Node& node, const char* name
                           "{} values of the sky's picture are infinite or no numbers; its brightest finite "
                           "value, or black, stands for each",
                           replaced));
-  return *std::move(picture);
+  return shading::without_sun(*std::move(picture));
 }
 
 }  // namespace parvis::light

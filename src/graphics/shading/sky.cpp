@@ -11,8 +11,7 @@ namespace {
 
 constexpr float pi_f = 3.14159265f;
 constexpr int level_count = 7;
-/// Brighter than this many times the picture's mean is the sun's disc and glare: the scene's own sun stands
-/// for it.
+/// Brighter than this many times a photograph's mean is the sun's disc and its glare in the lens.
 constexpr float sun_threshold = 12.0f;
 
 vec3 direction_of(const ImageF& picture, float x, float y, float heading) {
@@ -53,20 +52,9 @@ ImageF plain_blue_sky() {
   return picture;
 }
 
-ImageF scaled_without_sun(const ImageF& picture, float intensity) {
-  double sum = 0.0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) sum += double(luminance(pixel(picture, x, y)));
-  const float maximum = sun_threshold * float(sum / double(picture.width) / double(picture.height));
-  ImageF result(picture.width, picture.height, 3);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const vec3 colour = pixel(picture, x, y);
-      const float light = luminance(colour);
-      const vec3 kept = intensity * (light > maximum ? colour * (maximum / light) : colour);
-      for (int c = 0; c < 3; ++c) result.at(x, y)[c] = kept[c];
-    }
-  return result;
+ImageF scaled(ImageF picture, float intensity) {
+  for (float& value : picture.pixels) value *= intensity;
+  return picture;
 }
 
 ImageF halved(const ImageF& picture) {
@@ -150,11 +138,24 @@ vec3 mean_above_horizon(const ImageF& picture) {
 
 }  // namespace
 
+ImageF without_sun(ImageF photograph) {
+  double sum = 0.0;
+  for (int y = 0; y < photograph.height; ++y)
+    for (int x = 0; x < photograph.width; ++x) sum += double(luminance(pixel(photograph, x, y)));
+  const float maximum = sun_threshold * float(sum / double(photograph.width) / double(photograph.height));
+  for (int y = 0; y < photograph.height; ++y)
+    for (int x = 0; x < photograph.width; ++x) {
+      const float light = luminance(pixel(photograph, x, y));
+      if (light > maximum)
+        for (int c = 0; c < 3; ++c) photograph.at(x, y)[c] *= maximum / light;
+    }
+  return photograph;
+}
+
 SkyLight make_sky_light(const ImageF& picture, float intensity, float heading) {
   SkyLight sky;
   sky.heading = heading;
-  sky.levels.push_back(
-      scaled_without_sun(with_room_for_levels(picture.empty() ? plain_blue_sky() : picture), intensity));
+  sky.levels.push_back(scaled(with_room_for_levels(picture.empty() ? plain_blue_sky() : picture), intensity));
   std::vector<ImageF> halves{sky.levels.front()};
   for (int level = 1; level < level_count; ++level) {
     halves.push_back(halved(halves.back()));

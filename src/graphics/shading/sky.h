@@ -19,9 +19,12 @@ struct SkyLight {
   float heading = 0.0f;                      ///< radians
 };
 
-/// `picture` is equirectangular with 3 channels; it is scaled by `intensity` and turned by `heading`
-/// (radians). The sun's disc in it is dimmed, for the scene's own sun shines instead. An empty picture gives
-/// a plain blue sky.
+/// A photograph of a whole sky (3 channels) with the sun's disc in it dimmed, for the scene's own sun shines
+/// instead. Computed skies have no disc, and their glare is light of the sky.
+ImageF without_sun(ImageF photograph);
+
+/// `picture` is equirectangular with 3 channels, without the sun; it is scaled by `intensity` and turned by
+/// `heading` (radians). An empty picture gives a plain blue sky.
 SkyLight make_sky_light(const ImageF& picture, float intensity, float heading);
 
 /// Radiance of the sky from a unit direction, at a level of blur (bilinear in the picture, linear between

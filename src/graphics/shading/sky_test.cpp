@@ -90,12 +90,18 @@ TEST(Sky, APictureIsEvenInAzimuthAndElevation) {
     }
 }
 
-TEST(Sky, TheSunsDiscIsDimmed) {
-  ImageF picture(128, 64, 3, 1.0f);
-  for (int c = 0; c < 3; ++c) picture.at(64, 16)[c] = 50000.0f;
-  const SkyLight sky = make_sky_light(picture, 1.0f, 0.0f);
-  EXPECT_LT(sky.levels.front().at(64, 16)[0], 100.0f);
-  EXPECT_EQ(sky.levels.front().at(10, 16)[0], 1.0f);
+TEST(Sky, TheSunsDiscInAPhotographIsDimmed) {
+  ImageF photograph(128, 64, 3, 1.0f);
+  for (int c = 0; c < 3; ++c) photograph.at(64, 16)[c] = 50000.0f;
+  const ImageF dimmed = without_sun(photograph);
+  EXPECT_LT(dimmed.at(64, 16)[0], 100.0f);
+  EXPECT_EQ(dimmed.at(10, 16)[0], 1.0f);
+}
+
+TEST(Sky, KeepsTheGlareOfAComputedSky) {
+  ImageF computed(128, 64, 3, 1.0f);
+  for (int c = 0; c < 3; ++c) computed.at(64, 16)[c] = 100.0f;
+  EXPECT_EQ(make_sky_light(computed, 2.0f, 0.0f).levels.front().at(64, 16)[0], 200.0f);
 }
 
 TEST(Sky, WithoutAPictureItIsBlueAbove) {

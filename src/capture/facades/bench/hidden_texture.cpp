@@ -72,7 +72,7 @@ scene::Scene city_scene() {
   object.name = "city", object.model = std::make_shared<scene::Model>(city::make_city_model(seed));
   scene.objects.push_back(std::move(object));
   scene.sun.direction_to_sun = city::to_sun();
-  scene.sky.picture = city::sky_picture(256, city::to_sun(), seed);
+  scene.sky.picture = shading::without_sun(city::sky_picture(256, city::to_sun(), seed));
   return scene;
 }
 
