@@ -20,6 +20,8 @@ constexpr int min_shown_rays = 64;
 constexpr int rays_per_round = 16;
 /// Of the places from which the sky is looked at once, for objects that have no time for rays.
 constexpr float places_spacing_m = 1.0f, places_margin_m = 8.0f;
+/// Of a budget; the rest is for rays to the sun.
+constexpr double places_share = 0.5;
 
 double cost(const VertexBlock& block, int rays) {
   return rays_per_sky_ray * double(rays) * double(block.shown.size());
@@ -184,7 +186,7 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, doub
   if (vertices == 0) return;
   const light::RelightingPlan plan = light::plan_relighting(vertices, budget_ms_, rays_per_ms, true);
   const light::VisibilityPlaces* places =
-      plan.method == light::Relighting::interpolated ? &places_around(bounds) : nullptr;
+      plan.method == light::Relighting::interpolated ? &places_around(bounds, rays_left) : nullptr;
   for (LitObject* lit : changed)
     for (VertexBlock& block : lit->blocks()) {
       switch (plan.method) {
@@ -194,19 +196,20 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, doub
           rays_left -= cost(block, plan.rays);
           break;
         case light::Relighting::interpolated:
-          block.show(light::interpolated_irradiance(block.light.vertices(), *places, *rays_, *sky_,
-                                                    light::Blocked::bounces));
+          block.show(light::interpolated_irradiance(block.light.vertices(), block.openness, *places, *rays_,
+                                                    *sky_, light::Blocked::bounces));
           rays_left -= cost(block, 2);
           break;
         case light::Relighting::open:
-          block.show(light::open_irradiance(block.light.vertices(), *sky_, light::Blocked::bounces));
+          block.show(
+              light::open_irradiance(block.light.vertices(), block.openness, *sky_, light::Blocked::bounces));
           break;
       }
     }
 }
 
 /// What static things leave of the sky about dynamic objects: lit ones are taken out of the way meanwhile.
-const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds) {
+const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds, double& rays_left) {
   const bool fits = places_ && glm::all(glm::lessThanEqual(places_region_.min, bounds.min)) &&
                     glm::all(glm::greaterThanEqual(places_region_.max, bounds.max));
   if (fits) return *places_;
@@ -216,7 +219,10 @@ const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& boun
     was_visible.push_back(std::exchange(casters_.objects[std::size_t(lit.object())].is_visible, false));
   rays_->update(casters_);
   places_region_ = {bounds.min - places_margin_m, bounds.max + places_margin_m};
-  places_.emplace(*rays_, places_region_, places_spacing_m);
+  const double rays_per_place = double(light::VisibilityPlaces::directions().size());
+  places_.emplace(*rays_, places_region_, places_spacing_m,
+                  std::size_t(std::max(64.0, places_share * rays_left / rays_per_place)));
+  rays_left -= rays_per_place * double(places_->size());
   for (std::size_t i = 0; i < lit_.size(); ++i)
     casters_.objects[std::size_t(lit_[i].object())].is_visible = was_visible[i];
   rays_->update(casters_);

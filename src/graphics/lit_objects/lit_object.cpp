@@ -81,10 +81,20 @@ LitObject::LitObject(const scene::Scene& scene, int object, std::vector<std::str
                            side == 1,
                            light::VertexLight(std::vector<light::LitVertex>(
                                std::min(block_vertices, mesh.positions.size() - first))),
+                           {},
                            {}});
   }
   for (VertexBlock& block : blocks_) block.shown.assign(block.light.vertices().size(), glm::vec3(0.0f));
   follow(scene);
+  find_openness(it);
+}
+
+void LitObject::find_openness(const scene::Object& object) {
+  scene::Scene alone;
+  alone.objects.push_back(object);
+  alone.objects.back().is_visible = true;
+  const reference::RayScene rays(alone);
+  for (VertexBlock& block : blocks_) block.openness = light::own_openness(rays, block.light.vertices());
 }
 
 std::size_t LitObject::vertex_count() const {

@@ -18,6 +18,7 @@ struct VertexBlock {
   bool is_behind;
   light::VertexLight light;
   std::vector<glm::vec3> shown;  ///< what renderers are to have: as long as `light.vertices()`
+  std::vector<float> openness;   ///< light::own_openness of its vertices
   int rays_wanted = 256;         ///< in the end, per vertex
   bool is_shown = false;         ///< at least once
   bool is_new = false;           ///< renderers do not have it yet
@@ -64,6 +65,7 @@ class LitObject {
 
  private:
   std::vector<light::LitVertex> vertices(const scene::Object& object, std::size_t part) const;
+  void find_openness(const scene::Object& object);
 
   int object_;
   std::vector<glm::mat4> world_from_mesh_;              ///< of each part
