@@ -16,6 +16,7 @@
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
+#include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
@@ -286,6 +287,27 @@ TEST_F(LampNode, IsLitAtDuskAndTheEyeAdaptsToIt) {
   EXPECT_EQ(lit("21.9", "lamp(burns=never)\n").first, 0u);
   EXPECT_LT(lit("23.5", "lamp()\n").second, 0.2f * lit("23.5", "").second);
   EXPECT_EQ(lit("13", "lamp()\n").second, lit("13", "").second);
+}
+
+TEST_F(LampNode, WarnsOfNamesThatNothingHas) {
+  const auto warnings = [&](const std::string& lamp) {
+    auto loaded = load(lamp);
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    add(loaded->scene, scene::model_of(scene::box({0, 0, 0}, {1, 1, 1}), scene::matt(vec3(0.5f))));
+    loaded->scene.objects.back().name = "post 1";
+    action::Processes processes;
+    processes.add([] { return std::make_unique<LampProcess>(); });
+    action::SceneClock clock(processes, scene::LiveScene(std::move(loaded->script)), loaded->scene);
+    return to_string(clock.take_warnings());
+  };
+  EXPECT_EQ(warnings("lamp(of=\"post *\")"), "");
+  EXPECT_EQ(warnings("lamp(position=\"0 0 4\")"), "");
+  EXPECT_EQ(warnings("group(visible=0) { lamp(of=\"pots *\") }"), "");
+  const std::string of = warnings("lamp(of=\"pots *\")");
+  EXPECT_NE(of.find("\"pots *\"; the scene has \"post 1\""), std::string::npos) << of;
+  EXPECT_NE(warnings("lamp(shows=\"lit windows\")").find("lit windows"), std::string::npos);
+  const std::string part = warnings("lamp(of=\"post *\", part=\"bulb\")");
+  EXPECT_NE(part.find("no part of \"post *\" is called \"bulb\""), std::string::npos) << part;
 }
 
 TEST_F(LampNode, SaysWhatIsWrong) {

@@ -1,0 +1,83 @@
+#include "graphics/lamps/lamp_process.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "scene/data/name_pattern.h"
+#include "scene/data/scene.h"
+
+namespace parvis::lamps {
+namespace {
+
+/// Some of them, for a message.
+std::string listed(const std::set<std::string>& names) {
+  constexpr std::size_t enough = 10;
+  std::string list;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (++count > enough) return list + ", ...";
+    list += (list.empty() ? "" : ", ") + ('"' + name + '"');
+  }
+  return list.empty() ? "none" : list;
+}
+
+std::vector<const scene::Object*> objects_called(const scene::Scene& scene, const std::string& pattern) {
+  std::vector<const scene::Object*> found;
+  for (const scene::Object& object : scene.objects)
+    if (scene::matches(pattern, object.name)) found.push_back(&object);
+  return found;
+}
+
+std::set<std::string> object_names(const scene::Scene& scene) {
+  std::set<std::string> names;
+  for (const scene::Object& object : scene.objects)
+    if (!object.name.empty()) names.insert(object.name);
+  return names;
+}
+
+std::set<std::string> parts_of(const std::vector<const scene::Object*>& objects) {
+  std::set<std::string> names;
+  for (const scene::Object* object : objects)
+    for (const scene::Part& part : object->model->parts) names.insert(part.object);
+  return names;
+}
+
+/// Nodes that are hidden, with their group or for the scenario, have made no lamp.
+bool is_made(const scene::Scene& scene, const scene::Node& node) {
+  return std::ranges::any_of(scene.items<scene::Lamp>(), [&](const scene::Lamp& lamp) {
+    return lamp.of == node.text("of") && lamp.shows == node.text("shows") && lamp.part == node.text("part");
+  });
+}
+
+}  // namespace
+
+void LampProcess::begin(scene::Scene& scene, action::SharedByProcesses& shared) {
+  unchecked_ = &shared.live;
+  scene::show_what_lamps_show(scene);
+}
+
+void LampProcess::present(scene::Scene& scene, double /*ahead_s*/) {
+  scene::show_what_lamps_show(scene);
+  if (const scene::LiveScene* begun = std::exchange(unchecked_, nullptr)) warn_of_idle(scene, begun->nodes());
+}
+
+void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scene::Node>& nodes) {
+  for (const scene::Node& node : nodes) {
+    warn_of_idle(scene, node.children);
+    if (node.schema->type != "lamp" || !is_made(scene, node)) continue;
+    for (const char* attribute : {"of", "shows"})
+      if (const std::string& pattern = node.text(attribute);
+          !pattern.empty() && objects_called(scene, pattern).empty())
+        warn(error_at(node.where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}", pattern,
+                      listed(object_names(scene))));
+    const std::vector<const scene::Object*> objects = objects_called(scene, node.text("of"));
+    const std::string& part = node.text("part");
+    if (part.empty() || objects.empty()) continue;
+    if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part))
+      warn(error_at(node.where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",
+                    node.text("of"), part, listed(parts)));
+  }
+}
+
+}  // namespace parvis::lamps
