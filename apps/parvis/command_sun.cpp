@@ -182,15 +182,13 @@ Status film_day(const Arguments& arguments) {
   live.set(*node, "latitude", day.latitude_deg);
   live.set(*node, "longitude", day.longitude_deg);
   live.set(*node, "standardMeridian", day.time_zone_h);
-  live.set(*node, "year", long(day.year));
   const int frames = int((to - from) * 60.0 / arguments.film_step_min) + 1;
   Progress progress("film of the day", std::size_t(frames));
   for (int i = 0; i < frames; ++i, progress.advance()) {
-    // Where the clock is far from the sun, the sun's day begins or ends on another one of the clock's.
-    const double time = from + i * arguments.film_step_min / 60.0, days = std::floor(time / 24.0);
-    const long last_day = std::max(365L, long(day.day_of_year));
-    live.set(*node, "julianDay", std::clamp(long(day.day_of_year) + long(days), 1L, last_day));
-    live.set(*node, "timeOfDay", time - 24.0 * days);
+    const light::PlaceAndTime now = light::at_hour(day, from + i * arguments.film_step_min / 60.0);
+    live.set(*node, "year", long(now.year));
+    live.set(*node, "julianDay", long(now.day_of_year));
+    live.set(*node, "timeOfDay", now.time_of_day_h);
     if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
     play.clock.follow(play.scene);
     play.settle();

@@ -80,6 +80,20 @@ SolarPosition sun_of(const PlaceAndTime& when) {
                         {.latitude_deg = when.latitude_deg, .longitude_deg = when.longitude_deg});
 }
 
+PlaceAndTime at_hour(PlaceAndTime day, double hour) {
+  const double days = std::floor(hour / 24.0);
+  day.time_of_day_h = hour - 24.0 * days;
+  day.day_of_year += int(days);
+  if (day.day_of_year < 1) {
+    --day.year;
+    day.day_of_year += days_in_year(day.year);
+  } else if (day.day_of_year > days_in_year(day.year)) {
+    day.day_of_year -= days_in_year(day.year);
+    ++day.year;
+  }
+  return day;
+}
+
 DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg) {
   // The sun culminates within half an hour of mean noon at the place, and once between two lower
   // culminations.

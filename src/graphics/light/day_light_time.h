@@ -38,6 +38,10 @@ double julian_day(const PlaceAndTime& when);
 /// The sun's position at that place and time, by solar_position.
 SolarPosition sun_of(const PlaceAndTime& when);
 
+/// The moment when the clock of `day` shows `hour`, which may be below 0 or from 24 on: it is then on the day
+/// before or after.
+PlaceAndTime at_hour(PlaceAndTime day, double hour);
+
 /// Elevation of the sun's centre, without refraction, when its upper edge appears at a level horizon.
 inline constexpr double sunrise_elevation_deg = -0.8333;
 inline constexpr double civil_twilight_elevation_deg = -6.0;

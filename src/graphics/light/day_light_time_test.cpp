@@ -111,6 +111,16 @@ TEST(DayLightTime, PolarNightAndDay) {
   EXPECT_NEAR(equinox.noon_elevation_deg, 90.0 - 43.7, 0.4);
 }
 
+TEST(DayLightTime, HoursBeyondMidnightAreOfTheNeighbouringDay) {
+  const PlaceAndTime leap{.year = 2028, .day_of_year = 366};
+  EXPECT_EQ(at_hour(leap, 23.5), (PlaceAndTime{.year = 2028, .day_of_year = 366, .time_of_day_h = 23.5}));
+  EXPECT_EQ(at_hour(leap, 25.0), (PlaceAndTime{.year = 2029, .day_of_year = 1, .time_of_day_h = 1.0}));
+  EXPECT_EQ(at_hour({.year = 2029, .day_of_year = 1}, -1.0),
+            (PlaceAndTime{.year = 2028, .day_of_year = 366, .time_of_day_h = 23.0}));
+  EXPECT_EQ(at_hour({.year = 2026, .day_of_year = 80}, 24.0),
+            (PlaceAndTime{.year = 2026, .day_of_year = 81, .time_of_day_h = 0.0}));
+}
+
 TEST(DayLightTime, ThePathEndsAtTheHorizon) {
   const std::vector<SolarPosition> path = sun_path({.day_of_year = 80}, 0.5);
   ASSERT_GT(path.size(), 20u);
