@@ -174,8 +174,8 @@ Result<PicturesOfGrove> compare_with_real_geometry(render::Renderer& renderer, s
   return pictures;
 }
 
-/// A grove of 200 oaks of a million triangles each. Quality is measured in the views whose cost is measured,
-/// and closer, where trees fill the picture.
+/// A grove of 200 oaks of a million triangles each. Quality and cost are measured in the same views, and
+/// closer, where trees fill the picture.
 Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
@@ -195,15 +195,21 @@ Status measure(const BenchSetup& setup, Report& report) {
   std::size_t maximum = 0, max_full = 0;
   double flip = 0.0, flip_thin = 0.0, flip_full = 0.0, flip_bare = 1e9;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const PlantStatistics count = counted(scene, views[v], {});
-    maximum = std::max(maximum, count.all());
-    max_full = std::max(max_full, counted(scene, views[v], {.is_full = true}).all());
-    const Result<FrameTimes> times = frame_times(renderer, scene, views[v], setup.is_quick ? 5 : 15);
-    if (!times) return times.errors();
-    if (slowest.empty() || median(times->ms).value > median(slowest).value) slowest = times->ms;
-    report.note(
-        fmt::format("view {}: {} triangles, {} points, {} lines; {:.0f} ms per frame, {:.0f} ms of all cores",
-                    v, count.triangles, count.points, count.lines, median(times->ms).value, times->cpu_ms));
+    for (const float share_of_angle : {1.0f, closer}) {
+      Camera camera = views[v];
+      camera.vertical_fov *= share_of_angle;
+      const PlantStatistics count = counted(scene, camera, {});
+      maximum = std::max(maximum, count.all());
+      max_full = std::max(max_full, counted(scene, camera, {.is_full = true}).all());
+      const Result<FrameTimes> times = frame_times(renderer, scene, camera, setup.is_quick ? 5 : 15);
+      if (!times) return times.errors();
+      if (slowest.empty() || median(times->ms).value > median(slowest).value) slowest = times->ms;
+      report.note(fmt::format(
+          "view {} at {} of its angle: {} triangles, {} points, {} lines; {:.0f} ms per frame, {:.0f} ms of "
+          "all cores",
+          v, share_of_angle, count.triangles, count.points, count.lines, median(times->ms).value,
+          times->cpu_ms));
+    }
     if (setup.is_quick && v == 2) continue;
     show_rows(setup.is_quick ? 2 : rows, scene);
     for (const float share_of_angle : {1.0f, closer}) {
@@ -229,15 +235,13 @@ Status measure(const BenchSetup& setup, Report& report) {
   report.add_control("vegetation_fps_real_geometry_control", 1e3 / median(fulls).value, Target{10.0, true});
   report.note(
       fmt::format("slowest of {} views, {} x {} pixels, a walking viewer; 95 % interval {:.1f} to {:.1f} fps",
-                  views.size(), width, height, 1e3 / frame.high, 1e3 / frame.low));
+                  2 * views.size(), width, height, 1e3 / frame.high, 1e3 / frame.low));
   if (setup.is_quick)
     report.note(
         "FLIP is of the 40 trees nearest to the lawn, cost of all 200; without --quick both are of 200");
   report.note(
       "vegetation_fps_real_geometry_control: one picture of the trees that are compared, its shadow maps "
       "included");
-  report.note(fmt::format("vegetation_flip must not pass where area is not kept: {}",
-                          flip_thin > 0.05 ? "it does not" : "IT DOES"));
   report.add("vegetation_flip", flip, up_to(0.05));
   report.add_control("vegetation_flip_area_not_kept_control", flip_thin, up_to(0.05));
   report.add("vegetation_flip_of_real_geometry", flip_full);
