@@ -24,6 +24,7 @@ constexpr float paved_wander_m = 6.0f;                 // of the edge of the pav
 constexpr float far_sheets = 3.0f;                     // size of pictures far away: fewer repeats
 constexpr float skirt_m = 2.0f, skirt_drop_m = 0.05f;  // of the land around, inward and down
 constexpr float min_reach_radii = 3.0f;                // of the land, times the radius of the place
+constexpr float min_reach_drops = 150.0f;              // and times the drop from the place's highest ground
 constexpr float level_after_m = 700.0f;                // beyond the place
 constexpr std::array ring_factors{1.0f, 1.06f, 1.15f, 1.3f, 1.6f, 2.2f, 3.4f, 6.0f, 12.0f, 30.0f, 80.0f};
 
@@ -290,7 +291,8 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   const float sheet_m = far_sheets * cover_sheet_m(look.beyond);
   const std::uint32_t row = std::uint32_t(edge.size());
   std::uint32_t rings = 1;
-  const float reach_m = std::max(look.reach_m, min_reach_radii * radius_m);
+  const float drop_m = *std::ranges::max_element(heights.cells) - level_m;
+  const float reach_m = std::max({look.reach_m, min_reach_radii * radius_m, min_reach_drops * drop_m});
   for (const glm::vec3& p : edge) {  // below the rim of the near terrain, whose points are others
     const glm::vec2 at = glm::vec2(p) - skirt_m * glm::normalize(glm::vec2(p) - middle);
     mesh.positions.emplace_back(at, p.z - skirt_drop_m);

@@ -12,7 +12,7 @@ namespace parvis::dressing {
 struct TerrainLook {
   std::string surface = "paving";  ///< near buildings
   std::string beyond = "lawn";     ///< elsewhere
-  float reach_m = 6000.0f;         ///< from the middle of the place, at least three times its radius
+  float reach_m = 6000.0f;         ///< from the middle of the place, at least; more for wide or hilly ones
 };
 
 /// Ground over the plan of the heights, left out where the place has its own: paved near what is built.

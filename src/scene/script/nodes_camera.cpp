@@ -14,6 +14,8 @@ using namespace attribute;
 
 /// The width over height at which fov_deg is the horizontal field of view.
 constexpr float nominal_aspect = 16.0f / 9.0f;
+/// From a hill one sees so far: as far as terrain_plane goes on around a place.
+constexpr float sight_m = 50'000.0f;
 
 NodeSchema camera_schema() {
   return {
@@ -82,6 +84,7 @@ void build_camera(const Node& node, SceneBuilder& builder) {
   camera.name = node.text("name");
   camera.camera.world_from_camera = rigid(builder.world_from_parent() * world_from_camera(node));
   camera.camera.vertical_fov = vertical_fov(node.angle("fov_deg"), nominal_aspect);
+  camera.camera.far_m = sight_m;
   camera.follows = node.text("follows");
   if (!camera.follows.empty()) camera.offset_m = node.vec3("offset");
   builder.add(std::move(camera));

@@ -161,10 +161,10 @@ double shown_percent(const scene::Scene& scene, const Camera& camera) {
   return 100.0 * double(shown) / double(width * height);
 }
 
-/// The same camera, turned round and to the clouds.
+/// The same camera, turned to the zenith.
 Camera turned_away(Camera camera) {
-  const glm::vec3 eye = camera.position_in_world(), ahead = -glm::vec3(camera.world_from_camera[2]);
-  camera.world_from_camera = look_at(eye, eye + glm::vec3(-ahead.x, -ahead.y, 1.5f));
+  const glm::vec3 eye = camera.position_in_world();
+  camera.world_from_camera = look_at(eye, eye + glm::vec3(0.0f, 0.01f, 1.0f));
   return camera;
 }
 
