@@ -21,7 +21,6 @@ constexpr float lift_m = 1e-3f;
 constexpr float wall_albedo = 0.35f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
-constexpr int openness_rays = 64;
 /// One ray of so many brings the light of what it hits, for all of them: such light is smooth, and its rays
 /// cost several times as much.
 constexpr std::size_t rays_per_bounce = 2;
@@ -162,10 +161,6 @@ glm::vec3 from_below(glm::vec3 normal, const SkyTable& sky, Blocked blocked) {
   return 0.5f * (1.0f - normal.z) * 3.14159265f * sky.radiance({0.0f, 0.0f, -1.0f});
 }
 
-float share_of(std::span<const float> openness, std::size_t vertex) {
-  return openness.empty() ? 1.0f : openness[vertex];
-}
-
 /// Of a lamp in the sun's place: as bright at any distance, within its cone.
 glm::vec3 spot_light(const reference::RayScene& scene, const SkyTable& sky, const scene::Spot& spot,
                      const LitVertex& vertex, glm::vec3 from, std::size_t v) {
@@ -194,12 +189,6 @@ SkyTable::SkyTable(const scene::Scene& scene)
   const shading::SkyLight light =
       shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
   fill([&](glm::vec3 direction) { return shading::sky_radiance(light, direction, 0.0f); });
-}
-
-SkyTable SkyTable::even() {
-  SkyTable table;
-  table.fill([](glm::vec3) { return glm::vec3(1.0f); });
-  return table;
 }
 
 void SkyTable::fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance) {
@@ -368,24 +357,14 @@ void VisibilityPlaces::interpolate(glm::vec3 point, float (&shares)[64]) const {
   }
 }
 
-std::vector<float> own_openness(const reference::RayScene& own, const std::vector<LitVertex>& vertices) {
-  VertexLight light(vertices);
-  light.refine(own, SkyTable::even(), openness_rays, Blocked::bounces);
-  std::vector<float> result(vertices.size());
-  std::ranges::transform(light.irradiance(), result.begin(),
-                         [](glm::vec3 irradiance) { return irradiance.y / 3.14159265f; });
-  return result;
-}
-
-std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& vertices,
-                                               std::span<const float> openness,
-                                               const VisibilityPlaces& places,
-                                               const reference::RayScene& scene, const SkyTable& sky,
-                                               Blocked blocked) {
+InterpolatedLight interpolated_irradiance(const std::vector<LitVertex>& vertices,
+                                          const VisibilityPlaces& places, const reference::RayScene& scene,
+                                          const SkyTable& sky, Blocked blocked) {
   std::vector<glm::vec3> radiance;
   for (const glm::vec3 direction : VisibilityPlaces::directions())
     radiance.push_back(sky.radiance(direction));
-  std::vector<glm::vec3> result(vertices.size());
+  InterpolatedLight result{std::vector<glm::vec3>(vertices.size()),
+                           std::vector<glm::vec3>(vertices.size(), glm::vec3(0.0f))};
   parallel_for(
       vertices.size(),
       [&](std::size_t v) {
@@ -395,15 +374,14 @@ std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& ver
         for (std::size_t k = 0; k < 64; ++k)
           sum += shares[k] * std::max(glm::dot(VisibilityPlaces::directions()[k], vertices[v].normal), 0.0f) *
                  radiance[k];
-        result[v] =
-            share_of(openness, v) * (6.2831853f / 64.0f * sum + from_below(vertices[v].normal, sky, blocked));
+        result.sky[v] = 6.2831853f / 64.0f * sum + from_below(vertices[v].normal, sky, blocked);
         if (const auto& spot = sky.spot()) {
-          result[v] += spot_light(scene, sky, *spot, vertices[v], lifted(vertices[v]), v);
+          result.sun[v] = spot_light(scene, sky, *spot, vertices[v], lifted(vertices[v]), v);
           return;
         }
         const float facing = glm::dot(sky.to_sun(), vertices[v].normal);
         if (facing > 0.0f && is_open(scene, lifted(vertices[v]), sky.to_sun(), v))
-          result[v] += facing * sky.sun_irradiance();
+          result.sun[v] = facing * sky.sun_irradiance();
       },
       64);
   return result;
@@ -419,8 +397,7 @@ RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double ra
   return {Relighting::open, 0};
 }
 
-std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices,
-                                       std::span<const float> openness, const SkyTable& sky,
+std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky,
                                        Blocked blocked) {
   std::vector<glm::vec3> result(vertices.size());
   parallel_for(
@@ -429,9 +406,9 @@ std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices,
         glm::vec3 sum(0.0f);
         for (const glm::vec3 direction : VisibilityPlaces::directions())
           sum += std::max(glm::dot(direction, vertices[v].normal), 0.0f) * sky.radiance(direction);
-        result[v] = share_of(openness, v) *
-                        (6.2831853f / 64.0f * sum + from_below(vertices[v].normal, sky, blocked)) +
-                    std::max(glm::dot(sky.to_sun(), vertices[v].normal), 0.0f) * sky.sun_irradiance();
+        result[v] = 6.2831853f / 64.0f * sum +
+                    std::max(glm::dot(sky.to_sun(), vertices[v].normal), 0.0f) * sky.sun_irradiance() +
+                    from_below(vertices[v].normal, sky, blocked);
       },
       64);
   return result;

@@ -28,8 +28,6 @@ class SkyTable {
   explicit SkyTable(const SkyModel& sky);
   /// Of a scene, as its renderer has them: Scene::sky, Scene::sun, and the lamp in the sun's place.
   explicit SkyTable(const scene::Scene& scene);
-  /// Radiance one from all sides, without a sun.
-  static SkyTable even();
   /// Radiance of the sky without the sun's disc, from a unit direction.
   glm::vec3 radiance(glm::vec3 direction) const;
   /// Unit direction to the sun.
@@ -42,7 +40,6 @@ class SkyTable {
   glm::vec3 irradiance(glm::vec3 normal) const;
 
  private:
-  SkyTable() : to_sun_(0.0f, 0.0f, 1.0f), sun_irradiance_(0.0f) {}
   void fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance);
 
   static constexpr int side = 128;  ///< of an octahedral map
@@ -115,19 +112,16 @@ class VisibilityPlaces {
   std::vector<std::uint64_t> masks_;
 };
 
-/// The share of a light that is even from all sides that reaches each vertex past the surfaces of `own`
-/// alone, and by what these give back. Does not change while the object moves.
-std::vector<float> own_openness(const reference::RayScene& own, const std::vector<LitVertex>& vertices);
+/// What interpolation finds for vertices: irradiance by the sky, and by the sun or the lamp in its place.
+struct InterpolatedLight {
+  std::vector<glm::vec3> sky, sun;
+};
 
-/// With interpolated visibility, no rays at all; the sun by one ray per vertex. `openness` is how much of the
-/// sky each vertex has past its own object (own_openness), or empty where objects do not shade themselves.
-/// Here and in open_irradiance `Blocked::bounces` has the sky's own ground shine from below, where `dark`
-/// leaves out all that is below.
-std::vector<glm::vec3> interpolated_irradiance(const std::vector<LitVertex>& vertices,
-                                               std::span<const float> openness,
-                                               const VisibilityPlaces& places,
-                                               const reference::RayScene& scene, const SkyTable& sky,
-                                               Blocked blocked = Blocked::dark);
+/// With interpolated visibility, no rays at all; the sun by one ray per vertex. Here and in open_irradiance
+/// `Blocked::bounces` has the sky's own ground shine from below, where `dark` leaves out all that is below.
+InterpolatedLight interpolated_irradiance(const std::vector<LitVertex>& vertices,
+                                          const VisibilityPlaces& places, const reference::RayScene& scene,
+                                          const SkyTable& sky, Blocked blocked = Blocked::dark);
 
 /// How an object that has moved is lit again.
 enum class Relighting : unsigned char { traced, interpolated, open };
@@ -142,9 +136,8 @@ struct RelightingPlan {
 /// places.
 RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double rays_per_ms, bool has_places);
 
-/// As if nothing stood in the way but the object itself, in that of the sky.
-std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices,
-                                       std::span<const float> openness, const SkyTable& sky,
+/// As if nothing stood in the way.
+std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky,
                                        Blocked blocked = Blocked::dark);
 
 }  // namespace parvis::light

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/random.h"
 #include "graphics/light/test_box.h"
@@ -103,23 +105,13 @@ TEST(VisibilityPlaces, InterpolatesWhatWasTraced) {
   Bounds region;
   region.add({-14, 5, 0}), region.add({14, 14, 4});
   const VisibilityPlaces places(rays, region, 0.5f);
-  const double interpolated =
-      rmse_percent(interpolated_irradiance(vertices, {}, places, rays, table), traced.irradiance());
-  const double open = rmse_percent(open_irradiance(vertices, {}, table), traced.irradiance());
+  const InterpolatedLight light = interpolated_irradiance(vertices, places, rays, table);
+  std::vector<glm::vec3> sum(vertices.size());
+  std::ranges::transform(light.sky, light.sun, sum.begin(), std::plus());
+  const double interpolated = rmse_percent(sum, traced.irradiance());
+  const double open = rmse_percent(open_irradiance(vertices, table), traced.irradiance());
   EXPECT_LT(interpolated, 25.0);
   EXPECT_GT(open, 1.5 * interpolated);
-}
-
-TEST(OwnOpenness, IsWhatTheObjectItselfLeavesOfAnEvenSky) {
-  const reference::RayScene own(box_on_a_plain({-5, -5, 0}, {5, 5, 10}));
-  const std::vector<LitVertex> vertices{{{0, 5.02f, 0.01f}, {0, 0, 1}}, {{0, 80, 0.01f}, {0, 0, 1}}};
-  const std::vector<float> openness = own_openness(own, vertices);
-  EXPECT_GT(openness[0], 0.5f) << "the wall gives some light back";
-  EXPECT_LT(openness[0], 0.75f) << "half of the sky is behind it";
-  EXPECT_GT(openness[1], 0.95f);
-  const SkyTable sky{EvenSky()};
-  const float shaded = open_irradiance(vertices, openness, sky)[0].y;
-  EXPECT_NEAR(shaded, openness[0] * open_irradiance(vertices, {}, sky)[0].y, 1e-4f);
 }
 
 TEST(VisibilityPlaces, AreNoMoreThanTheBudgetAllows) {

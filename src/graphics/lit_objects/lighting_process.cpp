@@ -19,9 +19,14 @@ constexpr double rays_per_sky_ray = 1.25;
 constexpr int min_shown_rays = 64;
 constexpr int rays_per_round = 16;
 /// Of the places from which the sky is looked at once, for objects that have no time for rays.
-constexpr float places_spacing_m = 1.0f, places_margin_m = 8.0f;
+constexpr float places_spacing_m = 1.0f, places_margin_m = 3.0f;
 /// Of a budget; the rest is for rays to the sun.
-constexpr double places_share = 0.5;
+constexpr double places_share = 0.5, min_places = 64.0, max_places = 1000.0;
+
+constexpr double rays_per_place = 64.0;  ///< VisibilityPlaces::directions
+
+/// Of the sky's light from one place to the next: from a corner into the open.
+constexpr float max_change = 10.0f;
 
 double cost(const VertexBlock& block, int rays) {
   return rays_per_sky_ray * double(rays) * double(block.shown.size());
@@ -186,30 +191,54 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, doub
   if (vertices == 0) return;
   const light::RelightingPlan plan = light::plan_relighting(vertices, budget_ms_, rays_per_ms, true);
   const light::VisibilityPlaces* places =
-      plan.method == light::Relighting::interpolated ? &places_around(bounds, rays_left) : nullptr;
+      plan.method == light::Relighting::interpolated ? &places_around(bounds) : nullptr;
+  if (places) rays_left -= rays_per_place * double(places->size());
   for (LitObject* lit : changed)
     for (VertexBlock& block : lit->blocks()) {
       switch (plan.method) {
         case light::Relighting::traced:
           block.light.refine(*rays_, *sky_, plan.rays, light::Blocked::bounces);
           block.show(block.light.irradiance());
+          block.estimate.reset();
           rays_left -= cost(block, plan.rays);
           break;
         case light::Relighting::interpolated:
-          block.show(light::interpolated_irradiance(block.light.vertices(), block.openness, *places, *rays_,
-                                                    *sky_, light::Blocked::bounces));
+          show_interpolated(block, *places);
           rays_left -= cost(block, 2);
           break;
         case light::Relighting::open:
-          block.show(
-              light::open_irradiance(block.light.vertices(), block.openness, *sky_, light::Blocked::bounces));
+          block.show(light::open_irradiance(block.light.vertices(), *sky_, light::Blocked::bounces));
+          block.estimate.reset();
           break;
       }
     }
 }
 
+light::InterpolatedLight LightingProcess::interpolated(const VertexBlock& block,
+                                                       const light::VisibilityPlaces& places) const {
+  return light::interpolated_irradiance(block.light.vertices(), places, *rays_, *sky_,
+                                        light::Blocked::bounces);
+}
+
+/// What rays have found beside the sun stays, and with it how the object shades and lights itself: it grows
+/// and falls as the sky does that is interpolated.
+void LightingProcess::show_interpolated(VertexBlock& block, const light::VisibilityPlaces& places) const {
+  light::InterpolatedLight now = interpolated(block, places);
+  std::vector<glm::vec3> shown(now.sky.size());
+  for (std::size_t v = 0; v < shown.size(); ++v) {
+    glm::vec3 sky = now.sky[v];
+    if (block.is_shown && block.estimate) {
+      const glm::vec3 change = now.sky[v] / glm::max(block.estimate->sky[v], 1e-6f);
+      sky = glm::max(block.shown[v] - block.estimate->sun[v], 0.0f) * glm::min(change, max_change);
+    }
+    shown[v] = sky + now.sun[v];
+  }
+  block.show(std::move(shown));
+  block.set_estimate(std::move(now));
+}
+
 /// What static things leave of the sky about dynamic objects: lit ones are taken out of the way meanwhile.
-const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds, double& rays_left) {
+const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds) {
   const bool fits = places_ && glm::all(glm::lessThanEqual(places_region_.min, bounds.min)) &&
                     glm::all(glm::greaterThanEqual(places_region_.max, bounds.max));
   if (fits) return *places_;
@@ -219,10 +248,10 @@ const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& boun
     was_visible.push_back(std::exchange(casters_.objects[std::size_t(lit.object())].is_visible, false));
   rays_->update(casters_);
   places_region_ = {bounds.min - places_margin_m, bounds.max + places_margin_m};
-  const double rays_per_place = double(light::VisibilityPlaces::directions().size());
+  const double affordable =
+      budget_ms_ > 0.0 ? places_share * budget_ms_ * rays_per_ms / rays_per_place : max_places;
   places_.emplace(*rays_, places_region_, places_spacing_m,
-                  std::size_t(std::max(64.0, places_share * rays_left / rays_per_place)));
-  rays_left -= rays_per_place * double(places_->size());
+                  std::size_t(std::clamp(affordable, min_places, max_places)));
   for (std::size_t i = 0; i < lit_.size(); ++i)
     casters_.objects[std::size_t(lit_[i].object())].is_visible = was_visible[i];
   rays_->update(casters_);
@@ -247,9 +276,14 @@ void LightingProcess::refine(double rays_left) {
     if (std::ranges::find(lit, &block) == lit.end()) lit.push_back(&block);
     if (block.light.rays() >= block.rays_wanted) blocks.erase(next);
   }
-  for (VertexBlock* block : lit)
-    if (block->light.rays() >= std::min(min_shown_rays, block->rays_wanted))
-      block->show(block->light.irradiance());
+  for (LitObject& object : lit_)
+    for (VertexBlock& block : object.blocks()) {
+      if (std::ranges::find(lit, &block) == lit.end()) continue;
+      if (block.light.rays() < std::min(min_shown_rays, block.rays_wanted)) continue;
+      block.show(block.light.irradiance());
+      if (block.is_estimate_old || !block.estimate)
+        block.set_estimate(interpolated(block, places_around(object.bounds())));
+    }
 }
 
 int LightingProcess::rays() const {

@@ -50,7 +50,10 @@ class LightingProcess final : public action::Process {
   bool follow_sky(const scene::Scene& scene);
   void relight(scene::Scene& scene, const std::vector<LitObject*>& changed);
   void light_quickly(const std::vector<LitObject*>& changed, double& rays_left);
-  const light::VisibilityPlaces& places_around(const Bounds& bounds, double& rays_left);
+  light::InterpolatedLight interpolated(const VertexBlock& block,
+                                        const light::VisibilityPlaces& places) const;
+  void show_interpolated(VertexBlock& block, const light::VisibilityPlaces& places) const;
+  const light::VisibilityPlaces& places_around(const Bounds& bounds);
   void refine(double rays_left);
 
   const scene::LiveScene* live_ = nullptr;

@@ -86,15 +86,6 @@ LitObject::LitObject(const scene::Scene& scene, int object, std::vector<std::str
   }
   for (VertexBlock& block : blocks_) block.shown.assign(block.light.vertices().size(), glm::vec3(0.0f));
   follow(scene);
-  find_openness(it);
-}
-
-void LitObject::find_openness(const scene::Object& object) {
-  scene::Scene alone;
-  alone.objects.push_back(object);
-  alone.objects.back().is_visible = true;
-  const reference::RayScene rays(alone);
-  for (VertexBlock& block : blocks_) block.openness = light::own_openness(rays, block.light.vertices());
 }
 
 std::size_t LitObject::vertex_count() const {
@@ -136,12 +127,13 @@ bool LitObject::follow(const scene::Scene& scene) {
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
     block.light.restart(std::move(own));
+    block.is_estimate_old = true;
   }
   return true;
 }
 
 void LitObject::restart() {
-  for (VertexBlock& block : blocks_) block.light.restart();
+  for (VertexBlock& block : blocks_) block.restart();
 }
 
 bool LitObject::has_light() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,23 @@ struct VertexBlock {
   bool is_behind;
   light::VertexLight light;
   std::vector<glm::vec3> shown;  ///< what renderers are to have: as long as `light.vertices()`
-  std::vector<float> openness;   ///< light::own_openness of its vertices
+  /// The light of where, and of the sky under which, it stood when `shown` was found; none: not known.
+  std::optional<light::InterpolatedLight> estimate;
+  bool is_estimate_old = false;  ///< it has moved, or the light has changed, since
   int rays_wanted = 256;         ///< in the end, per vertex
   bool is_shown = false;         ///< at least once
   bool is_new = false;           ///< renderers do not have it yet
 
+  /// The object has moved, or the light has changed: what was traced no longer counts.
+  void restart() {
+    light.restart();
+    is_estimate_old = true;
+  }
+  /// Of where it stands now.
+  void set_estimate(light::InterpolatedLight light_there) {
+    estimate = std::move(light_there);
+    is_estimate_old = false;
+  }
   /// Replaces what is shown.
   void show(std::vector<glm::vec3> irradiance) {
     shown = std::move(irradiance);
@@ -65,7 +78,6 @@ class LitObject {
 
  private:
   std::vector<light::LitVertex> vertices(const scene::Object& object, std::size_t part) const;
-  void find_openness(const scene::Object& object);
 
   int object_;
   std::vector<glm::mat4> world_from_mesh_;              ///< of each part

@@ -203,6 +203,34 @@ TEST_F(LitObjects, HaveAllTheirRaysInAPictureWhateverTheBudget) {
   for (std::size_t v = 0; v < found.size(); ++v) EXPECT_NEAR(found[v].y, wanted[v].y, 1e-5f * wanted[v].y);
 }
 
+/// The frame of a move has no time for rays to the sky: what the move changes is interpolated, and the inside
+/// of a shell stays as dark as its own surface makes it.
+TEST_F(LitObjects, KeepTheirOwnShadeInTheFrameOfAMove) {
+  save("shell.glb", scene::sphere({0, 0, 1}, 0.8f, 8), true);
+  Running scene =
+      run("dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\nmodel(file=\"ground.glb\")\n"
+          "model(file=\"wall.glb\")\nlitVirtualObject(rays=256, budget_ms=0.4) { object(file=\"shell.glb\", "
+          "grab=1) }\n");
+  const scene::LitVertices::PartLight old = scene.light("shell")->parts[0];
+  scene.object("shell").world_from_model = glm::translate(glm::mat4(1.0f), vec3(0, 4.3f, 0));
+  scene.clock->advance(scene.scene, 0.02);
+  ASSERT_LT(scene.rays(), 16) << "there was time for rays";
+  const scene::LitVertices::PartLight quick = scene.light("shell")->parts[0];
+  scene.clock->settle(scene.scene);
+  const scene::LitVertices::PartLight truth = scene.light("shell")->parts[0];
+  const auto off = [](const std::vector<vec3>& light, const std::vector<vec3>& wanted) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < wanted.size(); ++v) sum += std::abs(double(light[v].y - wanted[v].y));
+    return sum / double(wanted.size());
+  };
+  const double mean = off(truth.front, std::vector<vec3>(truth.front.size(), vec3(0.0f)));
+  std::printf("outside %.3f of the mean off, before the move %.3f; inside %.3f\n",
+              off(quick.front, truth.front) / mean, off(old.front, truth.front) / mean,
+              off(quick.behind, truth.behind) / mean);
+  EXPECT_LT(off(quick.front, truth.front), 0.5 * off(old.front, truth.front));
+  EXPECT_LT(off(quick.behind, truth.behind), 0.2 * mean);
+}
+
 /// A surface texture has metallic in blue, by which the factor, 1 by default in glTF, is multiplied.
 TEST_F(LitObjects, HaveTheLightThatGroundWithASurfaceTextureGivesBack) {
   const auto light_above = [&](std::uint8_t metallic) {
