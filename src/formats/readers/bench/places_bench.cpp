@@ -145,6 +145,11 @@ double gap_percent(const scene::Scene& scene, const scene::NamedCamera& street, 
   return 100.0 * double(open) / double(all);
 }
 
+/// Neither terrain nor the land around.
+bool is_of_place(const scene::Scene& scene, const scene::Object& object) {
+  return object.name != "terrain" && !scene::surrounds_place(scene, object);
+}
+
 /// Pixels of a picture that show the place: neither sky nor the land around it, per cent.
 double shown_percent(const scene::Scene& scene, const Camera& camera) {
   constexpr int width = 64, height = 36;
@@ -155,23 +160,25 @@ double shown_percent(const scene::Scene& scene, const Camera& camera) {
       const auto hit = rays.nearest_hit(reference::camera_ray(camera, width, height, glm::vec2(x, y) + 0.5f));
       if (!hit) continue;
       const auto object = std::size_t(hit->place->object);
-      shown += object >= scene.objects.size() || (scene.objects[object].name != "terrain" &&
-                                                  !scene::surrounds_place(scene, scene.objects[object]));
+      shown += object >= scene.objects.size() || is_of_place(scene, scene.objects[object]);
     }
   return 100.0 * double(shown) / double(width * height);
 }
 
-/// The same camera, turned to the zenith.
-Camera turned_away(Camera camera) {
-  const glm::vec3 eye = camera.position_in_world();
-  camera.world_from_camera = look_at(eye, eye + glm::vec3(0.0f, 0.01f, 1.0f));
+/// The same camera beside the place, turned away from it.
+Camera turned_away(const scene::Scene& scene, Camera camera) {
+  constexpr float beside_m = 100.0f;
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects)
+    if (is_of_place(scene, object))
+      bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
+  const glm::vec3 eye(glm::vec2(bounds.max) + beside_m, camera.position_in_world().z);
+  camera.world_from_camera = look_at(eye, eye + glm::vec3(1.0f, 1.0f, 0.0f));
   return camera;
 }
 
 scene::Scene without_plane(scene::Scene scene) {
-  std::erase_if(scene.objects, [&](const scene::Object& object) {
-    return object.name == "terrain" || scene::surrounds_place(scene, object);
-  });
+  std::erase_if(scene.objects, [&](const scene::Object& object) { return !is_of_place(scene, object); });
   return scene;
 }
 
@@ -299,7 +306,8 @@ Status measure_place(const House& house, const fs::path& file, const fs::path& f
   const scene::NamedCamera* street = loaded->scene.find_camera("street");
   const double shown = shown_percent(loaded->scene, street->camera);
   totals.shown = std::min(totals.shown, shown);
-  totals.shown_away = std::max(totals.shown_away, shown_percent(loaded->scene, turned_away(street->camera)));
+  totals.shown_away =
+      std::max(totals.shown_away, shown_percent(loaded->scene, turned_away(loaded->scene, street->camera)));
   report.note(fmt::format(
       "{}: {:.2f} s to the picture ({:.2f} s of processor time), {:.0f} % of which show the place",
       file.filename().string(), 1e-3 * ms, processor_s, shown));
