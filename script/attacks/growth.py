@@ -139,6 +139,7 @@ def cases():
     yield checked("10,000 roads of 2,000 km", lambda: "".join(f'road(path="-1e6 {30 * i}, 1e6 {30 * i}", lanes=8)\n' for i in range(10000)) + CAMERA, "refused", "km of lanes", 90)
     yield checked("3,000 roads between two places", 'road(path="0 0, 500 0")\n' * 3000 + CAMERA, "refused", "lies along")
     yield checked("2,000 roads that meet", lambda: "".join(f'road(path="0 0, {900 - i} {i}")\n' for i in range(0, 900)) + CAMERA, "refused")
+    yield checked("8,000 roads of two metres in one place", lambda: "".join(f'road(path="{5 + i / 400:.5f} 0, {5 + i / 400:.5f} 2")\n' for i in range(8000)) + CAMERA, "refused", "so many in one place")
     for tags in ('<tag k="highway" v="residential"/>', '<tag k="highway" v="primary"/><tag k="bridge" v="yes"/><tag k="layer" v="1"/>'):
         yield checked(f"3,000 ways between two nodes of a map, {tags[:30]}", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda t=tags: ways(3000, t, between=2)})
     yield checked("3,000 ways from one node of a map", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda: ways(3000, '<tag k="highway" v="residential"/>')})

@@ -20,8 +20,9 @@ constexpr float shortest_street_m = 2.0f;   // what must remain between two cros
 constexpr int max_lanes_each_way = 8;
 constexpr std::size_t max_arms = 64;  // of a crossing: lanes from each of them lead into each
 constexpr std::size_t max_streets = 200'000;
-constexpr double max_lanes_km = 20'000.0;  // of all lanes: a capital has a third of it
-constexpr float parallel_sine = 0.05f;     // 3 degrees
+constexpr std::size_t max_meetings = 5'000'000;  // of two roads; where many end in one place each meets each
+constexpr double max_lanes_km = 20'000.0;        // of all lanes: a capital has a third of it
+constexpr float parallel_sine = 0.05f;           // 3 degrees
 
 /// A straight piece of a road.
 struct Segment {
@@ -152,6 +153,11 @@ class Meetings {
       finder.find({boxes[i].min - widest, boxes[i].max + widest}, i, near);
       for (const std::size_t j : near) {
         if (lies_along_[s.road]) break;
+        if (meetings_ > max_meetings)
+          return error_at(
+              roads_[s.road].where,
+              "{} is one of so many in one place that they meet more than {} times; leave some out",
+              name_of(roads_[s.road], s.road), max_meetings);
         const Segment& t = segments[j];
         if (!lies_along_[t.road] && comes_near(boxes[i], boxes[j], snap_m(s, t))) look_at(s, t);
       }
@@ -227,13 +233,14 @@ class Meetings {
     const std::size_t a = result_.add({road_a, distance_a, half_width_m(roads_[road_b])});
     const std::size_t b = result_.add({road_b, distance_b, half_width_m(roads_[road_a])});
     result_.unite(a, b);
+    ++meetings_;
   }
 
   std::span<const Road> roads_;
   std::span<const MeasuredPath> paths_;
   Spots result_;
   Errors errors_;
-  std::size_t max_complaints_, complaints_ = 0;
+  std::size_t max_complaints_, complaints_ = 0, meetings_ = 0;
   std::vector<bool> lies_along_;  ///< by road: along an earlier one
 };
 
