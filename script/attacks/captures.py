@@ -132,6 +132,19 @@ def leading_out(verb, link, target, expects="refused", says=""):
     return Case("capture", f"{' '.join(verb[:2])} beside {link} -> {target}", build, expects, says=says)
 
 
+def log_that_is_a_pipe(verb, log):
+    """Where a program of others is to write its log."""
+
+    def build(folder):
+        for path, content in captured().items():
+            write(folder, path, content)
+        (folder / log).parent.mkdir(parents=True, exist_ok=True)
+        os.mkfifo(folder / log)
+        return [verb]
+
+    return Case("capture", f"{' '.join(verb[:2])} with a pipe {log}", build, "refused", says="not a regular file")
+
+
 def beside_link(name, link, verb, expects, says="", distorts=False):
     """A folder of results that leads out, of a capture whose lens may have distortion."""
 
@@ -171,6 +184,7 @@ def link_cases():
         yield leading_out(verb, "capture/layers", "../outside/absent", "refused" if stage in ("layers", "fill") else "either")
     for stage in ("report", "figures"):
         yield leading_out(["facade", stage, "capture", "--model", "box.obj"], f"capture/{stage}", "../outside/keep", says=stage)
+    yield log_that_is_a_pipe(["facade", "calibrate", "capture", "--features", "500", "-o", "."], "colmap/features.log")
     for link in ("colmap", "colmap/sparse", "colmap/database.db", "colmap/features.log"):
         yield leading_out(["facade", "calibrate", "capture", "--features", "500", "-o", "."], link, "../outside/keep" + ("/file" if "." in link else ""))
     for verb in (["tree", "matte", "capture", "-o", "mattes"], ["tree", "texture", "capture", "oak.volume", "--texels", "4", "-o", "other.tree"],

@@ -70,7 +70,9 @@ class CameraWalk {
 
  private:
   bool add_view(const Json& node, const glm::dmat4& world_from_node) {
-    const Json& cameras = file_.value("cameras", Json::array());
+    const auto given = file_.find("cameras");
+    if (given == file_.end()) return false;
+    const Json& cameras = *given;
     const Json& index = node["camera"];
     if (!index.is_number_unsigned() || index.get<std::size_t>() >= cameras.size()) return false;
     const Json& camera = cameras[index.get<std::size_t>()];

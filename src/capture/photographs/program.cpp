@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,12 +19,22 @@ constexpr int cannot_start = 127;
 constexpr std::size_t shown_bytes = 600;
 
 /// In the child: only calls that are safe after a fork in a program with threads.
-[[noreturn]] void become(char* const* arguments, char* const* environment, const char* log) {
+[[noreturn]] void become(char* const* arguments, char* const* environment, int out) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);
+  if (dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);
   execvpe(arguments[0], arguments, environment);
   _exit(cannot_start);
+}
+
+/// An empty file to write to, or -1: a pipe, a link or somebody's other name of a file is none.
+int opened_log(const std::filesystem::path& log) {
+  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  if (file < 0) return -1;
+  struct stat status {};
+  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1 && ftruncate(file, 0) == 0)
+    return file;
+  close(file);
+  return -1;
 }
 
 /// Ours, with threads that sleep while they wait: those that spin take the time of the others wherever
@@ -54,9 +65,14 @@ Status run_program(const std::vector<std::string>& arguments, const std::filesys
   pointers.push_back(nullptr);
   const std::vector<char*> environment = environment_of_child();
   const std::string log_name = log.string();
+  const int out = opened_log(log);
+  if (out < 0)
+    return error("{}: is not a regular file that can be written; remove it or choose another folder",
+                 log_name);
   const pid_t child = fork();
+  if (child == 0) become(pointers.data(), environment.data(), out);
+  close(out);
   if (child < 0) return error("{}: no process can be started", arguments[0]);
-  if (child == 0) become(pointers.data(), environment.data(), log_name.c_str());
   int state = 0;
   while (waitpid(child, &state, WNOHANG) == 0) {
     poll();
