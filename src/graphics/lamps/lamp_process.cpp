@@ -1,7 +1,8 @@
 #include "graphics/lamps/lamp_process.h"
 
-#include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "scene/data/name_pattern.h"
@@ -43,11 +44,19 @@ std::set<std::string> parts_of(const std::vector<const scene::Object*>& objects)
   return names;
 }
 
-/// Nodes that are hidden, with their group or for the scenario, have made no lamp.
-bool is_made(const scene::Scene& scene, const scene::Node& node) {
-  return std::ranges::any_of(scene.items<scene::Lamp>(), [&](const scene::Lamp& lamp) {
-    return lamp.of == node.text("of") && lamp.shows == node.text("shows") && lamp.part == node.text("part");
-  });
+/// What a lamp names: `of`, `shows`, `part`.
+using Names = std::tuple<std::string, std::string, std::string>;
+
+/// Lamps that name something, and their nodes. Nodes that are hidden, with their group or for the scenario,
+/// have made no lamp.
+void find_named(const std::vector<scene::Node>& nodes, const std::set<Names>& made,
+                std::map<Names, const scene::Node*>& found) {
+  for (const scene::Node& node : nodes) {
+    find_named(node.children, made, found);
+    if (node.schema->type != "lamp") continue;
+    const Names names{node.text("of"), node.text("shows"), node.text("part")};
+    if (made.contains(names)) found.try_emplace(names, &node);
+  }
 }
 
 }  // namespace
@@ -63,20 +72,30 @@ void LampProcess::present(scene::Scene& scene, double /*ahead_s*/) {
 }
 
 void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scene::Node>& nodes) {
-  for (const scene::Node& node : nodes) {
-    warn_of_idle(scene, node.children);
-    if (node.schema->type != "lamp" || !is_made(scene, node)) continue;
+  constexpr int max_warnings = 10;
+  std::set<Names> made;
+  for (const scene::Lamp& lamp : scene.items<scene::Lamp>()) made.emplace(lamp.of, lamp.shows, lamp.part);
+  std::map<Names, const scene::Node*> named;
+  find_named(nodes, made, named);
+  int warnings = 0;
+  for (const auto& [names, node] : named) {
     for (const char* attribute : {"of", "shows"})
-      if (const std::string& pattern = node.text(attribute);
-          !pattern.empty() && objects_called(scene, pattern).empty())
-        warn(error_at(node.where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}", pattern,
-                      listed(object_names(scene))));
-    const std::vector<const scene::Object*> objects = objects_called(scene, node.text("of"));
-    const std::string& part = node.text("part");
-    if (part.empty() || objects.empty()) continue;
-    if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part))
-      warn(error_at(node.where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",
-                    node.text("of"), part, listed(parts)));
+      if (const std::string& pattern = node->text(attribute);
+          !pattern.empty() && objects_called(scene, pattern).empty()) {
+        warn(error_at(node->where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}",
+                      pattern, listed(object_names(scene))));
+        ++warnings;
+      }
+    const std::string& part = node->text("part");
+    const std::vector<const scene::Object*> objects =
+        part.empty() ? std::vector<const scene::Object*>() : objects_called(scene, node->text("of"));
+    if (!objects.empty())
+      if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part)) {
+        warn(error_at(node->where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",
+                      node->text("of"), part, listed(parts)));
+        ++warnings;
+      }
+    if (warnings >= max_warnings) return;
   }
 }
 
