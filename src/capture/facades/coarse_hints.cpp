@@ -12,16 +12,20 @@ namespace parvis::facades {
 namespace {
 
 constexpr std::size_t max_corners = 64;
+constexpr std::size_t max_problems = 20;  // of a file of hints, that are told
 
 CoarseSurface* find(CoarseModel& model, const std::string& name) {
   const auto found = std::ranges::find(model.surfaces, name, &CoarseSurface::name);
   return found == model.surfaces.end() ? nullptr : &*found;
 }
 
+/// Some of them, for a message.
 std::string names_of(const CoarseModel& model) {
+  constexpr std::size_t enough = 10;
   std::string names;
-  for (const CoarseSurface& surface : model.surfaces) names += (names.empty() ? "" : ", ") + surface.name;
-  return names;
+  for (std::size_t i = 0; i < std::min(enough, model.surfaces.size()); ++i)
+    names += (names.empty() ? "" : ", ") + model.surfaces[i].name;
+  return model.surfaces.size() > enough ? names + ", ..." : names;
 }
 
 /// The words behind the name as numbers; nothing where one is none.
@@ -150,6 +154,7 @@ Status apply_hints(CoarseModel& model, const std::string& text, const std::strin
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     if (const std::string problem = apply_line(changed, line); !problem.empty())
       problems.push_back(error_at({file, number, 0}, "{}", problem));
+    if (problems.size() >= max_problems) break;
   }
   if (!problems.empty()) return problems;
   model = std::move(changed);
