@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -87,7 +88,10 @@ int main(int count, char** arguments) {
     return failed(no_memory);
   } catch (const std::length_error&) {
     return failed("parvis: something in this scene is larger than any memory; use a smaller scene\n");
-  } catch (const std::system_error& problem) {  // threads, files
+  } catch (const std::filesystem::filesystem_error& problem) {
+    return failed(
+        fmt::format("parvis: {}: {}\n", problem.path1().string(), problem.code().message()).c_str());
+  } catch (const std::system_error& problem) {  // threads
     std::fprintf(stderr, "parvis: %s\n", std::strerror(problem.code().value()));
     return 1;
   } catch (const std::exception&) {

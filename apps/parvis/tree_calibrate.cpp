@@ -48,6 +48,11 @@ Status calibrate(const CalibrateArguments& arguments) {
   start.step = glm::radians(arguments.turn_deg) / float(pictures.size());
   const Result<trees::FoundTurntable> found = trees::found_turntable(pictures, start);
   if (!found) return found.errors();
+  if (!(found->explained_share > 0.0))
+    return error(
+        "{}: no turntable explains anything of these silhouettes; compare --distance {:g} and --focal {:g} "
+        "with the photographs",
+        arguments.capture.string(), arguments.distance_m, arguments.focal_px);
   const std::vector<trees::Pinhole> cameras =
       trees::turntable_cameras(found->turntable, pictures.size(), {pictures[0].width, pictures[0].height});
   for (std::size_t i = 0; i < cameras.size(); ++i) (*views)[i].camera = cameras[i];
@@ -79,10 +84,10 @@ void add_tree_calibrate(CLI::App& tree, Chosen& chosen) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--distance", arguments->distance_m, "Metres from the camera to the axis")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.01, 10'000.0));
   command->add_option("--focal", arguments->focal_px, "Focal length in pixels of these pictures")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0, 1e6));
   command->add_option("--turn", arguments->turn_deg, "Degrees that all photographs together turn")
       ->capture_default_str()
       ->check(CLI::Range(1.0f, 360.0f));
