@@ -12,7 +12,7 @@ namespace parvis::facades {
 namespace {
 
 constexpr std::size_t max_corners = 64;
-constexpr std::size_t max_problems = 20;  // of a file of hints, that are told
+constexpr std::size_t max_problems = 20;  // of a file of hints: no more are reported
 
 CoarseSurface* find(CoarseModel& model, const std::string& name) {
   const auto found = std::ranges::find(model.surfaces, name, &CoarseSurface::name);
