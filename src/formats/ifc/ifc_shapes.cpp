@@ -234,7 +234,7 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
   try {
     auto building = std::make_shared<BuildingModel>();
     GeometryConverter converter(building);
-    converter.setMessageCallBack(
+    converter.setMessageCallBack(  // IFC++ hands it over by value. NOLINTNEXTLINE(performance-*)
         &complaints, [](void* list, std::shared_ptr<StatusCallback::Message> message) {
           if (!message || message->m_message_type != StatusCallback::MESSAGE_TYPE_ERROR) return;
           const std::string where =
