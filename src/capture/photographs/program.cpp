@@ -61,6 +61,7 @@ Status run_program(const std::vector<std::string>& arguments, const std::filesys
                    const std::function<void()>& poll) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(copies.size() + 1);
   for (std::string& argument : copies) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const std::vector<char*> environment = environment_of_child();
