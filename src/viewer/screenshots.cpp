@@ -1,6 +1,7 @@
 #include "viewer/screenshots.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 namespace parvis::viewer {
@@ -9,12 +10,14 @@ namespace fs = std::filesystem;
 
 /// The number of "NAME-0012.png"; 0 of any other file.
 int number_of(const std::string& file, const std::string& name) {
-  int number = 0;
-  char rest = 0;
+  constexpr int max_number = 999'999;
   const std::string prefix = name + "-";
   if (!file.starts_with(prefix)) return 0;
-  const bool is_number = std::sscanf(file.c_str() + prefix.size(), "%d.pn%c", &number, &rest) == 2;
-  return is_number && rest == 'g' ? std::max(number, 0) : 0;
+  int number = 0;
+  const char* end = file.data() + file.size();
+  const auto read = std::from_chars(file.data() + prefix.size(), end, number);
+  const bool is_number = read.ec == std::errc() && std::string_view(read.ptr, end) == ".png";
+  return is_number && number <= max_number ? std::max(number, 0) : 0;
 }
 
 int highest_number(const fs::path& folder, const std::string& name) {
