@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 #include <optional>
+#include <unordered_map>
 
 #include "base/files.h"
 #include "base/image_io.h"
@@ -19,28 +20,34 @@ namespace fs = std::filesystem;
 /// extension.
 class PictureNames {
  public:
-  explicit PictureNames(const fs::path& folder) : names_(picture_names(folder)) {}
+  explicit PictureNames(const fs::path& folder) {
+    for (const std::string& picture : picture_names(folder)) {
+      const fs::path path(picture);
+      add(whole_, picture, picture);
+      add(by_file_name_, path.filename().string(), picture);
+      add(by_stem_, path.stem().string(), picture);
+    }
+  }
 
   /// The one picture that `name` means, or nothing.
   std::optional<std::string> find(const std::string& name) const {
     const fs::path wanted(name);
-    for (const auto key : {whole, file_name, stem}) {
-      std::optional<std::string> found;
-      for (const std::string& picture : names_)
-        if (key(picture) == key(wanted)) {
-          if (found) return std::nullopt;
-          found = picture;
-        }
-      if (found) return found;
-    }
-    return std::nullopt;
+    if (const auto found = whole_.find(name); found != whole_.end()) return found->second;
+    if (const auto found = by_file_name_.find(wanted.filename().string()); found != by_file_name_.end())
+      return found->second;
+    const auto found = by_stem_.find(wanted.stem().string());
+    return found == by_stem_.end() ? std::nullopt : found->second;
   }
 
  private:
-  static fs::path whole(const fs::path& path) { return path; }
-  static fs::path file_name(const fs::path& path) { return path.filename(); }
-  static fs::path stem(const fs::path& path) { return path.stem(); }
-  std::vector<std::string> names_;
+  using Pictures = std::unordered_map<std::string, std::optional<std::string>>;  ///< none: several
+
+  static void add(Pictures& pictures, const std::string& key, const std::string& picture) {
+    const auto [found, is_new] = pictures.try_emplace(key, picture);
+    if (!is_new) found->second.reset();
+  }
+
+  Pictures whole_, by_file_name_, by_stem_;
 };
 
 /// Renames photographs to their pictures and puts them in order. Those without one keep their name:

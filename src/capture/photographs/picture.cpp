@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <unordered_set>
 
 #include "base/files.h"
 #include "base/image_io.h"
@@ -135,12 +136,14 @@ std::vector<std::string> picture_names(const fs::path& folder) {
 
 void fit_to_files(LoadedSet& loaded, const fs::path& picture_folder) {
   std::vector<std::string> without_camera = picture_names(picture_folder);
+  std::unordered_set<std::string> with_camera;
+  for (const Photograph& photograph : loaded.set.photographs) with_camera.insert(photograph.name);
+  std::erase_if(without_camera, [&](const std::string& name) { return with_camera.contains(name); });
   std::vector<int> new_index(loaded.set.photographs.size(), -1);
   std::vector<glm::dvec2> scale(loaded.set.photographs.size(), glm::dvec2(1.0));
   std::vector<Photograph> kept;
   for (std::size_t i = 0; i < loaded.set.photographs.size(); ++i) {
     Photograph& photograph = loaded.set.photographs[i];
-    std::erase(without_camera, photograph.name);
     const auto leave_out = [&](Error why) { loaded.problems.push_back(std::move(why)); };
     if (std::error_code code; !fs::is_regular_file(photograph.file, code)) {
       leave_out(error("{}: there is a camera but no picture {}", photograph.name, photograph.file.string()));

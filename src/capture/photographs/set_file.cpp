@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "base/files.h"
 #include "base/json_guard.h"
@@ -36,29 +37,30 @@ Result<fs::path> mask_file(const std::string& stored_path, const fs::path& folde
                stored_path, folder.string(), (folder / file_name).string());
 }
 
+using ByName = std::unordered_map<std::string, Photograph*>;
+
 /// Gains of one photograph; false where the entry is none.
-bool apply_gains(const Json& entry, PhotographSet& set) {
+bool apply_gains(const Json& entry, const ByName& photographs) {
   if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return false;
   const std::string name = entry["name"];
   const Json gain = entry.value("gain", Json::array());
-  for (Photograph& photograph : set.photographs) {
-    if (photograph.name != name) continue;
-    if (gain.is_array() && gain.size() == 3)
-      for (int c = 0; c < 3; ++c) {
-        if (!gain[std::size_t(c)].is_number() || !(gain[std::size_t(c)].get<double>() > 0.0)) return false;
-        photograph.gain[c] = gain[std::size_t(c)].get<double>();
-      }
+  const auto found = photographs.find(name);
+  if (found == photographs.end() || !gain.is_array() || gain.size() != 3) return true;
+  for (int c = 0; c < 3; ++c) {
+    if (!gain[std::size_t(c)].is_number() || !(gain[std::size_t(c)].get<double>() > 0.0)) return false;
+    found->second->gain[c] = gain[std::size_t(c)].get<double>();
   }
   return true;
 }
 
 /// The mask of one photograph. Error: it lies elsewhere.
-Status apply_mask(const Json& entry, const fs::path& folder, const fs::path& pictures, PhotographSet& set) {
+Status apply_mask(const Json& entry, const fs::path& folder, const fs::path& pictures,
+                  const ByName& photographs) {
   if (!entry.contains("mask") || !entry["mask"].is_string()) return Done{};
   const Result<fs::path> mask = mask_file(entry["mask"], folder, pictures);
   if (!mask) return mask.errors();
-  for (Photograph& photograph : set.photographs)
-    if (photograph.name == entry["name"].get<std::string>()) photograph.mask = *mask;
+  const auto found = photographs.find(entry["name"].get<std::string>());
+  if (found != photographs.end()) found->second->mask = *mask;
   return Done{};
 }
 
@@ -93,12 +95,14 @@ Result<LoadedSet> read_photograph_set(const fs::path& folder) {
   if (!model) return model.errors();
   const fs::path pictures = found(json["pictures"], folder);
   LoadedSet loaded = photograph_set_of(*model, pictures);
+  ByName photographs;
+  for (Photograph& photograph : loaded.set.photographs) photographs.try_emplace(photograph.name, &photograph);
   const Json entries = json.value("photographs", Json::array());
   for (const Json& entry : entries)
-    if (!apply_gains(entry, loaded.set))
+    if (!apply_gains(entry, photographs))
       loaded.problems.push_back(
           error("{}: expected a name and three gains > 0 in {}", file, entry.dump().substr(0, 80)));
-    else if (Status status = apply_mask(entry, folder, pictures, loaded.set); !status)
+    else if (Status status = apply_mask(entry, folder, pictures, photographs); !status)
       return status.errors();
   fit_to_files(loaded, pictures);
   return loaded;
