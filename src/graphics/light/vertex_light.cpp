@@ -298,6 +298,13 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
   rays_ += rays, sun_rays_ += sun_rays;
 }
 
+std::vector<glm::vec3> VertexLight::sky_irradiance() const {
+  std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
+  if (rays_ == 0) return result;
+  for (std::size_t v = 0; v < result.size(); ++v) result[v] = 3.14159265f / float(rays_) * sky_sums_[v];
+  return result;
+}
+
 std::vector<glm::vec3> VertexLight::irradiance() const {
   std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
   if (rays_ == 0) return result;

@@ -73,6 +73,8 @@ class VertexLight {
 
   /// Of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
   std::vector<glm::vec3> irradiance() const;
+  /// The same without the sun.
+  std::vector<glm::vec3> sky_irradiance() const;
   /// Rays that each vertex has had.
   int rays() const { return rays_; }
   /// As given.

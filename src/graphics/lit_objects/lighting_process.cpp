@@ -25,7 +25,8 @@ constexpr double places_share = 0.5, min_places = 64.0, max_places = 1000.0;
 
 constexpr double rays_per_place = 64.0;  ///< VisibilityPlaces::directions
 
-/// Of the sky's light from one place to the next: from a corner into the open.
+/// Of the sky's light from one place to the next: where it is more there was next to none, which says
+/// nothing.
 constexpr float max_change = 10.0f;
 
 double cost(const VertexBlock& block, int rays) {
@@ -160,9 +161,9 @@ void LightingProcess::present(scene::Scene& scene, double /*ahead_s*/) {
   const bool is_new_place = follow_casters(scene), is_new_sky = follow_sky(scene);
   std::vector<LitObject*> changed;
   for (LitObject& lit : lit_) {
+    if (is_new_place || is_new_sky) lit.restart();  // hidden ones, too: they may come back
     if (!scene.objects[std::size_t(lit.object())].is_visible) continue;
     const bool has_moved = lit.follow(scene);
-    if (is_new_place || is_new_sky) lit.restart();
     if (has_moved || is_new_place || is_new_sky || !lit.has_light()) changed.push_back(&lit);
   }
   relight(scene, changed);
@@ -199,7 +200,6 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, doub
         case light::Relighting::traced:
           block.light.refine(*rays_, *sky_, plan.rays, light::Blocked::bounces);
           block.show(block.light.irradiance());
-          block.estimate.reset();
           rays_left -= cost(block, plan.rays);
           break;
         case light::Relighting::interpolated:
@@ -208,7 +208,6 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, doub
           break;
         case light::Relighting::open:
           block.show(light::open_irradiance(block.light.vertices(), *sky_, light::Blocked::bounces));
-          block.estimate.reset();
           break;
       }
     }
@@ -221,26 +220,29 @@ light::InterpolatedLight LightingProcess::interpolated(const VertexBlock& block,
 }
 
 /// What rays have found beside the sun stays, and with it how the object shades and lights itself: it grows
-/// and falls as the sky does that is interpolated.
+/// and falls as the sky does that is interpolated. Each frame starts from what was traced, so that no error
+/// grows.
 void LightingProcess::show_interpolated(VertexBlock& block, const light::VisibilityPlaces& places) const {
   light::InterpolatedLight now = interpolated(block, places);
-  std::vector<glm::vec3> shown(now.sky.size());
+  std::vector<glm::vec3> shown = std::move(now.sun);
   for (std::size_t v = 0; v < shown.size(); ++v) {
     glm::vec3 sky = now.sky[v];
-    if (block.is_shown && block.estimate) {
-      const glm::vec3 change = now.sky[v] / glm::max(block.estimate->sky[v], 1e-6f);
-      sky = glm::max(block.shown[v] - block.estimate->sun[v], 0.0f) * glm::min(change, max_change);
+    if (block.reference) {
+      const glm::vec3 change = sky / glm::max(block.reference->interpolated[v], 1e-6f);
+      if (glm::all(glm::lessThan(change, glm::vec3(max_change)))) sky = change * block.reference->traced[v];
     }
-    shown[v] = sky + now.sun[v];
+    shown[v] += sky;
   }
   block.show(std::move(shown));
-  block.set_estimate(std::move(now));
 }
 
 /// What static things leave of the sky about dynamic objects: lit ones are taken out of the way meanwhile.
 const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds) {
+  const glm::vec3 enough =
+      2.0f * (bounds.size() + 2.0f * places_margin_m);  // in a larger region they lie apart
   const bool fits = places_ && glm::all(glm::lessThanEqual(places_region_.min, bounds.min)) &&
-                    glm::all(glm::greaterThanEqual(places_region_.max, bounds.max));
+                    glm::all(glm::greaterThanEqual(places_region_.max, bounds.max)) &&
+                    glm::all(glm::lessThanEqual(places_region_.size(), enough));
   if (fits) return *places_;
   std::vector<bool> was_visible;
   was_visible.reserve(lit_.size());
@@ -281,8 +283,12 @@ void LightingProcess::refine(double rays_left) {
       if (std::ranges::find(lit, &block) == lit.end()) continue;
       if (block.light.rays() < std::min(min_shown_rays, block.rays_wanted)) continue;
       block.show(block.light.irradiance());
-      if (block.is_estimate_old || !block.estimate)
-        block.set_estimate(interpolated(block, places_around(object.bounds())));
+      const bool is_done = block.light.rays() >= block.rays_wanted;
+      if (is_done && (block.is_reference_old || !block.reference)) {
+        block.reference = {block.light.sky_irradiance(),
+                           interpolated(block, places_around(object.bounds())).sky};
+        block.is_reference_old = false;
+      }
     }
 }
 

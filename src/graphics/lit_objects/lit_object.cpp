@@ -127,7 +127,7 @@ bool LitObject::follow(const scene::Scene& scene) {
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
     block.light.restart(std::move(own));
-    block.is_estimate_old = true;
+    block.is_reference_old = true;
   }
   return true;
 }

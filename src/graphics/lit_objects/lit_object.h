@@ -13,28 +13,28 @@
 
 namespace parvis::lit_objects {
 
+/// Irradiance by the sky, without the sun, of where an object stood when it was traced last, and under the
+/// sky of then: by rays, and as it is interpolated between places.
+struct SkyReference {
+  std::vector<glm::vec3> traced, interpolated;
+};
+
 /// Vertices of one part and one of its sides.
 struct VertexBlock {
   std::size_t part, first;
   bool is_behind;
   light::VertexLight light;
-  std::vector<glm::vec3> shown;  ///< what renderers are to have: as long as `light.vertices()`
-  /// The light of where, and of the sky under which, it stood when `shown` was found; none: not known.
-  std::optional<light::InterpolatedLight> estimate;
-  bool is_estimate_old = false;  ///< it has moved, or the light has changed, since
-  int rays_wanted = 256;         ///< in the end, per vertex
-  bool is_shown = false;         ///< at least once
-  bool is_new = false;           ///< renderers do not have it yet
+  std::vector<glm::vec3> shown;           ///< what renderers are to have: as long as `light.vertices()`
+  std::optional<SkyReference> reference;  ///< none: not known
+  bool is_reference_old = false;          ///< it has moved, or the light has changed, since
+  int rays_wanted = 256;                  ///< in the end, per vertex
+  bool is_shown = false;                  ///< at least once
+  bool is_new = false;                    ///< renderers do not have it yet
 
   /// The object has moved, or the light has changed: what was traced no longer counts.
   void restart() {
     light.restart();
-    is_estimate_old = true;
-  }
-  /// Of where it stands now.
-  void set_estimate(light::InterpolatedLight light_there) {
-    estimate = std::move(light_there);
-    is_estimate_old = false;
+    is_reference_old = true;
   }
   /// Replaces what is shown.
   void show(std::vector<glm::vec3> irradiance) {

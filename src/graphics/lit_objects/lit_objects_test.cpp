@@ -277,6 +277,17 @@ TEST_F(LitObjects, FollowTheSkyAndAreLeftAloneWhileNothingChanges) {
   EXPECT_GE(scene.rays(), 64);
 }
 
+TEST_F(LitObjects, FollowTheSkyWhileTheyAreHidden) {
+  Running scene = run(street("rays=64, budget_ms=0"));
+  const vec3 before = scene.mean("ball");
+  scene.object("ball").is_visible = false;
+  ASSERT_TRUE(scene.clock->send("%dayLight", "timeOfDay 20.5"));
+  scene.clock->advance(scene.scene, 0.1);
+  scene.object("ball").is_visible = true;
+  scene.clock->advance(scene.scene, 0.1);
+  EXPECT_LT(scene.mean("ball").y, 0.4f * before.y);
+}
+
 TEST_F(LitObjects, HaveOnlyTheSkyWhileTheSunIsBelowTheHorizon) {
   Running scene =
       run("sun(azimuth_deg=180, elevation_deg=-10, irradiance=\"0 0 0\")\nmodel(file=\"ground.glb\")\n"
