@@ -283,12 +283,9 @@ void LightingProcess::refine(double rays_left) {
       if (std::ranges::find(lit, &block) == lit.end()) continue;
       if (block.light.rays() < std::min(min_shown_rays, block.rays_wanted)) continue;
       block.show(block.light.irradiance());
-      const bool is_done = block.light.rays() >= block.rays_wanted;
-      if (is_done && (block.is_reference_old || !block.reference)) {
+      if (block.light.rays() >= block.rays_wanted)
         block.reference = {block.light.sky_irradiance(),
                            interpolated(block, places_around(object.bounds())).sky};
-        block.is_reference_old = false;
-      }
     }
 }
 

@@ -127,13 +127,12 @@ bool LitObject::follow(const scene::Scene& scene) {
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
     block.light.restart(std::move(own));
-    block.is_reference_old = true;
   }
   return true;
 }
 
 void LitObject::restart() {
-  for (VertexBlock& block : blocks_) block.restart();
+  for (VertexBlock& block : blocks_) block.light.restart();
 }
 
 bool LitObject::has_light() const {

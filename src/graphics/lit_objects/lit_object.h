@@ -26,16 +26,10 @@ struct VertexBlock {
   light::VertexLight light;
   std::vector<glm::vec3> shown;           ///< what renderers are to have: as long as `light.vertices()`
   std::optional<SkyReference> reference;  ///< none: not known
-  bool is_reference_old = false;          ///< it has moved, or the light has changed, since
   int rays_wanted = 256;                  ///< in the end, per vertex
   bool is_shown = false;                  ///< at least once
   bool is_new = false;                    ///< renderers do not have it yet
 
-  /// The object has moved, or the light has changed: what was traced no longer counts.
-  void restart() {
-    light.restart();
-    is_reference_old = true;
-  }
   /// Replaces what is shown.
   void show(std::vector<glm::vec3> irradiance) {
     shown = std::move(irradiance);
