@@ -5,23 +5,12 @@
 #include <tuple>
 #include <utility>
 
+#include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 #include "scene/data/scene.h"
 
 namespace parvis::lamps {
 namespace {
-
-/// Some of them, for a message.
-std::string listed(const std::set<std::string>& names) {
-  constexpr std::size_t enough = 10;
-  std::string list;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (++count > enough) return list + ", ...";
-    list += (list.empty() ? "" : ", ") + ('"' + name + '"');
-  }
-  return list.empty() ? "none" : list;
-}
 
 std::vector<const scene::Object*> objects_called(const scene::Scene& scene, const std::string& pattern) {
   std::vector<const scene::Object*> found;
@@ -83,7 +72,7 @@ void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scen
       if (const std::string& pattern = node->text(attribute);
           !pattern.empty() && objects_called(scene, pattern).empty()) {
         warn(error_at(node->where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}",
-                      pattern, listed(object_names(scene))));
+                      pattern, scene::listed(object_names(scene))));
         ++warnings;
       }
     const std::string& part = node->text("part");
@@ -92,7 +81,7 @@ void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scen
     if (!objects.empty())
       if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part)) {
         warn(error_at(node->where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",
-                      node->text("of"), part, listed(parts)));
+                      node->text("of"), part, scene::listed(parts)));
         ++warnings;
       }
     if (warnings >= max_warnings) return;

@@ -17,12 +17,8 @@ std::vector<std::size_t> matching_parts(const Model& model, std::string_view tar
   return found;
 }
 
-std::string part_names(const Model& model) {
+std::string listed(const std::set<std::string>& names) {
   constexpr std::size_t enough = 10;
-  std::set<std::string> names;
-  for (const Part& part : model.parts)
-    for (const std::string& name : {part.object, model.materials[std::size_t(part.material)].name})
-      if (!name.empty()) names.insert(name);
   std::string list;
   std::size_t count = 0;
   for (const std::string& name : names) {
@@ -30,6 +26,14 @@ std::string part_names(const Model& model) {
     list += (list.empty() ? "" : ", ") + ('"' + name + '"');
   }
   return list.empty() ? "none" : list;
+}
+
+std::string part_names(const Model& model) {
+  std::set<std::string> names;
+  for (const Part& part : model.parts)
+    for (const std::string& name : {part.object, model.materials[std::size_t(part.material)].name})
+      if (!name.empty()) names.insert(name);
+  return listed(names);
 }
 
 }  // namespace parvis::scene
