@@ -56,6 +56,19 @@ def ways(count, tags, between=0):
                "".join(f'<way id="{i + 1}"><nd ref="0"/><nd ref="{i % ends + 1}"/>{tags}</way>' for i in range(count)))
 
 
+def bridges_in_one_place(count):
+    """Bridges of streets to the north and of paths to the east, all within 40 m."""
+    kinds = (("residential", lambda i: ((0, i / count), (1, i / count))), ("footway", lambda i: ((i / count, 0), (i / count, 1))))
+    nodes, lines = [], []
+    for highway, ends in kinds:
+        for i in range(count):
+            for lat, lon in ends(i):
+                nodes.append(f'<node id="{len(nodes)}" lat="{52.005 + 1e-4 * lat:.9f}" lon="{4.005 + 1.5e-4 * lon:.9f}"/>')
+            lines.append(f'<way id="{len(lines) + 1}"><nd ref="{len(nodes) - 2}"/><nd ref="{len(nodes) - 1}"/><tag k="highway" v="{highway}"/>'
+                         '<tag k="bridge" v="yes"/><tag k="layer" v="1"/></way>')
+    return osm("".join(nodes) + "".join(lines))
+
+
 def scenarios(count, overrides):
     text = "".join(f'group(name="g{i}") {{ }}\n' for i in range(overrides))
     for s in range(count):
@@ -143,6 +156,9 @@ def cases():
     for tags in ('<tag k="highway" v="residential"/>', '<tag k="highway" v="primary"/><tag k="bridge" v="yes"/><tag k="layer" v="1"/>'):
         yield checked(f"3,000 ways between two nodes of a map, {tags[:30]}", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda t=tags: ways(3000, t, between=2)})
     yield checked("3,000 ways from one node of a map", 'model(file="m.osm")\n' + CAMERA, "done", "lies along", files={"m.osm": lambda: ways(3000, '<tag k="highway" v="residential"/>')})
+    yield checked("20,000 bridges of streets and 20,000 of paths in one place", 'model(file="m.osm")\n' + CAMERA, files={"m.osm": lambda: bridges_in_one_place(20_000)})
+    lamps = "".join(f'model(file="m.obj", name="o{i}")\nlamp(shows="o{i}", of="o{i}")\n' for i in range(5000))
+    yield checked("5,000 lamps that show an object each", lamps + CAMERA, "done", files={"m.obj": lambda: cubes(1)})
     yield checked("5,000 scenarios of 20 overrides", lambda: scenarios(5000, 20), seconds=120)
     yield checked("300 scenarios of 20 overrides", lambda: scenarios(300, 20), "done")
     comment = {"c.xp": lambda: b"# " + b"x" * 5_000_000 + b"\n"}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
+#include <map>
 
 #include "base/camera_check.h"
 #include "base/files.h"
@@ -108,7 +109,7 @@ class PairReader {
   }
 
   void look_into(const scene::NodeAttribute& attribute) {
-    const Result<std::vector<ViewOfPicture>> views = viewpoints_in(last_file_);
+    const Result<std::vector<ViewOfPicture>>& views = viewpoints_of_last_file();
     if (!views) return fail(views.errors(), attribute.where);
     if (views->size() > 1)
       return errors_.push_back(error_at(attribute.where, "holds {} viewpoints: say which by cameraName= ({})",
@@ -126,13 +127,21 @@ class PairReader {
           attribute.where,
           "the file named last, {}, is no VRML and has no cameras by name; give cameraFile= before it",
           last_file_.filename().string()));
-    const Result<std::vector<ViewOfPicture>> views = viewpoints_in(last_file_);
+    const Result<std::vector<ViewOfPicture>>& views = viewpoints_of_last_file();
     if (!views) return fail(views.errors(), attribute.where);
     const auto found = std::ranges::find(*views, name, &ViewOfPicture::name);
     if (found == views->end())
       return errors_.push_back(error_at(attribute.where, "{} has no camera \"{}\"; it has {}",
                                         last_file_.filename().string(), name, names_of(*views)));
     take(*found, attribute.where);
+  }
+
+  /// A file may be the camera's of many pairs; it is read once.
+  const Result<std::vector<ViewOfPicture>>& viewpoints_of_last_file() {
+    const auto known = viewpoints_.find(last_file_);
+    return known != viewpoints_.end()
+               ? known->second
+               : viewpoints_.emplace(last_file_, viewpoints_in(last_file_)).first->second;
   }
 
   void take(const ViewOfPicture& view, const FileLocation& where) {
@@ -156,6 +165,7 @@ class PairReader {
   std::vector<ModelPair> pairs_;
   Errors errors_;
   std::filesystem::path last_file_;
+  std::map<std::filesystem::path, Result<std::vector<ViewOfPicture>>> viewpoints_;
   const scene::NodeAttribute* camera_file_ = nullptr;  ///< that may be followed by a name
   bool is_open_ = false;                               ///< the last pair waits for its camera
 };

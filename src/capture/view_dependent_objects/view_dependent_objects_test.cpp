@@ -250,6 +250,9 @@ TEST_F(VdObject, SaysWhatIsWrong) {
   folder_.write("blind.wrl", "#VRML V2.0 utf8\nDEF c Viewpoint { position 0 2 5 fieldOfView 0 }\n");
   holds("vdobject(file=\"car.glb\", cameraFile=\"blind.wrl\")", "\"c\" sees 0 degrees");
   EXPECT_TRUE(load("vdobject(file=\"car.glb\", cameraFile=\"two.wrl\", cameraName=\"b\")"));
+  EXPECT_TRUE(
+      load("vdobject(file=\"car.glb\", cameraFile=\"two.wrl\", cameraName=\"b\", "
+           "file=\"car.glb\", cameraFile=\"two.wrl\", cameraName=\"a\")"));
 }
 
 /// A wall whose texture is in the sun on its left half, and in a bluish shadow on its right one.

@@ -12,10 +12,14 @@
 namespace parvis::lamps {
 namespace {
 
-std::vector<const scene::Object*> objects_called(const scene::Scene& scene, const std::string& pattern) {
+using ObjectsByName = std::multimap<std::string_view, const scene::Object*>;
+
+std::vector<const scene::Object*> objects_called(const ObjectsByName& objects, const std::string& pattern) {
+  const bool is_name = !scene::is_pattern(pattern);
   std::vector<const scene::Object*> found;
-  for (const scene::Object& object : scene.objects)
-    if (scene::matches(pattern, object.name)) found.push_back(&object);
+  for (auto each = is_name ? objects.lower_bound(pattern) : objects.begin();
+       each != (is_name ? objects.upper_bound(pattern) : objects.end()); ++each)
+    if (is_name || scene::matches(pattern, each->first)) found.push_back(each->second);
   return found;
 }
 
@@ -66,18 +70,21 @@ void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scen
   for (const scene::Lamp& lamp : scene.items<scene::Lamp>()) made.emplace(lamp.of, lamp.shows, lamp.part);
   std::map<Names, const scene::Node*> named;
   find_named(nodes, made, named);
+  ObjectsByName objects_by_name;
+  for (const scene::Object& object : scene.objects) objects_by_name.emplace(object.name, &object);
   int warnings = 0;
   for (const auto& [names, node] : named) {
     for (const char* attribute : {"of", "shows"})
       if (const std::string& pattern = node->text(attribute);
-          !pattern.empty() && objects_called(scene, pattern).empty()) {
+          !pattern.empty() && objects_called(objects_by_name, pattern).empty()) {
         warn(error_at(node->where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}",
                       pattern, scene::listed(object_names(scene))));
         ++warnings;
       }
     const std::string& part = node->text("part");
-    const std::vector<const scene::Object*> objects =
-        part.empty() ? std::vector<const scene::Object*>() : objects_called(scene, node->text("of"));
+    const std::vector<const scene::Object*> objects = part.empty()
+                                                          ? std::vector<const scene::Object*>()
+                                                          : objects_called(objects_by_name, node->text("of"));
     if (!objects.empty())
       if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part)) {
         warn(error_at(node->where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",

@@ -144,6 +144,27 @@ TEST(SceneLamps, BurnAtDuskAndShowWhatIsSeenByTheirLight) {
   }
 }
 
+TEST(SceneLamps, TheLastOfThoseThatShowAnObjectDecides) {
+  const auto is_shown = [](const std::string& first, const std::string& last, bool last_burns) {
+    scene::Scene scene;
+    const int windows = add(scene, scene::model_of(scene::ground(1), scene::matt(vec3(0.5f))));
+    scene.objects[std::size_t(windows)].name = "lit windows";
+    for (const bool is_last : {false, true}) {
+      scene::Lamp lamp = lamp_at({0, 0, 4});
+      lamp.shows = is_last ? last : first;
+      lamp.burns = is_last == last_burns ? scene::LampSwitch::always : scene::LampSwitch::never;
+      add_lamp(scene, lamp);
+    }
+    scene::show_what_lamps_show(scene);
+    return scene.objects[std::size_t(windows)].is_visible;
+  };
+  for (const char* first : {"lit windows", "lit *", "*s"})
+    for (const char* last : {"lit windows", "lit *", "lit window?"}) {
+      EXPECT_TRUE(is_shown(first, last, true)) << first << ", " << last;
+      EXPECT_FALSE(is_shown(first, last, false)) << first << ", " << last;
+    }
+}
+
 TEST(PathTracer, SeesTheGroundUnderALampAsBrightAsTheLawSays) {
   scene::Scene scene;
   add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f))));
