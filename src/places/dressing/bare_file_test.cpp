@@ -133,6 +133,30 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   EXPECT_FALSE(scene.roads.empty());
 }
 
+TEST(Dressing, WithoutATargetWallsAndRoofsAreTheModelsOwn) {
+  const TestFolder folder;
+  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
+                        folder.path());
+  const auto triangles_under_tiles = [&](const std::string& nodes) {
+    const auto script =
+        folder.write("a.xp", "model(file=\"crossroads.osm\") { " + nodes +
+                                 " }\ncamera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+    const Result<scene::LoadedScene> loaded = scene::load_scene(script, house::node_registry());
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    std::size_t count = 0;
+    for (const scene::Object& object : loaded->scene.objects)
+      for (const scene::Part& part : object.model->parts)
+        if (part.material >= 0 && object.model->materials[std::size_t(part.material)].name == "roof tiles")
+          count += part.mesh.triangle_count();
+    return count;
+  };
+  const std::size_t of_roofs =
+      triangles_under_tiles("facades(target=\"WallSurface\") roofs(target=\"RoofSurface\")");
+  EXPECT_GT(of_roofs, 0u);
+  EXPECT_EQ(triangles_under_tiles("facades() roofs()"), of_roofs);
+  EXPECT_GT(triangles_under_tiles("facades() roofs(target=\"*\")"), of_roofs) << "walls, too, when asked";
+}
+
 TEST(BareFile, NothingIsOverwritten) {
   const TestFolder folder;
   std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",

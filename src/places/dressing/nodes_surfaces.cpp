@@ -13,9 +13,27 @@ namespace {
 
 using namespace scene::attribute;
 
+constexpr const char *wall_name = "WallSurface", *roof_name = "RoofSurface";
+
 scene::AttributeSchema target_attribute() {
   return text("target",
               "name of objects, nodes or materials of the file; * and ? stand for any text and any character")
+      .by_default("*");
+}
+
+/// Walls and roofs are what a city model calls so, where nothing else is asked for: bridges and trees have
+/// steep and level faces, too.
+std::string target_or(const scene::Node& node, const scene::Model& model, const char* usual) {
+  const bool is_usual = !node.gives("target") && !scene::matching_parts(model, usual).empty();
+  return is_usual ? usual : node.text("target");
+}
+
+scene::AttributeSchema surface_attribute(const char* usual) {
+  return text("target",
+              fmt::format(
+                  "name of objects, nodes or materials of the file; * and ? stand for any text and any "
+                  "character; without it, \"{}\" where the file has that",
+                  usual))
       .by_default("*");
 }
 
@@ -39,7 +57,7 @@ scene::NodeSchema facades_schema() {
               "walls "
               "stay blank, pictures and windows of the model itself are kept. Materials that later nodes can "
               "change: \"street level\", \"facade\" and \"brick wall\", \"plaster wall\" and so on.",
-          .attributes = {target_attribute(),
+          .attributes = {surface_attribute(wall_name),
                          integer("seed", "another one, other houses").between(0, 1e9).by_default("1"),
                          flag("openings", "0: walls alone, as of gardens and quays").by_default("1")},
           .stands_in = {"model"},
@@ -47,8 +65,8 @@ scene::NodeSchema facades_schema() {
 }
 
 void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_facades(model, node.text("target"), std::uint64_t(node.integer("seed")), node.flag("openings")) ==
-      0)
+  if (add_facades(model, target_or(node, model, wall_name), std::uint64_t(node.integer("seed")),
+                  node.flag("openings")) == 0)
     warn(builder, node, model, "walls");
 }
 
@@ -61,14 +79,15 @@ scene::NodeSchema roofs_schema() {
           "that later nodes can change: \"roof tiles\", \"flat roof\", \"roof edge\", \"chimney\", \"roof "
           "plant\".",
       .attributes =
-          {target_attribute(),
+          {surface_attribute(roof_name),
            flag("details", "parapets along flat roofs, chimneys, plant on large roofs").by_default("1")},
       .stands_in = {"model"},
       .example = example_of("roofs(target=\"RoofSurface\")")};
 }
 
 void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_roofs(model, node.text("target"), node.flag("details")) == 0) warn(builder, node, model, "roofs");
+  if (add_roofs(model, target_or(node, model, roof_name), node.flag("details")) == 0)
+    warn(builder, node, model, "roofs");
 }
 
 scene::NodeSchema ground_schema() {
