@@ -204,7 +204,6 @@ std::string bare_scene(const Model& model, const std::string& file) {
     script += fmt::format(" {{\n{}}}", dressing);
   script += '\n';
   if (!surfaces.empty()) script += "streets(of=\"place\")\n";
-  if (!model.roads.empty()) script += "paving()\n";
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
   script += nodes_of_kerbs(model, surfaces);

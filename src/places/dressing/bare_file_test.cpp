@@ -133,18 +133,34 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   EXPECT_FALSE(scene.roads.empty());
 }
 
-TEST(Dressing, WithoutATargetWallsAndRoofsAreTheModelsOwn) {
+/// The map of crossroads as the model "town", followed by more of a script.
+scene::Scene crossroads_with(const std::string& rest) {
   const TestFolder folder;
   std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
                         folder.path());
+  const auto script =
+      folder.write("a.xp", "model(name=\"town\", file=\"crossroads.osm\") " + rest +
+                               "\ncamera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+  Result<scene::LoadedScene> loaded = scene::load_scene(script, house::node_registry());
+  EXPECT_TRUE(loaded) << to_string(loaded.errors());
+  return loaded ? std::move(loaded->scene) : scene::Scene();
+}
+
+TEST(Dressing, StreetsOfCentreLinesAreShown) {
+  const auto is_paved = [](const std::string& streets) {
+    const scene::Scene scene = crossroads_with("\n" + streets);
+    EXPECT_EQ(scene.roads.empty(), streets.empty());
+    return std::ranges::count(scene.objects, std::string("paving"), &scene::Object::name) == 1;
+  };
+  EXPECT_TRUE(is_paved("streets(of=\"town\")"));
+  EXPECT_FALSE(is_paved("streets(of=\"town\", paving=0)"));
+  EXPECT_FALSE(is_paved(""));
+}
+
+TEST(Dressing, WithoutATargetWallsAndRoofsAreTheModelsOwn) {
   const auto triangles_under_tiles = [&](const std::string& nodes) {
-    const auto script =
-        folder.write("a.xp", "model(file=\"crossroads.osm\") { " + nodes +
-                                 " }\ncamera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
-    const Result<scene::LoadedScene> loaded = scene::load_scene(script, house::node_registry());
-    EXPECT_TRUE(loaded) << to_string(loaded.errors());
     std::size_t count = 0;
-    for (const scene::Object& object : loaded->scene.objects)
+    for (const scene::Object& object : crossroads_with("{ " + nodes + " }").objects)
       for (const scene::Part& part : object.model->parts)
         if (part.material >= 0 && object.model->materials[std::size_t(part.material)].name == "roof tiles")
           count += part.mesh.triangle_count();

@@ -116,7 +116,7 @@ TEST_F(Kerbside, NothingStandsInTunnels) {
           i, i, i + 1, i == 2 ? tunnel : "no");
     folder_.write("map.osm", map + "</osm>");
     folder_.write("scene.xp",
-                  "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\npaving()\n"
+                  "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\n"
                   "streetFurniture(kind=\"lamps\", spacing=6)\n"
                   "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
     const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());

@@ -71,7 +71,10 @@ NodeSchema streets_schema() {
                      number("speed_km_h", "the limit where the file gives none")
                          .in("km/h")
                          .between(1, 300)
-                         .by_default("30")},
+                         .by_default("30"),
+                     flag("paving",
+                          "show them, as paving does, where the file gives centre lines without surfaces")
+                         .by_default("1")},
       .example =
           "model(name=\"quarter\", file=\"quarter.city.json\")\n"
           "streets(of=\"quarter\")",
@@ -109,7 +112,10 @@ void build_streets(const Node& node, SceneBuilder& builder) {
   if (object == builder.scene.objects.end())
     return builder.fail(error_at(node.where_of("of"), "no model called \"{}\" stands before this node{}",
                                  name, scene::object_names(builder.scene)));
-  if (!object->model->roads.empty()) return add_given_roads(*object, builder);
+  if (!object->model->roads.empty()) {
+    if (node.flag("paving")) builder.scene.data<Paving>().is_laid = true;
+    return add_given_roads(*object, builder);
+  }
 
   std::vector<RoadPolygon> polygons;
   if (!node.gives("target")) add_road_polygons(*object, node.text("target"), polygons);
