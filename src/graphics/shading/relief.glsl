@@ -54,7 +54,10 @@ GLSL_FUNCTION float relief_light(vec3 hit, vec2 uv_to_floor) {
   vec2 at = vec2(hit.x, hit.y);
   float half_way = relief_depth(at + 0.5f * out_of_it) - 0.5f * hit.z;
   float above = relief_depth(at + out_of_it);
-  return smoothstep(0.0f, 0.35f * hit.z, min(2.0f * half_way, above));
+  float light = smoothstep(0.0f, 0.35f * hit.z, min(2.0f * half_way, above));
+  // Joints of bricks and the rims of openings are narrower than pixels: their shade would be loose dark
+  // specks.
+  return mix(1.0f, light, smoothstep(2.0f * relief_tolerance, 4.0f * relief_tolerance, hit.z));
 }
 
 // Share of the relief's depth that is worth its lookups where a pixel is `pixel_m` wide: none far away.

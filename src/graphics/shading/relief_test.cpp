@@ -63,6 +63,13 @@ TEST(Relief, TheLitSideOfAnOpeningIsLitUpToItsEdge) {
   }
 }
 
+TEST(Relief, JointsOfBricksLieInNoShade) {
+  Groove groove;
+  const vec2 low_sun(8.0f, 0.0f);
+  EXPECT_EQ(groove.relief_light(vec3(0.5f, 0.5f, 0.05f), low_sun), 1.0f);
+  EXPECT_EQ(groove.relief_light(vec3(0.5f, 0.5f, 0.2f), low_sun), 0.0f) << "an opening does";
+}
+
 TEST(Relief, CoordinatesMoveAsTheTexturesEdgesSay) {
   // A texture of 4 by 2 metres on a wall that faces south; the view sinks at 45 degrees toward the east.
   TextureFrame frame{vec3(4, 0, 0), vec3(0, 0, 2), vec2(1, 0), vec2(0, -1)};

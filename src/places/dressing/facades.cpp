@@ -37,6 +37,7 @@ constexpr float min_storey_m = 2.2f, max_storey_m = 5.5f;  // else the number of
 constexpr float gates_m = 4.8f, low_gates_m = 3.1f;        // height of the gates' strip: of works, of sheds
 constexpr float nave_foot_m = 1.4f, nave_m = 12.0f, nave_bay_m = 4.6f;
 constexpr float nave_top_m = 0.5f, lowest_nave_m = 4.5f;  // of wall above; lower walls have no windows
+constexpr float below_next_row = 0.01f;                   // share of a cell of a sheet
 
 /// What the walls of one house have in common.
 struct HouseStyle {
@@ -293,8 +294,9 @@ class Dresser {
       const int span = std::min(int(bays), brick_bays);  // the first bays that hold a door
       const int start = (brick_bays + door_bay - random.index(span)) % brick_bays;
       const float row = !style_.look ? float(band) : style_.is_shop ? 1.0f : 0.0f;
+      // Up to a little below the next row of the sheet, whose plinth would be a dark line under the storeys.
       add(style_.look ? sheet_of(KindSheet::street) : sheet_of(BrickSheet::street), foot_m_, street_top,
-          {start, row}, {bays, 1.0f});
+          {start, row}, {bays, 1.0f - below_next_row});
     }
     if (storeys == 0.0f) return plain(street_top, eaves_m_);
     const float start = float(random.index(brick_bays)), row = float(random.index(brick_storeys));
