@@ -1,6 +1,7 @@
 #include "graphics/bounced_light/transfer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -151,10 +152,12 @@ std::size_t Transfer::index(ivec3 cell) const {
          std::size_t(cell.x);
 }
 
+ivec3 Transfer::place_of(std::size_t cell) const {
+  return {int(cell) % cells_.x, int(cell) / cells_.x % cells_.y, int(cell) / cells_.x / cells_.y};
+}
+
 vec3 Transfer::middle(std::size_t cell) const {
-  const int x = int(cell) % cells_.x, y = int(cell) / cells_.x % cells_.y,
-            z = int(cell) / cells_.x / cells_.y;
-  return grid_.origin + (vec3(x, y, z) + 0.5f) * grid_.size_m / vec3(cells_);
+  return grid_.origin + (vec3(place_of(cell)) + 0.5f) * grid_.size_m / vec3(cells_);
 }
 
 Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays,
@@ -194,6 +197,7 @@ Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays,
         seen_.push_back(hit && !hit->is_back ? sums.add(*hit, grid_.origin, side_m) : -1);
     }
   }
+  find_walls();
   patches_ = sums.means();
   see_sky(scene, rays, sums.points);
 }
@@ -243,10 +247,11 @@ std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shadi
         const Patch& patch = patches_[i];
         vec3 from_sky(0.0f);
         float sees_sun = 0.0f;
-        for (std::size_t d = 0; d < directions.size(); ++d) {
-          const float open = float(patch.sees_sky[d / 64] >> (d % 64) & 1);
-          from_sky += open * std::max(glm::dot(directions[d], patch.normal), 0.0f) * sky_light[d];
-        }
+        for (std::size_t word = 0; word < patch.sees_sky.size(); ++word)
+          for (std::uint64_t open = patch.sees_sky[word]; open != 0; open &= open - 1) {
+            const std::size_t d = 64 * word + std::size_t(std::countr_zero(open));
+            from_sky += std::max(glm::dot(directions[d], patch.normal), 0.0f) * sky_light[d];
+          }
         for (const auto& [d, share] : suns) sees_sun += share * float(patch.sees_sky[d / 64] >> (d % 64) & 1);
         irradiance[i] = from_sky + sees_sun * std::max(glm::dot(to_sun, patch.normal), 0.0f) * sun.irradiance;
       },
@@ -254,54 +259,62 @@ std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shadi
   return irradiance;
 }
 
-/// Sums of what places see, as two bands of spherical harmonics of irradiance.
-void Transfer::gather(const std::vector<vec3>& radiance, shading::BouncedLight& light) const {
-  std::vector<vec3> directions(std::size_t(ray_sets) * std::size_t(rays_));
+/// Sums of what places see, as two bands of spherical harmonics of irradiance. `radiance` has luminances
+/// beside colours, of each patch after a first one for the sky, which is dark.
+void Transfer::gather(const std::vector<vec4>& radiance, shading::BouncedLight& light) const {
+  std::vector<vec4> directions(std::size_t(ray_sets) * std::size_t(rays_));
   for (int set = 0; set < ray_sets; ++set)
-    for (int r = 0; r < rays_; ++r) directions[std::size_t(set * rays_ + r)] = ray_direction(r, rays_, set);
+    for (int r = 0; r < rays_; ++r)
+      directions[std::size_t(set * rays_ + r)] = vec4(ray_direction(r, rays_, set), 1.0f);
   parallel_for(
       air_.size(),
       [&](std::size_t i) {
         const std::int32_t* seen = seen_.data() + i * std::size_t(rays_);
-        const vec3* ray_directions = directions.data() + ray_set(air_[i]) * rays_;
-        vec3 sum(0.0f), along(0.0f);
+        const vec4* ray_directions = directions.data() + ray_set(air_[i]) * rays_;
+        vec4 sum(0.0f), along(0.0f);
         for (int r = 0; r < rays_; ++r) {
-          if (seen[r] < 0) continue;
-          const vec3 from = radiance[std::size_t(seen[r])];
-          sum += from, along += luminance(from) * ray_directions[r];
+          const vec4 from = radiance[std::size_t(seen[r] + 1)];
+          sum += from, along += from.w * ray_directions[r];
         }
-        const float brightness = luminance(sum);
-        light.lobes[air_[i]] = vec4(2.0f * pi_f / float(rays_) * along, pi_f / float(rays_) * brightness);
-        light.colours[air_[i]] = brightness > 0.0f ? sum / brightness : vec3(1.0f);
+        light.lobes[air_[i]] = pi_f / float(rays_) * vec4(2.0f, 2.0f, 2.0f, 1.0f) * along;
+        light.colours[air_[i]] = sum.w > 0.0f ? vec3(sum) / sum.w : vec3(1.0f);
       },
       256);
   fill_walls(light);
 }
 
+/// Cells inside of things, and the air beside each.
+void Transfer::find_walls() {
+  for (std::size_t cell = 0; cell < is_air_.size(); ++cell) {
+    if (is_air_[cell]) continue;
+    const std::size_t before = beside_walls_.size();
+    const ivec3 at = place_of(cell);
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const std::size_t beside = index(glm::clamp(at + ivec3(dx, dy, dz), ivec3(0), cells_ - 1));
+          if (is_air_[beside]) beside_walls_.push_back(std::uint32_t(beside));
+        }
+    if (beside_walls_.size() > before)
+      walls_.push_back({std::uint32_t(cell), before, beside_walls_.size() - before});
+  }
+}
+
 /// Cells inside of things take the mean of the air beside them: what is mixed between cells is then not
 /// darkened at walls.
 void Transfer::fill_walls(shading::BouncedLight& light) const {
-  parallel_for(std::size_t(cells_.z), [&](std::size_t layer) {
-    const int z = int(layer);
-    for (int y = 0; y < cells_.y; ++y)
-      for (int x = 0; x < cells_.x; ++x) {
-        const std::size_t cell = index({x, y, z});
-        if (is_air_[cell]) continue;
+  parallel_for(
+      walls_.size(),
+      [&](std::size_t i) {
+        const Wall& wall = walls_[i];
         vec4 lobe(0.0f);
         vec3 colour(0.0f);
-        float count = 0.0f;
-        for (int dz = -1; dz <= 1; ++dz)
-          for (int dy = -1; dy <= 1; ++dy)
-            for (int dx = -1; dx <= 1; ++dx) {
-              const std::size_t beside =
-                  index(glm::clamp(ivec3(x + dx, y + dy, z + dz), ivec3(0), cells_ - 1));
-              if (is_air_[beside])
-                lobe += light.lobes[beside], colour += light.colours[beside], count += 1.0f;
-            }
-        light.lobes[cell] = count > 0.0f ? lobe / count : vec4(0.0f);
-        light.colours[cell] = count > 0.0f ? colour / count : vec3(1.0f);
-      }
-  });
+        for (std::size_t k = wall.first; k < wall.first + wall.count; ++k)
+          lobe += light.lobes[beside_walls_[k]], colour += light.colours[beside_walls_[k]];
+        light.lobes[wall.cell] = lobe / float(wall.count);
+        light.colours[wall.cell] = colour / float(wall.count);
+      },
+      256);
 }
 
 shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyLight& sky,
@@ -312,7 +325,7 @@ shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyL
   light.lobes.assign(is_air_.size(), vec4(0.0f));
   light.colours.assign(is_air_.size(), vec3(1.0f));
   const std::vector<vec3> direct = direct_irradiance(sun, sky);
-  std::vector<vec3> radiance(patches_.size());
+  std::vector<vec4> radiance(1 + patches_.size(), vec4(0.0f));  // the first is the sky's: see gather
   for (int bounce = 0; bounce < bounces; ++bounce) {
     parallel_for(
         patches_.size(),
@@ -321,7 +334,8 @@ shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyL
           const vec3 again = bounce == 0
                                  ? vec3(0.0f)
                                  : bounced_irradiance(light.cell(patch.position, patch.normal), patch.normal);
-          radiance[i] = patch.albedo / pi_f * (direct[i] + again);
+          const vec3 out = patch.albedo / pi_f * (direct[i] + again);
+          radiance[1 + i] = vec4(out, luminance(out));
         },
         256);
     gather(radiance, light);

@@ -58,10 +58,12 @@ class Transfer {
   bool is_consistent() const;
   glm::vec3 middle(std::size_t cell) const;
   std::size_t index(glm::ivec3 cell) const;
+  glm::ivec3 place_of(std::size_t cell) const;
+  void find_walls();
   void see_sky(const scene::Scene& scene, const reference::RayScene& rays,
                const std::vector<std::vector<glm::vec3>>& points);
   std::vector<glm::vec3> direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const;
-  void gather(const std::vector<glm::vec3>& radiance, shading::BouncedLight& light) const;
+  void gather(const std::vector<glm::vec4>& radiance, shading::BouncedLight& light) const;
   void fill_walls(shading::BouncedLight& light) const;
 
   shading::BouncedGrid grid_{glm::vec3(0.0f), glm::vec3(1.0f), 0.0f, 0.0f};
@@ -71,6 +73,14 @@ class Transfer {
   std::vector<std::int32_t> seen_;    ///< `rays_` for each of them: a patch, or -1: the sky
   std::vector<std::uint8_t> is_air_;  ///< by cell
   std::vector<Patch> patches_;
+
+  /// A cell inside of something, beside air.
+  struct Wall {
+    std::uint32_t cell;
+    std::size_t first, count;  ///< in `beside_walls_`
+  };
+  std::vector<Wall> walls_;                  ///< of is_air_; not in files
+  std::vector<std::uint32_t> beside_walls_;  ///< cells of air
 };
 
 }  // namespace parvis::bounced_light

@@ -55,6 +55,7 @@ std::optional<Transfer> Transfer::from_bytes(std::string_view bytes) {
   for (auto left = taker.take<std::uint32_t>(); left > 0 && !taker.has_ended_early(); --left)
     result.patches_.push_back(take_patch(taker));
   if (!taker.is_at_end() || !result.is_consistent()) return std::nullopt;
+  result.find_walls();
   return result;
 }
 
