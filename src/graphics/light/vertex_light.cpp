@@ -22,8 +22,9 @@ constexpr float wall_albedo = 0.35f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
 /// One ray of so many brings the light of what it hits, for all of them: such light is smooth, and its rays
-/// cost several times as much.
-constexpr std::size_t rays_per_bounce = 2;
+/// cost several times as much. Every third point of the R2 sequence is as even as all are; every fourth is
+/// not.
+constexpr int rays_per_bounce = 3;
 
 glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
@@ -56,59 +57,79 @@ bool is_open(const reference::RayScene& scene, glm::vec3 from, glm::vec3 directi
   return !scene.is_blocked({from, direction, 1e-4f, 1e30f}, passage);
 }
 
-/// Rays from one point that are answered together.
+/// Rays that are answered together. Everything stops light, from both sides.
 class Packet {
  public:
-  static constexpr std::size_t size = reference::RayScene::packet_size;
+  explicit Packet(const reference::RayScene& scene) : scene_(scene) {}
 
-  Packet(const reference::RayScene& scene, glm::vec3 from) : scene_(scene), from_(from) {}
-
-  void clear() { count_ = 0; }
-  /// Everything stops light, from both sides; the number of the ray is for what blends.
-  void add(glm::vec3 direction, std::uint64_t ray) {
-    rays_[count_] = {from_, direction, 1e-4f, 1e30f};
-    passages_[count_] = {Random(ray)};
-    numbers_[count_++] = ray;
+  /// The number is for what blends.
+  void add(glm::vec3 from, glm::vec3 direction, std::uint64_t number) {
+    rays_[count_] = {from, direction, 1e-4f, 1e30f};
+    passages_[count_++] = {Random(number)};
   }
-  /// Calls `body` with direction and number of each ray, and whether nothing stops it, in their order.
-  template <class Body>
-  void for_each(const Body& body) {
-    if (count_ == 0) return;
-    const std::uint32_t blocked =
-        scene_.are_blocked(std::span<const reference::Ray>(rays_.data(), count_), {passages_.data(), count_});
-    for (std::size_t i = 0; i < count_; ++i) body(rays_[i].direction, numbers_[i], (blocked >> i & 1u) == 0);
+  bool is_full() const { return count_ == rays_.size(); }
+  std::size_t count() const { return count_; }
+  glm::vec3 direction(std::size_t ray) const { return rays_[ray].direction; }
+  void clear() { count_ = 0; }
+
+  /// A bit for each ray that something stops.
+  std::uint32_t blocked() {
+    return count_ > 0 ? scene_.are_blocked(std::span(rays_.data(), count_), {passages_.data(), count_}) : 0;
+  }
+  /// What each ray hits first.
+  std::span<const std::optional<reference::Hit>> hits() {
+    if (count_ > 0) scene_.nearest_hits(std::span(rays_.data(), count_), {passages_.data(), count_}, hits_);
+    return {hits_.data(), count_};
   }
 
  private:
   const reference::RayScene& scene_;
-  glm::vec3 from_;
   std::size_t count_ = 0;
-  std::array<reference::Ray, size> rays_;
-  std::array<reference::Passage, size> passages_{};
-  std::array<std::uint64_t, size> numbers_;
+  std::array<reference::Ray, reference::RayScene::packet_size> rays_;
+  std::array<reference::Passage, reference::RayScene::packet_size> passages_{};
+  std::array<std::optional<reference::Hit>, reference::RayScene::packet_size> hits_;
 };
 
 glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
 
+/// Which of the rays of a vertex bring the light of what they hit, and how many of the first rays do.
+bool brings_bounce(int ray) { return ray % rays_per_bounce == 0; }
+int bounces_of(int rays) { return (rays + rays_per_bounce - 1) / rays_per_bounce; }
+
 /// Points of the unit disc for several vertices to share: rays `first` to `first + count - 1` of each
-/// pattern. Vertices that share a pattern differ by a turn about their normals.
+/// pattern. Vertices that share a pattern differ by a turn about their normals. Rays that bring bounces come
+/// first, then the others, each by their angles: rays that are answered together go about the same way.
 class DiscPatterns {
  public:
-  DiscPatterns(int first, int count) : count_(std::size_t(count)) {
+  DiscPatterns(int first, int count)
+      : count_(std::size_t(count)), bounces_(std::size_t(bounces_of(first + count) - bounces_of(first))) {
     points_.reserve(pattern_count * count_);
+    std::vector<glm::vec2> others;
+    others.reserve(count_);
     for (std::size_t pattern = 0; pattern < pattern_count; ++pattern) {
       const glm::vec2 shift(scrambled(std::uint32_t(2 * pattern)), scrambled(std::uint32_t(2 * pattern + 1)));
-      for (int i = first; i < first + count; ++i) points_.push_back(on_disc(low_discrepancy(i, shift)));
+      others.clear();
+      for (int i = first; i < first + count; ++i)
+        (brings_bounce(i) ? points_ : others).push_back(on_disc(low_discrepancy(i, shift)));
+      sort_by_angle(std::span(points_).last(bounces_));
+      sort_by_angle(others);
+      points_.insert(points_.end(), others.begin(), others.end());
     }
   }
+  /// How many rays of each vertex bring bounces.
+  std::size_t bounces() const { return bounces_; }
   /// Those of a vertex, before its turn.
   std::span<const glm::vec2> of(std::size_t vertex) const {
     return {points_.data() + vertex % pattern_count * count_, count_};
   }
 
  private:
+  static void sort_by_angle(std::span<glm::vec2> points) {
+    std::ranges::sort(points, {}, [](glm::vec2 p) { return std::atan2(p.y, p.x); });
+  }
+
   static constexpr std::size_t pattern_count = 64;
-  std::size_t count_;
+  std::size_t count_, bounces_;
   std::vector<glm::vec2> points_;
 };
 
@@ -137,22 +158,50 @@ glm::vec3 albedo_of(const reference::PlacedPart& place) {
   return (1.0f - metallic) * material.base_colour * mean_of(place, material.base_colour_texture);
 }
 
-/// Light that a matt surface gives back to a vertex: of the sun, by a ray, and of the sky as if half of what
-/// lies before the surface were open.
-glm::vec3 bounced_radiance(const reference::RayScene& scene, const SkyTable& sky, const reference::Ray& ray,
-                           std::size_t v) {
+/// Of the rays of a packet that nothing stops; clears it.
+glm::vec3 open_radiance(Packet& packet, const SkyTable& sky) {
+  glm::vec3 sum(0.0f);
+  const std::uint32_t blocked = packet.blocked();
+  for (std::size_t i = 0; i < packet.count(); ++i)
+    if ((blocked >> i & 1u) == 0) sum += sky.radiance(packet.direction(i));
+  packet.clear();
+  return sum;
+}
+
+/// Light that arrives along the rays of a packet.
+struct Arriving {
+  glm::vec3 from_sky, bounced;
+};
+
+/// From the sky, and from matt surfaces, which give back that of the sun, by a ray each, and of the sky as if
+/// half of what lies before the surface were open; clears the packet.
+Arriving seen_radiance(const reference::RayScene& scene, Packet& packet, const SkyTable& sky) {
   constexpr float open_share = 0.5f;
-  reference::Passage passage{Random(v)};
-  const std::optional<reference::Hit> hit = scene.nearest_hit(ray, passage);
-  if (!hit) return glm::vec3(0.0f);
-  const scene::TracedHit at =
-      reference::traced_hit(*hit->place, hit->triangle, {hit->u, hit->v}, -ray.direction, 0.0f);
-  if (!(glm::dot(at.normal, at.normal) > 0.5f)) return glm::vec3(0.0f);  // a sliver without a normal
-  glm::vec3 irradiance = open_share * sky.irradiance(at.normal);
-  const glm::vec3 away = at.position + lift_m * at.normal;
-  const float facing = sky.spot() ? 0.0f : glm::dot(sky.to_sun(), at.normal);
-  if (facing > 0.0f && is_open(scene, away, sky.to_sun(), v)) irradiance += facing * sky.sun_irradiance();
-  return albedo_of(*hit->place) / 3.14159265f * irradiance;
+  Arriving sum{glm::vec3(0.0f), glm::vec3(0.0f)};
+  Packet to_sun(scene);
+  std::array<glm::vec3, reference::RayScene::packet_size> by_sun;  // of those whose surfaces face it
+  const std::span<const std::optional<reference::Hit>> hits = packet.hits();
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i]) {
+      sum.from_sky += sky.radiance(packet.direction(i));
+      continue;
+    }
+    const reference::Hit& hit = *hits[i];
+    const scene::TracedHit at =
+        reference::traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -packet.direction(i), 0.0f);
+    if (!(glm::dot(at.normal, at.normal) > 0.5f)) continue;  // a sliver without a normal
+    const glm::vec3 given_back = albedo_of(*hit.place) / 3.14159265f;
+    sum.bounced += given_back * open_share * sky.irradiance(at.normal);
+    const float facing = sky.spot() ? 0.0f : glm::dot(sky.to_sun(), at.normal);
+    if (!(facing > 0.0f)) continue;
+    by_sun[to_sun.count()] = given_back * facing * sky.sun_irradiance();
+    to_sun.add(at.position + lift_m * at.normal, sky.to_sun(), hit.triangle);
+  }
+  const std::uint32_t blocked = to_sun.blocked();
+  for (std::size_t i = 0; i < to_sun.count(); ++i)
+    if ((blocked >> i & 1u) == 0) sum.bounced += by_sun[i];
+  packet.clear();
+  return sum;
 }
 
 /// Of level ground that is as bright everywhere.
@@ -234,31 +283,30 @@ void VertexLight::restart(std::vector<LitVertex> vertices) {
 
 void VertexLight::restart() {
   sky_sums_.assign(vertices_.size(), glm::vec3(0.0f));
+  bounced_sums_.assign(vertices_.size(), glm::vec3(0.0f));
   sun_sums_.assign(vertices_.size(), glm::vec3(0.0f));
   rays_ = sun_rays_ = 0;
 }
 
-glm::vec3 VertexLight::sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
-                                 std::span<const glm::vec2> disc, Blocked blocked) const {
+void VertexLight::add_sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
+                                std::span<const glm::vec2> disc, std::size_t bounces) {
   const LitVertex& vertex = vertices_[v];
   const reference::Frame frame = turned_frame(vertex.normal, v);
   const glm::vec3 from = lifted(vertex);
-  glm::vec3 sum(0.0f);
-  Packet packet(scene, from);
-  for (std::size_t first = 0; first < disc.size(); first += Packet::size) {
-    packet.clear();
-    for (std::size_t i = first; i < std::min(first + Packet::size, disc.size()); ++i) {
-      const glm::vec2 p = disc[i];
-      packet.add(frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))}), v + i);
-    }
-    packet.for_each([&](glm::vec3 direction, std::uint64_t ray, bool is_open) {
-      if (is_open)
-        sum += sky.radiance(direction);
-      else if (blocked == Blocked::bounces && (ray - v) % rays_per_bounce == 0)
-        sum += float(rays_per_bounce) * bounced_radiance(scene, sky, {from, direction}, ray);
-    });
+  Packet seeing(scene), others(scene);
+  const auto take_seen = [&] {
+    const Arriving arriving = seen_radiance(scene, seeing, sky);
+    sky_sums_[v] += arriving.from_sky, bounced_sums_[v] += arriving.bounced;
+  };
+  for (std::size_t i = 0; i < disc.size(); ++i) {
+    const glm::vec2 p = disc[i];
+    (i < bounces ? seeing : others)
+        .add(from, frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))}), v + i);
+    if (others.is_full()) sky_sums_[v] += open_radiance(others, sky);
+    if (seeing.is_full()) take_seen();
   }
-  return sum;
+  sky_sums_[v] += open_radiance(others, sky);
+  take_seen();
 }
 
 glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t v,
@@ -269,18 +317,21 @@ glm::vec3 VertexLight::sun_light(const reference::RayScene& scene, const SkyTabl
     return float(disc.size()) * spot_light(scene, sky, *spot, vertex, from, v);
   const reference::Frame frame = turned_frame(sky.to_sun(), v);
   glm::vec3 sum(0.0f);
-  Packet packet(scene, from);
-  for (std::size_t first = 0; first < disc.size(); first += Packet::size) {
+  Packet packet(scene);
+  const auto take = [&] {
+    const std::uint32_t blocked = packet.blocked();
+    for (std::size_t i = 0; i < packet.count(); ++i)
+      if ((blocked >> i & 1u) == 0)
+        sum += glm::dot(packet.direction(i), vertex.normal) * sky.sun_irradiance();
     packet.clear();
-    for (std::size_t i = first; i < std::min(first + Packet::size, disc.size()); ++i) {
-      const glm::vec3 direction =
-          glm::normalize(frame.in_world(glm::vec3(float(sun_radius_rad) * disc[i], 1.0f)));
-      if (glm::dot(direction, vertex.normal) > 0.0f) packet.add(direction, v + i);
-    }
-    packet.for_each([&](glm::vec3 direction, std::uint64_t, bool is_open) {
-      if (is_open) sum += glm::dot(direction, vertex.normal) * sky.sun_irradiance();
-    });
+  };
+  for (std::size_t i = 0; i < disc.size(); ++i) {
+    const glm::vec3 direction =
+        glm::normalize(frame.in_world(glm::vec3(float(sun_radius_rad) * disc[i], 1.0f)));
+    if (glm::dot(direction, vertex.normal) > 0.0f) packet.add(from, direction, v + i);
+    if (packet.is_full()) take();
   }
+  take();
   return sum;
 }
 
@@ -291,7 +342,7 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
   parallel_for(
       vertices_.size(),
       [&](std::size_t v) {
-        sky_sums_[v] += sky_light(scene, sky, v, to_sky.of(v), blocked);
+        add_sky_light(scene, sky, v, to_sky.of(v), blocked == Blocked::bounces ? to_sky.bounces() : 0);
         if (has_sun) sun_sums_[v] += sun_light(scene, sky, v, to_sun.of(v));
       },
       16);
@@ -301,15 +352,15 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
 std::vector<glm::vec3> VertexLight::sky_irradiance() const {
   std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
   if (rays_ == 0) return result;
-  for (std::size_t v = 0; v < result.size(); ++v) result[v] = 3.14159265f / float(rays_) * sky_sums_[v];
+  for (std::size_t v = 0; v < result.size(); ++v)
+    result[v] = 3.14159265f * (sky_sums_[v] / float(rays_) + bounced_sums_[v] / float(bounces_of(rays_)));
   return result;
 }
 
 std::vector<glm::vec3> VertexLight::irradiance() const {
-  std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
+  std::vector<glm::vec3> result = sky_irradiance();
   if (rays_ == 0) return result;
-  for (std::size_t v = 0; v < result.size(); ++v)
-    result[v] = 3.14159265f / float(rays_) * sky_sums_[v] + sun_sums_[v] / float(sun_rays_);
+  for (std::size_t v = 0; v < result.size(); ++v) result[v] += sun_sums_[v] / float(sun_rays_);
   return result;
 }
 

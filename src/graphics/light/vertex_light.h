@@ -81,13 +81,13 @@ class VertexLight {
   const std::vector<LitVertex>& vertices() const { return vertices_; }
 
  private:
-  glm::vec3 sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
-                      std::span<const glm::vec2> disc, Blocked blocked) const;
+  void add_sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
+                     std::span<const glm::vec2> disc, std::size_t bounces);
   glm::vec3 sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
                       std::span<const glm::vec2> disc) const;
 
   std::vector<LitVertex> vertices_;
-  std::vector<glm::vec3> sky_sums_, sun_sums_;
+  std::vector<glm::vec3> sky_sums_, bounced_sums_, sun_sums_;
   int rays_ = 0, sun_rays_ = 0;
 };
 

@@ -238,36 +238,76 @@ Ray embree_ray_around(const FineRay& ray, float margin_m) {
           float(std::min(ray.max_m - before + double(margin_m), 1e30))};
 }
 
-/// Embree's form of a packet; rays that are missing or not finite are left out. `valid` says so, and a ray
-/// that ends before it begins: without instructions for packets of 16 (AVX-512) Embree does not read `valid`.
+/// Embree's packets of a width.
+template <std::size_t width>
+struct Embree;
+
+template <>
+struct Embree<8> {
+  using Rays = RTCRayHit8;
+  static constexpr auto intersect = rtcIntersect8;
+  static constexpr auto occlude = rtcOccluded8;
+};
+
+template <>
+struct Embree<16> {
+  using Rays = RTCRayHit16;
+  static constexpr auto intersect = rtcIntersect16;
+  static constexpr auto occlude = rtcOccluded16;
+};
+
+/// The rays `first`, `first` + 1 and so on up to `count` in Embree's form; those that are missing or not
+/// finite are left out. `valid` says so, and a ray that ends before it begins: without instructions for
+/// packets of this width Embree does not read `valid`.
+template <std::size_t width>
 struct Packet {
-  alignas(64) int valid[RayScene::packet_size];
-  alignas(64) RTCRayHit16 rays;
+  alignas(64) int valid[width];
+  alignas(64) typename Embree<width>::Rays rays;
 
   template <class MakeRay>
-  Packet(std::size_t count, const MakeRay& make_ray) {
-    assert(count <= RayScene::packet_size);
+  Packet(std::size_t first, std::size_t count, const MakeRay& make_ray) {
     constexpr Ray left_out{glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f};
-    for (std::size_t i = 0; i < RayScene::packet_size; ++i) {
-      Ray ray = i < count ? make_ray(i) : left_out;
-      valid[i] = i < count && is_finite(ray) ? -1 : 0;
+    for (std::size_t i = 0; i < width; ++i) {
+      Ray ray = first + i < count ? make_ray(first + i) : left_out;
+      valid[i] = first + i < count && is_finite(ray) ? -1 : 0;
       if (!valid[i]) ray = left_out;
-      RTCRay16& r = rays.ray;
+      auto& r = rays.ray;
       r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
       r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
       r.tnear[i] = ray.min_m, r.tfar[i] = ray.max_m, r.time[i] = 0.0f;
-      r.mask[i] = ~0u, r.id[i] = unsigned(i), r.flags[i] = 0;
+      r.mask[i] = ~0u, r.id[i] = unsigned(first + i), r.flags[i] = 0;
       rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
   }
 
-  std::uint32_t blocked() const {
+  void intersect(RTCScene scene, RTCIntersectContext& context) {
+    Embree<width>::intersect(valid, scene, &context, &rays);
+  }
+
+  /// Which are blocked: bits of their numbers.
+  std::uint32_t occlude(RTCScene scene, RTCIntersectContext& context) {
+    Embree<width>::occlude(valid, scene, &context, &rays.ray);
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < RayScene::packet_size; ++i)
-      bits |= std::uint32_t(valid[i] != 0 && rays.ray.tfar[i] < 0.0f) << i;
+    for (std::size_t i = 0; i < width; ++i)
+      bits |= std::uint32_t(valid[i] != 0 && rays.ray.tfar[i] < 0.0f) << rays.ray.id[i];
     return bits;
   }
 };
+
+/// Has `answer` answer rays in packets for which the processor has instructions: of wider ones Embree takes
+/// ray by ray.
+template <class MakeRay, class Answer>
+void each_packet(std::size_t count, bool is_wide, const MakeRay& make_ray, const Answer& answer) {
+  assert(count <= RayScene::packet_size);
+  if (is_wide) {
+    Packet<16> packet(0, count, make_ray);
+    return answer(packet);
+  }
+  for (std::size_t first = 0; first < count; first += 8) {
+    Packet<8> packet(first, count, make_ray);
+    answer(packet);
+  }
+}
 
 }  // namespace
 
@@ -293,31 +333,59 @@ glm::vec3 facet_normal(const PlacedPart& place, std::uint32_t triangle) {
 void RayScene::nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const {
   assert(margin_m_ > 0.0f && hits.size() >= rays.size());
   std::fill(hits.begin(), hits.end(), FineHit{});
-  Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
   QueryContext context(places_, {});
   context.fine_rays = rays, context.fine_hits = hits, context.margin_m = margin_m_;
   context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(packet.valid, top_, &context.embree, &packet.rays);
+  each_packet(
+      rays.size(), has_wide_packets_, [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); },
+      [&](auto& packet) { packet.intersect(top_, context.embree); });
   refine_hits(context);
 }
 
 std::uint32_t RayScene::are_blocked(std::span<const FineRay> rays) const {
   assert(margin_m_ > 0.0f);
-  Packet packet(rays.size(), [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); });
   QueryContext context(places_, {});
   context.fine_rays = rays, context.margin_m = margin_m_;
-  rtcOccluded16(packet.valid, top_, &context.embree, &packet.rays.ray);
-  return packet.blocked();
+  std::uint32_t blocked = 0;
+  each_packet(
+      rays.size(), has_wide_packets_, [&](std::size_t i) { return embree_ray_around(rays[i], margin_m_); },
+      [&](auto& packet) { blocked |= packet.occlude(top_, context.embree); });
+  return blocked;
 }
 
 std::uint32_t RayScene::are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const {
   assert(margin_m_ == 0.0f && passages.size() >= rays.size());
-  Packet packet(rays.size(), [&](std::size_t i) { return rays[i]; });
   QueryContext context(places_, passages);
   for (const Passage& passage : passages)
     if (!passage.sees_backs) context.embree.filter = filter<true, true>;
-  rtcOccluded16(packet.valid, top_, &context.embree, &packet.rays.ray);
-  return packet.blocked();
+  std::uint32_t blocked = 0;
+  each_packet(
+      rays.size(), has_wide_packets_, [&](std::size_t i) { return rays[i]; },
+      [&](auto& packet) { blocked |= packet.occlude(top_, context.embree); });
+  return blocked;
+}
+
+void RayScene::nearest_hits(std::span<const Ray> rays, std::span<Passage> passages,
+                            std::span<std::optional<Hit>> hits) const {
+  assert(margin_m_ == 0.0f && passages.size() >= rays.size() && hits.size() >= rays.size());
+  QueryContext context(places_, passages);
+  for (const Passage& passage : passages)
+    if (!passage.sees_backs) context.embree.filter = filter<false, true>;
+  const auto answer = [&](auto& packet) {
+    packet.intersect(top_, context.embree);
+    for (std::size_t i = 0; i < std::size(packet.valid); ++i) {
+      const std::size_t ray = packet.rays.ray.id[i];
+      if (ray >= rays.size()) continue;
+      const auto& hit = packet.rays.hit;
+      if (!packet.valid[i] || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+        hits[ray].reset();
+      else
+        hits[ray] = Hit{places_[place_of(hit.instID[0][i], hit.geomID[i])].get(), hit.primID[i], hit.u[i],
+                        hit.v[i], packet.rays.ray.tfar[i]};
+    }
+  };
+  each_packet(
+      rays.size(), has_wide_packets_, [&](std::size_t i) { return rays[i]; }, answer);
 }
 
 std::optional<Hit> RayScene::nearest_hit(const Ray& ray, Passage* passage) const {

@@ -134,6 +134,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
 RayScene::RayScene(const scene::Scene& scene, Precision precision)
     : shadows_(scene.data<scene::SunShadows>()),
       device_(rtcNewDevice(nullptr)),
+      has_wide_packets_(rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0),
       top_(rtcNewScene(device_)),
       joined_(rtcNewScene(device_)),
       margin_m_(precision == Precision::fine ? share_of_rounding * reach_of(scene) : 0.0f) {

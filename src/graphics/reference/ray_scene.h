@@ -115,6 +115,9 @@ class RayScene {
   bool is_blocked_by_inserted(const Ray& ray, Passage& passage) const;
   /// is_blocked of each ray of a packet, each with its own `passages`: bit i is that of ray i.
   std::uint32_t are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const;
+  /// nearest_hit of each ray of a packet, each with its own `passages`, into `hits`.
+  void nearest_hits(std::span<const Ray> rays, std::span<Passage> passages,
+                    std::span<std::optional<Hit>> hits) const;
   /// nearest_hit of each ray of a packet, into `hits`.
   void nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const;
   /// is_blocked of each ray of a packet: bit i is that of ray i.
@@ -151,6 +154,7 @@ class RayScene {
 
   scene::SunShadows shadows_;
   RTCDeviceTy* device_;
+  bool has_wide_packets_;  ///< the processor has instructions for packets of 16 rays (AVX-512)
   RTCSceneTy* top_;
   RTCSceneTy* joined_;  ///< triangles in the world, by place: the first instance of `top_`; places follow it
   bool has_other_joined_ = true;                     ///< since it was committed

@@ -162,8 +162,10 @@ TEST(RayScene, PacketsFindWhatSingleRaysFind) {
   const RayScene coarse(scene), fine(scene, Precision::fine);
   const std::vector<FineRay> all = parallel_rays();
   int hits = 0, blocked = 0;
-  for (std::size_t first = 0; first < all.size(); first += RayScene::packet_size) {
-    const std::span<const FineRay> packet(all.data() + first, RayScene::packet_size);
+  for (std::size_t first = 0; first < all.size();) {
+    const std::size_t count = std::min(1 + first / 7 % RayScene::packet_size, all.size() - first);
+    const std::span<const FineRay> packet(all.data() + first, count);
+    first += count;
     std::array<FineHit, RayScene::packet_size> found;
     fine.nearest_hits(packet, found);
     const std::uint32_t stopped = fine.are_blocked(packet);
@@ -171,11 +173,19 @@ TEST(RayScene, PacketsFindWhatSingleRaysFind) {
     for (const FineRay& ray : packet) rays.push_back({glm::vec3(ray.origin), glm::vec3(ray.direction)});
     std::array<Passage, RayScene::packet_size> passages{};
     const std::uint32_t passed_not = coarse.are_blocked(rays, passages);
+    std::array<std::optional<Hit>, RayScene::packet_size> seen;
+    coarse.nearest_hits(rays, passages, seen);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::optional<Hit> expected = coarse.nearest_hit(rays[i]);
       ASSERT_EQ(found[i].place != nullptr, expected.has_value());
       EXPECT_EQ((stopped >> i & 1u) != 0, coarse.is_blocked(rays[i]));
       EXPECT_EQ((passed_not >> i & 1u) != 0, coarse.is_blocked(rays[i], passages[i]));
+      const std::optional<Hit> seen_alone = coarse.nearest_hit(rays[i], passages[i]);
+      ASSERT_EQ(seen[i].has_value(), seen_alone.has_value());
+      if (seen_alone) {
+        EXPECT_EQ(seen[i]->place, seen_alone->place);
+        EXPECT_NEAR(seen[i]->distance_m, seen_alone->distance_m, 1e-4f);
+      }
       blocked += int(stopped >> i & 1u);
       if (!expected) continue;
       ++hits;
