@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -265,31 +267,43 @@ std::uint8_t storeys_in(std::string_view text) {
 struct Colour {
   std::string_view name;
   WallTint tint;
+  int srgb;
 };
 // Names of CSS and of mappers.
 constexpr std::array<Colour, 28> colours{
-    {{"white", WallTint::white},      {"snow", WallTint::white},    {"ivory", WallTint::white},
-     {"whitesmoke", WallTint::white}, {"silver", WallTint::grey},   {"lightgrey", WallTint::grey},
-     {"lightgray", WallTint::grey},   {"grey", WallTint::grey},     {"gray", WallTint::grey},
-     {"darkgrey", WallTint::dark},    {"darkgray", WallTint::dark}, {"black", WallTint::dark},
-     {"dimgray", WallTint::dark},     {"beige", WallTint::yellow},  {"yellow", WallTint::yellow},
-     {"cream", WallTint::yellow},     {"khaki", WallTint::yellow},  {"wheat", WallTint::yellow},
-     {"tan", WallTint::yellow},       {"orange", WallTint::yellow}, {"red", WallTint::red},
-     {"pink", WallTint::red},         {"salmon", WallTint::red},    {"maroon", WallTint::brown},
-     {"brown", WallTint::brown},      {"sienna", WallTint::brown},  {"green", WallTint::green},
-     {"blue", WallTint::blue}}};
+    {{"white", WallTint::white, 0xFFFFFF},    {"snow", WallTint::white, 0xFFFAFA},
+     {"ivory", WallTint::white, 0xFFFFF0},    {"whitesmoke", WallTint::white, 0xF5F5F5},
+     {"silver", WallTint::grey, 0xC0C0C0},    {"lightgrey", WallTint::grey, 0xD3D3D3},
+     {"lightgray", WallTint::grey, 0xD3D3D3}, {"grey", WallTint::grey, 0x808080},
+     {"gray", WallTint::grey, 0x808080},      {"darkgrey", WallTint::dark, 0x606060},
+     {"darkgray", WallTint::dark, 0x606060},  {"black", WallTint::dark, 0x1C1C1C},
+     {"dimgray", WallTint::dark, 0x696969},   {"beige", WallTint::yellow, 0xF5F5DC},
+     {"yellow", WallTint::yellow, 0xE8D060},  {"cream", WallTint::yellow, 0xFFFDD0},
+     {"khaki", WallTint::yellow, 0xF0E68C},   {"wheat", WallTint::yellow, 0xF5DEB3},
+     {"tan", WallTint::yellow, 0xD2B48C},     {"orange", WallTint::yellow, 0xE0903C},
+     {"red", WallTint::red, 0xA83A30},        {"pink", WallTint::red, 0xF0B8BC},
+     {"salmon", WallTint::red, 0xFA8072},     {"maroon", WallTint::brown, 0x6A2822},
+     {"brown", WallTint::brown, 0x7A4A32},    {"sienna", WallTint::brown, 0xA0522D},
+     {"green", WallTint::green, 0x4E8A5C},    {"blue", WallTint::blue, 0x4468A0}}};
 
-/// "#fff", "#b04030": the class of a colour by its lightness and hue.
-WallTint tint_of_hex(std::string_view digits) {
+glm::vec3 srgb_of(int hex) { return glm::vec3(hex >> 16, (hex >> 8) & 255, hex & 255) / 255.0f; }
+
+/// Of "fff", "b04030".
+std::optional<glm::vec3> rgb_of_hex(std::string_view digits) {
   const std::size_t each = digits.size() == 3 ? 1 : 2;
-  if (digits.size() != 3 * each) return WallTint::unknown;
+  if (digits.size() != 3 * each) return std::nullopt;
   glm::vec3 rgb(0.0f);
   for (std::size_t i = 0; i < 3; ++i) {
     unsigned value = 0;
     const char* begin = digits.data() + each * i;
-    if (std::from_chars(begin, begin + each, value, 16).ptr != begin + each) return WallTint::unknown;
+    if (std::from_chars(begin, begin + each, value, 16).ptr != begin + each) return std::nullopt;
     rgb[int(i)] = float(value) / (each == 1 ? 15.0f : 255.0f);
   }
+  return rgb;
+}
+
+/// The class of a colour by its lightness and hue.
+WallTint tint_of(glm::vec3 rgb) {
   const float high = std::max({rgb.x, rgb.y, rgb.z}), low = std::min({rgb.x, rgb.y, rgb.z});
   if (high < 0.3f) return WallTint::dark;
   if (high - low < 0.12f * high) return high > 0.85f ? WallTint::white : WallTint::grey;
@@ -301,18 +315,51 @@ WallTint tint_of_hex(std::string_view digits) {
   return rgb.y == high ? WallTint::green : WallTint::blue;
 }
 
-WallTint tint_in(const std::string& text) {
-  if (text.starts_with('#')) return tint_of_hex(std::string_view(text).substr(1));
+const Colour* named_colour(std::string_view name) {
+  const auto found = std::ranges::find(colours, name, &Colour::name);
+  return found == colours.end() ? nullptr : &*found;
+}
+
+/// A colour with a word before it: "light_green".
+struct Shade {
+  std::string_view word;
+  float to_white;  ///< negative: to black
+};
+constexpr std::array<Shade, 3> shades{{{"light", 0.45f}, {"dark", -0.4f}, {"pale", 0.6f}}};
+
+/// What a value says of a colour.
+struct FoundColour {
+  WallTint tint;
+  glm::vec3 srgb;
+};
+
+std::optional<FoundColour> found_colour(const std::string& text) {
+  if (text.starts_with('#')) {
+    const std::optional<glm::vec3> rgb = rgb_of_hex(std::string_view(text).substr(1));
+    return rgb ? std::optional(FoundColour{tint_of(*rgb), *rgb}) : std::nullopt;
+  }
   const std::string name = plain(text, false);
-  const auto found = std::ranges::find(colours, std::string_view(name), &Colour::name);
-  if (found != colours.end()) return found->tint;
-  for (const std::string_view prefix : {"light", "dark", "pale"})  // "light_green"
-    if (name.starts_with(prefix))
-      if (const auto base =
-              std::ranges::find(colours, std::string_view(name).substr(prefix.size()), &Colour::name);
-          base != colours.end())
-        return base->tint;
-  return WallTint::unknown;
+  if (const Colour* colour = named_colour(name)) return FoundColour{colour->tint, srgb_of(colour->srgb)};
+  for (const Shade& shade : shades)
+    if (name.starts_with(shade.word))
+      if (const Colour* base = named_colour(std::string_view(name).substr(shade.word.size())))
+        return FoundColour{base->tint,
+                           glm::mix(srgb_of(base->srgb), glm::vec3(shade.to_white > 0.0f ? 1.0f : 0.0f),
+                                    std::abs(shade.to_white))};
+  return std::nullopt;
+}
+
+WallTint tint_in(const std::string& text) {
+  const std::optional<FoundColour> found = found_colour(text);
+  return found ? found->tint : WallTint::unknown;
+}
+
+/// The first of some tags that is there.
+const std::string& first_tag(const OsmTags& tags, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (const std::string& value = tag(tags, key); !value.empty()) return value;
+  static const std::string none;
+  return none;
 }
 
 WallFinish finish_in(const std::string& text) {
@@ -414,9 +461,15 @@ BuildingKind kind_of_osm_building(const OsmTags& tags) {
   kind.use = use_of(tags);
   kind.epoch = epoch_in(tag(tags, "start_date"));
   kind.storeys = storeys_in(tag(tags, "building:levels"));
-  kind.finish = finish_in(tag(tags, "building:material"));
-  kind.tint = tint_in(tag(tags, "building:colour"));
+  kind.finish = finish_in(first_tag(
+      tags, {"building:material", "building:facade:material", "facade:material", "building:cladding"}));
+  kind.tint = tint_in(first_tag(tags, {"building:colour", "building:color", "building:facade:colour"}));
   return kind;
+}
+
+std::optional<glm::vec3> colour_in(const std::string& text) {
+  const std::optional<FoundColour> found = found_colour(text);
+  return found ? std::optional(found->srgb) : std::nullopt;
 }
 
 }  // namespace parvis::scene

@@ -1,7 +1,9 @@
 // The kind of a building from the attributes and tags that towns give away.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "formats/city_models/osm_file.h"
@@ -17,8 +19,12 @@ using BuildingAttributes = std::map<std::string, std::string>;
 /// it does not recognise is unknown; no value is an error.
 BuildingKind kind_of_building(const BuildingAttributes& attributes);
 
-/// The same from building=, shop=, amenity=, office=, start_date=, building:levels=, building:material= and
-/// building:colour= of OpenStreetMap.
+/// The same from building=, shop=, amenity=, office=, start_date=, building:levels=, building:material= (else
+/// of the facade or cladding) and building:colour= of OpenStreetMap.
 BuildingKind kind_of_osm_building(const OsmTags& tags);
+
+/// The colour of a value of building:colour= or roof:colour=, sRGB 0..1: "#b04030", "#fff", names of CSS and
+/// of mappers ("light_green"). Names that paint alone has in full (red, green) are those of roofs and walls.
+std::optional<glm::vec3> colour_in(const std::string& text);
 
 }  // namespace parvis::scene

@@ -78,6 +78,32 @@ TEST(BuildingAttributes, TagsOfOpenStreetMap) {
     EXPECT_EQ(osm_words({{"building", "yes"}, {"building:colour", colour}}), word) << colour;
 }
 
+TEST(BuildingAttributes, FinishAndColourAreThoseOfTheFacadeWhereTheBuildingHasNone) {
+  EXPECT_EQ(osm_words({{"building", "yes"}, {"building:cladding", "metal"}, {"building:color", "red"}}),
+            "metal red");
+  EXPECT_EQ(osm_words({{"building", "yes"},
+                       {"building:material", "brick"},
+                       {"building:facade:material", "plaster"},
+                       {"building:facade:colour", "white"}}),
+            "brick white");
+}
+
+TEST(BuildingAttributes, ColoursAreReadByNameAndNumber) {
+  const auto is_near = [](const std::string& text, glm::vec3 expected) {
+    const std::optional<glm::vec3> colour = colour_in(text);
+    return colour && glm::distance(*colour, expected) < 1e-3f;
+  };
+  EXPECT_TRUE(is_near("#336699", {0.2f, 0.4f, 0.6f}));
+  EXPECT_TRUE(is_near("#36f", {0.2f, 0.4f, 1.0f}));
+  EXPECT_TRUE(is_near("White", glm::vec3(1.0f)));
+  const std::optional<glm::vec3> green = colour_in("green"), light = colour_in("light_green"),
+                                 dark = colour_in("dark green");
+  ASSERT_TRUE(green && light && dark);
+  EXPECT_GT(light->y, green->y);
+  EXPECT_LT(dark->y, green->y);
+  for (const char* text : {"", "#", "#12345", "#ggg", "tartan"}) EXPECT_FALSE(colour_in(text)) << text;
+}
+
 TEST(BuildingAttributes, AnyBytesAreUnderstoodOrUnknown) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {

@@ -123,21 +123,23 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
   const glm::dvec3 area = newell_about_first(rings.front());
   if (!(glm::length(area) > smallest_area_m2)) return;
   glm::dvec3 normal = glm::normalize(area);
-  const std::string name = surface_name(surface.semantics, object.type, float(normal.z));
-  const bool turns_over = is_ground(name) && normal.z < 0.0 && !surface.is_of_solid;
+  const std::string kind = surface_name(surface.semantics, object.type, float(normal.z));
+  const bool turns_over = is_ground(kind) && normal.z < 0.0 && !surface.is_of_solid;
   if (turns_over) normal = -normal;
   if (!can_be_triangulated(rings, normal))
     return warn(fmt::format(
         "a surface of {} ({} holes) crosses or covers itself more than {} times, or its holes are too many "
         "to be cut out; it is left out",
         object.name, rings.size() - 1, max_edge_crossings));
-  ++polygon_count_, ++polygons_of_[name];
+  ++polygon_count_, ++polygons_of_[kind];
+  if (!surface.finish.empty()) ++finished_roofs_;
 
   std::vector<glm::dvec3> points;
   std::vector<std::uint32_t> triangles = triangulated(rings, normal, points);
   if (turns_over && rings.size() == 1 && points.size() == 3) std::swap(triangles[1], triangles[2]);
   const bool is_pictured = surface.picture != no_index && surface.picture_uv.size() == points.size();
-  const std::string words = words_for(name, object);
+  const std::string words = words_for(kind, object);
+  const std::string name = surface.finish.empty() ? kind : kind + " " + surface.finish;
   const PartKey key{name,
                     words.empty() ? name : name + " " + words,
                     surface.material,
@@ -165,7 +167,8 @@ void CityAssembly::add_triangles(const PartKey& key, const CitySurface& surface,
 
 Material CityAssembly::material_of(const PartKey& key) const {
   const auto& [name, object, given, picture, is_solid, x, y] = key;
-  Material material = surface_material(name);
+  Material material = surface_material(name.substr(0, name.find(' ')));  // without the finish
+  material.name = name;
   material.is_double_sided = !is_solid && !is_ground(name);
   if (given != no_index) {
     const CityMaterial& own = materials_[std::size_t(given)];
@@ -213,15 +216,15 @@ void CityAssembly::warn_of_implausible_counts() {
     const auto found = polygons_of_.find(name);
     return found == polygons_of_.end() ? 0 : found->second;
   };
-  const auto expect = [&](const char* there, const char* missing) {
-    if (count(there) >= enough && count(missing) == 0)
+  const auto expect = [&](std::size_t found, const char* there, const char* missing) {
+    if (found >= enough && count(missing) == 0)
       warn(fmt::format(
           "{} polygons are a {}, none is a {}; expected both, as houses have roofs and walls: choose another "
           "level of detail with lod, or name the surfaces' kinds in the file",
-          count(there), there, missing));
+          found, there, missing));
   };
-  expect("RoofSurface", "WallSurface");
-  expect("WallSurface", "RoofSurface");
+  expect(count("RoofSurface") - finished_roofs_, "RoofSurface", "WallSurface");  // canopies have no walls
+  expect(count("WallSurface"), "WallSurface", "RoofSurface");
 }
 
 /// Houses higher than the place is wide: their plan is in degrees.

@@ -34,6 +34,9 @@ struct CitySurface {
   /// Texture coordinates of all points, ring by ring, v downward; empty: untextured.
   std::vector<glm::vec2> picture_uv;
   bool is_of_solid = false;  ///< part of a closed solid: its back is never visible
+  /// What a roof is made of ("metal") that shall keep its own material: stands in the names of its object and
+  /// material ("RoofSurface metal"), so that a node that tiles "RoofSurface" leaves it alone. May be empty.
+  std::string finish{};
 };
 
 /// A material as city formats describe it, after X3D.
@@ -68,7 +71,7 @@ class CityAssembly {
   void warn(const std::string& message);
 
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
-  /// ("WallSurface"); roads' objects add their function,
+  /// ("WallSurface"), with their finish where they have one; roads' objects add their function,
   /// trees' objects their species, walls' objects the words of their building's kind. A missing texture is a
   /// warning, and its surfaces are plain. Errors: no polygon at all (in `object_count` objects), or a
   /// coordinate that is not finite.
@@ -90,7 +93,8 @@ class CityAssembly {
   Errors& warnings_;
   std::size_t warning_count_ = 0;
   std::size_t polygon_count_ = 0;
-  std::map<std::string, std::size_t> polygons_of_;  ///< by the name of the surface
+  std::map<std::string, std::size_t> polygons_of_;  ///< by the kind of the surface
+  std::size_t finished_roofs_ = 0;                  ///< of these, roofs that have a finish
   std::vector<CityMaterial> materials_;
   std::map<std::array<float, 8>, int> known_materials_;
   std::vector<Texture> pictures_;

@@ -72,6 +72,12 @@ dvec2 middle(const OsmRing& ring) {
   return ring[0] + sum / double(ring.size());
 }
 
+std::pair<dvec2, dvec2> box_of(const OsmRing& ring) {
+  dvec2 low(ring[0]), high(ring[0]);
+  for (const dvec2& point : ring) low = glm::min(low, point), high = glm::max(high, point);
+  return {low, high};
+}
+
 std::vector<OsmArea> OsmAreas::find(const std::function<bool(const OsmTags&)>& is_wanted,
                                     const std::string& what) const {
   std::vector<OsmArea> found;

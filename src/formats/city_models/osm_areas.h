@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/city_models/city_assembly.h"
@@ -32,6 +33,8 @@ double area_m2(const OsmRing& ring);
 bool holds(const OsmRing& ring, glm::dvec2 point);
 /// Mean of the corners.
 glm::dvec2 middle(const OsmRing& ring);
+/// The lowest and the highest coordinates of its corners.
+std::pair<glm::dvec2, glm::dvec2> box_of(const OsmRing& ring);
 
 /// Finds the areas of a file.
 class OsmAreas {

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <map>
+#include <set>
 
 #include "formats/city_models/building_attributes.h"
+#include "formats/city_models/osm_canopies.h"
 #include "formats/city_models/osm_corners.h"
+#include "formats/city_models/osm_measures.h"
+#include "formats/city_models/osm_passages.h"
+#include "formats/city_models/osm_points.h"
 #include "formats/city_models/osm_relief.h"
+#include "formats/city_models/osm_roof_finish.h"
 #include "formats/city_models/osm_roofs.h"
 
 namespace parvis::scene {
@@ -17,18 +21,21 @@ namespace {
 using glm::dvec2, glm::dvec3;
 using Ring = OsmRing;
 
-constexpr double level_m = 3.0, usual_levels = 2.0;
+constexpr double usual_levels = 2.0;
+constexpr double lintel_m = 0.3;  // of wall between a passage and the eaves
 
 /// Storeys of buildings without tags for their height.
 struct UsualLevels {
   const char* kind;
   double levels;
 };
-constexpr std::array<UsualLevels, 15> usual_levels_of{{{"garage", 0.8},
+constexpr std::array<UsualLevels, 17> usual_levels_of{{{"garage", 0.8},
                                                        {"garages", 0.8},
                                                        {"shed", 0.8},
                                                        {"hut", 0.8},
                                                        {"carport", 0.8},
+                                                       {"roof", 1.5},
+                                                       {"canopy", 1.5},
                                                        {"kiosk", 1.0},
                                                        {"greenhouse", 1.0},
                                                        {"service", 1.0},
@@ -40,36 +47,11 @@ constexpr std::array<UsualLevels, 15> usual_levels_of{{{"garage", 0.8},
                                                        {"school", 3.0},
                                                        {"university", 4.0}}};
 
-/// "12", "12.5 m", "40'" (feet), "12;15" (the first).
-std::optional<double> metres(const std::string& text) {
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || !(std::abs(value) < 2000.0)) return std::nullopt;  // no building is as high
-  constexpr double foot_m = 0.3048;
-  return *end == '\'' ? value * foot_m : value;
-}
-
-/// "90", or a point of the compass ("E", "SSW").
-std::optional<double> degrees(const std::string& text) {
-  constexpr std::array<const char*, 16> points{"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
-                                               "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
-  if (const auto point = std::ranges::find(points, text); point != points.end())
-    return 22.5 * double(point - points.begin());
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return problem == std::errc() && std::abs(value) <= 360.0 ? std::optional(value) : std::nullopt;
-}
-
-double metres_or(const OsmTags& tags, const char* height, const char* levels, double otherwise) {
-  if (const auto given = metres(tag(tags, height))) return *given;
-  if (const auto given = metres(tag(tags, levels))) return *given * level_m;
-  return otherwise;
-}
-
 double usual_height_m(const OsmTags& tags) {
-  const auto found = std::ranges::find(usual_levels_of, tag(tags, "building"),
+  const std::string& kind = tag(tags, tag(tags, "building").empty() ? "building:part" : "building");
+  const auto found = std::ranges::find(usual_levels_of, kind,
                                        [](const UsualLevels& each) { return std::string(each.kind); });
-  return level_m * (found == usual_levels_of.end() ? usual_levels : found->levels);
+  return osm_level_m * (found == usual_levels_of.end() ? usual_levels : found->levels);
 }
 
 /// Buildings whose roofs are drawn flat though their tags say otherwise.
@@ -95,47 +77,121 @@ class FlatRoofs {
   std::map<std::string, std::vector<std::string>> buildings_;  ///< by reason
 };
 
+/// What all buildings of a map are drawn with.
+struct MapContext {
+  const OsmPassages& passages;
+  OsmPosts& posts;
+  CityAssembly& city;
+  FlatRoofs& flat;
+};
+
 /// Draws one building.
 class Building {
  public:
-  Building(const OsmArea& footprint, const CityObject& object, CityAssembly& city, FlatRoofs& flat)
-      : rings_(footprint.rings), ground_m_(footprint.ground_m), object_(object), city_(city) {
+  Building(const OsmArea& footprint, const CityObject& object, const MapContext& around)
+      : rings_(footprint.rings),
+        ground_m_(footprint.ground_m),
+        object_(object),
+        posts_(around.posts),
+        city_(around.city),
+        is_canopy_(is_osm_canopy(*footprint.tags)) {
     const OsmTags& tags = *footprint.tags;
     std::vector<Ring> corners;
     corners.reserve(rings_.size());
     for (const Ring& ring : rings_) corners.push_back(corners_of(ring));
     const OsmRoofTags roof_tags{tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
-                                degrees(tag(tags, "roof:direction"))};
+                                degrees_in(tag(tags, "roof:direction"))};
     std::string why_flat;
     roof_ = find_osm_roof(roof_tags, corners, why_flat);
-    if (!why_flat.empty()) flat.add(footprint.name, roof_tags.shape, why_flat);
+    if (!why_flat.empty()) around.flat.add(footprint.name, roof_tags.shape, why_flat);
     if (roof_) rings_ = std::move(corners);  // walls end where the roof begins
-    base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
-    top_m_ = metres_or(tags, "height", "building:levels", base_m_ + usual_height_m(tags));
-    if (top_m_ <= base_m_) top_m_ = base_m_ + level_m;
-    const bool gives_top = !tag(tags, "height").empty();
-    const double roof_m =
-        std::max(roof_ ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(*roof_)) : 0.0, 0.0);
-    if (!gives_top) top_m_ += roof_m;  // levels do not count those in the roof
-    eaves_m_ = std::max(top_m_ - roof_m, base_m_);
+    finish_ = finish_of_osm_roof(tags, roof_ && !roof_->skeleton ? roof_->shape : "", is_canopy_, city_);
+    find_heights(tags);
+    if (!is_canopy_ && base_m_ == 0.0) find_opening(around.passages, footprint.name);
   }
 
   void draw() {
-    for (const Ring& ring : rings_)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-        if (eaves_m_ > base_m_)
-          add("WallSurface", {{{a, base_m_}, {b, base_m_}, {b, eaves_m_}, {a, eaves_m_}}});
-      }
+    if (is_canopy_) return draw_canopy();
+    draw_walls();
     if (base_m_ > 0.0) add("OuterCeilingSurface", level_surface(base_m_, true));
     draw_roof();
   }
 
  private:
+  using Edge = std::array<double, 4>;
+
+  static Edge edge(dvec2 a, dvec2 b) { return {a.x, a.y, b.x, b.y}; }
+
+  template <class Use>
+  static void each_edge(const std::vector<Ring>& rings, const Use& use) {
+    for (const Ring& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) use(ring[i], ring[(i + 1) % ring.size()]);
+  }
+
+  void find_heights(const OsmTags& tags) {
+    base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
+    const bool hangs = is_canopy_ && base_m_ >= headroom_m;  // min_height is where its slab begins
+    top_m_ = metres_or(tags, "height", "building:levels",
+                       base_m_ + (hangs ? canopy_slab_m : usual_height_m(tags)));
+    if (top_m_ <= base_m_)
+      top_m_ = base_m_ + (hangs ? canopy_slab_m : is_canopy_ ? usual_height_m(tags) : osm_level_m);
+    const bool gives_top = !tag(tags, "height").empty();
+    const double roof_m =
+        std::max(roof_ ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(*roof_)) : 0.0, 0.0);
+    if (!gives_top) top_m_ += roof_m;  // levels do not count those in the roof
+    eaves_m_ = std::max(top_m_ - roof_m, base_m_);
+    if (is_canopy_ && !hangs) base_m_ = std::max(eaves_m_ - canopy_slab_m, 0.0);
+  }
+
+  void find_opening(const OsmPassages& passages, const std::string& name) {
+    opening_ = passages.through(rings_, name);
+    if (!opening_) return;
+    opening_m_ = std::min(opening_->top_m - ground_m_, eaves_m_ - lintel_m);
+    if (opening_m_ >= headroom_m) return;
+    opening_.reset();
+    city_.warn(
+        fmt::format("{}: its walls are {:.1f} m high, too low for the passage that leads through it; it "
+                    "is drawn without",
+                    name, eaves_m_));
+  }
+
+  void wall(dvec2 a, dvec2 b, double low_m, double high_m) {
+    if (high_m > low_m) add("WallSurface", {{{a, low_m}, {b, low_m}, {b, high_m}, {a, high_m}}});
+  }
+
+  /// Of one piece each where no passage leads through them.
+  void draw_walls() {
+    if (!opening_) return each_edge(rings_, [&](dvec2 a, dvec2 b) { wall(a, b, base_m_, eaves_m_); });
+    std::set<Edge> own, whole;
+    each_edge(rings_, [&](dvec2 a, dvec2 b) { own.insert(edge(a, b)); });
+    each_edge(opening_->ground, [&](dvec2 a, dvec2 b) {
+      if (own.contains(edge(a, b)))
+        whole.insert(edge(a, b));
+      else
+        wall(a, b, base_m_, opening_m_);
+    });
+    each_edge(rings_, [&](dvec2 a, dvec2 b) {
+      wall(a, b, whole.contains(edge(a, b)) ? base_m_ : opening_m_, eaves_m_);
+    });
+    for (const auto& [a, b, c] : opening_->ceiling)
+      add("OuterCeilingSurface", {{{c, opening_m_}, {b, opening_m_}, {a, opening_m_}}});
+  }
+
   void draw_roof() {
     if (!roof_) return add("RoofSurface", level_surface(top_m_, false));
     for (OsmRoofFace& face : osm_roof_faces(*roof_, eaves_m_, top_m_))
-      add(face.semantics, {std::move(face.points)});
+      add(is_canopy_ ? "RoofSurface" : face.semantics, {std::move(face.points)});
+  }
+
+  /// A slab on posts, or what its tags put on top of one; open below.
+  void draw_canopy() {
+    if (eaves_m_ > base_m_)
+      each_edge(rings_, [&](dvec2 a, dvec2 b) {
+        add("RoofSurface", {{{a, base_m_}, {b, base_m_}, {b, eaves_m_}, {a, eaves_m_}}});
+      });
+    add("OuterCeilingSurface", level_surface(base_m_, true));
+    draw_roof();
+    posts_.add(rings_, ground_m_ + base_m_);
   }
 
   std::vector<std::vector<dvec3>> level_surface(double height_m, bool faces_down) const {
@@ -148,22 +204,28 @@ class Building {
     return surface;
   }
 
-  void add(const char* semantics, std::vector<std::vector<dvec3>> rings) {
+  void add(const std::string& semantics, std::vector<std::vector<dvec3>> rings) {
     for (std::vector<dvec3>& ring : rings)
       for (dvec3& point : ring) point.z += ground_m_;
     CitySurface surface;
     surface.rings = std::move(rings);
     surface.semantics = semantics;
     surface.is_of_solid = true;
+    if (semantics == "RoofSurface") surface.finish = finish_.name, surface.material = finish_.material;
     city_.add(object_, surface);
   }
 
   std::vector<Ring> rings_;
   double ground_m_;
   const CityObject& object_;
+  OsmPosts& posts_;
   CityAssembly& city_;
-  std::optional<OsmRoof> roof_;      ///< nothing: it is flat
-  double base_m_, eaves_m_, top_m_;  ///< above the ground
+  bool is_canopy_;
+  std::optional<OsmRoof> roof_;  ///< nothing: it is flat
+  OsmRoofFinish finish_;
+  double base_m_ = 0.0, eaves_m_ = 0.0, top_m_ = 0.0;  ///< above the ground
+  std::optional<OsmOpening> opening_;                  ///< of passages
+  double opening_m_ = 0.0;                             ///< its height above the ground
 };
 
 double lowest_m(const Ring& ring, const GroundOnMap& ground) {
@@ -182,27 +244,35 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
     return [key](const OsmTags& tags) { return says_yes(tags, key) && !is_underground(tags); };
   };
   std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building");
-  const std::size_t parts = drawn.size();
+  OsmPoints<std::size_t> parts;     // by the middles of their outlines
   std::vector<BuildingKind> kinds;  // of those that are drawn
   kinds.reserve(drawn.size());
-  for (const OsmArea& part : drawn) kinds.push_back(kind_of_osm_building(*part.tags));
-  for (OsmArea& part : drawn) part.ground_m = lowest_m(part.rings[0], ground);
+  for (OsmArea& part : drawn) {
+    kinds.push_back(kind_of_osm_building(*part.tags));
+    part.ground_m = lowest_m(part.rings[0], ground);
+    parts.add(middle(part.rings[0]), kinds.size() - 1);
+  }
   for (OsmArea& outline : areas.find(has_key("building"), "a building")) {
     outline.ground_m = lowest_m(outline.rings[0], ground);
+    const BuildingKind kind = kind_of_osm_building(*outline.tags);
     bool has_parts = false;
-    for (std::size_t i = 0; i < parts; ++i) {
-      if (drawn[i].tags == outline.tags || !holds(outline.rings[0], middle(drawn[i].rings[0]))) continue;
+    const auto [low, high] = box_of(outline.rings[0]);
+    parts.each_in(low, high, [&](dvec2 point, std::size_t i) {
+      if (drawn[i].tags == outline.tags || !holds(outline.rings[0], point)) return;
       has_parts = true;
       drawn[i].ground_m = outline.ground_m;  // the parts of a building stand level with each other
-      kinds[i] = completed(kinds[i], kind_of_osm_building(*outline.tags));
-    }
+      kinds[i] = completed(kinds[i], kind);
+    });
     if (has_parts) continue;
-    kinds.push_back(kind_of_osm_building(*outline.tags));
+    kinds.push_back(kind);
     drawn.push_back(std::move(outline));
   }
+  const OsmPassages passages(osm, place, ground, city);
+  OsmPosts posts(ground, city);
   FlatRoofs flat;
+  const MapContext around{passages, posts, city, flat};
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    Building(drawn[i], {"building", "Building", "", kinds[i]}, city, flat).draw();
+    Building(drawn[i], {"building", "Building", "", kinds[i]}, around).draw();
   flat.warn(city);
   return drawn.size();
 }

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/test_folder.h"
 #include "formats/city_models/osm_areas.h"
-#include "formats/city_models/osm_reader.h"
+#include "formats/city_models/test_osm.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
@@ -17,41 +16,16 @@ namespace {
 
 using glm::dvec2, glm::vec2, glm::vec3;
 
-// About Leiden, on a meridian where the map's north is the earth's.
-constexpr double north_deg = 52.16, east_deg = 3.0, degree_north_m = 111'268.0, degree_east_m = 68'430.0;
 constexpr double eaves_m = 6.0;  // two levels
 
 const OsmRing l_shape{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}};
 
-/// A map of buildings with these outlines, in metres; they are ways 1, 2, 3, ...
-std::string map_of(const std::vector<OsmRing>& outlines, const std::string& shape) {
-  std::string nodes, ways;
-  int node = 0;
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    const int first = node + 1;
-    ways += fmt::format("<way id=\"{}\">", i + 1);
-    for (const dvec2& corner : outlines[i]) {
-      nodes += fmt::format("<node id=\"{}\" lat=\"{:.9f}\" lon=\"{:.9f}\"/>", ++node,
-                           north_deg + corner.y / degree_north_m, east_deg + corner.x / degree_east_m);
-      ways += fmt::format("<nd ref=\"{}\"/>", node);
-    }
-    ways += fmt::format(R"(<nd ref="{}"/><tag k="building" v="yes"/><tag k="building:levels" v="2"/>
-<tag k="roof:shape" v="{}"/></way>)",
-                        first, shape);
-  }
-  return R"(<osm version="0.6">)" + nodes + ways + "</osm>";
-}
-
-struct Read {
-  Result<Model> model;
-  std::string warnings;
-};
-
-Read read(const std::vector<OsmRing>& outlines, const std::string& shape) {
-  const TestFolder folder;
-  Errors warnings;
-  Result<Model> model = read_osm(folder.write("wings.osm", map_of(outlines, shape)), warnings);
-  return {std::move(model), to_string(warnings)};
+/// Buildings with these outlines, in metres; they are ways 1, 2, 3, ...
+TestTown read(const std::vector<OsmRing>& outlines, const std::string& shape) {
+  TestMap map;
+  for (const OsmRing& outline : outlines)
+    map.add_area(outline, {{"building", "yes"}, {"building:levels", "2"}, {"roof:shape", shape}});
+  return scene::read(map);
 }
 
 constexpr const char* walls = "WallSurface 2-storeys";  // as building:levels says
@@ -64,25 +38,19 @@ std::vector<vec3> positions(const Model& model, const std::string& object) {
   return found;
 }
 
-/// Sum of the triangles' areas as vectors along their normals.
-glm::dvec3 directed_area_m2(const Model& model, const std::string& object) {
-  glm::dvec3 area(0.0);
+void expect_no_face_down(const Model& model, const std::string& object) {
   for (const Part& part : model.parts)
     for (std::size_t i = 0; part.object == object && i + 2 < part.mesh.indices.size(); i += 3) {
-      const auto at = [&](std::size_t k) {
-        return glm::dvec3(part.mesh.positions[part.mesh.indices[i + k]]);
-      };
-      const glm::dvec3 triangle = 0.5 * glm::cross(at(1) - at(0), at(2) - at(0));
-      EXPECT_GE(triangle.z, -1e-4) << object << " faces down";
-      area += triangle;
+      const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
+      EXPECT_GE(glm::cross(at(1) - at(0), at(2) - at(0)).z, -2e-4f) << object;
     }
-  return area;
 }
 
 /// The roof covers the outline once and lies between eaves and ridge, and the walls reach it.
 void expect_house(const Model& model, double plan_m2, double ridge_m) {
   const glm::dvec3 roof_m2 = directed_area_m2(model, "RoofSurface"),
                    walls_m2 = directed_area_m2(model, walls);
+  expect_no_face_down(model, "RoofSurface"), expect_no_face_down(model, walls);
   EXPECT_NEAR(roof_m2.z, plan_m2, 0.005 * plan_m2);
   EXPECT_NEAR(glm::length(roof_m2 + walls_m2 - glm::dvec3(0.0, 0.0, roof_m2.z)), 0.0, 0.02)
       << "open elsewhere than below";
@@ -103,7 +71,7 @@ void expect_house(const Model& model, double plan_m2, double ridge_m) {
 constexpr double l_ridge_m = eaves_m + 0.6 * 2.5;  // over wings of 5 m
 
 TEST(OsmWings, HipsStandOnThem) {
-  const Read house = read({l_shape}, "hipped");
+  const TestTown house = read({l_shape}, "hipped");
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
@@ -111,7 +79,7 @@ TEST(OsmWings, HipsStandOnThem) {
 }
 
 TEST(OsmWings, GablesStandAtTheirEnds) {
-  const Read house = read({l_shape}, "gabled");
+  const TestTown house = read({l_shape}, "gabled");
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
@@ -122,7 +90,7 @@ TEST(OsmWings, PointsAlongSidesAndSpikesChangeNothing) {
   const OsmRing drawn_badly{{0, 0},       {3, 0.02}, {6, 0},  {12, 0}, {12, 0}, {12, 5}, {8, 5},
                             {5.001, 5.0}, {5, 5},    {5, 12}, {5, 19}, {5, 12}, {0, 12}, {0, 6}};
   for (const char* shape : {"hipped", "gabled"}) {
-    const Read house = read({drawn_badly}, shape);
+    const TestTown house = read({drawn_badly}, shape);
     ASSERT_TRUE(house.model) << to_string(house.model.errors());
     EXPECT_EQ(house.warnings, "");
     expect_house(*house.model, area_m2(l_shape), l_ridge_m);
@@ -140,7 +108,7 @@ OsmRing star(int corners, double inner_m, double outer_m) {
 
 TEST(OsmWings, RoundHousesOfManyCornersHaveHips) {
   const OsmRing round = star(5000, 20.0, 20.0);
-  const Read house = read({round}, "hipped");
+  const TestTown house = read({round}, "hipped");
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(round), eaves_m + 0.6 * 19.95);  // sides pass corners by 5 cm
@@ -148,7 +116,7 @@ TEST(OsmWings, RoundHousesOfManyCornersHaveHips) {
 
 TEST(OsmWings, TooManyCornersAndCrossingSidesGiveFlatRoofsThatAreNamed) {
   const OsmRing crossed{{40, 0}, {50, 10}, {50, 0}, {40, 10}, {30, 5}};
-  const Read town = read({star(5000, 15.0, 20.0), crossed, l_shape}, "gabled");
+  const TestTown town = read({star(5000, 15.0, 20.0), crossed, l_shape}, "gabled");
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   EXPECT_NE(
       town.warnings.find("way 1 (gabled): drawn with a flat roof: its outline has more than 150 corners"),
@@ -166,7 +134,7 @@ TEST(OsmWings, ManyFlatRoofsAreOneWarning) {
     OsmRing& moved = outlines.emplace_back(l_shape);
     for (dvec2& corner : moved) corner.x += 15.0 * i;
   }
-  const Read town = read(outlines, "mansard");
+  const TestTown town = read(outlines, "mansard");
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   EXPECT_NE(town.warnings.find("way 1 (mansard), way 2 (mansard), way 3 (mansard), way 4 (mansard), way 5 "
                                "(mansard) and 25 more: drawn with a flat roof"),
