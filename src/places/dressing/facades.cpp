@@ -15,6 +15,7 @@
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/kind_walls.h"
 #include "places/dressing/street_level_texture.h"
+#include "places/dressing/undersides.h"
 #include "places/dressing/wall_panels.h"
 #include "scene/data/model.h"
 
@@ -228,7 +229,7 @@ class Dresser {
     eaves_m_ = top_m - panel.eaves_m > seam_m ? panel.eaves_m : top_m;
     const float width_m = panel.high.x - panel.low.x, height_m = eaves_m_ - foot_m_;
     Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
-    const bool is_side = !panel.stands_on_ground && width_m < narrowest_on_roof_m;
+    const bool is_side = !panel.stands_on_ground && !panel.hangs && width_m < narrowest_on_roof_m;
     if (!has_openings_ || panel.has_openings || panel.is_party_wall || is_side || !is_large(panel))
       return plain(bottom_m, top_m);
     plain(bottom_m, foot_m_);
@@ -362,7 +363,12 @@ std::size_t add_facades(scene::Model& model, std::string_view target, std::uint6
   WallMaterials materials(model);
   DressedParts parts(model, "facade");
   Dresser dresser(parts, walls, materials, seed, has_openings);
-  for (const WallPanel& panel : wall_panels(walls, openings)) dresser.dress(panel);
+  const Undersides undersides(model);
+  for (WallPanel& panel : wall_panels(walls, openings)) {
+    panel.hangs = undersides.begin_at(panel);
+    panel.stands_on_ground = panel.stands_on_ground && !panel.hangs;
+    dresser.dress(panel);
+  }
   return walls.size();
 }
 

@@ -15,7 +15,8 @@ namespace parvis::dressing {
 /// (formats/terrain/building_kind.h: "WallSurface office 1919-1945 4-storeys"), finish, windows and measures
 /// are those of its time and use: bands of windows, shop fronts, gates without windows, tall windows of
 /// churches; the storeys are as many as named. Whole storeys end at the eaves; gables, party walls, walls of
-/// less than 1.6 m and walls that have windows of the model are bricks alone; low ones are sheds. Walls with
+/// less than 1.6 m and walls that have windows of the model are bricks alone; low ones are sheds. Walls that
+/// begin at an underside (OuterCeilingSurface) have windows and no doors. Walls with
 /// a picture, and the model's own windows and doors ("Window" or "Door" is in the name of the object or the
 /// material), are left as they are. Without openings (`has_openings`) all of them are bricks alone, as of
 /// garden walls and quays. Returns the number of triangles changed.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -232,6 +234,44 @@ TEST(Facades, HousesHaveDoorsAtTheStreetAndPartyWallsAreBlank) {
   add_wall(party, 0.0f, 12.0f, 0.0f, 6.0f, -0.1f, true);  // of the next house
   add_facades(party, "*");
   EXPECT_NEAR(share_of(party, "brick wall"), 1.0, 1e-3);
+}
+
+/// A box of walls from one height to another, of 4.5 m by 12 m, over an underside where one is wanted.
+scene::Model bridge(float low, float high, bool has_underside) {
+  scene::Model model;
+  for (const char* name : {"WallSurface", "OuterCeilingSurface"}) {
+    model.materials.emplace_back();
+    model.materials.back().name = name;
+  }
+  scene::Part walls, underside;
+  const std::array<glm::vec2, 4> plan{{{0, 0}, {4.5f, 0}, {4.5f, 12}, {0, 12}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::vec2 a = plan[i], b = plan[(i + 1) % 4];
+    add_quad(walls.mesh, {a, low}, {b, low}, {b, high}, {a, high});
+  }
+  add_quad(underside.mesh, {plan[3], low}, {plan[2], low}, {plan[1], low}, {plan[0], low});
+  underside.material = 1;
+  for (scene::Part* part : {&walls, &underside}) {
+    fill_normals(part->mesh);
+    part->mesh.uvs.resize(part->mesh.positions.size());
+    if (part == &walls || has_underside) model.parts.push_back(*part);
+  }
+  return model;
+}
+
+bool has_material(const scene::Model& model, const char* name) {
+  return std::ranges::any_of(model.parts, [&](const scene::Part& part) {
+    return model.materials[std::size_t(part.material)].name == name;
+  });
+}
+
+TEST(Facades, WallsThatHangInTheAirHaveWindowsAndNoDoors) {
+  scene::Model standing = bridge(5.0f, 12.0f, false), hanging = bridge(5.0f, 12.0f, true);
+  EXPECT_EQ(add_facades(standing, "WallSurface"), 8u);
+  EXPECT_EQ(add_facades(hanging, "WallSurface"), 8u);
+  EXPECT_TRUE(has_material(standing, "street level"));
+  EXPECT_FALSE(has_material(hanging, "street level"));
+  EXPECT_TRUE(has_material(hanging, "facade")) << "windows";
 }
 
 TEST(Facades, GablesAboveTheEavesHaveNoWindows) {

@@ -20,7 +20,8 @@ struct WallPanel {
   scene::BuildingKind kind{};          ///< equal within a panel
   bool has_openings = false;           ///< of the model itself
   bool is_party_wall = false;          ///< another house stands right before it
-  bool stands_on_ground = true;        ///< false: on a roof
+  bool stands_on_ground = true;        ///< false: on a roof, or it hangs
+  bool hangs = false;                  ///< in the air, over an underside: of a bridge, above a passage
 };
 
 /// Wide and high enough for a window or a door.
