@@ -67,6 +67,9 @@ Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double ele
         const glm::vec3 off = glm::abs(glm::vec3(drawn[i]) - model);
         off_model += double(off.x + off.y + off.z) / 3.0, luminance_of_all += double(model.y);
       }
+    for (const glm::vec4& pixel : drawn)
+      for (int c = 0; c < 3; ++c)
+        ++error.samples, error.bad_samples += !(pixel[c] >= 0.0f && std::isfinite(pixel[c]));
     for (std::size_t i = 0; i < drawn.size(); ++i)
       for (int c = 0; c < 3; ++c) {
         const double off = std::abs(double(drawn[i][c]) - double(expected[i][c])) /

@@ -13,6 +13,8 @@ struct DrawnSkyError {
   double of_build = 0.0;
   /// To the model in the same directions: the mean over pixels and channels, relative to the mean luminance.
   double of_model = 0.0;
+  /// Of the drawn channels: all, and those that are negative or no numbers.
+  long samples = 0, bad_samples = 0;
 };
 
 /// `turned_deg` turns what the drawn sky is compared with: a control. Needs a current OpenGL context.

@@ -26,11 +26,19 @@ TEST_F(SkyOnGpu, AWrongTableIsSeen) {
   EXPECT_GT(check->max_relative_error, 1e-2);
 }
 
+TEST_F(SkyOnGpu, ATableBelowZeroGivesBadSamples) {
+  const Result<SkyGpuCheck> check = check_sky_on_gpu(Air{3.0}, 10.0, -1.0f);
+  ASSERT_TRUE(check) << to_string(check.errors());
+  EXPECT_GT(check->bad_samples, 0);
+}
+
 TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
   for (const double elevation : {-3.0, 2.0, 10.0, 70.0}) {
     const Result<DrawnSkyError> error = drawn_sky_error(SkyKind::atmosphere, 3.0, elevation);
     ASSERT_TRUE(error) << to_string(error.errors());
     EXPECT_LE(error->of_build, 1e-3) << elevation;
+    EXPECT_EQ(error->bad_samples, 0) << elevation;
+    EXPECT_GT(error->samples, 250'000) << "all channels of six views";
     std::printf("sun at %g degrees: %.1e of the model in the mean\n", elevation, error->of_model);
     EXPECT_LE(error->of_model, 1e-3) << elevation;
   }

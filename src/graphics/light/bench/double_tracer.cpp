@@ -8,12 +8,17 @@ namespace {
 
 constexpr int leaf_triangles = 8;
 
-}  // namespace
+bool is_in_twin(const scene::Object& object, const scene::Part& part) {
+  const scene::Material& material = object.model->materials[std::size_t(part.material)];
+  return !object.is_dynamic && material.alpha_mode == scene::Alpha::opaque && !material.refracts() &&
+         part.casts_shadow;
+}
 
-scene::Scene opaque_twin(const scene::Scene& scene) {
-  scene::Scene twin;
+/// Copies of the visible objects, with their parts that are in the twin or with those that are not.
+scene::Scene copy_of(const scene::Scene& scene, bool is_twin) {
+  scene::Scene copied;
   for (const scene::Object& object : scene.objects) {
-    if (object.is_dynamic || !object.is_visible) continue;
+    if (!object.is_visible) continue;
     auto model = std::make_shared<scene::Model>();
     model->nodes = object.model->nodes;
     for (const scene::Material& material : object.model->materials) {
@@ -21,19 +26,22 @@ scene::Scene opaque_twin(const scene::Scene& scene) {
       plain.base_colour = glm::vec3(0.5f), plain.is_double_sided = material.is_double_sided;
       model->materials.push_back(plain);
     }
-    for (const scene::Part& part : object.model->parts) {
-      const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts() && part.casts_shadow)
-        model->parts.push_back(part);
-    }
+    for (const scene::Part& part : object.model->parts)
+      if (is_in_twin(object, part) == is_twin) model->parts.push_back(part);
     if (model->parts.empty()) continue;
     scene::Object copy;
     copy.name = object.name, copy.model = model;
     copy.world_from_model = object.world_from_model, copy.pose = object.pose;
-    twin.objects.push_back(std::move(copy));
+    copied.objects.push_back(std::move(copy));
   }
-  return twin;
+  return copied;
 }
+
+}  // namespace
+
+scene::Scene opaque_twin(const scene::Scene& scene) { return copy_of(scene, true); }
+
+scene::Scene rest_of_twin(const scene::Scene& scene) { return copy_of(scene, false); }
 
 DoubleTracer::DoubleTracer(const scene::Scene& twin) {
   for (const scene::Object& object : twin.objects) {

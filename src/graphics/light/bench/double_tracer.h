@@ -14,6 +14,10 @@ namespace parvis::bench {
 /// tracers can tell exactly.
 scene::Scene opaque_twin(const scene::Scene& scene);
 
+/// The visible parts that `opaque_twin` leaves out, as if they were solid: where one of them lies on a line,
+/// the tracers need not agree.
+scene::Scene rest_of_twin(const scene::Scene& scene);
+
 /// Which side of a triangle stops a ray. Rays that see are stopped by fronts; rays to the sun by backs, as
 /// the sun sees their fronts.
 enum class StoppedBy : unsigned char { front, back, both };

@@ -6,10 +6,8 @@
 
 namespace parvis::bench {
 
-/// The keys shadow_*: the renderer with each technique of shadowMap in the streets of `city`.
+/// The keys shadow_*: the renderer with each technique of shadowMap in the streets of `city`, and what exact
+/// shadows cost (shadow_time_bench.h).
 Status measure_shadows(const BenchSetup& setup, const scene::Scene& city, Report& report);
-
-/// The key shadow_rays_over_depth_pass_time, which `measure_shadows` adds, too. Fails if the renderer does.
-Status measure_shadow_times(const scene::Scene& city, Report& report);
 
 }  // namespace parvis::bench

@@ -1,0 +1,126 @@
+#include "graphics/light/bench/crown_city.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/files.h"
+#include "base/random.h"
+#include "formats/gltf/gltf_writer.h"
+#include "places/paper_city/paper_city.h"
+#include "scene/data/vertex_irradiance.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr const char* crown_name = "crown";
+constexpr double frame_s = 1.0 / 30.0;
+
+/// 2,500 leaves of four vertices about a point six metres up, four metres across.
+scene::Model crown() {
+  constexpr int leaves = 2500;
+  constexpr float radius_m = 2.0f, leaf_m = 0.12f;
+  scene::Model model;
+  scene::Part part;
+  Random random(9);
+  const auto any = [&] {
+    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f);
+    return glm::vec3(x, y, random.uniform(-1.0f, 1.0f));
+  };
+  for (int leaf = 0; leaf < leaves; ++leaf) {
+    const glm::vec3 middle = glm::vec3(0.0f, 0.0f, 6.0f) + radius_m * any();
+    const glm::vec3 normal = glm::normalize(any() + 1e-4f);
+    const glm::vec3 right = glm::normalize(
+        glm::cross(normal, std::abs(normal.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0)));
+    const glm::vec3 up = glm::cross(normal, right);
+    const auto first = std::uint32_t(part.mesh.positions.size());
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+      part.mesh.positions.push_back(middle + leaf_m * (corner.x * right + corner.y * up));
+      part.mesh.normals.push_back(normal);
+      part.mesh.uvs.emplace_back(0.5f * corner + 0.5f);
+    }
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) part.mesh.indices.push_back(first + corner);
+  }
+  model.parts.push_back(std::move(part));
+  model.materials.emplace_back();
+  return model;
+}
+
+}  // namespace
+
+Status CrownCity::write(const ScratchFolder& folder) {
+  if (Status written = city::write_paper_city(folder.path, 1); !written) return written;
+  return scene::write_gltf(folder.path / "crown.glb", crown());
+}
+
+Result<CrownCity> CrownCity::open(const BenchSetup& setup, const ScratchFolder& folder, const char* how_lit) {
+  const auto script = folder.path / "lit.xp";
+  const std::string text = fmt::format(
+      "include(file=\"paper_day.xp\")\nlitVirtualObject({}) {{ object(name=\"{}\", file=\"crown.glb\", "
+      "grab=1) }}\n",
+      how_lit, crown_name);
+  if (Status status = write_file(script, text); !status) return status.errors();
+  Result<house::Play> play = house::open_play(setup.house, script, {});
+  if (!play) return play.errors();
+  for (std::size_t o = 0; o < play->scene.objects.size(); ++o)
+    if (play->scene.objects[o].name == crown_name) return CrownCity(*std::move(play), o);
+  return error("the scene has no object \"{}\"", crown_name);
+}
+
+void CrownCity::move(glm::vec3 to_m) {
+  play_.scene.objects[crown_].world_from_model = glm::translate(glm::mat4(1.0f), to_m);
+}
+
+void CrownCity::advance() { play_.advance(frame_s); }
+
+void CrownCity::settle() {
+  advance();
+  play_.settle();
+}
+
+std::vector<glm::vec3> CrownCity::light() const {
+  std::vector<glm::vec3> all;
+  for (const auto& part : play_.scene.data<scene::VertexIrradiance>().of(crown_)->parts)
+    all.insert(all.end(), part.front.begin(), part.front.end());
+  return all;
+}
+
+std::vector<light::LitVertex> CrownCity::vertices() const {
+  const scene::Object& object = play_.scene.objects[crown_];
+  const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+  std::vector<light::LitVertex> vertices;
+  for (const scene::Part& part : object.model->parts) {
+    const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+    for (std::size_t v = 0; v < part.mesh.positions.size(); ++v)  // nothing is scaled
+      vertices.push_back({glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[v], 1.0f)),
+                          glm::normalize(glm::mat3(world_from_mesh) * part.mesh.normals[v])});
+  }
+  return vertices;
+}
+
+Bounds CrownCity::bounds() const {
+  Bounds bounds;
+  for (const light::LitVertex& vertex : vertices()) bounds.add(vertex.position);
+  return bounds;
+}
+
+scene::Scene CrownCity::casters(bool with_crown) const {
+  scene::Scene casters = play_.scene;
+  casters.sky.picture = {};
+  for (std::size_t o = 0; o < casters.objects.size(); ++o)
+    if (o == crown_)
+      casters.objects[o].is_visible = with_crown;
+    else if (casters.objects[o].is_dynamic)
+      casters.objects[o].is_visible = false;
+  return casters;
+}
+
+double light_rmse_percent(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth) {
+  double off = 0.0, mean = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double difference = double(light[i].y - truth[i].y);
+    off += difference * difference, mean += double(truth[i].y);
+  }
+  return 100.0 * std::sqrt(off * double(truth.size())) / mean;
+}
+
+}  // namespace parvis::bench

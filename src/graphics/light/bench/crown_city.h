@@ -1,0 +1,54 @@
+// The paper's city with a crown of 10,000 vertices that is lit at them: an object that a running scene moves.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "base/bounds.h"
+#include "bench/benches.h"
+#include "bench/scratch_folder.h"
+#include "graphics/light/vertex_light.h"
+#include "house/stage/stage.h"
+
+namespace parvis::bench {
+
+/// The city's files and the running scene that was read from them.
+class CrownCity {
+ public:
+  /// Writes the city and the crown's model into `folder`, for any number of `open`.
+  static Status write(const ScratchFolder& folder);
+  /// `how_lit` is what stands between the parentheses of litVirtualObject: nothing, as it ships.
+  static Result<CrownCity> open(const BenchSetup& setup, const ScratchFolder& folder, const char* how_lit);
+
+  /// Moves the crown; `advance` shows it.
+  void move(glm::vec3 to_m);
+  /// A message to the scene's dayLight. Fails as SceneClock::send.
+  Status send_to_sky(const std::string& message) { return play_.clock.send("%dayLight", message); }
+  void advance();
+  /// Advances, and finishes what is spread over frames to come.
+  void settle();
+
+  const scene::Scene& scene() const { return play_.scene; }
+  /// Irradiance of the crown's vertices, as renderers have it now.
+  std::vector<glm::vec3> light() const;
+  /// The same vertices where they stand now, in the same order.
+  std::vector<light::LitVertex> vertices() const;
+  /// Their box.
+  Bounds bounds() const;
+  /// What casts light and shade on the crown: all that stands still, with the crown itself or without it.
+  scene::Scene casters(bool with_crown) const;
+
+ private:
+  CrownCity(house::Play play, std::size_t crown) : play_(std::move(play)), crown_(crown) {}
+
+  house::Play play_;
+  std::size_t crown_;  ///< index of the object
+};
+
+/// From the middle of the crossing to under a street's trees and beside a facade.
+inline constexpr glm::vec3 crown_before_m{0.0f, 0.0f, 0.0f}, crown_after_m{6.0f, 20.0f, 0.0f};
+
+/// Root of the mean square of what is off, as a share of the truth's mean, by luminance's main channel.
+double light_rmse_percent(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth);
+
+}  // namespace parvis::bench

@@ -1,0 +1,162 @@
+#include "graphics/light/bench/relighting_bench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "graphics/light/bench/crown_city.h"
+#include "graphics/reference/shading_point.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr int few_rays = 64, many_rays = 1024;
+
+/// The irradiance of a vertex by random rays, apart from VertexLight: no pattern is shared, and what a ray
+/// hits gives back light by the texels there in place of the mean of its textures.
+glm::vec3 random_irradiance(const reference::RayScene& scene, const light::SkyTable& sky,
+                            const light::LitVertex& vertex, int rays, reference::Passage& passage) {
+  constexpr float pi = 3.14159265f, open_share = 0.5f;
+  const glm::vec3 from = vertex.position + 1e-3f * vertex.normal;
+  const auto sun_light = [&](glm::vec3 point, glm::vec3 normal) {
+    const float facing = glm::dot(normal, sky.to_sun());
+    const bool is_lit = facing > 0.0f && !scene.is_blocked({point, sky.to_sun(), 1e-4f, 1e30f}, passage);
+    return is_lit ? facing * sky.sun_irradiance() : glm::vec3(0.0f);
+  };
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < rays; ++i) {
+    glm::vec3 direction;
+    float square = 0.0f;
+    do {
+      for (int axis = 0; axis < 3; ++axis) direction[axis] = passage.random.uniform(-1.0f, 1.0f);
+      square = glm::dot(direction, direction);
+    } while (square > 1.0f || square < 1e-4f);
+    direction /= std::sqrt(square);
+    const float facing = glm::dot(direction, vertex.normal);
+    if (facing <= 0.0f) continue;
+    const std::optional<reference::Hit> hit = scene.nearest_hit({from, direction, 1e-4f, 1e30f}, passage);
+    if (!hit) {
+      sum += facing * sky.radiance(direction);
+      continue;
+    }
+    const reference::ShadingPoint at = reference::shading_point(*hit, direction, 0.0f);
+    const glm::vec3 normal = at.geometric_normal;
+    const glm::vec3 irradiance =
+        open_share * sky.irradiance(normal) + sun_light(at.position + 1e-3f * normal, normal);
+    sum += facing * (1.0f - at.surface.metallic) * at.surface.base_colour / pi * irradiance;
+  }
+  return 4.0f * pi / float(rays) * sum + sun_light(from, vertex.normal);
+}
+
+/// One object's rays, and what lights it.
+class Relit {
+ public:
+  Relit(const reference::RayScene& rays, const light::SkyTable& sky, std::vector<light::LitVertex> vertices)
+      : rays_(rays), sky_(sky), light_(std::move(vertices)) {}
+
+  /// Milliseconds of its light from nothing, as what has moved is lit.
+  double time_of(int count, light::Blocked blocked = light::Blocked::bounces) {
+    light_.restart();
+    return milliseconds([&] { light_.refine(rays_, sky_, count, blocked); });
+  }
+  /// What was traced last.
+  std::vector<glm::vec3> light() const { return light_.irradiance(); }
+
+ private:
+  const reference::RayScene& rays_;
+  const light::SkyTable& sky_;
+  light::VertexLight light_;
+};
+
+/// Time of all vertices where the crown has moved to, and whether the light that was timed is right: against
+/// that of many rays, with the old place's and that of a crown that casts no shade on itself as controls.
+void measure_times(const CrownCity& city, const light::SkyTable& sky, const reference::RayScene& rays,
+                   const std::vector<light::LitVertex>& before, Report& report) {
+  Relit crown(rays, sky, city.vertices());
+  std::vector<double> few_ms(11), many_ms(3), sixteen_ms(11);
+  for (double& sample : many_ms) sample = crown.time_of(many_rays);
+  const std::vector<glm::vec3> truth = crown.light();
+  for (double& sample : sixteen_ms) sample = crown.time_of(few_rays / 4);
+  for (double& sample : few_ms) sample = crown.time_of(few_rays);
+  const std::vector<glm::vec3> timed = crown.light();
+  const double few = median(few_ms).value, many = median(many_ms).value;
+  report.add("relight_10k_vertices_64_rays_ms", few, up_to(50.0));
+  report.add_control("relight_10k_vertices_1024_rays_ms", many, up_to(50.0));
+
+  // What is timed are rays: sixteen times as many take about sixteen times as long.
+  const auto off_proportion = [&](double of_few) {
+    const double growth = many / of_few * double(few_rays) / double(many_rays);
+    return std::max(growth, 1.0 / growth);
+  };
+  report.add("relight_time_off_proportion_to_rays", off_proportion(few), up_to(2.0));
+  report.add_control("relight_time_off_proportion_to_rays_of_a_quarter_of_them",
+                     off_proportion(median(sixteen_ms).value), up_to(2.0));
+
+  constexpr Target of_few_rays = {8.0, false};  // 16 are off by 9.5 %, 256 by 1.5
+  report.add("relight_10k_vertices_64_rays_rmse_percent", light_rmse_percent(timed, truth), of_few_rays);
+  Relit old(rays, sky, before);
+  old.time_of(few_rays);
+  report.add_control("relight_10k_vertices_64_rays_rmse_percent_of_the_old_place",
+                     light_rmse_percent(old.light(), truth), of_few_rays);
+  const scene::Scene around = city.casters(false);
+  const reference::RayScene rays_around(around);
+  Relit shadeless(rays_around, sky, city.vertices());
+  shadeless.time_of(few_rays);
+  report.add_control("relight_10k_vertices_64_rays_rmse_percent_without_its_own_shade",
+                     light_rmse_percent(shadeless.light(), truth), of_few_rays);
+  report.note(fmt::format(
+      "{} vertices of a crown that has moved in the city, with its own leaves and {} triangles before its "
+      "rays; the light that was timed is compared with that of {} rays; controls: the light of the old "
+      "place, and that of leaves that shade none of their own",
+      truth.size(), rays.triangle_count(), many_rays));
+}
+
+/// The error of fewer vertices against random rays that share nothing with what is judged.
+void measure_errors(const CrownCity& city, const light::SkyTable& sky, const reference::RayScene& rays,
+                    Report& report) {
+  constexpr std::size_t judged = 500;
+  constexpr int true_rays = 65'536;
+  const std::vector<light::LitVertex> all = city.vertices();
+  std::vector<light::LitVertex> vertices;
+  vertices.reserve(judged);
+  for (std::size_t i = 0; i < judged; ++i) vertices.push_back(all[i * all.size() / judged]);
+  std::vector<glm::vec3> truth(vertices.size());
+  parallel_for(vertices.size(), [&](std::size_t v) {
+    reference::Passage passage{Random(v)};
+    truth[v] = random_irradiance(rays, sky, vertices[v], true_rays, passage);
+  });
+  Relit crown(rays, sky, vertices);
+  const auto off_percent = [&](int count, light::Blocked blocked = light::Blocked::bounces) {
+    crown.time_of(count, blocked);
+    return light_rmse_percent(crown.light(), truth);
+  };
+  report.add_control("relight_16_rmse_percent", off_percent(16), up_to(2.0));
+  report.add("relight_256_rmse_percent", off_percent(256), up_to(2.0));
+  report.add("relight_16k_rmse_percent", off_percent(16'384));
+  report.add_control("relight_256_rmse_percent_without_bounces", off_percent(256, light::Blocked::dark),
+                     up_to(2.0));
+  report.note(fmt::format(
+      "{} of the crown's vertices, against {} random rays each that know the texels they hit; controls: 16 "
+      "rays, and 256 without the light that surfaces give back",
+      judged, true_rays));
+}
+
+}  // namespace
+
+Status measure_relighting(const BenchSetup& setup, Report& report) {
+  const ScratchFolder folder;
+  if (Status written = CrownCity::write(folder); !written) return written;
+  Result<CrownCity> city = CrownCity::open(setup, folder, "");
+  if (!city) return city.errors();
+  city->move(crown_before_m);
+  const std::vector<light::LitVertex> before = city->vertices();
+  city->move(crown_after_m);
+  const light::SkyTable sky(city->scene());
+  const scene::Scene casters = city->casters(true);
+  const reference::RayScene rays(casters);
+  measure_times(*city, sky, rays, before, report);
+  measure_errors(*city, sky, rays, report);
+  return Done{};
+}
+
+}  // namespace parvis::bench

@@ -1,0 +1,60 @@
+// A city in the light of the sun alone, drawn by the renderer: what each technique of shadowMap leaves of the
+// sun in each pixel.
+#pragma once
+
+#include <memory>
+
+#include "graphics/light/bench/exact_sun.h"
+#include "graphics/light/shadow_settings.h"
+#include "graphics/render/frame_views.h"
+
+namespace parvis::bench {
+
+/// The pictures of SunlitCity, all of whose pixels are judged.
+inline constexpr JudgedPixels sunlit_pixels{160, 90, 1};
+
+/// The light of each pixel: of its four samples as they are resolved for the eye, and of its very middle,
+/// which at edges shows one surface where the samples show two.
+struct DrawnSun {
+  SunShares resolved, middle;
+};
+
+/// A target of one sample per pixel, which lies in the pixel's middle.
+class MiddleTarget {
+ public:
+  MiddleTarget();
+  /// The main view as the renderer drew it last, once more.
+  ImageF drawn(render::Renderer& renderer) const;
+
+ private:
+  gl::Texture colour_, depth_;
+  gl::Framebuffer framebuffer_;
+};
+
+/// With and without shadows: the quotient of both pictures is what shadows leave.
+class SunlitCity {
+ public:
+  /// `twin` is an opaque_twin. Fails if a shader does.
+  static Result<std::unique_ptr<SunlitCity>> create(const scene::Scene& twin);
+
+  void set_sun(glm::vec3 to_sun);
+  /// The view that is drawn next. Fails as render::draw_frame.
+  Status look(const Camera& camera);
+  /// The shares of the sun in the view that was set. Rays go to the middle of the sun, as those of a view
+  /// that moves do with any settings. Fails as render::draw_frame.
+  Result<DrawnSun> sun(light::ShadowTechnique technique);
+
+ private:
+  struct Pictures {
+    ImageF resolved, middle;
+  };
+  Status draw(render::Renderer& renderer, const scene::Scene& scene, Pictures& pictures) const;
+
+  scene::Scene shaded_, open_;
+  std::unique_ptr<render::Renderer> renderer_, open_renderer_;
+  MiddleTarget middles_;
+  Camera camera_;
+  Pictures unshaded_;
+};
+
+}  // namespace parvis::bench
