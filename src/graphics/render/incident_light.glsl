@@ -25,6 +25,7 @@ vec3 unmapped_radiance(vec3 direction, float roughness) {
 
 #ifndef WRITES_SURFACE
 // The sun as rays found it in the pixel or beside it, where they hit this surface; else as the maps have it.
+// Where a neighbour is as far away but for rounding, the pixel's own ray counts.
 float traced_sun(float drawn, float distance_m) {
   float share = drawn, nearest = 0.01f * distance_m;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -33,7 +34,7 @@ float traced_sun(float drawn, float distance_m) {
     ivec2 beside = ivec2(int(i == 1) - int(i == 2), int(i == 3) - int(i == 4));
     vec2 traced =
         texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
-    float off = abs(traced.g - distance_m);
+    float off = abs(traced.g - distance_m) + (i > 0 ? 2e-5f * distance_m : 0.0f);
     share = off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
     nearest = min(off, nearest);
   }

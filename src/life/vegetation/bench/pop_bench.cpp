@@ -41,7 +41,7 @@ PlantDetail detail_at(const Grove& grove, const Camera& camera, float scale) {
 }
 
 /// FLIP between the picture of a camera and the same with the forms that the tree had `step` of the way ago:
-/// what changes by the forms alone, without what moves in the picture.
+/// what changes by the forms alone, while nothing in the picture moves.
 Result<double> pop(Grove& grove, glm::vec3 crown, float distance_m, float step) {
   const Camera now = looking_at(crown, distance_m), before = looking_at(crown, distance_m / step);
   const Result<Image8> picture = grove.picture(now);
