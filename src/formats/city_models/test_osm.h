@@ -32,6 +32,7 @@ class TestMap {
     relation_texts_ += fmt::format(R"(<relation id="{}">{}<tag k="type" v="multipolygon"/>{}</relation>)",
                                    ways_, members, text_of(tags));
   }
+  /// The file of it.
   std::string text() const {
     return R"(<osm version="0.6">)" + node_texts_ + way_texts_ + relation_texts_ + "</osm>";
   }

@@ -37,6 +37,7 @@ class SunlitCity {
   /// `twin` is an opaque_twin. Fails if a shader does.
   static Result<std::unique_ptr<SunlitCity>> create(const scene::Scene& twin);
 
+  /// Of both scenes: a unit vector.
   void set_sun(glm::vec3 to_sun);
   /// The view that is drawn next. Fails as render::draw_frame.
   Status look(const Camera& camera);

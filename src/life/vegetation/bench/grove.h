@@ -64,6 +64,7 @@ class Grove {
 
   /// A frame as it ships, or in some detail with `scale` times the pixels of a picture, across and down.
   Status draw(const Camera& camera, const vegetation::PlantDetail& detail = {}, int scale = 1);
+  /// The picture of such a frame.
   Result<Image8> picture(const Camera& camera, const vegetation::PlantDetail& detail = {});
   /// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the
   /// few samples that a picture has of each show which of them they hit, not what a crown looks like.
