@@ -1,5 +1,5 @@
-// A script that makes a car of a bare body: paint, glass, lamps and wheels, proposed from its shape and
-// picture.
+// A script that makes a car of a bare body, or of a car's model as it comes: paint, glass, lamps and wheels,
+// proposed from its shape, its materials and its pictures.
 #pragma once
 
 #include <string>
@@ -10,7 +10,9 @@
 namespace parvis::car_bodies {
 
 /// The script of `model`, which `file` names, for use in `traffic`. Comments say what was not found and has
-/// to be given by hand. Errors: a body that is not 2 to 20 m long, or does not lie along x.
-Result<std::string> car_script(const scene::Model& model, const std::string& file);
+/// to be given by hand, and what only a copy of the model can have (car_copy.h). `remark`, comment lines,
+/// stands above the node. Errors: a model that is flat, or that no attribute can turn upright.
+Result<std::string> car_script(const scene::Model& model, const std::string& file,
+                               const std::string& remark = "");
 
 }  // namespace parvis::car_bodies

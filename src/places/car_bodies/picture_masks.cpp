@@ -7,8 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "base/colour.h"
-
 namespace parvis::car_bodies {
 namespace {
 
@@ -17,88 +15,39 @@ constexpr float min_pane_share = 0.02f;   // of all panes' area: smaller regions
 constexpr int grid = 128;                 // cells per side of the picture, in which regions are found
 constexpr float margin = 0.006f;          // about a region, for texels of its edge
 
-/// A triangle with what its picture has at the middle.
-struct Sample {
-  glm::vec3 centre, normal;
-  float area_m2 = 0.0f;
-  glm::vec2 uv[3];
-  glm::vec3 srgb{0.0f};
-  bool has_picture = false;
+float difference(glm::vec3 a, glm::vec3 b) {
+  const glm::vec3 off = glm::abs(a - b);
+  return std::max({off.x, off.y, off.z});
+}
+
+bool is_rear_lamp(const SurfaceSample& s) {
+  return s.forward < -0.4f && s.srgb.x > 0.5f && s.srgb.y < 0.25f && s.srgb.z < 0.25f;
+}
+
+bool is_front_lamp(const SurfaceSample& s) {
+  return s.forward > 0.35f && s.srgb.x > 0.7f && s.srgb.y > 0.6f && s.srgb.z < 0.5f;
+}
+
+/// Panes of one region of the picture.
+struct Region {
+  Bounds box;  // of texture coordinates
+  float area_m2 = 0.0f, holes_m2 = 0.0f;
+  glm::vec3 weighted_srgb{0.0f};
 };
 
-float spread(glm::vec3 c) { return std::max({c.x, c.y, c.z}) - std::min({c.x, c.y, c.z}); }
-
-glm::vec3 colour_at(const Image8& picture, glm::vec2 uv) {
-  uv -= glm::floor(uv);
-  const int x = std::min(int(uv.x * float(picture.width)), picture.width - 1);
-  const int y = std::min(int(uv.y * float(picture.height)), picture.height - 1);
-  const std::uint8_t* texel = picture.at(x, y);
-  return glm::vec3(texel[0], texel[1], texel[2]) / 255.0f;
-}
-
-std::vector<Sample> samples_of(const scene::Model& model) {
-  std::vector<Sample> samples;
-  const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  for (const scene::Part& part : model.parts) {
-    const scene::Material& material = model.materials[std::size_t(part.material)];
-    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
-      Sample sample;
-      std::array<glm::vec3, 3> at;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t vertex = part.mesh.indices[i + k];
-        at[k] = glm::vec3(pose[std::size_t(part.node)] * glm::vec4(part.mesh.positions[vertex], 1.0f));
-        sample.uv[k] = part.mesh.uvs[vertex];
-      }
-      const glm::vec3 sides = glm::cross(at[1] - at[0], at[2] - at[0]);
-      sample.area_m2 = 0.5f * glm::length(sides);
-      if (!(sample.area_m2 > 1e-8f)) continue;
-      sample.normal = glm::normalize(sides);
-      sample.centre = (at[0] + at[1] + at[2]) / 3.0f;
-      sample.has_picture = material.base_colour_texture != scene::no_index;
-      if (sample.has_picture)
-        sample.srgb = colour_at(model.textures[std::size_t(material.base_colour_texture)].image,
-                                (sample.uv[0] + sample.uv[1] + sample.uv[2]) / 3.0f);
-      samples.push_back(sample);
-    }
-  }
-  return samples;
-}
-
-/// The colour that covers most of the body's sides, in steps of 1/16.
-glm::vec3 paint_of(const std::vector<Sample>& samples, const Bounds& bounds) {
-  std::map<std::array<int, 3>, float> areas;
-  for (const Sample& sample : samples) {
-    const float share = (sample.centre.z - bounds.min.z) / bounds.size().z;
-    if (!sample.has_picture || share < 0.3f || share > 0.6f) continue;
-    const glm::ivec3 step(16.0f * sample.srgb);
-    areas[{step.x, step.y, step.z}] += sample.area_m2;
-  }
-  const auto maximum = std::ranges::max_element(areas, {}, [](const auto& each) { return each.second; });
-  if (maximum == areas.end()) return glm::vec3(1.0f, 0.0f, 0.0f);
-  return (glm::vec3(maximum->first[0], maximum->first[1], maximum->first[2]) + 0.5f) / 16.0f;
-}
-
-bool is_pane(const Sample& sample, const Bounds& bounds, glm::vec3 paint) {
-  const float share = (sample.centre.z - bounds.min.z) / bounds.size().z;
-  const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;
-  const glm::vec3 off = glm::abs(sample.srgb - paint);
-  return sample.has_picture && share > 0.5f && sample.normal.z < 0.9f && sample.normal.z > -0.3f &&
-         spread(sample.srgb) <= grey_tolerance && light < 0.92f &&
-         std::max({off.x, off.y, off.z}) > grey_tolerance;
+glm::ivec2 cell_of(glm::vec2 uv) {
+  return glm::clamp(glm::ivec2(glm::floor(uv * float(grid))), glm::ivec2(0), glm::ivec2(grid - 1));
 }
 
 /// Regions of the picture that samples cover: cells of a grid that touch one another.
-std::vector<std::pair<Bounds, float>> regions_of(const std::vector<Sample>& samples) {
+std::vector<Region> regions_of(std::span<const SurfaceSample> samples) {
   std::vector<int> region(std::size_t(grid) * grid, -1);
-  const auto cell_of = [](glm::vec2 uv) {
-    const glm::ivec2 cell = glm::clamp(glm::ivec2(uv * float(grid)), glm::ivec2(0), glm::ivec2(grid - 1));
-    return cell;
-  };
-  const auto at = [&](int x, int y) -> int& { return region[std::size_t(y * grid + x)]; };
+  const auto at = [&](int x, int y) -> int& { return region[std::size_t(y) * grid + std::size_t(x)]; };
   constexpr int covered = -2;
-  for (const Sample& sample : samples) {
-    const glm::ivec2 low = cell_of(glm::min(sample.uv[0], glm::min(sample.uv[1], sample.uv[2])));
-    const glm::ivec2 high = cell_of(glm::max(sample.uv[0], glm::max(sample.uv[1], sample.uv[2])));
+  for (const SurfaceSample& sample : samples) {
+    const auto& uvs = sample.corner_uvs;
+    const glm::ivec2 low = cell_of(glm::min(uvs[0], glm::min(uvs[1], uvs[2])));
+    const glm::ivec2 high = cell_of(glm::max(uvs[0], glm::max(uvs[1], uvs[2])));
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) at(x, y) = covered;
   }
@@ -118,68 +67,142 @@ std::vector<std::pair<Bounds, float>> regions_of(const std::vector<Sample>& samp
       }
       ++count;
     }
-  std::vector<std::pair<Bounds, float>> regions(std::size_t(count), {Bounds(), 0.0f});
-  for (const Sample& sample : samples) {
-    const glm::ivec2 cell = cell_of(sample.uv[0]);
-    auto& [box, area] = regions[std::size_t(at(cell.x, cell.y))];
-    for (const glm::vec2& uv : sample.uv) box.add(glm::vec3(uv, 0.0f));
-    area += sample.area_m2;
+  std::vector<Region> regions{std::size_t(count)};
+  for (const SurfaceSample& sample : samples) {
+    const glm::ivec2 cell = cell_of(sample.uv);
+    Region& here = regions[std::size_t(at(cell.x, cell.y))];
+    for (const glm::vec2& uv : sample.corner_uvs) here.box.add(glm::vec3(uv, 0.0f));
+    here.area_m2 += sample.area_m2;
+    if (sample.is_hole) here.holes_m2 += sample.area_m2;
+    here.weighted_srgb += sample.area_m2 * sample.srgb;
   }
   return regions;
 }
 
-std::vector<std::string> glass_masks(const std::vector<Sample>& samples, const Bounds& bounds) {
-  const glm::vec3 paint = paint_of(samples, bounds);
-  std::vector<Sample> panes;
-  float all_m2 = 0.0f;
-  for (const Sample& sample : samples)
-    if (is_pane(sample, bounds, paint)) panes.push_back(sample), all_m2 += sample.area_m2;
-  std::vector<std::string> masks;
-  for (const auto& [box, area_m2] : regions_of(panes)) {
-    if (area_m2 < min_pane_share * all_m2) continue;
-    const glm::vec2 low = glm::max(glm::vec2(box.min) - margin, 0.0f),
-                    high = glm::min(glm::vec2(box.max) + margin, 1.0f);
-    masks.push_back(
-        fmt::format("box {:.3f} {:.3f} {:.3f} {:.3f} grey {}", low.x, low.y, high.x, high.y, grey_tolerance));
+/// The colour of the holes in a box of a picture, where they have one, as the mask's condition.
+void add_colour_of_holes(const Image8& picture, PictureMask& mask) {
+  constexpr int max_texels = 256;         // looked at along each side
+  constexpr float max_tolerance = 0.12f;  // beyond it the holes have all sorts of colours
+  constexpr float quantile = 0.98f, slack = 0.03f;
+  const glm::ivec2 size(picture.width, picture.height);
+  const glm::ivec2 low = glm::ivec2(glm::vec2(mask.box->min) * glm::vec2(size));
+  const glm::ivec2 high = glm::min(glm::ivec2(glm::vec2(mask.box->max) * glm::vec2(size)), size - 1);
+  const glm::ivec2 step = glm::max((high - low) / max_texels, glm::ivec2(1));
+  std::vector<glm::vec3> colours;
+  for (int y = low.y; y <= high.y; y += step.y)
+    for (int x = low.x; x <= high.x; x += step.x)
+      if (const std::uint8_t* texel = picture.at(x, y); picture.channels == 4 && texel[3] < 128)
+        colours.push_back(glm::vec3(texel[0], texel[1], texel[2]) / 255.0f);
+  if (colours.empty()) return;
+  glm::vec3 mean(0.0f);
+  for (const glm::vec3& colour : colours) mean += colour / float(colours.size());
+  std::vector<float> off;
+  off.reserve(colours.size());
+  for (const glm::vec3& colour : colours) off.push_back(difference(colour, mean));
+  const auto wide = off.begin() + std::ptrdiff_t(quantile * float(off.size() - 1));
+  std::ranges::nth_element(off, wide);
+  if (*wide > max_tolerance) return;
+  mask.colour = mean, mask.tolerance = *wide + slack;
+}
+
+PictureMask pane_mask(const Image8& picture, const Region& region, glm::vec3 paint) {
+  constexpr float min_tolerance = 0.03f, max_tolerance = 0.15f;
+  PictureMask mask;
+  mask.box = Bounds{glm::max(region.box.min - margin, 0.0f), glm::min(region.box.max + margin, 1.0f)};
+  const glm::vec3 mean = region.weighted_srgb / region.area_m2;
+  if (region.holes_m2 > 0.5f * region.area_m2) {
+    add_colour_of_holes(picture, mask);
+  } else if (spread(paint) > grey_tolerance) {
+    mask.is_grey = true, mask.tolerance = grey_tolerance;
+  } else {  // white, silver and black paint are grey, too
+    mask.colour = mean;
+    mask.tolerance = glm::clamp(0.5f * difference(mean, paint), min_tolerance, max_tolerance);
   }
+  return mask;
+}
+
+std::vector<PictureMask> glass_masks(const Image8& picture, std::span<const SurfaceSample> samples,
+                                     glm::vec3 paint, float all_panes_m2) {
+  std::vector<SurfaceSample> panes;
+  std::ranges::copy_if(samples, std::back_inserter(panes),
+                       [&](const SurfaceSample& sample) { return is_pane(sample, paint); });
+  std::vector<PictureMask> masks;
+  for (const Region& region : regions_of(panes))
+    if (region.area_m2 >= min_pane_share * all_panes_m2 && region.area_m2 > 0.0f)
+      masks.push_back(pane_mask(picture, region, paint));
   return masks;
 }
 
-/// The mean colour of the samples that `takes`; an empty mask where they are too few.
+/// A mask of the mean colour of the samples that `takes`; none where they are too few.
 template <class Takes>
-void add_lamp(const std::vector<Sample>& samples, const Takes& takes, std::vector<std::string>& masks) {
-  constexpr float min_m2 = 0.005f;
+void add_lamp(std::span<const SurfaceSample> samples, const Takes& takes, std::vector<PictureMask>& masks) {
+  constexpr float min_m2 = 0.005f, lamp_tolerance = 0.25f;
   glm::vec3 sum(0.0f);
   float area_m2 = 0.0f;
-  for (const Sample& sample : samples)
-    if (sample.has_picture && takes(sample)) sum += sample.area_m2 * sample.srgb, area_m2 += sample.area_m2;
-  if (area_m2 < min_m2) return;
-  const glm::ivec3 mean = glm::ivec3(255.0f * sum / area_m2 + 0.5f);
-  masks.push_back(fmt::format("colour #{:02X}{:02X}{:02X} 0.25", mean.x, mean.y, mean.z));
+  for (const SurfaceSample& sample : samples)
+    if (takes(sample)) sum += sample.area_m2 * sample.srgb, area_m2 += sample.area_m2;
+  if (area_m2 >= min_m2) masks.push_back({.colour = sum / area_m2, .tolerance = lamp_tolerance});
 }
 
 }  // namespace
 
-PictureMasks find_masks(const scene::Model& model, const Bounds& bounds, bool faces_back) {
-  const std::vector<Sample> samples = samples_of(model);
-  const auto forward = [&](const Sample& sample) {
-    const float share = (sample.centre.x - bounds.centre().x) / bounds.size().x;
-    return faces_back ? -share : share;
-  };
+std::string PictureMask::text() const {
+  std::string text;
+  if (box)
+    text += fmt::format("box {:.3f} {:.3f} {:.3f} {:.3f}", box->min.x, box->min.y, box->max.x, box->max.y);
+  const char* const gap = text.empty() ? "" : " ";
+  if (colour) {
+    const glm::ivec3 rgb(255.0f * glm::clamp(*colour, 0.0f, 1.0f) + 0.5f);
+    text += fmt::format("{}colour #{:02X}{:02X}{:02X} {:.2g}", gap, rgb.x, rgb.y, rgb.z, tolerance);
+  }
+  if (is_grey) text += fmt::format("{}grey {:.2g}", gap, tolerance);
+  return text;
+}
+
+bool PictureMask::holds(const SurfaceSample& sample) const {
+  const glm::vec2 uv = sample.uv;
+  if (box && (uv.x < box->min.x || uv.x > box->max.x || uv.y < box->min.y || uv.y > box->max.y)) return false;
+  return (!colour || difference(*colour, sample.srgb) <= tolerance) &&
+         (!is_grey || spread(sample.srgb) <= tolerance);
+}
+
+glm::vec3 paint_of(std::span<const SurfaceSample> samples) {
+  constexpr float steps = 16.0f;  // per channel
+  std::map<std::array<int, 3>, float> areas;
+  for (const SurfaceSample& sample : samples) {
+    if (!sample.is_outer || sample.is_hole || sample.height < 0.3f || sample.height > 0.6f) continue;
+    const glm::ivec3 step(steps * sample.srgb);
+    areas[{step.x, step.y, step.z}] += sample.area_m2;
+  }
+  const auto maximum = std::ranges::max_element(areas, {}, [](const auto& each) { return each.second; });
+  if (maximum == areas.end()) return glm::vec3(1.0f, 0.0f, 0.0f);
+  return (glm::vec3(maximum->first[0], maximum->first[1], maximum->first[2]) + 0.5f) / steps;
+}
+
+bool is_pane(const SurfaceSample& sample, glm::vec3 paint) {
+  constexpr float min_hole_height = 0.4f, min_height = 0.5f;  // grilles are holes, too
+  constexpr float roof_z = 0.9f, underside_z = -0.3f, max_light = 0.92f;
+  if (!sample.is_outer) return false;
+  if (sample.is_hole) return sample.height > min_hole_height;
+  const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;
+  return sample.height > min_height && sample.normal.z < roof_z && sample.normal.z > underside_z &&
+         spread(sample.srgb) <= grey_tolerance && light < max_light &&
+         difference(sample.srgb, paint) > grey_tolerance;
+}
+
+bool is_lamp(const SurfaceSample& sample, glm::vec3 paint) {
+  return sample.is_outer && (is_rear_lamp(sample) || is_front_lamp(sample)) &&
+         difference(sample.srgb, paint) > grey_tolerance;
+}
+
+PictureMasks find_masks(const Image8& picture, std::span<const SurfaceSample> samples, glm::vec3 paint,
+                        float all_panes_m2) {
   PictureMasks masks;
-  masks.glass = glass_masks(samples, bounds);
-  add_lamp(
-      samples,
-      [&](const Sample& s) {
-        return forward(s) < -0.4f && s.srgb.x > 0.5f && s.srgb.y < 0.25f && s.srgb.z < 0.25f;
-      },
-      masks.lamps);
-  add_lamp(
-      samples,
-      [&](const Sample& s) {
-        return forward(s) > 0.35f && s.srgb.x > 0.7f && s.srgb.y > 0.6f && s.srgb.z < 0.5f;
-      },
-      masks.lamps);
+  masks.glass = glass_masks(picture, samples, paint, all_panes_m2);
+  for (const auto is_one : {is_rear_lamp, is_front_lamp})
+    add_lamp(
+        samples, [&](const SurfaceSample& sample) { return is_lamp(sample, paint) && is_one(sample); },
+        masks.lamps);
   return masks;
 }
 

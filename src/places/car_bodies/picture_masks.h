@@ -1,23 +1,46 @@
-// Which parts of a body's picture are glass and lamps, as masks of the node `material`.
+// Which parts of a car's pictures are glass and lamps, as masks of the node `material`.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "base/bounds.h"
-#include "scene/data/model.h"
+#include "places/car_bodies/surface_samples.h"
 
 namespace parvis::car_bodies {
 
-/// Masks as the attribute `mask` spells them.
-struct PictureMasks {
-  std::vector<std::string> glass;  ///< "box u0 v0 u1 v1 grey t", one per pane or row of panes
-  std::vector<std::string> lamps;  ///< "colour #RRGGBB t": rear lamps, front lamps
+/// A mask of a picture: all conditions that are given hold.
+struct PictureMask {
+  std::optional<Bounds> box = {};        ///< u and v, 0 to 1; z is 0
+  std::optional<glm::vec3> colour = {};  ///< sRGB
+  bool is_grey = false;
+  float tolerance = 0.0f;  ///< of the colour or the grey, largest difference of a channel
+
+  /// As the attribute `mask` spells it: "box 0.1 0.2 0.3 0.4 grey 0.085".
+  std::string text() const;
+  /// Whether the triangle's middle lies in it.
+  bool holds(const SurfaceSample& sample) const;
 };
 
-/// Panes are the grey regions of the picture on the upper half of the body that do not face up; lamps are red
-/// regions at its rear and yellow ones at its front. A body in a grey of the panes' kind gets no masks for
-/// them. `faces_back`: the front is toward negative x.
-PictureMasks find_masks(const scene::Model& model, const Bounds& bounds, bool faces_back);
+/// Masks of one picture.
+struct PictureMasks {
+  std::vector<PictureMask> glass;  ///< one per pane or row of panes
+  std::vector<PictureMask> lamps;  ///< rear lamps, front lamps
+};
+
+/// The colour that covers most of the car's sides, sRGB.
+glm::vec3 paint_of(std::span<const SurfaceSample> samples);
+
+/// Panes are grey, not of the paint's kind, in the upper half and do not face up; or they are holes in a
+/// picture.
+bool is_pane(const SurfaceSample& sample, glm::vec3 paint);
+/// Lamps are red at the rear and yellow at the front, where the paint is not.
+bool is_lamp(const SurfaceSample& sample, glm::vec3 paint);
+
+/// The panes and lamps in `picture`, that the material of `samples` has. Regions of less than a fiftieth of
+/// `all_panes_m2`, which the whole car has, are seals and shadows.
+PictureMasks find_masks(const Image8& picture, std::span<const SurfaceSample> samples, glm::vec3 paint,
+                        float all_panes_m2);
 
 }  // namespace parvis::car_bodies

@@ -5,29 +5,39 @@
 
 namespace parvis::car_bodies {
 
-SideView::SideView(const scene::Model& model) : bounds_(scene::bounds(model)) {
+SideView::SideView(const Body& body) : bounds_(body.bounds()), middle_y_(body.middle_y()) {
   columns_ = int(bounds_.size().x / cell_m) + 1;
   rows_ = int(bounds_.size().z / cell_m) + 1;
   depths_.assign(std::size_t(columns_) * std::size_t(rows_), nothing);
-  const std::vector<glm::mat4> pose = scene::rest_pose(model);
-  for (const scene::Part& part : model.parts)
-    for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
-      glm::vec3 corners[3];
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = glm::vec3(pose[std::size_t(part.node)] *
-                               glm::vec4(part.mesh.positions[part.mesh.indices[i + k]], 1.0f));
-      add(corners);
+  for (std::size_t part = 0; part < body.model().parts.size(); ++part)
+    for (std::size_t i = 0; i < body.model().parts[part].mesh.triangle_count(); ++i)
+      add(body.corners(part, i));
+}
+
+float SideView::openings_m2() const {
+  constexpr float from_share = 0.5f;
+  std::size_t cells = 0;
+  std::vector<bool> is_below_skin(std::size_t(columns_), false);
+  for (int row = rows_ - 1; row >= row_at(from_share); --row) {
+    int first = columns_, last = -1;
+    for (int column = 0; column < columns_; ++column)
+      if (depth(column, row) != nothing) first = std::min(first, column), last = column;
+    for (int column = 0; column < columns_; ++column) {
+      const bool is_open = depth(column, row) == nothing;
+      if (!is_open) is_below_skin[std::size_t(column)] = true;
+      if (is_open && column > first && column < last && is_below_skin[std::size_t(column)]) ++cells;
     }
+  }
+  return float(cells) * cell_m * cell_m;
 }
 
 /// Rasterises a triangle at the middles of cells.
-void SideView::add(const glm::vec3 (&corners)[3]) {
-  const float middle_y = bounds_.centre().y;
+void SideView::add(const std::array<glm::vec3, 3>& corners) {
   glm::vec2 at[3];
   float out[3];
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     at[k] = glm::vec2(corners[k].x - bounds_.min.x, corners[k].z - bounds_.min.z) / cell_m - 0.5f;
-    out[k] = std::abs(corners[k].y - middle_y);
+    out[k] = std::abs(corners[k].y - middle_y_);
   }
   const auto cross = [](glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; };
   const float area = cross(at[1] - at[0], at[2] - at[0]);

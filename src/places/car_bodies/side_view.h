@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "base/bounds.h"
-#include "scene/data/model.h"
+#include "places/car_bodies/body.h"
 
 namespace parvis::car_bodies {
 
@@ -14,10 +13,9 @@ class SideView {
   static constexpr float cell_m = 0.02f;
   static constexpr float nothing = -1.0f;
 
-  /// `model` in metres, x along the car, z up.
-  explicit SideView(const scene::Model& model);
+  explicit SideView(const Body& body);
 
-  const Bounds& bounds() const { return bounds_; }  ///< of the model at rest
+  const Bounds& bounds() const { return bounds_; }  ///< of the body
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   /// Distance of the outermost surface from the middle plane, metres; `nothing` where there is none.
@@ -29,10 +27,15 @@ class SideView {
   /// The row at a share of the height of the body.
   int row_at(float share) const { return std::min(int(share * float(rows_)), rows_ - 1); }
 
+  /// Area of the openings above half of the height through which one looks from side to side: windows without
+  /// panes, square metres.
+  float openings_m2() const;
+
  private:
-  void add(const glm::vec3 (&corners)[3]);
+  void add(const std::array<glm::vec3, 3>& corners);
 
   Bounds bounds_;
+  float middle_y_;
   int columns_ = 0, rows_ = 0;
   std::vector<float> depths_;
 };
