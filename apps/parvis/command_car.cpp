@@ -50,10 +50,11 @@ Status propose(const Arguments& arguments) {
   const std::string file =
       std::filesystem::relative(arguments.body, std::filesystem::absolute(arguments.output).parent_path())
           .generic_string();
-  const Result<std::optional<car_bodies::CarCopy>> copy = car_bodies::car_copy(*model, file);
-  if (!copy) return copy.errors();
+  const Result<std::optional<car_bodies::CarCopy>> made = car_bodies::car_copy(*model, file);
+  if (!made) return made.errors();
+  const std::optional<car_bodies::CarCopy>& copy = *made;
   const Result<std::string> script =
-      *copy ? script_of_copy(**copy, arguments.output) : car_bodies::car_script(*model, file);
+      copy ? script_of_copy(*copy, arguments.output) : car_bodies::car_script(*model, file);
   if (!script) return script.errors();
   return write_file(arguments.output, *script);
 }

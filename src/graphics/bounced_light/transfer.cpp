@@ -265,7 +265,8 @@ void Transfer::gather(const std::vector<vec4>& radiance, shading::BouncedLight& 
   std::vector<vec4> directions(std::size_t(ray_sets) * std::size_t(rays_));
   for (int set = 0; set < ray_sets; ++set)
     for (int r = 0; r < rays_; ++r)
-      directions[std::size_t(set * rays_ + r)] = vec4(ray_direction(r, rays_, set), 1.0f);
+      directions[std::size_t(set) * std::size_t(rays_) + std::size_t(r)] =
+          vec4(ray_direction(r, rays_, set), 1.0f);
   parallel_for(
       air_.size(),
       [&](std::size_t i) {
@@ -273,7 +274,7 @@ void Transfer::gather(const std::vector<vec4>& radiance, shading::BouncedLight& 
         const vec4* ray_directions = directions.data() + ray_set(air_[i]) * rays_;
         vec4 sum(0.0f), along(0.0f);
         for (int r = 0; r < rays_; ++r) {
-          const vec4 from = radiance[std::size_t(seen[r] + 1)];
+          const vec4 from = radiance[std::size_t(std::int64_t(seen[r]) + 1)];
           sum += from, along += from.w * ray_directions[r];
         }
         light.lobes[air_[i]] = pi_f / float(rays_) * vec4(2.0f, 2.0f, 2.0f, 1.0f) * along;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr const char* crown_name = "crown";
 constexpr double frame_s = 1.0 / 30.0;
+constexpr glm::vec3 leaf_colour{0.10f, 0.17f,
+                                0.05f};  // a white crown would be lit by itself more than by the sky
 
 /// 2,500 leaves of four vertices about a point six metres up, four metres across.
 scene::Model crown() {
@@ -41,7 +43,9 @@ scene::Model crown() {
     for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) part.mesh.indices.push_back(first + corner);
   }
   model.parts.push_back(std::move(part));
-  model.materials.emplace_back();
+  scene::Material leaf;
+  leaf.base_colour = leaf_colour, leaf.metallic = 0.0f, leaf.roughness = 1.0f;
+  model.materials.push_back(std::move(leaf));
   return model;
 }
 

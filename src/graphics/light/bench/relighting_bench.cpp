@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "graphics/light/air.h"
 #include "graphics/light/bench/crown_city.h"
+#include "graphics/reference/frame.h"
 #include "graphics/reference/shading_point.h"
 
 namespace parvis::bench {
@@ -13,7 +15,8 @@ namespace {
 constexpr int few_rays = 64, many_rays = 1024;
 
 /// The irradiance of a vertex by random rays, apart from VertexLight: no pattern is shared, and what a ray
-/// hits gives back light by the texels there in place of the mean of its textures.
+/// hits gives back light by the texels there in place of the mean of its textures. The sun that comes
+/// straight has rays all over its disc: leaves throw penumbras on each other.
 glm::vec3 random_irradiance(const reference::RayScene& scene, const light::SkyTable& sky,
                             const light::LitVertex& vertex, int rays, reference::Passage& passage) {
   constexpr float pi = 3.14159265f, open_share = 0.5f;
@@ -45,7 +48,19 @@ glm::vec3 random_irradiance(const reference::RayScene& scene, const light::SkyTa
         open_share * sky.irradiance(normal) + sun_light(at.position + 1e-3f * normal, normal);
     sum += facing * (1.0f - at.surface.metallic) * at.surface.base_colour / pi * irradiance;
   }
-  return 4.0f * pi / float(rays) * sum + sun_light(from, vertex.normal);
+  const int sun_rays = std::max(1, rays / 64);
+  const reference::Frame frame(sky.to_sun());
+  glm::vec3 straight(0.0f);
+  for (int i = 0; i < sun_rays; ++i) {
+    const float radius = float(light::sun_radius_rad) * std::sqrt(passage.random.uniform()),
+                turn = 2.0f * pi * passage.random.uniform();
+    const glm::vec3 direction =
+        glm::normalize(frame.in_world({radius * std::cos(turn), radius * std::sin(turn), 1.0f}));
+    const float facing = glm::dot(direction, vertex.normal);
+    if (facing > 0.0f && !scene.is_blocked({from, direction, 1e-4f, 1e30f}, passage))
+      straight += facing * sky.sun_irradiance() / float(sun_rays);
+  }
+  return 4.0f * pi / float(rays) * sum + straight;
 }
 
 /// One object's rays, and what lights it.
