@@ -182,11 +182,12 @@ Arriving seen_radiance(const reference::RayScene& scene, Packet& packet, const S
   std::array<glm::vec3, reference::RayScene::packet_size> by_sun;  // of those whose surfaces face it
   const std::span<const std::optional<reference::Hit>> hits = packet.hits();
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i]) {
+    const std::optional<reference::Hit>& seen = hits[i];
+    if (!seen) {
       sum.from_sky += sky.radiance(packet.direction(i));
       continue;
     }
-    const reference::Hit& hit = *hits[i];
+    const reference::Hit& hit = *seen;
     const scene::TracedHit at =
         reference::traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -packet.direction(i), 0.0f);
     if (!(glm::dot(at.normal, at.normal) > 0.5f)) continue;  // a sliver without a normal

@@ -15,8 +15,7 @@ constexpr float rim_share = 0.68f;           // of the tyre's radius
 constexpr float min_openings_m2 = 0.1f;      // of windows without panes
 constexpr float min_written_aside = 0.005f;  // metres: less is 0 in the script
 
-std::string fitted_wheels(const CarSurvey& found) {
-  const WheelFit& fit = *found.fit;
+std::string fitted_wheels(const CarSurvey& found, const WheelFit& fit) {
   const float sign = found.frame.heading_deg == 180.0f ? -1.0f : 1.0f;
   // What does not fit into the file's own frame stands as a comment, in the car's.
   const char* const begin = found.copy_reason.empty() ? "  " : "  // ";
@@ -39,7 +38,7 @@ std::string own_wheels(const std::vector<OwnWheel>& wheels) {
 std::string wheel_lines(const CarSurvey& found) {
   if (!found.wheels.empty()) return own_wheels(found.wheels);
   if (found.has_wheel_nodes) return "";
-  if (found.fit) return fitted_wheels(found);
+  if (found.fit) return fitted_wheels(found, *found.fit);
   return "  // No two arches were found: wheels(front_axle_x=..., rear_axle_x=..., axle_z=..., track=...).\n";
 }
 

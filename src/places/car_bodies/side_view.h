@@ -19,7 +19,9 @@ class SideView {
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   /// Distance of the outermost surface from the middle plane, metres; `nothing` where there is none.
-  float depth(int column, int row) const { return depths_[std::size_t(row * columns_ + column)]; }
+  float depth(int column, int row) const {
+    return depths_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+  }
   /// Position of a column's middle.
   float x(int column) const { return bounds_.min.x + (float(column) + 0.5f) * cell_m; }
   /// Height of a row's lower edge.
