@@ -945,6 +945,31 @@ class Trees(InAFolder):
         self.assertEqual(volumes["one"], volumes["two"], "sums are exact: capture/trees/exact_sum.h")
         self.assertNotEqual(volumes["one"], volumes["less"], "the control")
 
+    def test_what_is_killed_or_interrupted_goes_on_where_it_was(self):
+        capture, whole, output = self.photograph(8), self.folder / "whole.volume", self.folder / "a.volume"
+        steps = self.folder / "a.volume.steps"
+        command = ["tree", "reconstruct", capture, "--level", "3", "--iterations", "6", "--fine-epochs", "40", "-o"]
+        for signal_sent, words in [(signal.SIGKILL, ""), (signal.SIGINT, "goes on from there")]:
+            (steps / "opacity.part").unlink(missing_ok=True)
+            process = subprocess.Popen(
+                [PARVIS, *map(str, command), output], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+            )
+            while process.poll() is None and not (steps / "opacity.part").exists():
+                time.sleep(0.01)
+            time.sleep(0.2)
+            self.assertIsNone(process.poll(), "it ended too soon for this test")
+            process.send_signal(signal_sent)
+            _, reported = process.communicate(timeout=60)
+            self.assertNotEqual(process.returncode, 0)
+            self.assertIn(words, reported)
+            self.assertFalse(output.exists())
+        done = run(*command, output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("steps kept before: 6", done.stdout)
+        self.assertFalse(steps.exists())
+        self.assertEqual(run(*command, whole).returncode, 0)
+        self.assertEqual(output.read_bytes(), whole.read_bytes())
+
 
 class BadScripts(InAFolder):
     def test_names_that_are_not_there_or_taken(self):

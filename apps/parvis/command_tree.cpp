@@ -1,6 +1,8 @@
 // parvis tree: a real tree from photographs.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -11,6 +13,7 @@
 #include "base/progress.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/capture_folder.h"
+#include "capture/trees/checkpoint.h"
 #include "capture/trees/judge.h"
 #include "capture/trees/matte.h"
 #include "capture/trees/measure.h"
@@ -22,12 +25,20 @@
 #include "capture/trees/tree_file.h"
 #include "commands.h"
 #include "graphics/gl/context.h"
+#include "house/stage/output_names.h"
 #include "strict_numbers.h"
 #include "tree_calibrate.h"
 #include "tree_products.h"
 
 namespace parvis {
 namespace {
+
+std::atomic<bool> is_interrupted = false;
+
+/// Beside what a command writes: what it has done until that is written.
+trees::Checkpoint checkpoint_of(const std::filesystem::path& output) {
+  return trees::Checkpoint(house::file_beside(output, ".steps"));
+}
 
 struct SynthesizeArguments {
   std::string name;
@@ -170,12 +181,17 @@ Status reconstruct(ReconstructArguments arguments) {
   const Result<trees::MpiSession> session = trees::MpiSession::join();
   if (!session) return session.errors();
   arguments.options.processes = session->processes();
+  const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);
+  arguments.options.checkpoint = checkpoint.folder();
+  arguments.options.is_interrupted = &is_interrupted;
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
   const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
   if (!made) return made.errors();
   if (arguments.options.processes.rank != 0) return Done{};  // all have the same cells
   for (const std::string& row : made->notes) fmt::print("{}\n", row);
   const Result<std::size_t> bytes = trees::write_volume(arguments.output, made->volume);
   if (!bytes) return bytes.errors();
+  checkpoint.remove();
   fmt::print("{}: {} cells, {:.2f} MB, {} process{}\n", arguments.output.string(), made->volume.grid.size(),
              double(*bytes) * 1e-6, arguments.options.processes.count,
              arguments.options.processes.count == 1 ? "" : "es");
@@ -196,12 +212,15 @@ Status texture(const TextureArguments& arguments) {
   if (!views) return views.errors();
   const Result<trees::TreeVolume> volume = trees::read_volume(arguments.volume);
   if (!volume) return volume.errors();
-  const trees::BillboardTree tree = trees::textured(*volume, *views, arguments.options);
-  const Result<std::size_t> bytes = trees::write_tree(arguments.output, tree);
+  const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);
+  const Result<trees::BillboardTree> tree = trees::textured(*volume, *views, arguments.options, checkpoint);
+  if (!tree) return tree.errors();
+  const Result<std::size_t> bytes = trees::write_tree(arguments.output, *tree);
   if (!bytes) return bytes.errors();
-  fmt::print("{}: {} billboards, {:.2f} MB\n", arguments.output.string(), tree.grid.size(),
+  checkpoint.remove();
+  fmt::print("{}: {} billboards, {:.2f} MB\n", arguments.output.string(), tree->grid.size(),
              double(*bytes) * 1e-6);
-  fmt::print("{}\n", light_row(tree.light));
+  fmt::print("{}\n", light_row(tree->light));
   return Done{};
 }
 
@@ -349,7 +368,9 @@ void add_reconstruct(CLI::App& tree, Chosen& chosen) {
   command->add_flag("--octree", arguments->is_octree, "Divide 2x2x2 in place of 3x3x3");
   command->add_flag("--leave-out-inconsistent", arguments->options.leaves_out_inconsistent,
                     "Leave out a photograph whose silhouette contradicts all others");
-  command->footer("Example: parvis tree reconstruct out/oak -o out/oak.volume");
+  command->footer(
+      "Interrupted, it goes on when the same command is given again.\n"
+      "Example: parvis tree reconstruct out/oak -o out/oak.volume");
   command->callback([arguments, &chosen] { chosen = [arguments] { return reconstruct(*arguments); }; });
 }
 
@@ -374,7 +395,9 @@ void add_texture(CLI::App& tree, Chosen& chosen) {
                    "Levels by which billboards are coarser than the volume")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
-  command->footer("Example: parvis tree texture out/oak out/oak.volume -o out/oak.tree");
+  command->footer(
+      "Interrupted, it goes on when the same command is given again.\n"
+      "Example: parvis tree texture out/oak out/oak.volume -o out/oak.tree");
   command->callback([arguments, &chosen] { chosen = [arguments] { return texture(*arguments); }; });
 }
 

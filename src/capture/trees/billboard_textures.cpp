@@ -13,7 +13,9 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "capture/trees/billboard_math.h"
+#include "capture/trees/kept_textures.h"
 #include "capture/trees/tree_light.h"
 
 namespace parvis::trees {
@@ -21,7 +23,7 @@ namespace {
 
 constexpr float max_alpha_factor = 3.0f;  // of a texel's extinction, per iteration
 constexpr float max_alpha = 0.998f;
-constexpr int block_side = 4, max_chosen_side = 16;  // texels; a block of 4x4 becomes 16 bytes
+constexpr int block_side = 4;  // texels; a block of 4x4 becomes 16 bytes
 // Share of a billboard's pixels that reach it from the eye, below which it has no texture of its own. A cell
 // that the photograph sees to be empty has one: the mean colour in its place would be a halo round the crown.
 constexpr float min_seen = 0.02f;
@@ -78,9 +80,9 @@ class Fit {
         view_(view),
         photograph_(linear_from_srgb8(view.picture)),
         side_(side),
+        per_texture_(std::size_t(side) * std::size_t(side)),
         placed_(placed_billboards(tree.grid, view.camera, false)) {
-    const std::size_t per_texture = std::size_t(side * side);
-    texels_.assign(tree.grid.size() * per_texture, glm::vec4(0.0f));
+    texels_.assign(tree.grid.size() * per_texture_, glm::vec4(0.0f));
     colour_.assign(texels_.size(), glm::vec4(0.0f)), opacity_.assign(texels_.size(), glm::vec2(0.0f));
     visible_.assign(tree.grid.size(), 0.0f);
     const glm::vec3 eye = view.camera.position_in_world;
@@ -100,7 +102,7 @@ class Fit {
           glm::vec4 seen = seen_within(volume, box, {eye, glm::normalize(point - eye)});
           if (seen.w <= 0.0f) seen = glm::vec4(base, 0.0f);
           seen.w = std::min(seen.w, max_alpha);
-          texels_[b.cell * per_texture + std::size_t(v * side + u)] = seen;
+          texels_[b.cell * per_texture_ + std::size_t(v * side + u)] = seen;
         }
     }
   }
@@ -122,14 +124,13 @@ class Fit {
 
   BillboardTextures result() const {
     BillboardTextures textures{view_.camera, std::vector<std::int32_t>(tree_.grid.size(), -1), {}};
-    const std::size_t per_texture = std::size_t(side_ * side_);
     std::int32_t next = 0;
     for (const PlacedBillboard& b : placed_) {
       const glm::ivec2 extent = b.high - b.low;
       if (visible_[b.cell] < min_seen * float(extent.x * extent.y)) continue;
       textures.texture_of_cell[b.cell] = next++;
-      for (std::size_t k = 0; k < per_texture; ++k) {
-        const glm::vec4 texel = texels_[b.cell * per_texture + k];
+      for (std::size_t k = 0; k < per_texture_; ++k) {
+        const glm::vec4 texel = texels_[b.cell * per_texture_ + k];
         const glm::vec4 t = glm::round(255.0f * glm::vec4(srgb_from_linear(glm::vec3(texel)), texel.w));
         for (int c = 0; c < 4; ++c) textures.texels.push_back(std::uint8_t(t[c]));
       }
@@ -143,7 +144,7 @@ class Fit {
     footprint = Footprint(display::billboard_uv(place), side_);
     glm::vec4 sum(0.0f);
     for (std::size_t k = 0; k < 4; ++k) {
-      const glm::vec4 t = texels_[b.cell * std::size_t(side_ * side_) + std::size_t(footprint.texel[k])];
+      const glm::vec4 t = texels_[b.cell * per_texture_ + std::size_t(footprint.texel[k])];
       sum += footprint.weight[k] * t.w * glm::vec4(glm::vec3(t), 1.0f);
     }
     return sum;
@@ -174,7 +175,7 @@ class Fit {
         const glm::vec3 wanted = alpha * glm::vec3(p[0], p[1], p[2]);
         const glm::vec3 residual = wanted - glm::vec3(found);
         const glm::vec4 own = sample(b, place, footprint);
-        const std::size_t first = b.cell * std::size_t(side_ * side_);
+        const std::size_t first = b.cell * per_texture_;
         visible_[b.cell] += before;
         for (std::size_t k = 0; k < 4; ++k) {
           const std::size_t i = first + std::size_t(footprint.texel[k]);
@@ -195,6 +196,7 @@ class Fit {
   const TreeView& view_;
   ImageF photograph_;  // straight alpha, linear light
   int side_;
+  std::size_t per_texture_;              // texels
   std::vector<PlacedBillboard> placed_;  // front to back
   std::vector<glm::vec4> texels_;        // straight linear light and alpha, side * side per cell
   std::vector<glm::vec4> colour_;        // per texel: sum of share * residual; sum of shares
@@ -251,14 +253,38 @@ int chosen_texels_per_side(const BillboardTree& tree, const TreeVolume& volume,
 
 BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
                        const TextureOptions& options) {
+  return *textured(volume, views, options, Checkpoint());  // what keeps nothing cannot fail
+}
+
+Result<BillboardTree> textured(const TreeVolume& volume, std::span<const TreeView> views,
+                               const TextureOptions& options, const Checkpoint& checkpoint) {
   BillboardTree tree = bare_billboards(volume, options.parent_levels);
+  const KeptTextures kept(checkpoint, volume, options);
   TextureOptions chosen = options;
-  if (chosen.texels_per_side == 0)
-    chosen.texels_per_side = chosen_texels_per_side(tree, volume, views, options);
+  if (chosen.texels_per_side == 0) {
+    const std::optional<int> found = kept.find_side(views);
+    chosen.texels_per_side = found ? *found : chosen_texels_per_side(tree, volume, views, options);
+    if (!found)
+      if (Status status = kept.keep_side(views, chosen.texels_per_side); !status) return status.errors();
+  }
   tree.texels_per_side = chosen.texels_per_side;
   tree.views.resize(views.size());
-  parallel_for(views.size(),
-               [&](std::size_t i) { tree.views[i] = textures_of(tree, volume, views[i], chosen); });
+  std::vector<std::size_t> to_do;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (std::optional<BillboardTextures> found = kept.find(i, views[i], tree))
+      tree.views[i] = *std::move(found);
+    else
+      to_do.push_back(i);
+  Progress progress("texturing", to_do.size());
+  std::vector<Status> statuses(to_do.size(), Done{});
+  parallel_for(to_do.size(), [&](std::size_t k) {
+    const std::size_t i = to_do[k];
+    tree.views[i] = textures_of(tree, volume, views[i], chosen);
+    statuses[k] = kept.keep(i, views[i], tree);
+    progress.advance();
+  });
+  for (const Status& status : statuses)
+    if (!status) return status.errors();
   tree.light = estimated_light(tree, options.to_sun);
   return tree;
 }

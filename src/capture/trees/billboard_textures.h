@@ -4,7 +4,9 @@
 #include <optional>
 #include <span>
 
+#include "base/result.h"
 #include "capture/trees/billboard_tree.h"
+#include "capture/trees/checkpoint.h"
 
 namespace parvis::trees {
 
@@ -21,11 +23,13 @@ enum class TextureMethod : std::uint8_t {
   random_texels,
 };
 
+inline constexpr int max_chosen_side = 16;  ///< texels: what `textured` chooses at most
+
 /// Options of `textured`.
 struct TextureOptions {
   TextureMethod method = TextureMethod::optimised;
-  /// M, a multiple of 4; 0 (the default of `textured`): as fine as the photographs' pixels, at most 16, and
-  /// coarser until the textures' blocks stay below `max_megabytes`.
+  /// M, a multiple of 4; 0 (the default of `textured`): as fine as the photographs' pixels, at most
+  /// max_chosen_side, and coarser until the textures' blocks stay below `max_megabytes`.
   int texels_per_side = 0;
   float max_megabytes = 6.0f;  ///< of all textures in blocks, one byte per texel
   int iterations = 10;         ///< of `optimised`
@@ -37,6 +41,11 @@ struct TextureOptions {
 /// The billboards of a volume with their textures from the photographs.
 BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
                        const TextureOptions& options);
+
+/// The same, with progress. The textures of each photograph are kept when they are made, and found again by
+/// the same call: `checkpoint` is the caller's to remove. Error: they cannot be kept; those that were stay.
+Result<BillboardTree> textured(const TreeVolume& volume, std::span<const TreeView> views,
+                               const TextureOptions& options, const Checkpoint& checkpoint);
 
 /// The textures of one photograph by 4.5.3, or by one of its two baselines. `texels_per_side` is given.
 BillboardTextures selected_texels(const BillboardTree& tree, const TreeView& view,

@@ -18,8 +18,7 @@ CellGrid::CellGrid(const Bounds& box, int branching, int side, std::vector<glm::
       first = std::int32_t(cell_at_.size());
       cell_at_.resize(cell_at_.size() + std::size_t(brick_side_ * brick_side_ * brick_side_), no_cell);
     }
-    cell_at_[std::size_t(first + (within.z * brick_side_ + within.y) * brick_side_ + within.x)] =
-        std::int32_t(i);
+    cell_at_[index_in_brick(first, within)] = std::int32_t(i);
   }
 }
 
@@ -34,9 +33,7 @@ int CellGrid::cell_at(glm::ivec3 place) const {
     return no_cell;
   const glm::ivec3 brick = place / brick_side_, within = place - brick * brick_side_;
   const std::int32_t first = brick_at_[brick_index(brick)];
-  return first < 0
-             ? no_cell
-             : cell_at_[std::size_t(first + (within.z * brick_side_ + within.y) * brick_side_ + within.x)];
+  return first < 0 ? no_cell : cell_at_[index_in_brick(first, within)];
 }
 
 }  // namespace parvis::trees

@@ -56,6 +56,11 @@ class CellGrid {
     return (std::size_t(brick.z) * std::size_t(bricks_) + std::size_t(brick.y)) * std::size_t(bricks_) +
            std::size_t(brick.x);
   }
+  // Into cell_at_, of a brick whose first index is known.
+  std::size_t index_in_brick(std::int32_t first, glm::ivec3 within) const {
+    const std::int32_t index = first + (within.z * brick_side_ + within.y) * brick_side_ + within.x;
+    return std::size_t(index);
+  }
 
   Bounds box_;
   int branching_ = 3, side_ = 0, brick_side_ = 1, bricks_ = 0;
@@ -128,8 +133,7 @@ void CellGrid::walk(const ViewRay& ray, Visit&& visit) const {
       for (Steps inner(brick_origin, direction, inverse, cell_m, brick_side_, t); inner.inside(brick_side_);
            inner.advance()) {
         const float leave = std::min(inner.leave(), brick_leave);
-        const std::int32_t cell = cell_at_[std::size_t(
-            first + (inner.place.z * brick_side_ + inner.place.y) * brick_side_ + inner.place.x)];
+        const std::int32_t cell = cell_at_[index_in_brick(first, inner.place)];
         if (cell >= 0 && leave > t && !visit(std::size_t(cell), t, leave)) return;
         t = std::max(t, leave);
         if (inner.leave() >= brick_leave) break;

@@ -214,18 +214,21 @@ std::vector<float> initial_extinction(const CellGrid& grid, std::span<const Silh
 }
 
 Opacities estimate_opacity(const CellGrid& grid, std::span<const TreeView> views,
-                           std::span<const Silhouette> silhouettes, const OpacityOptions& options) {
-  Opacities result;
+                           std::span<const Silhouette> silhouettes, const OpacityOptions& options,
+                           Opacities start) {
+  Opacities result = std::move(start);
   result.picture_factor = options.picture_factor > 0 ? options.picture_factor : chosen_factor(grid, views);
   std::vector<Matte> mattes(views.size());
   parallel_for(views.size(), [&](std::size_t i) {
     mattes[i] = {reduced(views[i].camera, result.picture_factor),
                  reduced_alpha(views[i].picture, result.picture_factor)};
   });
-  result.extinction_per_m = initial_extinction(grid, silhouettes);
+  if (result.extinction_per_m.empty()) result.extinction_per_m = initial_extinction(grid, silhouettes);
   const Estimate estimate{grid, options, result.extinction_per_m, mean_chord_m(grid.cell_size_m())};
-  for (int i = 0; i < options.iterations; ++i)
+  while (result.mean_change.size() < std::size_t(std::max(options.iterations, 0))) {
     result.mean_change.push_back(update_cells(estimate, gather(estimate, mattes)));
+    if (options.after_iteration && !options.after_iteration(result)) break;
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 // lengths within a cell).
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -28,6 +29,13 @@ enum class OpacityMethod : std::uint8_t {
   multiplicative,
 };
 
+/// The result of an estimate, or how far it is: one that was ended early goes on from here.
+struct Opacities {
+  std::vector<float> extinction_per_m;  ///< per cell of the grid
+  std::vector<double> mean_change;      ///< per iteration: mean |change of t| over the cells (figure 4.8)
+  int picture_factor = 1;               ///< that was used
+};
+
 /// How opacities are estimated.
 struct OpacityOptions {
   OpacityMethod method = OpacityMethod::multiplicative;
@@ -37,13 +45,8 @@ struct OpacityOptions {
       cutoff;                ///< transparency t above which a cell becomes empty after each iteration (4.5.2)
   int picture_factor = 0;    ///< mattes are reduced so many times; 0: until a pixel is about half a cell
   Processes processes = {};  ///< each takes its share of the photographs
-};
-
-/// The result of an estimate.
-struct Opacities {
-  std::vector<float> extinction_per_m;  ///< per cell of the grid
-  std::vector<double> mean_change;      ///< per iteration: mean |change of t| over the cells (figure 4.8)
-  int picture_factor = 1;               ///< that was used
+  /// Called after each iteration; where it returns false the estimate ends.
+  std::function<bool(const Opacities&)> after_iteration = {};
 };
 
 /// The mean length of a cell's chords: 4 V / S (Cauchy), metres.
@@ -52,9 +55,11 @@ float mean_chord_m(glm::vec3 cell_size_m);
 /// The thesis's start: the minimum over the views of the mean alpha of the cell's projection.
 std::vector<float> initial_extinction(const CellGrid& grid, std::span<const Silhouette> silhouettes);
 
-/// Estimates the cells' extinction. Every pixel of every view casts one ray.
+/// Estimates the cells' extinction. Every pixel of every view casts one ray. `start`: an estimate of the same
+/// grid, views and options that goes on after its iterations; one without cells begins.
 Opacities estimate_opacity(const CellGrid& grid, std::span<const TreeView> views,
-                           std::span<const Silhouette> silhouettes, const OpacityOptions& options);
+                           std::span<const Silhouette> silhouettes, const OpacityOptions& options,
+                           Opacities start = {});
 
 /// The picture of alpha, 0..1, that a camera sees of the cells.
 ImageF render_alpha(const CellGrid& grid, std::span<const float> extinction_per_m, const Pinhole& camera);

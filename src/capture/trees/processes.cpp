@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
+#include <vector>
 
 namespace parvis::trees {
 namespace {
@@ -21,6 +23,39 @@ void all_reduce(std::span<double> values) {
 }
 
 }  // namespace
+
+bool holds_in_any(const Processes& processes, bool holds) {
+  double count = holds ? 1.0 : 0.0;
+  if (processes.sum) processes.sum({&count, 1});
+  return count > 0.0;
+}
+
+void share_of_first(const Processes& processes, std::string& bytes) {
+  if (!processes.sum) return;
+  const bool is_first = processes.rank == 0;
+  double size = is_first ? double(bytes.size()) : 0.0;
+  processes.sum({&size, 1});
+  if (!is_first) bytes.resize(std::size_t(size));
+  // Whole numbers of 32 bits are exact in doubles, and the others add nothing to them.
+  constexpr std::size_t word_bytes = sizeof(std::uint32_t);
+  std::vector<double> words((bytes.size() + word_bytes - 1) / word_bytes, 0.0);
+  const auto for_words = [&](auto&& visit) {
+    for (std::size_t i = 0; i < words.size(); ++i)
+      visit(words[i], bytes.data() + i * word_bytes, std::min(word_bytes, bytes.size() - i * word_bytes));
+  };
+  if (is_first)
+    for_words([](double& word, const char* from, std::size_t count) {
+      std::uint32_t value = 0;
+      std::memcpy(&value, from, count);
+      word = double(value);
+    });
+  processes.sum(words);
+  if (is_first) return;
+  for_words([](double word, char* to, std::size_t count) {
+    const auto value = std::uint32_t(word);
+    std::memcpy(to, &value, count);
+  });
+}
 
 Result<MpiSession> MpiSession::join() {
   if (!std::getenv("OMPI_COMM_WORLD_SIZE")) return MpiSession(false);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 
 #include "base/result.h"
 
@@ -19,6 +20,11 @@ struct Processes {
   /// Is a share of the work this process's?
   bool has(std::size_t share) const { return share % std::size_t(count) == std::size_t(rank); }
 };
+
+/// Does it hold in any of the processes?
+bool holds_in_any(const Processes& processes, bool holds);
+/// The first process's bytes, in all of them.
+void share_of_first(const Processes& processes, std::string& bytes);
 
 /// Membership in what `mpirun` started, for as long as it lives.
 class MpiSession {

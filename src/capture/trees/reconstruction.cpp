@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <span>
+#include <utility>
 
 #include "base/progress.h"
+#include "base/sealed_file.h"
+#include "capture/trees/kept_reconstruction.h"
 
 namespace parvis::trees {
 namespace {
 
 constexpr int cutoff_iterations = 5;  // of the estimates that the cutoff is chosen by
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The views without the one that contradicts all others.
 Result<std::vector<TreeView>> consistent(std::span<const TreeView> views, bool leaves_out,
@@ -31,60 +30,217 @@ Result<std::vector<TreeView>> consistent(std::span<const TreeView> views, bool l
   return result;
 }
 
+/// What was kept of an earlier call.
+struct Found {
+  std::optional<float> cutoff;
+  std::optional<Opacities> opacities;
+  std::optional<FittedVolume> colours, finer;
+
+  Found(const StepKeeper& keeper, const KeptSteps& steps) {
+    const std::string bytes = keeper.find(steps.cutoff);
+    Taker taker(bytes);
+    if (const auto value = taker.take<float>(); taker.is_at_end()) cutoff = value;
+    opacities = opacities_of(keeper.find(steps.opacity));
+    colours = fitted_volume_of(keeper.find(steps.colours));
+    finer = fitted_volume_of(keeper.find(steps.finer));
+  }
+};
+
+/// One call: the steps in their order.
+class Work {
+ public:
+  Work(std::span<const TreeView> views, const ReconstructionOptions& options)
+      : all_(views),
+        options_(options),
+        steps_(KeptSteps::of(views, options)),
+        keeper_(options),
+        found_(keeper_, steps_),
+        progress_("reconstructing", passes_to_do()) {}
+
+  Result<Reconstruction> run() {
+    const Result<std::vector<TreeView>> views =
+        consistent(all_, options_.leaves_out_inconsistent, result_.notes);
+    if (!views) return views.errors();
+    const std::vector<Silhouette> masks = silhouettes(*views);
+    const Result<Bounds> box = hull_box(*views, masks);
+    if (!box) return box.errors();
+    Result<CellGrid> grid = hull_grid(*views, masks, *box, options_.grid);
+    if (!grid) return grid.errors();
+    progress_.advance(all_.size());
+    note("hull",
+         fmt::format("hull of {} photographs, {} of {}^3 cells", views->size(), grid->size(), grid->side()));
+    if (Status status = choose_cutoff(*grid, *views); !status) return status.errors();
+    if (Status status = estimate(*grid, *views, masks); !status) return status.errors();
+    if (Status status = fit_colours(*std::move(grid), *views); !status) return status.errors();
+    if (options_.fine_epochs > 0)
+      if (Status status = fit_finer(*views); !status) return status.errors();
+    return std::move(result_);
+  }
+
+ private:
+  FitOptions coarse_fit() const {
+    FitOptions fit;
+    fit.epochs = options_.coarse_epochs, fit.processes = options_.processes;
+    return fit;
+  }
+  FitOptions fine_fit() const {
+    FitOptions fit;
+    fit.epochs = options_.fine_epochs, fit.processes = options_.processes;
+    fit.smoothing = options_.fine_smoothing;
+    return fit;
+  }
+  OpacityOptions cutoff_estimate() const {
+    OpacityOptions opacity = options_.opacity;
+    opacity.iterations = std::min(opacity.iterations, cutoff_iterations);
+    return opacity;
+  }
+
+  /// What is to come, for people: in passes of one photograph's rays through the grid. A grid that is one
+  /// level finer has so many times more cells on a ray.
+  std::size_t passes_to_do() const {
+    const std::size_t count = all_.size();
+    const auto left = [](std::size_t total, std::size_t done) { return total - std::min(total, done); };
+    std::size_t passes = count;  // the hull
+    if (!options_.cutoff && !found_.cutoff)
+      passes += count * std::size_t(std::max(cutoff_estimate().iterations, 0));
+    passes += count * left(std::size_t(std::max(options_.opacity.iterations, 0)),
+                           found_.opacities ? found_.opacities->mean_change.size() : 0);
+    if (!found_.colours) passes += count;  // the first colours
+    passes += left(coarse_fit().steps(count), found_.colours ? found_.colours->state.steps : 0);
+    return passes + std::size_t(options_.grid.branching) *
+                        left(fine_fit().steps(count), found_.finer ? found_.finer->state.steps : 0);
+  }
+
+  /// `done`: how many of the step's parts were kept by earlier calls.
+  void note(const std::string& step, const std::string& what, std::size_t done = 0) {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+    result_.times.push_back({step, seconds});
+    result_.notes.push_back(fmt::format("{}: {:.1f} s{}", what, seconds,
+                                        done > 0 ? fmt::format(", steps kept before: {}", done) : ""));
+  }
+
+  Status choose_cutoff(const CellGrid& grid, std::span<const TreeView> views) {
+    Status status = Done{};
+    if (options_.cutoff || found_.cutoff) {
+      result_.cutoff = options_.cutoff ? *options_.cutoff : *found_.cutoff;
+    } else {
+      OpacityOptions opacity = cutoff_estimate();
+      opacity.after_iteration = [&](const Opacities&) {
+        progress_.advance(all_.size());
+        return true;
+      };
+      result_.cutoff = cutoff_by_held_out_error(grid, views, opacity);
+      status = keeper_.keep(steps_.cutoff, true, [&] {
+        std::string bytes;
+        append_value(bytes, result_.cutoff);
+        return bytes;
+      });
+    }
+    note("cutoff", fmt::format("cutoff {}", result_.cutoff), !options_.cutoff && found_.cutoff ? 1 : 0);
+    return status;
+  }
+
+  Status estimate(const CellGrid& grid, std::span<const TreeView> views, std::span<const Silhouette> masks) {
+    Opacities start;
+    if (found_.opacities && found_.opacities->extinction_per_m.size() == grid.size())
+      start = *std::move(found_.opacities);
+    const std::size_t done = start.mean_change.size();
+    Status status = Done{};
+    OpacityOptions opacity = options_.opacity;
+    opacity.processes = options_.processes;
+    opacity.after_iteration = [&](const Opacities& now) {
+      progress_.advance(all_.size());
+      const bool is_finished = now.mean_change.size() == std::size_t(options_.opacity.iterations);
+      status = keeper_.keep(steps_.opacity, is_finished, [&] { return bytes_of(now); });
+      return status.ok();
+    };
+    result_.opacities = estimate_opacity(grid, views, masks, opacity, std::move(start));
+    const std::vector<double>& change = result_.opacities.mean_change;
+    note("opacity",
+         fmt::format("opacity in {} iterations, mean change {:.4f} to {:.4f}", opacity.iterations,
+                     change.empty() ? 0.0 : change.front(), change.empty() ? 0.0 : change.back()),
+         done);
+    return status;
+  }
+
+  Status fit_colours(CellGrid grid, std::span<const TreeView> views) {
+    FitState state;
+    if (found_.colours) {
+      result_.volume = std::move(found_.colours->volume), state = std::move(found_.colours->state);
+    } else {
+      result_.volume = coloured(std::move(grid), result_.opacities.extinction_per_m, views);
+      progress_.advance(all_.size());
+    }
+    const std::size_t done = state.steps;
+    if (Status status = fit(coarse_fit(), {steps_.colours, 1, true}, views, state); !status) return status;
+    result_.volume = without_transparent_cells(result_.volume, result_.cutoff);
+    note("colours",
+         fmt::format("colours, {} cells, RMS error {:.4f}", result_.volume.grid.size(),
+                     state.errors.empty() ? 0.0 : state.errors.back()),
+         done);
+    return Done{};
+  }
+
+  Status fit_finer(std::span<const TreeView> views) {
+    FitState state;
+    if (found_.finer) {
+      result_.volume = std::move(found_.finer->volume), state = std::move(found_.finer->state);
+    } else {
+      Result<TreeVolume> fine = subdivided(result_.volume);
+      if (!fine) return fine.errors();
+      result_.volume = *std::move(fine);
+    }
+    const std::size_t done = state.steps;
+    // Its end is the result, which the caller writes; kept, too, it would be as much again on the disk.
+    const FitKeeping keeping{steps_.finer, std::size_t(options_.grid.branching), false};
+    if (Status status = fit(fine_fit(), keeping, views, state); !status) return status;
+    result_.volume = without_transparent_cells(result_.volume, result_.cutoff);
+    note("finer",
+         fmt::format("one level finer, {} cells, RMS error {:.4f}", result_.volume.grid.size(),
+                     state.errors.back()),
+         done);
+    return Done{};
+  }
+
+  /// How a fit is reported and kept.
+  struct FitKeeping {
+    const KeptStep& step;
+    std::size_t passes;  // of progress, per step
+    bool keeps_end;
+  };
+
+  /// Fits the volume of the result from `state` on.
+  Status fit(FitOptions options, const FitKeeping& keeping, std::span<const TreeView> views,
+             FitState& state) {
+    Status status = Done{};
+    const std::size_t total = options.steps(views.size());
+    options.after_step = [&](const FitState& now) {
+      progress_.advance(keeping.passes);
+      status = keeper_.keep(keeping.step, keeping.keeps_end && now.steps == total,
+                            [&] { return bytes_of(result_.volume, now); });
+      return status.ok();
+    };
+    fit_volume(result_.volume, views, options, state);
+    return status;
+  }
+
+  std::span<const TreeView> all_;
+  const ReconstructionOptions& options_;
+  KeptSteps steps_;
+  StepKeeper keeper_;
+  Found found_;
+  Progress progress_;
+  Reconstruction result_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
-Result<Reconstruction> reconstruct(std::span<const TreeView> all, const ReconstructionOptions& options) {
-  Reconstruction result;
-  Progress progress("reconstructing", 5);
-  auto start = std::chrono::steady_clock::now();
-  const auto note = [&](const std::string& step, const std::string& what) {
-    result.times.push_back({step, seconds_since(start)});
-    result.notes.push_back(fmt::format("{}: {:.1f} s", what, result.times.back().seconds));
-    start = std::chrono::steady_clock::now();
-    progress.advance();
-  };
-  if (all.size() < 3)
-    return error("{} photographs of the tree: at least 3 are needed, 20 to 30 are recommended", all.size());
-  const Result<std::vector<TreeView>> views = consistent(all, options.leaves_out_inconsistent, result.notes);
-  if (!views) return views.errors();
-  const std::vector<Silhouette> masks = silhouettes(*views);
-  const Result<Bounds> box = hull_box(*views, masks);
-  if (!box) return box.errors();
-  Result<CellGrid> grid = hull_grid(*views, masks, *box, options.grid);
-  if (!grid) return grid.errors();
-  note("hull",
-       fmt::format("hull of {} photographs, {} of {}^3 cells", views->size(), grid->size(), grid->side()));
-
-  OpacityOptions opacity = options.opacity;
-  opacity.iterations = std::min(opacity.iterations, cutoff_iterations);
-  result.cutoff = options.cutoff ? *options.cutoff : cutoff_by_held_out_error(*grid, *views, opacity);
-  note("cutoff", fmt::format("cutoff {}", result.cutoff));
-  opacity.iterations = options.opacity.iterations, opacity.processes = options.processes;
-  result.opacities = estimate_opacity(*grid, *views, masks, opacity);
-  note("opacity",
-       fmt::format("opacity in {} iterations, mean change {:.4f} to {:.4f}", opacity.iterations,
-                   result.opacities.mean_change.empty() ? 0.0 : result.opacities.mean_change.front(),
-                   result.opacities.mean_change.empty() ? 0.0 : result.opacities.mean_change.back()));
-
-  result.volume = coloured(*std::move(grid), result.opacities.extinction_per_m, *views);
-  FitOptions fit;
-  fit.epochs = options.coarse_epochs, fit.processes = options.processes;
-  std::vector<double> errors = fit_volume(result.volume, *views, fit);
-  result.volume = without_transparent_cells(result.volume, result.cutoff);
-  note("colours", fmt::format("colours, {} cells, RMS error {:.4f}", result.volume.grid.size(),
-                              errors.empty() ? 0.0 : errors.back()));
-  if (options.fine_epochs > 0) {
-    Result<TreeVolume> fine = subdivided(result.volume);
-    if (!fine) return fine.errors();
-    fit.epochs = options.fine_epochs, fit.smoothing = options.fine_smoothing;
-    errors = fit_volume(*fine, *views, fit);
-    result.volume = without_transparent_cells(*fine, result.cutoff);
-    note("finer", fmt::format("one level finer, {} cells, RMS error {:.4f}", result.volume.grid.size(),
-                              errors.back()));
-  } else {
-    progress.advance();
-  }
-  return result;
+Result<Reconstruction> reconstruct(std::span<const TreeView> views, const ReconstructionOptions& options) {
+  if (views.size() < 3)
+    return error("{} photographs of the tree: at least 3 are needed, 20 to 30 are recommended", views.size());
+  return Work(views, options).run();
 }
 
 }  // namespace parvis::trees

@@ -1,6 +1,10 @@
-// From photographs to a volume in one call: hull, grid, opacity, colours, one finer level.
+// From photographs to a volume in one call: hull, grid, opacity, colours, one finer level. Interrupted, the
+// same call goes on where it was.
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,8 +23,11 @@ struct ReconstructionOptions {
   int fine_epochs = 4;          ///< of the fit at one level more; 0: there is none
   float fine_smoothing =
       0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/tree-smoothing.md
-  Processes processes = {};              ///< that share the work (MPI)
-  bool leaves_out_inconsistent = false;  ///< a photograph that contradicts all others; else it is an error
+  Processes processes = {};               ///< that share the work (MPI)
+  bool leaves_out_inconsistent = false;   ///< a photograph that contradicts all others; else it is an error
+  std::filesystem::path checkpoint = {};  ///< folder for what is done, the caller's to remove; empty: none
+  std::chrono::seconds keeping_interval{20};          ///< how much work a kill may cost
+  const std::atomic<bool>* is_interrupted = nullptr;  ///< when it turns true, no further step is begun
 };
 
 /// How long a step took.
@@ -38,8 +45,10 @@ struct Reconstruction {
   std::vector<StepTime> times;     ///< in their order
 };
 
-/// Reconstructs a tree. Errors: what hull_box and hull_grid say; a photograph whose silhouette contradicts
-/// the others, by name.
+/// Reconstructs a tree. The same photographs and options give the same cells for any number of threads, of
+/// any number of processes, with or without interruption. Errors: what hull_box and hull_grid say; a
+/// photograph whose silhouette contradicts the others, by name; the work was interrupted, or what is done
+/// cannot be kept (what was kept before stays, and the same call goes on from there).
 Result<Reconstruction> reconstruct(std::span<const TreeView> views, const ReconstructionOptions& options);
 
 }  // namespace parvis::trees

@@ -72,15 +72,26 @@ ShownTree& ShownTree::operator=(ShownTree&&) noexcept = default;
 ShownTree::~ShownTree() = default;
 
 Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, const scene::Scene& light) {
-  ShownTree shown;
-  shown.scene_ = std::make_unique<scene::Scene>();
-  shown.scene_->sun = light.sun, shown.scene_->sky = light.sky, shown.scene_->haze_per_m = light.haze_per_m;
+  auto scene = std::make_unique<scene::Scene>();
+  scene->sun = light.sun, scene->sky = light.sky, scene->haze_per_m = light.haze_per_m;
   render::Drawables drawables;
   drawables.add(scene_trees_kind());
-  drawables.furnish(*shown.scene_);
+  drawables.furnish(*scene);
   SceneTree placed;
   placed.tree = std::move(tree);
-  shown.scene_->data<SceneTrees>().add(std::move(placed), 0);
+  scene->data<SceneTrees>().add(std::move(placed), 0);
+  return shown(std::move(scene), drawables);
+}
+
+Result<ShownTree> ShownTree::of_scene(scene::Scene scene) {
+  render::Drawables drawables;
+  drawables.furnish(scene);
+  return shown(std::make_unique<scene::Scene>(std::move(scene)), drawables);
+}
+
+Result<ShownTree> ShownTree::shown(std::unique_ptr<scene::Scene> scene, const render::Drawables& drawables) {
+  ShownTree shown;
+  shown.scene_ = std::move(scene);
   Result<std::unique_ptr<render::Renderer>> renderer =
       render::Renderer::create(*shown.scene_, drawables, light::sun_and_sky);
   if (!renderer) return renderer.errors();

@@ -19,6 +19,8 @@ class ShownTree {
  public:
   /// `light`: whose sun, sky and haze it stands in; other things of that scene are not drawn.
   static Result<ShownTree> create(std::shared_ptr<const TreeLevels> tree, const scene::Scene& light);
+  /// In place of a captured tree the objects of a scene in its own light: the mesh that was photographed.
+  static Result<ShownTree> of_scene(scene::Scene scene);
 
   /// What a camera sees of the tree: RGBA, premultiplied, linear light before any tone curve. Fails only
   /// if a shader does.
@@ -27,6 +29,7 @@ class ShownTree {
  private:
   class Backdrop;
   ShownTree() = default;
+  static Result<ShownTree> shown(std::unique_ptr<scene::Scene> scene, const render::Drawables& drawables);
   Result<ImageF> before(float backdrop, const render::EyeView& eye);
 
   std::unique_ptr<scene::Scene> scene_;  // the renderer's

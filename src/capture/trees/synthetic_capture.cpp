@@ -19,7 +19,6 @@ namespace {
 constexpr float fov = 0.52f;                             // radians: a lens of about 65 mm
 constexpr float lowest_deg = 2.0f, highest_deg = 26.0f;  // of the cameras, above the tree's middle
 constexpr float golden_share = 0.61803399f;
-constexpr float exposure = 0.9f;  // a leaf in the sun is then about 0.7 in sRGB
 
 /// From where the box fills the picture's height or width, from the highest camera.
 float distance_m(const Bounds& tree) {
@@ -113,7 +112,8 @@ std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     CaptureOptions own = options;
     own.seed = options.seed + 7919 * i;
-    views.push_back(photograph_tree(scene, cameras[i], fmt::format("{}_{:03}", name, i), exposure, own));
+    views.push_back(
+        photograph_tree(scene, cameras[i], fmt::format("{}_{:03}", name, i), capture_exposure, own));
     progress.advance();
   }
   return views;

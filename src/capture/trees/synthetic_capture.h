@@ -17,6 +17,9 @@ struct CaptureLight {
   float sun_height_deg = 48.0f;
 };
 
+/// Of the photographs of a capture: a leaf in the sun is then about 0.7 in sRGB.
+inline constexpr float capture_exposure = 0.9f;
+
 /// A scene of the model alone, under that sun and a plain sky.
 scene::Scene capture_scene(const scene::Model& model, const CaptureLight& light);
 
@@ -38,7 +41,7 @@ std::vector<Camera> held_out_cameras(const Bounds& tree, int count, std::uint64_
 /// `exposure`.
 TreeView photograph_tree(const scene::Scene& scene, const Camera& camera, std::string name, float exposure,
                          const CaptureOptions& options);
-/// All cameras, one after the other; names are NAME_000 ...
+/// All cameras, one after the other, at capture_exposure; names are NAME_000 ...
 std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                       const std::string& name, const CaptureOptions& options);
 

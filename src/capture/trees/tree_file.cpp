@@ -8,7 +8,6 @@
 
 #include "base/checked.h"
 #include "base/memory_budget.h"
-#include "base/sealed_file.h"
 #include "capture/trees/crossed_billboards.h"
 #include "capture/trees/texture_blocks.h"
 #include "formats/gltf/gltf_own_data.h"
@@ -214,12 +213,16 @@ Result<BillboardTree> read_tree(const std::filesystem::path& file) {
   return content ? tree_of(file, *content) : content.errors();
 }
 
-Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume) {
-  std::string content;
+void append_volume(std::string& content, const TreeVolume& volume) {
   append_value(content, volume.grid.box()), append_value(content, std::int32_t(volume.grid.branching()));
   append_value(content, std::int32_t(volume.grid.side()));
   append_values(content, volume.grid.cells()), append_values(content, volume.extinction_per_m);
   append_values(content, volume.colour);
+}
+
+Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume) {
+  std::string content;
+  append_volume(content, volume);
   if (Status status = write_sealed(file, volume_kind, content); !status) return status.errors();
   return content.size() + volume_kind.magic.size() + sizeof(std::uint64_t);
 }
@@ -227,10 +230,17 @@ Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVo
 Result<TreeVolume> read_volume(const std::filesystem::path& file) {
   const Result<std::string> content = read_sealed(file, volume_kind);
   if (!content) return content.errors();
+  Taker taker(*content);
+  Result<TreeVolume> volume = take_volume(taker, file);
+  if (volume && !taker.is_at_end())
+    return error("{}: the tree volume is damaged: bytes follow its end", file.string());
+  return volume;
+}
+
+Result<TreeVolume> take_volume(Taker& taker, const std::filesystem::path& file) {
   const auto wrong = [&](const std::string& what) {
     return error("{}: the tree volume is damaged: {}", file.string(), what);
   };
-  Taker taker(*content);
   const auto box = taker.take<Bounds>();
   const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>();
   std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
@@ -239,8 +249,7 @@ Result<TreeVolume> read_volume(const std::filesystem::path& file) {
   if (taker.has_ended_early()) return cut_short(file);
   if (const std::string problem = grid_problem(box, branching, side, max_grid_side, cells); !problem.empty())
     return wrong(problem);
-  if (volume.extinction_per_m.size() != cells.size() || volume.colour.size() != cells.size() ||
-      !taker.is_at_end())
+  if (volume.extinction_per_m.size() != cells.size() || volume.colour.size() != cells.size())
     return wrong("as many values as cells were expected");
   for (const float tau : volume.extinction_per_m)
     if (!(tau >= 0.0f) || std::isinf(tau)) return wrong("an extinction is no number from 0 on");

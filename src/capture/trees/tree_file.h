@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/result.h"
+#include "base/sealed_file.h"
 #include "capture/trees/billboard_tree.h"
 
 namespace parvis::trees {
@@ -19,6 +20,11 @@ Result<std::size_t> write_tree(const std::filesystem::path& file, const Billboar
 /// count is checked against the bytes that are left before memory is taken for it. Errors name the file and
 /// what is wrong.
 Result<BillboardTree> read_tree(const std::filesystem::path& file);
+
+/// Appends a volume to the content of a file.
+void append_volume(std::string& content, const TreeVolume& volume);
+/// Takes it out of the content of `file`, checked. Errors name the file and what is wrong.
+Result<TreeVolume> take_volume(Taker& taker, const std::filesystem::path& file);
 
 /// The volume that textures are made from, between two commands. Returns the file's size in bytes.
 Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume);

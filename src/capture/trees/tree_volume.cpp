@@ -104,23 +104,16 @@ double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossing
   return double(glm::dot(error, error));
 }
 
-/// Moments of Adam per cell.
-struct Adam {
-  std::vector<glm::vec4> first, second;
-  std::vector<std::uint16_t> steps;
-
-  explicit Adam(std::size_t count)
-      : first(count, glm::vec4(0.0f)), second(count, glm::vec4(0.0f)), steps(count, 0) {}
-
-  glm::vec4 step(std::size_t i, glm::vec4 gradient) {
-    steps[i] = std::uint16_t(std::min(int(steps[i]) + 1, 60000));
-    first[i] = beta1 * first[i] + (1.0f - beta1) * gradient;
-    second[i] = beta2 * second[i] + (1.0f - beta2) * gradient * gradient;
-    const float n = float(steps[i]);
-    const glm::vec4 m = first[i] / (1.0f - std::pow(beta1, n)), v = second[i] / (1.0f - std::pow(beta2, n));
-    return m / (glm::sqrt(v) + adam_epsilon);
-  }
-};
+/// A cell's step by Adam, at rate 1.
+glm::vec4 adam_step(FitState& state, std::size_t i, glm::vec4 gradient) {
+  glm::vec4 &mean = state.mean[i], &mean_square = state.mean_square[i];
+  state.cell_steps[i] = std::uint16_t(std::min(int(state.cell_steps[i]) + 1, 60000));
+  mean = beta1 * mean + (1.0f - beta1) * gradient;
+  mean_square = beta2 * mean_square + (1.0f - beta2) * gradient * gradient;
+  const float n = float(state.cell_steps[i]);
+  const glm::vec4 m = mean / (1.0f - std::pow(beta1, n)), v = mean_square / (1.0f - std::pow(beta2, n));
+  return m / (glm::sqrt(v) + adam_epsilon);
+}
 
 /// Moves each cell toward the mean of its six neighbours, light and extinction together; where a neighbour is
 /// not stored it is empty. Few rays pass a small cell: what no photograph decides should be as it is round
@@ -157,14 +150,18 @@ void smooth(TreeVolume& volume, float share) {
 /// The gradients of some rows of a photograph, and the step along them.
 class VolumeFit {
  public:
-  VolumeFit(TreeVolume& volume, const FitOptions& options)
+  VolumeFit(TreeVolume& volume, const FitOptions& options, FitState& state)
       : volume_(volume),
         options_(options),
         max_extinction_per_m_(max_depth_per_cell / mean_chord_m(volume.grid.cell_size_m())),
-        adam_(volume.grid.size()),
-        gradients_([count = volume.grid.size()] { return Gradients(count, glm::dvec4(0.0)); }) {}
+        state_(state),
+        gradients_([count = volume.grid.size()] { return Gradients(count, glm::dvec4(0.0)); }) {
+    const std::size_t count = volume.grid.size();
+    state.mean.resize(count, glm::vec4(0.0f)), state.mean_square.resize(count, glm::vec4(0.0f));
+    state.cell_steps.resize(count, 0);
+  }
 
-  /// Every `parts`-th row from `first` on; returns the sum of the pixels' squared errors.
+  /// Every `parts`-th row from `first` on; returns the sum of the pixels' squared errors, of all processes.
   double gather(const Target& target, int first, int parts) {
     first += options_.processes.rank * parts, parts *= options_.processes.count;
     tbb::enumerable_thread_specific<double> errors(0.0);
@@ -182,7 +179,9 @@ class VolumeFit {
           }
         },
         rows_per_task);
-    return errors.combine(std::plus<>());
+    double sum = errors.combine(std::plus<>());
+    if (options_.processes.sum) options_.processes.sum({&sum, 1});
+    return sum;
   }
 
   /// Moves every cell that a ray has met.
@@ -197,7 +196,7 @@ class VolumeFit {
           const glm::vec3 root = glm::max(glm::sqrt(volume_.colour[i]), min_root);
           const glm::vec4 gradient =
               glm::vec4(sum) * glm::vec4(2.0f * root, 1.0f);  // of the root of the light
-          const glm::vec4 step = rate * adam_.step(i, gradient);
+          const glm::vec4 step = rate * adam_step(state_, i, gradient);
           const glm::vec3 moved = glm::clamp(root - options_.colour_rate * glm::vec3(step), min_root, 1.0f);
           volume_.colour[i] = moved * moved;
           volume_.extinction_per_m[i] =
@@ -221,7 +220,7 @@ class VolumeFit {
   TreeVolume& volume_;
   const FitOptions& options_;
   float max_extinction_per_m_;
-  Adam adam_;
+  FitState& state_;
   tbb::enumerable_thread_specific<Gradients> gradients_;
   tbb::enumerable_thread_specific<std::vector<Crossing>> rays_;
 };
@@ -265,6 +264,13 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
 
 std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
                                const FitOptions& options) {
+  FitState state;
+  fit_volume(volume, views, options, state);
+  return state.errors;
+}
+
+void fit_volume(TreeVolume& volume, std::span<const TreeView> views, const FitOptions& options,
+                FitState& state) {
   std::vector<Target> targets(views.size());
   parallel_for(views.size(),
                [&](std::size_t i) { targets[i] = target_of(views[i], options.picture_factor); });
@@ -272,22 +278,26 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
   std::vector<std::size_t> order(views.size() * std::size_t(parts));
   std::iota(order.begin(), order.end(), std::size_t(0));
   Random random(options.seed, 500);
-  std::vector<double> errors;
-  VolumeFit fit(volume, options);
-  for (int epoch = 0; epoch < options.epochs; ++epoch) {
-    for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1], order[std::size_t(random.index(int(i)))]);
-    double error = 0.0, values = 0.0;
-    for (const std::size_t step : order) {
-      const Target& target = targets[step / std::size_t(parts)];
-      error += fit.gather(target, int(step % std::size_t(parts)), parts);
-      values += double(target.rgba.pixels.size()) / double(parts);
-      fit.step(1.0f / (1.0f + rate_decay * float(epoch)));
+  VolumeFit fit(volume, options, state);
+  for (std::size_t i = 0; i < options.steps(views.size()); ++i) {
+    const std::size_t epoch = i / order.size();
+    if (i % order.size() == 0)
+      for (std::size_t k = order.size(); k > 1; --k)
+        std::swap(order[k - 1], order[std::size_t(random.index(int(k)))]);
+    if (i < state.steps) continue;  // done before: the order alone is followed
+    const std::size_t step = order[i % order.size()];
+    const Target& target = targets[step / std::size_t(parts)];
+    state.error_sum += fit.gather(target, int(step % std::size_t(parts)), parts);
+    state.value_sum += double(target.rgba.pixels.size()) / double(parts);
+    fit.step(1.0f / (1.0f + rate_decay * float(epoch)));
+    ++state.steps;
+    if (state.steps % order.size() == 0) {
+      state.errors.push_back(std::sqrt(state.error_sum / state.value_sum));
+      state.error_sum = state.value_sum = 0.0;
+      if (options.smoothing > 0.0f) smooth(volume, options.smoothing);
     }
-    errors.push_back(std::sqrt(error / values));
-    if (options.smoothing > 0.0f) smooth(volume, options.smoothing);
+    if (options.after_step && !options.after_step(state)) return;
   }
-  return errors;
 }
 
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff) {

@@ -6,6 +6,9 @@
 // the textures need to know.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -24,6 +27,16 @@ struct TreeVolume {
   float alpha(std::size_t cell) const;
 };
 
+/// How far a fit is: with the volume as it is then, all that it goes on from.
+struct FitState {
+  std::size_t steps = 0;                    ///< that are done, of all passes
+  std::vector<double> errors;               ///< of each pass that is done, as fit_volume returns them
+  double error_sum = 0.0, value_sum = 0.0;  ///< of the present pass: squared errors of pixels; their values
+  std::vector<glm::vec4> mean,
+      mean_square;                        ///< per cell: Adam's moments of the gradients; empty: no step yet
+  std::vector<std::uint16_t> cell_steps;  ///< per cell: how often it was moved
+};
+
 /// How the volume is fitted.
 struct FitOptions {
   int epochs = 10;                ///< passes over all photographs
@@ -34,6 +47,14 @@ struct FitOptions {
   int picture_factor = 1;         ///< photographs are reduced so many times
   std::uint64_t seed = 1;         ///< of the photographs' order
   Processes processes = {};       ///< each takes its share of the rows
+  /// Called after each step, when the volume and the state belong together; where it returns false the fit
+  /// ends.
+  std::function<bool(const FitState&)> after_step = {};
+
+  /// How many steps a fit to so many photographs has.
+  std::size_t steps(std::size_t photographs) const {
+    return std::size_t(std::max(epochs, 0)) * photographs * std::size_t(std::max(steps_per_view, 1));
+  }
 };
 
 /// Colours of an opacity estimate: for each cell the mean of the photographs' foreground, weighed by how much
@@ -44,6 +65,10 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
 /// display shows it: colours by the slope of sRGB.
 std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> views,
                                const FitOptions& options);
+/// The same from `state` on, which is of this volume, the same views and options. The result does not depend
+/// on where a fit was ended and went on.
+void fit_volume(TreeVolume& volume, std::span<const TreeView> views, const FitOptions& options,
+                FitState& state);
 
 /// Without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its oak).
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff);

@@ -101,16 +101,19 @@ std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::spa
   return std::make_shared<const TreeLevels>(levels_of(as_stored(textured(volume, views, options))));
 }
 
-Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
-                             std::span<const TreeView> views) {
+namespace {
+
+/// Of what is shown, as a camera of this exposure sees it.
+Result<ViewErrors> errors_of_shown(Result<ShownTree> shown, float exposure, std::span<const TreeView> views) {
   if (views.empty()) return error("there are no views to compare with");
-  Result<ShownTree> shown = ShownTree::create(tree, light);
   if (!shown) return shown.errors();
   ViewErrors mean;
   double squares = 0.0;
   for (const TreeView& view : views) {
-    const Result<ImageF> picture = shown->picture(view.camera);
+    Result<ImageF> picture = shown->picture(view.camera);
     if (!picture) return picture.errors();
+    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
+      if (i % 4 != 3) picture->pixels[i] *= exposure;
     const Result<ViewErrors> one = judged(*picture, view);
     if (!one) return one.errors();
     mean += *one, squares += one->alpha_rmse * one->alpha_rmse;
@@ -118,6 +121,17 @@ Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, cons
   mean /= double(views.size());
   mean.alpha_rmse = std::sqrt(squares / double(views.size()));
   return mean;
+}
+
+}  // namespace
+
+Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
+                             std::span<const TreeView> views) {
+  return errors_of_shown(ShownTree::create(tree, light), 1.0f, views);  // its textures are as exposed
+}
+
+Result<ViewErrors> errors_of_mesh(const scene::Model& model, std::span<const TreeView> views) {
+  return errors_of_shown(ShownTree::of_scene(capture_scene(model, {})), capture_exposure, views);
 }
 
 Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views) {

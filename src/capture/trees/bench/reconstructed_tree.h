@@ -62,5 +62,8 @@ Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, cons
                              std::span<const TreeView> views);
 /// The same in the light of the tree's photographs.
 Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views);
+/// The same of the mesh that was photographed, as the house draws any object, at full detail: its shape is
+/// exact, but leaves do not hide the sky from each other as they do in photographs.
+Result<ViewErrors> errors_of_mesh(const scene::Model& model, std::span<const TreeView> views);
 
 }  // namespace parvis::trees

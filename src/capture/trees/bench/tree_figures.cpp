@@ -157,6 +157,25 @@ Result<ViewErrors> errors_of_crossed(const SampleCapture& capture) {
   return mean;
 }
 
+/// The baseline of the mesh that was photographed, and how much it is; the control is judged by the next view
+/// in the place of each.
+Status measure_mesh(const SampleCapture& capture, Means& means) {
+  const Result<ViewErrors> mesh = errors_of_mesh(capture.model, capture.held_out);
+  if (!mesh) return mesh.errors();
+  means.add("psnr_db_original_mesh", mesh->psnr_db), means.add("ssim_original_mesh", mesh->ssim);
+  means.add("flip_original_mesh", mesh->flip), means.add("alpha_rmse_original_mesh", mesh->alpha_rmse);
+  std::size_t triangles = 0;
+  for (const scene::Part& part : capture.model.parts) triangles += part.mesh.triangle_count();
+  means.add("triangles_original_mesh", double(triangles));
+  std::vector<TreeView> turned = capture.held_out;
+  std::ranges::rotate(turned, turned.begin() + 1);
+  for (std::size_t i = 0; i < turned.size(); ++i) turned[i].camera = capture.held_out[i].camera;
+  const Result<ViewErrors> wrong = errors_of_mesh(capture.model, turned);
+  if (!wrong) return wrong.errors();
+  means.add("psnr_db_original_mesh_from_another_place", wrong->psnr_db);
+  return Done{};
+}
+
 void add_steps(const ReconstructedTree& made, int photographs, Means& means) {
   for (const StepTime& time : made.times)
     means.add(fmt::format("seconds_{}_{}", time.step, photographs), time.seconds);
@@ -198,6 +217,10 @@ Status measure_tree(std::string_view name, const FigureOptions& options, Means& 
   const Result<ViewErrors> naive_seen = errors_of(naive, capture->views);
   if (!naive_seen) return naive_seen.errors();
   means.add("psnr_db_22_naive", naive_left_out->psnr_db);
+  const Result<ViewErrors> random =
+      errors_of(levels_from(made->volume, capture->views, TextureMethod::random_texels), capture->held_out);
+  if (!random) return random.errors();
+  means.add("psnr_db_22_random_texels", random->psnr_db);
   const Result<ViewErrors> crossed = errors_of_crossed(*capture);
   if (!crossed) return crossed.errors();
   means.add("psnr_db_22_crossed_billboards", crossed->psnr_db);
@@ -212,6 +235,7 @@ Status measure_tree(std::string_view name, const FigureOptions& options, Means& 
     if (Status status = sink.figure("tree_mb_uncompressed", 1e-6 * double(texels)); !status) return status;
   }
   if (Status status = measure_opacity(*capture, size, left_out->alpha_rmse, means); !status) return status;
+  if (Status status = measure_mesh(*capture, means); !status) return status;
   measure_sizes(made->volume, capture->model, means);
   if (Status status = measure_relighting(*capture, *made, size, means); !status) return status;
   return measure_many(*capture, size, means);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "capture/trees/bench/reconstructed_tree.h"
+#include "capture/trees/sample_trees.h"
+#include "graphics/gl/test_context.h"
 
 namespace parvis::trees {
 namespace {
@@ -21,6 +23,31 @@ TEST(TreeBench, ACaptureBecomesATree) {
   EXPECT_GT(made->seconds(), 0.0);
   EXPECT_GT(made->megabytes, 0.0);
   EXPECT_FALSE(sample_capture("beech", 8, size)) << "no such tree";
+}
+
+class TreeBenchMesh : public gl::ContextTest {};
+
+TEST_F(TreeBenchMesh, TheMeshThatWasPhotographedShowsItsPhotographs) {
+  const Result<scene::Model> model = make_sample_tree("winter", 1);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  BenchCaptureSize size = bench_capture_size({true});
+  size.truth_samples_per_pixel = 16;
+  const std::vector<Camera> cameras = held_out_cameras(scene::bounds(*model), 2, 5);
+  const std::vector<TreeView> views =
+      photograph_tree(capture_scene(*model, {}), cameras, "winter", truth_options(size));
+  const Result<ViewErrors> mesh = errors_of_mesh(*model, views);
+  ASSERT_TRUE(mesh) << to_string(mesh.errors());
+  // Measured 28.0 dB and 0.066: twigs are thinner than pixels, of which the house takes four samples.
+  EXPECT_GT(mesh->psnr_db, 26.0);
+  EXPECT_LT(mesh->alpha_rmse, 0.08);
+  // The control: each photograph with the other's camera.
+  std::vector<TreeView> wrong = views;
+  std::swap(wrong[0].camera, wrong[1].camera);
+  const Result<ViewErrors> other = errors_of_mesh(*model, wrong);
+  ASSERT_TRUE(other) << to_string(other.errors());
+  EXPECT_LT(other->psnr_db, mesh->psnr_db - 6.0);
+  EXPECT_GT(other->alpha_rmse, 2.0 * mesh->alpha_rmse);
+  EXPECT_FALSE(errors_of_mesh(*model, {})) << "no views";
 }
 
 TEST(TreeBench, AFigureThatIsNoNumberIsAnError) {
