@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/hash.hpp>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include "places/car_bodies/names.h"
@@ -106,7 +107,10 @@ bool looks_like_a_wheel(const Body& body, const Piece& piece) {
 /// The largest round pieces: those about the axle of a larger one on the same side are its rim or its twin.
 std::vector<OwnWheel> round_places(const Body& body, std::vector<Piece> pieces) {
   std::erase_if(pieces, [&](const Piece& piece) { return !looks_like_a_wheel(body, piece); });
-  std::ranges::stable_sort(pieces, std::greater(), [](const Piece& piece) { return piece.bounds.size().z; });
+  std::ranges::sort(pieces, std::greater(), [](const Piece& piece) {
+    const glm::vec3 centre = piece.bounds.centre();
+    return std::tuple(piece.bounds.size().z, centre.x, centre.y, centre.z);
+  });
   std::vector<OwnWheel> wheels;
   for (const Piece& piece : pieces) {
     const glm::vec3 centre = piece.bounds.centre();
@@ -122,7 +126,9 @@ std::vector<OwnWheel> round_places(const Body& body, std::vector<Piece> pieces) 
 
 /// Leaves those that have an equal on the other side of the car, as pairs.
 std::vector<OwnWheel> pairs_of(const Body& body, std::vector<OwnWheel> wheels) {
-  std::ranges::stable_sort(wheels, {}, [](const OwnWheel& wheel) { return wheel.centre.x; });
+  std::ranges::sort(wheels, {}, [](const OwnWheel& wheel) {
+    return std::tuple(wheel.centre.x, wheel.centre.y, wheel.centre.z);
+  });
   const auto is_left = [&](const OwnWheel& wheel) { return wheel.centre.y > body.middle_y(); };
   std::vector<OwnWheel> pairs;
   for (const OwnWheel& left : wheels) {

@@ -84,6 +84,7 @@ void add_colour_of_holes(const Image8& picture, PictureMask& mask) {
   constexpr int max_texels = 256;         // looked at along each side
   constexpr float max_tolerance = 0.12f;  // beyond it the holes have all sorts of colours
   constexpr float quantile = 0.98f, slack = 0.03f;
+  if (!mask.box) return;
   const glm::ivec2 size(picture.width, picture.height);
   const glm::ivec2 low = glm::ivec2(glm::vec2(mask.box->min) * glm::vec2(size));
   const glm::ivec2 high = glm::min(glm::ivec2(glm::vec2(mask.box->max) * glm::vec2(size)), size - 1);
