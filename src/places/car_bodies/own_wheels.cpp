@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/hash.hpp>
-#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
+#include "base/disjoint_sets.h"
 #include "places/car_bodies/names.h"
 
 namespace parvis::car_bodies {
@@ -31,19 +31,6 @@ struct Piece {
   Bounds bounds = {};
 };
 
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 void add_pieces(const Body& body, std::size_t part, std::vector<Piece>& pieces) {
   const Mesh& mesh = body.model().parts[part].mesh;
   // Corners at one place are one: texture and normals divide the vertices of a seam.
@@ -52,12 +39,12 @@ void add_pieces(const Body& body, std::size_t part, std::vector<Piece>& pieces) 
   place.reserve(mesh.positions.size());
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i)
     place.push_back(first_at.try_emplace(mesh.positions[i], i).first->second);
-  Groups groups(mesh.positions.size());
+  DisjointSets groups(mesh.positions.size());
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     for (const std::size_t k : {1u, 2u}) groups.join(place[mesh.indices[i]], place[mesh.indices[i + k]]);
-  std::unordered_map<std::uint32_t, std::size_t> piece_of;
+  std::unordered_map<std::size_t, std::size_t> piece_of;
   for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-    const std::uint32_t root = groups.root(place[mesh.indices[3 * std::size_t(triangle)]]);
+    const std::size_t root = groups.root(place[mesh.indices[3 * std::size_t(triangle)]]);
     const auto [found, is_new] = piece_of.try_emplace(root, pieces.size());
     if (is_new) pieces.push_back({.part = part});
     Piece& piece = pieces[found->second];
