@@ -16,11 +16,9 @@ SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
 // Of objects that receive no shadows, the complement of their number is given.
 int surface_object() { return object_of_surface < 0 ? ~object_of_surface : object_of_surface; }
 
-// What a surface sees in one direction where no ray is traced and no map shows it: the sky where it is open,
-// and what stands before it as bright as the light that it gives.
+// What a surface sees in one direction where no ray is traced and no map shows it.
 vec3 unmapped_radiance(vec3 direction, float roughness) {
-  return sky_share_of_direction(surface_sky_cell, direction) * sky_radiance(direction, roughness) +
-         bounced_radiance(surface_bounced_cell, direction);
+  return surroundings_radiance(surface_sky_cell, surface_bounced_cell, direction, roughness);
 }
 
 #ifndef WRITES_SURFACE
@@ -42,14 +40,17 @@ float traced_sun(float drawn, float distance_m) {
 }
 #endif
 
-// Visibility of the sky, stored in `surface_sky_cell`, and of the sun, returned.
-float visible_light(SeenPoint seen) {
-#ifdef IS_LEAF
-  surface_sky_cell = leaf_sky_cell;
-  float drawn = leaf_sun;
-#else
+// Share of the sky that is seen, stored in `surface_sky_cell`.
+void look_at_sky(SeenPoint seen) {
   surface_sky_cell = shaded_cell(sky_visibility_cell(position, seen.normal),
                                  sky_share_beside_bodies(position, seen.normal, surface_object()));
+}
+
+// Share of the sun that is seen.
+float seen_sun(SeenPoint seen) {
+#ifdef IS_LEAF
+  float drawn = leaf_sun;
+#else
   float drawn = visible_sun(position, seen.normal);
 #endif
 #ifndef WRITES_SURFACE

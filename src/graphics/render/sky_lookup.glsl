@@ -11,6 +11,13 @@ vec3 sky_radiance(vec3 direction, float roughness) {
       .rgb;
 }
 
+// Irradiance of the open sky on a surface with this unit normal.
+vec3 frame_sky_irradiance(vec3 normal) {
+  vec3 sh[9];
+  for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
+  return sky_irradiance(sh, normal);
+}
+
 vec4 sky_visibility_cell(vec3 at, vec3 geometric_normal) {
   SkyVisibilityGrid grid =
       SkyVisibilityGrid(frame_visibility_origin.xyz, frame_visibility_size.xyz, frame_visibility_origin.w);

@@ -9,16 +9,16 @@
 //   WRITES_SURFACE  void write_surface(Surface surface, vec3 to_viewer) of the including file
 //   WRITES_OBJECT   the object's number plus 1
 //   WRITES_DEPTH    depth alone
-#include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
-#include "graphics/render/bounced_lookup.glsl"
+#include "graphics/render/corner_light.glsl"
+#include "graphics/render/frame.glsl"
 #include "graphics/render/lamp_lookup.glsl"
-#include "graphics/render/sky_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
-#include "graphics/shading/surface.glsl"
+#include "graphics/render/surface_interface.glsl"
+#include "graphics/render/surroundings.glsl"
 #include "graphics/shading/glass.glsl"
 #include "graphics/shading/lighting.glsl"
-#include "graphics/render/surface_interface.glsl"
+#include "graphics/shading/surface.glsl"
 
 // Viewing geometry of a surface point.
 struct SeenPoint {
@@ -100,12 +100,31 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
 #endif
   return through_haze(s.emission, seen.distance_m, frame_to_sun.w, frame_haze.rgb);
 }
+#elif defined(IS_SPECK)
+vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
+  return speck_radiance + seen_sun(seen) * speck_sunlight;
+}
+#elif defined(IS_LEAF)
+// Radiance toward the viewer, through the haze, of what was lit at its corners.
+vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
+  CornerLight light = CornerLight(leaf_light, leaf_light_behind, leaf_lamps, leaf_mirrored);
+  vec3 to_sun = to_sun_at(position), sunlight = seen_sun(seen) * frame_sun_irradiance.rgb;
+#ifdef HAS_VERTEX_LIGHT
+  light.irradiance = light_before, light.irradiance_behind = light_behind;
+  vec3 light_out = sun_highlights(s, seen.to_viewer, to_sun, sunlight);
+#else
+  vec3 light_out = direct_radiance(s, seen.to_viewer, to_sun, sunlight);
+#endif
+  light_out += radiance_of_corner_light(s, seen.to_viewer, light);
+  return through_haze(light_out, seen.distance_m, frame_to_sun.w, frame_haze.rgb);
+}
 #elif !defined(WRITES_SURFACE)  // a file that writes it has no reflected_radiance: references would not link
 // Radiance toward the viewer, through the haze; `sun`: share of the sun that the surface's own relief lets
 // in.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   SceneLight light = scene_light(seen.normal, s.normal);
-  sun *= visible_light(seen);
+  look_at_sky(seen);
+  sun *= seen_sun(seen);
   look_along(position, reflect(-seen.to_viewer, s.normal));
   vec3 base_reflection = REFLECTION_OVERLAY(reflected_radiance(s.roughness, base_layer), s.roughness);
 #ifdef HAS_COAT

@@ -7,7 +7,12 @@ in vec3 vertex_normal;
 in vec2 uv;
 #ifdef IS_LEAF
 in float leaf_sun;
-in vec4 leaf_sky_cell;
+#ifdef IS_SPECK
+in vec3 speck_radiance;
+in vec3 speck_sunlight;
+#else
+in vec3 leaf_light, leaf_light_behind, leaf_lamps, leaf_mirrored;
+#endif
 #endif
 #ifdef HAS_VERTEX_LIGHT
 in vec3 vertex_light;

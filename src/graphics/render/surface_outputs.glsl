@@ -4,9 +4,15 @@ out vec3 position;       // in the world
 out vec3 vertex_normal;  // in the world, of any length
 out vec2 uv;
 #ifdef IS_LEAF
-// A leaf is small enough to be lit at its vertices, and a crown covers more pixels than it has vertices.
-out float leaf_sun;
-out vec4 leaf_sky_cell;
+// Leaves and twigs are lit at their corners (leaf_light.glsl).
+out float leaf_sun;  // share of the sun that is seen
+#ifdef IS_SPECK
+// Of one colour: points and lines of a few pixels.
+out vec3 speck_radiance;  // toward the viewer, without the sun
+out vec3 speck_sunlight;  // what is added where all of the sun is seen
+#else
+out vec3 leaf_light, leaf_light_behind, leaf_lamps, leaf_mirrored;  // CornerLight
+#endif
 #endif
 #ifdef HAS_VERTEX_LIGHT
 out vec3 vertex_light;  // irradiance on the side of the normal, and on the other one

@@ -1,10 +1,12 @@
 // The vertex of a surface in the world, for any shader that then says where a picture shows it.
 #include "graphics/render/frame.glsl"
-#ifdef IS_LEAF
+#include "graphics/render/surface_outputs.glsl"
+// Not within IS_LEAF: a file that has been included there would be missing where another one includes it
+// again.
 #include "graphics/render/body_lookup.glsl"
-#include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/leaf_light.glsl"
+#include "graphics/render/material.glsl"
 #include "graphics/render/sun_lookup.glsl"
-#endif
 
 layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
@@ -18,8 +20,18 @@ layout(location = 8) in ivec2 first_light;  // of vertex 0 of the buffer, on bot
 #include "graphics/render/vertex_light_lookup.glsl"
 #endif
 
-#include "graphics/render/surface_outputs.glsl"
 #include "graphics/render/object_flags.glsl"
+
+#ifdef IS_LEAF
+// In the mean of its texture.
+float leaf_roughness() {
+#ifdef HAS_SURFACE_MAP
+  return material_layers.y * textureLod(surface_texture, vec2(0.5f), 16.0f).g;
+#else
+  return material_layers.y;
+#endif
+}
+#endif
 
 void surface_vertex() {
   vec4 p = vec4(mesh_position, 1.0f);
@@ -36,8 +48,10 @@ void surface_vertex() {
   vec3 normal = normalize(vertex_normal);
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = visible_sun(position, normal);
-  leaf_sky_cell =
-      shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number));
+  light_corner(
+      normal,
+      shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number)),
+      leaf_roughness(), material_texture_u.w);
 #endif
 #ifdef HAS_VERTEX_LIGHT
   vertex_light = vertex_light_at(first_light.x + gl_VertexID);

@@ -23,14 +23,19 @@ GLSL_FUNCTION vec3 lit_radiance(Surface s, SceneLight light, vec3 to_viewer, flo
          ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
 }
 
-// The same for a surface whose diffuse light was found at its vertices, with all that hides sky and sun
-// (`irradiance` before it and `irradiance_behind` it): the thesis's emissive colour, diffuse times radiance
-// (appendix A.2.2). The sun, as directional light, adds its highlights alone.
+// What the sun adds to a surface whose diffuse light holds the sun's already: its highlights.
+GLSL_FUNCTION vec3 sun_highlights(Surface s, vec3 to_viewer, vec3 to_sun, vec3 irradiance) {
+  return (scattered_share(s, to_viewer, to_sun, 1.0f, 1.0f) -
+          scattered_share(s, to_viewer, to_sun, 0.0f, 0.0f)) *
+         irradiance;
+}
+
+// The same as lit_radiance for a surface whose diffuse light was found at its vertices, with all that hides
+// sky and sun (`irradiance` before it and `irradiance_behind` it): the thesis's emissive colour, diffuse
+// times radiance (appendix A.2.2). The sun, as directional light, adds its highlights alone.
 GLSL_FUNCTION vec3 vertex_lit_radiance(Surface s, SceneLight light, vec3 irradiance, vec3 irradiance_behind,
                                        vec3 to_viewer, float sun_visible, vec3 base_reflection,
                                        vec3 coat_reflection) {
-  vec3 highlights = scattered_share(s, to_viewer, light.to_sun, 1.0f, 1.0f) -
-                    scattered_share(s, to_viewer, light.to_sun, 0.0f, 0.0f);
-  return highlights * (sun_visible * light.sun_irradiance) +
+  return sun_highlights(s, to_viewer, light.to_sun, sun_visible * light.sun_irradiance) +
          ambient_radiance(s, to_viewer, irradiance, irradiance_behind, base_reflection, coat_reflection);
 }

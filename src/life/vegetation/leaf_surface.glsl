@@ -31,3 +31,10 @@ GLSL_FUNCTION Surface leaf_surface(vec3 normal, vec3 colour, float translucency,
   s.emission = vec3(0.0f);
   return s;
 }
+
+const float bark_roughness = 0.9f;
+
+// `texel`: of the bark's picture, relative to the kind's colour, which is 0.5.
+GLSL_FUNCTION Surface bark_surface(vec3 normal, vec3 texel, vec3 colour, float openness) {
+  return leaf_surface(normal, min(2.0f * texel * colour, vec3(0.9f)), 0.0f, bark_roughness, openness);
+}

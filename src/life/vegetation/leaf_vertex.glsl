@@ -1,10 +1,7 @@
 // Leaves of grown plants: corners of their meshes, or (IS_POINT) one point each, as large as the leaf is
 // seen.
-#define IS_LEAF  // light is evaluated at the corners alone: surface_outputs.glsl
+#include "life/vegetation/leaf_surface.glsl"
 #include "life/vegetation/plant_record.glsl"
-
-flat out vec4 leaf_material;  // veins, translucency, roughness, 1 where a point shows a leaf's back
-out vec4 leaf_colour;         // w: openness
 
 #ifdef IS_POINT
 layout(location = 0) in vec3 leaf_middle;
@@ -14,17 +11,20 @@ layout(location = 2) in vec4 leaf_normal_and_tint;
 uniform float pixels_at_w_1;  // per metre, where the clip coordinate w is 1
 uniform float min_point_px;   // smaller points are left out by their area's chance, 0: none are
 #else
+flat out vec3 leaf_material;  // veins, translucency, roughness
+out vec4 leaf_colour;         // w: openness
+
 layout(location = 0) in vec3 leaf_foot;
 layout(location = 1) in vec4 leaf_offset;  // from the foot; w: openness
 layout(location = 2) in vec4 leaf_normal_and_tint;
 layout(location = 3) in vec4 leaf_place;  // in leaf lengths; z: rank
 #endif
 
-void set_material(float openness, float back) {
-  float tint = 0.5f + 0.5f * leaf_normal_and_tint.w;
-  leaf_colour = vec4(mix(dark_colour.rgb, light_colour.rgb, tint), openness);
-  leaf_material = vec4(dark_colour.w, floor(light_colour.w) / 256.0f, fract(light_colour.w), back);
-  object_of_surface = int(plant_thing);
+float leaf_translucency() { return floor(light_colour.w) / 256.0f; }
+float leaf_roughness() { return fract(light_colour.w); }
+
+vec3 colour_of_blade() {
+  return mix(dark_colour.rgb, light_colour.rgb, 0.5f + 0.5f * leaf_normal_and_tint.w);
 }
 
 #ifdef IS_POINT
@@ -36,11 +36,13 @@ void surface_vertex() {
   vec3 to_viewer = normalize(viewer_position.xyz - position);
   vec3 normal = normalize(turned_to_world(leaf_normal_and_tint.xyz));
   float facing = dot(normal, to_viewer);
-  float back = facing < 0.0f ? 1.0f : 0.0f;
   vertex_normal = facing < 0.0f ? -normal : normal;
   uv = vec2(0.0f, 0.5f);
-  light_small_vertex(vertex_normal);
-  set_material(leaf_size.y, back);
+  object_of_surface = int(plant_thing);
+  leaf_sun = sun_by_one_texel(vertex_normal);
+  light_speck(leaf_surface(vertex_normal, leaf_side_colour(colour_of_blade(), facing < 0.0f),
+                           leaf_translucency(), leaf_roughness(), leaf_size.y),
+              sky_visibility_cell(position, vertex_normal));
   float w = transpose(clip_from_world)[3].x * position.x + transpose(clip_from_world)[3].y * position.y +
             transpose(clip_from_world)[3].z * position.z + transpose(clip_from_world)[3].w;
   float size = leaf_size.x * sqrt(max(abs(facing), 1e-3f)) * grown_length(leaf_size.z) * shown_leaves.w *
@@ -55,8 +57,12 @@ void surface_vertex() {
   position = in_world(leaf_foot + grown_length(leaf_place.z) * leaf_offset.xyz);
   vertex_normal = turned_to_world(leaf_normal_and_tint.xyz);
   uv = leaf_place.xy;
+  object_of_surface = int(plant_thing);
   vec3 normal = normalize(vertex_normal);
-  light_small_vertex(dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal);
-  set_material(leaf_offset.w, 0.0f);
+  normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
+  leaf_sun = sun_by_one_texel(normal);
+  light_corner(normal, sky_visibility_cell(position, normal), leaf_roughness(), leaf_translucency());
+  leaf_colour = vec4(colour_of_blade(), leaf_offset.w);
+  leaf_material = vec3(dark_colour.w, leaf_translucency(), leaf_roughness());
 }
 #endif

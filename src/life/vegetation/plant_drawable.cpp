@@ -84,19 +84,22 @@ class PlantDrawable final : public render::Drawable {
  public:
   static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing) {
     std::unique_ptr<PlantDrawable> drawable(new PlantDrawable(first_thing));
-    const auto link = [](ViewPrograms& programs, const char* subject, gl::Defines defines) -> Status {
+    const auto link = [](ViewPrograms& programs, const char* vertex, const char* surface,
+                         gl::Defines defines) -> Status {
       defines.emplace_back("IS_LEAF", "");
-      const std::string path = std::string("life/vegetation/") + subject;
-      Result<ViewPrograms> linked =
-          ViewPrograms::create({path + "_vertex.glsl", path + "_material.glsl", std::move(defines)});
+      Result<ViewPrograms> linked = ViewPrograms::create({vertex, surface, std::move(defines)});
       if (!linked) return linked.errors();
       programs = *std::move(linked);
       return Done{};
     };
-    for (const Status& status : {link(drawable->leaf_programs_, "leaf", {{"HAS_BACKS", ""}}),
-                                 link(drawable->point_programs_, "leaf", {{"IS_POINT", ""}}),
-                                 link(drawable->wood_programs_, "wood", {}),
-                                 link(drawable->line_programs_, "wood", {{"IS_LINE", ""}})})
+    constexpr const char *leaf = "life/vegetation/leaf_vertex.glsl",
+                         *wood = "life/vegetation/wood_vertex.glsl",
+                         *speck = "graphics/render/speck_surface.glsl";
+    for (const Status& status :
+         {link(drawable->leaf_programs_, leaf, "life/vegetation/leaf_material.glsl", {{"HAS_BACKS", ""}}),
+          link(drawable->point_programs_, leaf, speck, {{"IS_POINT", ""}, {"IS_SPECK", ""}}),
+          link(drawable->wood_programs_, wood, "life/vegetation/wood_material.glsl", {}),
+          link(drawable->line_programs_, wood, speck, {{"IS_LINE", ""}, {"IS_SPECK", ""}})})
       if (!status) return status.errors();
     drawable->update(scene);
     return std::unique_ptr<render::Drawable>(std::move(drawable));

@@ -1,7 +1,7 @@
 // What one draw command says of its plant: attributes of an instance (plant_drawable.cpp).
-#include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
-#include "graphics/render/sky_lookup.glsl"
+#include "graphics/render/frame.glsl"
+#include "graphics/render/leaf_light.glsl"
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/render/surface_outputs.glsl"
 
@@ -30,16 +30,9 @@ float grown_length(float rank) {
   return shown_leaves.z * sqrt(weight);
 }
 
-// Light at the vertex (IS_LEAF); `normal` is unit, on the viewer's side.
-void light_vertex(vec3 normal) {
-  leaf_sun = visible_sun(position, normal);
-  leaf_sky_cell = shaded_cell(sky_visibility_cell(position, normal),
-                              sky_share_beside_bodies(position, normal, int(plant_thing)));
-}
-
-// The same for leaves and lines, of which there are many: one comparison with the shadow map, and no shade of
-// moving bodies.
-void light_small_vertex(vec3 normal) {
+// Share of the sun that is seen from the vertex, `normal` unit and on the viewer's side, for leaves and
+// lines, of which there are many: one comparison with the shadow map.
+float sun_by_one_texel(vec3 normal) {
   ShadowMaps maps = frame_shadow_maps();
   vec3 to_light = to_sun_at(position);
   vec3 near_uvz = near_shadow_coordinates(maps, position, normal, to_light);
@@ -47,6 +40,5 @@ void light_small_vertex(vec3 normal) {
   bool is_near = is_inside_map(near_uvz, maps.texel_uv);
   bool is_known = is_near || is_inside_map(far_uvz, maps.texel_uv);
   float lit = shadow_compare(is_near ? shadow_near_map : shadow_far_map, is_near ? near_uvz : far_uvz);
-  leaf_sun = (is_known ? lit : 1.0f) * sun_cone(to_light);
-  leaf_sky_cell = sky_visibility_cell(position, normal);
+  return (is_known ? lit : 1.0f) * sun_cone(to_light);
 }

@@ -67,8 +67,7 @@ class WoodSurface final : public scene::TracedSurface {
     const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],
                                          hit.barycentric.x / std::max(1.0f - hit.barycentric.y, 1e-6f)),
                                 openness[corner[2]], hit.barycentric.y);
-    return traced_point(shared::leaf_surface(
-        hit.normal, glm::min(2.0f * texel * shape_->kind().bark, glm::vec3(0.9f)), 0.0f, 0.9f, open));
+    return traced_point(shared::bark_surface(hit.normal, texel, shape_->kind().bark, open));
   }
   scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
 

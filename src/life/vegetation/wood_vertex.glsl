@@ -1,14 +1,18 @@
 // Wood of grown plants: tubes, or (IS_LINE) lines along their middles.
-#define IS_LEAF  // light is evaluated at the corners alone: surface_outputs.glsl
 #include "life/vegetation/bark_layout.glsl"
+#include "life/vegetation/leaf_surface.glsl"
 #include "life/vegetation/plant_record.glsl"
 
 layout(location = 0) in vec3 wood_position;
 layout(location = 1) in vec4 wood_normal;  // of lines: along them; w: openness
 layout(location = 2) in vec2 wood_uv;
 
+#ifdef IS_LINE
+uniform sampler2D bark_texture;  // of which the mean counts
+#else
 flat out vec3 bark_colour;
 out float wood_openness;
+#endif
 
 void surface_vertex() {
   position = in_world(wood_position);
@@ -19,12 +23,17 @@ void surface_vertex() {
 #endif
   vertex_normal = normal;
   uv = bark_repeats * wood_uv;
-  wood_openness = wood_normal.w;
-  bark_colour = dark_colour.rgb;
-#ifdef IS_LINE
-  light_small_vertex(normal);
-#else
-  light_vertex(normal);
-#endif
   object_of_surface = int(plant_thing);
+#ifdef IS_LINE
+  leaf_sun = sun_by_one_texel(normal);
+  light_speck(bark_surface(normal, textureLod(bark_texture, uv, 8.0f).rgb, dark_colour.rgb, wood_normal.w),
+              sky_visibility_cell(position, normal));
+#else
+  leaf_sun = visible_sun(position, normal);
+  vec4 sky_cell = shaded_cell(sky_visibility_cell(position, normal),
+                              sky_share_beside_bodies(position, normal, int(plant_thing)));
+  light_corner(normal, sky_cell, bark_roughness, 0.0f);
+  bark_colour = dark_colour.rgb;
+  wood_openness = wood_normal.w;
+#endif
 }
