@@ -1,8 +1,8 @@
 // Light of leaves and twigs that was found at their corners (leaf_light.glsl), and what of it they send to
 // the viewer.
-#include "graphics/shading/lamps.glsl"
 #include "graphics/shading/octahedral.glsl"
 #include "graphics/shading/surface.glsl"
+#include "graphics/shading/lamps.glsl"
 
 // All but the sun, on the viewer's side.
 struct CornerLight {

@@ -1,8 +1,8 @@
 // The light that falls on leaves and twigs, found at their corners: a crown covers more pixels than it has
 // corners, and a renderer shades whole blocks of pixels for a leaf of two. To be included behind
 // surface_outputs.glsl.
-#include "graphics/render/corner_light.glsl"
 #include "graphics/render/frame.glsl"
+#include "graphics/render/corner_light.glsl"
 #include "graphics/render/lamp_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/render/surroundings.glsl"

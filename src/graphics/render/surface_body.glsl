@@ -9,16 +9,16 @@
 //   WRITES_SURFACE  void write_surface(Surface surface, vec3 to_viewer) of the including file
 //   WRITES_OBJECT   the object's number plus 1
 //   WRITES_DEPTH    depth alone
+#include "graphics/render/frame.glsl"
 #include "graphics/render/body_lookup.glsl"
 #include "graphics/render/corner_light.glsl"
-#include "graphics/render/frame.glsl"
 #include "graphics/render/lamp_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
-#include "graphics/render/surface_interface.glsl"
 #include "graphics/render/surroundings.glsl"
+#include "graphics/shading/surface.glsl"
 #include "graphics/shading/glass.glsl"
 #include "graphics/shading/lighting.glsl"
-#include "graphics/shading/surface.glsl"
+#include "graphics/render/surface_interface.glsl"
 
 // Viewing geometry of a surface point.
 struct SeenPoint {

@@ -1,7 +1,7 @@
 // Leaves of grown plants: corners of their meshes, or (IS_POINT) one point each, as large as the leaf is
 // seen.
-#include "life/vegetation/leaf_surface.glsl"
 #include "life/vegetation/plant_record.glsl"
+#include "life/vegetation/leaf_surface.glsl"
 
 #ifdef IS_POINT
 layout(location = 0) in vec3 leaf_middle;

@@ -1,9 +1,9 @@
 // What one draw command says of its plant: attributes of an instance (plant_drawable.cpp).
-#include "graphics/render/body_lookup.glsl"
 #include "graphics/render/frame.glsl"
-#include "graphics/render/leaf_light.glsl"
+#include "graphics/render/body_lookup.glsl"
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/render/surface_outputs.glsl"
+#include "graphics/render/leaf_light.glsl"
 
 layout(location = 4) in vec4 world_from_plant_row0;
 layout(location = 5) in vec4 world_from_plant_row1;

@@ -1,7 +1,7 @@
 // Wood of grown plants: tubes, or (IS_LINE) lines along their middles.
 #include "life/vegetation/bark_layout.glsl"
-#include "life/vegetation/leaf_surface.glsl"
 #include "life/vegetation/plant_record.glsl"
+#include "life/vegetation/leaf_surface.glsl"
 
 layout(location = 0) in vec3 wood_position;
 layout(location = 1) in vec4 wood_normal;  // of lines: along them; w: openness
