@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "graphics/gl/context.h"
+#include "graphics/light/day_light_time.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "viewer/keys.h"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr float panel_width = 350.0f;  // at scale 1
 constexpr float largest_share = 0.5f;  // of a narrow window
+constexpr double last_hour = 23.99;    // dayLight takes hours below 24
 constexpr const char* page_of_nodes = "Scene";
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
@@ -150,17 +153,34 @@ void Panel::draw_scenarios(Visit& visit) {
   }
 }
 
-void Panel::draw_light(Visit& visit) {
-  rows_.heading("Light");
-  const scene::Scene& scene = visit.scene();
-  const glm::vec2 sun = azimuth_and_elevation_deg(scene.sun.direction_to_sun);
-  double azimuth = double(sun.x), elevation = double(sun.y), exposure = double(scene.exposure);
+void Panel::draw_sun(Visit& visit) {
+  const glm::vec2 sun = azimuth_and_elevation_deg(visit.scene().sun.direction_to_sun);
+  double azimuth = double(sun.x), elevation = double(sun.y);
   bool turns = rows_.drag("Sun from", &azimuth, 1, {0.5f, "%.1f°"}, -360, 720,
                           "compass direction of the sun: 0 north, 90 east");
   turns |= rows_.drag("Sun's height", &elevation, 1, {0.25f, "%.1f°"}, -90, 90, "above the horizon");
   if (turns) visit.set_sun(float(azimuth), std::clamp(float(elevation), -90.0f, 90.0f));
+}
+
+void Panel::draw_hour(Visit& visit, const scene::Node& day_light) {
+  const int days = light::days_in_year(int(day_light.integer("year")));
+  double day = double(day_light.integer("julianDay")), hour = day_light.number("timeOfDay");
+  if (rows_.drag("Day", &day, 1, {0.25f, "%.0f"}, 1, days, "of the year: 80 is about the spring equinox"))
+    visit.set_day(std::clamp(int(std::lround(day)), 1, days));
+  if (rows_.drag("Hour", &hour, 1, {0.02f, "%.2f"}, 0, last_hour, "by the clock: 14.25 is 14:15"))
+    visit.set_hour(std::clamp(hour, 0.0, last_hour));
+}
+
+void Panel::draw_light(Visit& visit) {
+  rows_.heading("Light");
+  const scene::Scene& scene = visit.scene();
+  if (const scene::Node* day = visit.day_light())
+    draw_hour(visit, *day);
+  else
+    draw_sun(visit);
+  double exposure = visit.exposure();
   if (rows_.drag("Exposure", &exposure, 1, {0.005f, "%.3f"}, 0.01, 100, "how bright the picture is"))
-    visit.set_exposure(float(exposure));
+    visit.set_exposure(exposure);
 
   const methods::Registry& registry = visit.stage().house().get<methods::Registry>();
   const std::vector<std::string> names = registry.names();

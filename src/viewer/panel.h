@@ -37,6 +37,8 @@ class Panel {
   void draw_visit(Visit& visit);
   void draw_scenarios(Visit& visit);
   void draw_light(Visit& visit);
+  void draw_sun(Visit& visit);
+  void draw_hour(Visit& visit, const scene::Node& day_light);
   void draw_processes(Visit& visit);
   void draw_statistics(Visit& visit, const FrameStatistics& statistics);
   void draw_keys() const;

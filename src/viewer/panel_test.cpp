@@ -195,6 +195,32 @@ TEST_F(PanelTest, LightIsDraggedAndWritten) {
   EXPECT_EQ(methods::settings(visit_->scene()).method, "shared_cube_map");
 }
 
+TEST_F(PanelTest, TheHourOfDayLightIsDraggedAndWritten) {
+  open(R"(
+dayLight(latitude=43.7, longitude=7.27, standardMeridian=2, julianDay=172, timeOfDay=10)
+model(name=pavement, file="ground.glb")
+camera(name=street, position="-7 -11 1.7", target="0 4 2.2")
+)");
+  put_up(1.0f);
+  EXPECT_EQ(panel_->places().count("Sun from"), 0u) << "the sun follows from place and hour";
+  const auto elevation = [this] { return azimuth_and_elevation_deg(visit_->scene().sun.direction_to_sun).y; };
+  const float at_ten = elevation(), exposure = visit_->scene().exposure;
+  write("Hour", "13.6");
+  EXPECT_GT(elevation(), at_ten + 10.0f);
+  EXPECT_LT(visit_->scene().exposure, exposure) << "day light sets it for the brighter hour";
+  const float in_summer = elevation();
+  write("Day", "355");
+  EXPECT_NEAR(elevation(), in_summer - 46.9f, 1.0f) << "twice the tilt of the earth's axis";
+  write("Hour", "99");
+  EXPECT_LT(node("%dayLight").number("timeOfDay"), 24.0);
+
+  write("Hour", "12");
+  const float chosen_by_day_light = visit_->scene().exposure;
+  write("Exposure", "2");
+  EXPECT_NEAR(visit_->scene().exposure, 2.0f * chosen_by_day_light, 1e-4f * chosen_by_day_light);
+  EXPECT_NEAR(visit_->exposure(), 2.0, 1e-9) << "the row shows what was chosen";
+}
+
 TEST_F(PanelTest, TrafficIsHaltedAndMovedOn) {
   click("Halt");
   EXPECT_TRUE(visit_->is_halted());

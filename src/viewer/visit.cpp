@@ -130,7 +130,17 @@ void Visit::set_sun(float azimuth_deg, float elevation_deg) {
   set("sun", "elevation_deg", double(glm::radians(elevation_deg)));
 }
 
-void Visit::set_exposure(float exposure) { set("exposure", "value", double(exposure)); }
+void Visit::set_day(int day_of_year) { set("dayLight", "julianDay", long(day_of_year)); }
+
+void Visit::set_hour(double hour) { set("dayLight", "timeOfDay", hour); }
+
+double Visit::exposure() const {
+  if (!day_light()) return double(scene().exposure);
+  const scene::Node* chosen = live().find("%exposure");
+  return chosen ? chosen->number("value") : 1.0;
+}
+
+void Visit::set_exposure(double exposure) { set("exposure", "value", exposure); }
 
 void Visit::set_reflection(const std::string& method) { set("reflection", "method", method); }
 

@@ -69,8 +69,15 @@ class Visit {
   // Light and reflections: attributes of their nodes; visible with the next step.
   /// Sets the sun's compass direction (0 north, 90 east) and elevation, degrees.
   void set_sun(float azimuth_deg, float elevation_deg);
-  /// Sets the factor on radiance before the tone curve.
-  void set_exposure(float exposure);
+  /// The node that gives sun and sky of a place and hour, in place of the sun's own; null: there is none.
+  const scene::Node* day_light() const { return live().find("%dayLight"); }
+  /// Sets the day of its year, from 1, and its hour by the clock, 0 to 24.
+  void set_day(int day_of_year);
+  void set_hour(double hour);
+  /// The factor that was chosen on radiance before the tone curve; day light multiplies it by its own.
+  double exposure() const;
+  /// Sets it.
+  void set_exposure(double exposure);
   /// Selects a reflection method by its name in the registry.
   void set_reflection(const std::string& method);
 
@@ -93,10 +100,10 @@ class Visit {
   /// The notices to be displayed now, oldest first.
   const std::vector<Notice>& notices() const { return notices_; }
 
-  house::Stage& stage() { return stage_; }                        ///< as given
-  const scene::Scene& scene() const { return stage_.scene(); }    ///< the stage's
-  action::Actions& actions() { return stage_.play().actions(); }  ///< events, messages and tours
-  scene::LiveScene& live() { return stage_.play().live(); }       ///< nodes and scenarios
+  house::Stage& stage() { return stage_; }                         ///< as given
+  const scene::Scene& scene() const { return stage_.scene(); }     ///< the stage's
+  action::Actions& actions() { return stage_.play().actions(); }   ///< events, messages and tours
+  scene::LiveScene& live() const { return stage_.play().live(); }  ///< nodes and scenarios
 
  private:
   void set(const char* type, const char* attribute, scene::AttributeValue value);
