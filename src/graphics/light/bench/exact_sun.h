@@ -33,6 +33,17 @@ SunPicture exact_sun(const DoubleTracer& tracer, const Camera& camera, const Jud
 /// The share of the sun in each judged pixel; 1 where nothing faces it.
 using SunShares = std::vector<float>;
 
+/// `share_at(x, y)`, y from the top, of each judged pixel of a picture.
+template <class ShareAt>
+SunShares judged_shares(const JudgedPixels& pixels, const ShareAt& share_at) {
+  SunShares shares;
+  shares.reserve(pixels.count());
+  for (int y = 0; y < pixels.height; y += pixels.step)
+    for (int x = 0; x < pixels.width; x += pixels.step)
+      shares.push_back(share_at(std::size_t(x), std::size_t(y)));
+  return shares;
+}
+
 /// From this share on a pixel counts as lit.
 inline constexpr float half_lit = 0.5f;
 

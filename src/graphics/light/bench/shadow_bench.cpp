@@ -31,12 +31,10 @@ glm::vec3 any_sun(Random& random) {
 SunShares traced_shares(const reference::RayScene& rays, const scene::SunLight& sun, const Camera& camera) {
   shadows::TracedSun traced;
   traced.trace(rays, 1, {}, sun, camera, sunlit_pixels.width, sunlit_pixels.height, 1);
-  const auto across = std::size_t(sunlit_pixels.width), down = std::size_t(sunlit_pixels.height);
-  SunShares shares(across * down);
-  for (std::size_t y = 0; y < down; ++y)
-    for (std::size_t x = 0; x < across; ++x)
-      shares[y * across + x] = traced.pixels()[(down - 1 - y) * across + x].x;
-  return shares;
+  const auto across = std::size_t(sunlit_pixels.width), last = std::size_t(sunlit_pixels.height - 1);
+  return judged_shares(sunlit_pixels, [&](std::size_t x, std::size_t y) {
+    return traced.pixels()[(last - y) * across + x].x;
+  });
 }
 
 /// Pixels that change between right and wrong from one step of a walk to the next, while the truth stays.

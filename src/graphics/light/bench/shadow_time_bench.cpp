@@ -36,12 +36,10 @@ class ReadableLight final : public render::LightOver {
     std::vector<glm::vec2> texels(std::size_t(size_.x) * std::size_t(size_.y));
     glGetTextureImage(texture_, 0, GL_RG, GL_FLOAT, GLsizei(texels.size() * sizeof(glm::vec2)),
                       texels.data());
-    SunShares shares;
-    shares.reserve(pixels.count());
-    for (int y = 0; y < pixels.height; y += pixels.step)  // the picture's top row is the texture's last
-      for (int x = 0; x < pixels.width; x += pixels.step)
-        shares.push_back(texels[std::size_t(size_.y - 1 - y) * std::size_t(size_.x) + std::size_t(x)].x);
-    return shares;
+    const auto across = std::size_t(size_.x), last = std::size_t(size_.y - 1);
+    return judged_shares(pixels, [&](std::size_t x, std::size_t y) {
+      return texels[(last - y) * across + x].x;  // the picture's top row is the texture's last
+    });
   }
 
  private:

@@ -11,12 +11,11 @@ constexpr int width = sunlit_pixels.width, height = sunlit_pixels.height;
 constexpr float min_light = 1e-3f;
 
 SunShares shares_of(const ImageF& with, const ImageF& without) {
-  SunShares shares(sunlit_pixels.count(), 1.0f);
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const float maximum = without.pixels[i * std::size_t(without.channels)];
-    if (maximum > min_light) shares[i] = with.pixels[i * std::size_t(with.channels)] / maximum;
-  }
-  return shares;
+  return judged_shares(sunlit_pixels, [&](std::size_t x, std::size_t y) {
+    const std::size_t pixel = y * std::size_t(width) + x;
+    const float maximum = without.pixels[pixel * std::size_t(without.channels)];
+    return maximum > min_light ? with.pixels[pixel * std::size_t(with.channels)] / maximum : 1.0f;
+  });
 }
 
 }  // namespace
