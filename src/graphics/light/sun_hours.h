@@ -21,8 +21,8 @@ struct SunPeriod {
   /// Of the year, both included; `last_day` >= `first_day`, and beyond the year's days in the next ones.
   int first_day = 80, last_day = 80;
   int day_step = 1;                ///< every so many days stands for those around it
-  double step_h = 1.0 / 6.0;       ///< the sun is looked up at this interval; changes between are bisected
-  int bisections = 4;              ///< of a step in which the sun comes or goes: 38 seconds of ten minutes
+  double step_h = 1.0 / 15.0;      ///< the sun is looked up at this interval; changes between are bisected
+  int bisections = 3;              ///< of a step in which the sun comes or goes: 30 seconds of four minutes
   double min_elevation_deg = 0.0;  ///< of the sun's centre, refracted
 };
 

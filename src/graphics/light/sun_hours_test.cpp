@@ -9,6 +9,7 @@
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/finer_mesh.h"
+#include "graphics/light/sun_plan.h"
 #include "graphics/light/sun_study.h"
 #include "graphics/light/test_box.h"
 
@@ -140,7 +141,23 @@ TEST(SunStudy, PlanTableAndModel) {
   ASSERT_TRUE(written) << to_string(written.errors());
   const Result<Image8> plan = read_image8(folder.path() / "box.png");
   ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->width, 30);
+  const SunPlan expected = sun_plan(*study);
+  EXPECT_EQ(plan->width, expected.picture.width);
+  EXPECT_EQ(expected.cell_px, 16);
+  // The middle of the south-western cell, which is open, and of one of the box, which is paler than its
+  // hours.
+  const auto colour_at = [&](int column, int row) {
+    const glm::ivec2 at = expected.corner + expected.cell_px * glm::ivec2(column, row) + expected.cell_px / 2;
+    const std::uint8_t* pixel = plan->at(at.x, at.y);
+    return glm::vec3(pixel[0], pixel[1], pixel[2]);
+  };
+  const glm::vec3 of_open = hours_colour(double(study->cells.front().hours) / study->max_hours);
+  EXPECT_LT(glm::distance(colour_at(0, 29), of_open), 2.0f) << "row 0 of the study is the southernmost";
+  EXPECT_GT(glm::distance(colour_at(15, 14), of_open), 20.0f);
+  // The scale begins below with the colour of none, and ends with that of the most.
+  EXPECT_LT(glm::distance(glm::vec3(plan->at(25, 560)[0], plan->at(25, 560)[1], plan->at(25, 560)[2]),
+                          hours_colour(0.0)),
+            2.0f);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "box.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "box.glb"));
 }

@@ -17,6 +17,7 @@
 #include "base/picture_codec.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
+#include "graphics/light/sun_plan.h"
 #include "scene/data/traced_scene.h"
 
 namespace parvis::light {
@@ -26,7 +27,6 @@ constexpr std::size_t max_cells = 16'000'000, max_vertices = 12'000'000;
 constexpr float lift_m = 0.02f;        // rays start so far off their surface
 constexpr float ground_rise_m = 2.5f;  // what lies higher above the lowest surface around is built
 constexpr double ground_reach_m = 20.0;
-constexpr int scale_px = 12;
 
 using VisitMesh = std::function<void(const Mesh& mesh, const glm::mat4& world_from_mesh)>;
 
@@ -238,45 +238,16 @@ OpenSpaceRule open_space_rule(const SunStudy& study) {
   return {open ? double(sunny) / double(open) : 0.0, double(open) * study.cell_m * study.cell_m};
 }
 
-glm::vec3 hours_colour(double share) {
-  // Viridis (Smith and van der Walt 2015) at five places: even to the eye, and readable without colour
-  // vision.
-  constexpr glm::vec3 colours[] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
-  const float place = 4.0f * float(std::clamp(share, 0.0, 1.0));
-  const int left = std::min(int(place), 3);
-  return glm::mix(colours[left], colours[left + 1], place - float(left));
-}
-
 namespace {
 
-void paint(Image8& image, int x, int y, glm::vec3 colour) {
-  for (int c = 0; c < 3; ++c) image.at(x, y)[c] = std::uint8_t(std::lround(colour[c]));
-  image.at(x, y)[3] = 255;
-}
-
-Image8 plan_of(const SunStudy& study) {
-  Image8 plan(study.columns, study.rows + scale_px, 4, 255);
-  for (int y = 0; y < study.rows; ++y)
-    for (int x = 0; x < study.columns; ++x) {
-      const GroundCell& cell =
-          study.cells[std::size_t(study.rows - 1 - y) * std::size_t(study.columns) + std::size_t(x)];
-      if (cell.kind == GroundCell::Kind::nothing) continue;
-      const glm::vec3 colour = hours_colour(double(cell.hours) / study.max_hours);
-      paint(plan, x, y, cell.kind == GroundCell::Kind::ground ? colour : 0.35f * colour + glm::vec3(110.0f));
-    }
-  // The scale: every hour a step, from none at the left to the most at the right.
-  for (int y = study.rows + 2; y < plan.height; ++y)
-    for (int x = 0; x < plan.width; ++x) {
-      const double hours = study.max_hours * (x + 0.5) / plan.width;
-      paint(plan, x, y, hours_colour(std::floor(hours) / study.max_hours));
-    }
-  return plan;
-}
-
 Status write_model(const std::filesystem::path& file, const SunStudy& study) {
-  scene::Texture scale{.name = "sun_hours", .image = Image8(256, 4, 4), .is_srgb = true, .repeats = false};
+  scene::Texture scale{
+      .name = "sun_hours", .image = Image8(256, 4, 4, 255), .is_srgb = true, .repeats = false};
   for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 256; ++x) paint(scale.image, x, y, hours_colour((x + 0.5) / 256.0));
+    for (int x = 0; x < 256; ++x) {
+      const glm::u8vec3 colour(glm::round(hours_colour((x + 0.5) / 256.0)));
+      std::copy_n(&colour[0], 3, scale.image.at(x, y));
+    }
   scene::Material material{.name = "sun hours"};
   material.base_colour = glm::vec3(1.0f), material.base_colour_texture = 0, material.roughness = 1.0f;
   scene::Model model;
@@ -307,7 +278,7 @@ std::string facade_table(const SunStudy& study) {
 
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study) {
   const auto with = [&](const char* extension) { return std::filesystem::path(prefix.string() + extension); };
-  const Result<std::string> plan = encode_image(plan_of(study), with(".png").string());
+  const Result<std::string> plan = encode_image(sun_plan(study).picture, with(".png").string());
   if (!plan) return plan.errors();
   std::string table = "x_m,y_m,z_m,kind,hours\n";
   for (const GroundCell& cell : study.cells)

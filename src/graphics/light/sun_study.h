@@ -66,10 +66,7 @@ SunPoint lifted(glm::vec3 position, glm::vec3 normal);
 /// Of the open ground of a study of 21 March.
 OpenSpaceRule open_space_rule(const SunStudy& study);
 
-/// The colour of a number of hours, as a share of the most: dark blue for none, over green, to yellow.
-glm::vec3 hours_colour(double share);
-
-/// PREFIX.png (the plan, north up, one pixel per cell and a scale of hours below), PREFIX.csv (x, y, z, kind,
+/// PREFIX.png (sun_plan.h), PREFIX.csv (x, y, z, kind,
 /// hours of each cell) and, of a study that has surfaces, PREFIX_facades.csv (position, normal and hours of
 /// each vertex of what stands upright) and PREFIX.glb (ground and facades in the same colours, which
 /// PREFIX_sun_hours.jpg beside it holds).
