@@ -71,8 +71,9 @@ class Visit {
   void set_sun(float azimuth_deg, float elevation_deg);
   /// The node that gives sun and sky of a place and hour, in place of the sun's own; null: there is none.
   const scene::Node* day_light() const { return live().find("%dayLight"); }
-  /// Sets the day of its year, from 1, and its hour by the clock, 0 to 24.
+  /// Sets the day of its year, from 1.
   void set_day(int day_of_year);
+  /// Sets its hour by the clock, 0 to 24.
   void set_hour(double hour);
   /// The factor that was chosen on radiance before the tone curve; day light multiplies it by its own.
   double exposure() const;
