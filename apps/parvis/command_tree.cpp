@@ -10,18 +10,19 @@
 
 #include "base/image_io.h"
 #include "base/path_inside.h"
-#include "base/progress.h"
 #include "capture/trees/billboard_textures.h"
+#include "capture/trees/block_table.h"
 #include "capture/trees/capture_folder.h"
 #include "capture/trees/checkpoint.h"
 #include "capture/trees/judge.h"
-#include "capture/trees/matte.h"
+#include "capture/trees/matte_folder.h"
 #include "capture/trees/measure.h"
 #include "capture/trees/processes.h"
 #include "capture/trees/reconstruction.h"
 #include "capture/trees/sample_trees.h"
 #include "capture/trees/shown_tree.h"
 #include "capture/trees/synthetic_capture.h"
+#include "capture/trees/texture_codes.h"
 #include "capture/trees/tree_file.h"
 #include "commands.h"
 #include "graphics/gl/context.h"
@@ -65,9 +66,9 @@ struct FileArguments {
   std::filesystem::path file, capture, pictures;
 };
 
-struct MatteArguments {
-  std::filesystem::path photographs, zones, output;
-  trees::MatteMethod method = trees::MatteMethod::clusters;
+struct PackArguments {
+  std::filesystem::path file, output;
+  std::size_t codes = 16384;
 };
 
 const std::map<std::string, trees::OpacityMethod> opacity_methods{
@@ -92,86 +93,37 @@ Status synthesize(SynthesizeArguments arguments) {
   if (!model) return model.errors();
   const scene::Scene scene = trees::capture_scene(*model, arguments.light);
   const Bounds bounds = scene::bounds(*model);
+  const trees::Checkpoint checkpoint = checkpoint_of(arguments.folder);
   const auto write = [&](const std::filesystem::path& folder, const std::vector<Camera>& cameras,
-                         const std::string& name) {
-    return trees::write_capture(folder, trees::photograph_tree(scene, cameras, name, arguments.capture));
+                         const std::string& name) -> Status {
+    const Result<std::vector<trees::TreeView>> views =
+        trees::photograph_tree(scene, cameras, name, arguments.capture, checkpoint);
+    return views ? trees::write_capture(folder, *views) : Status(views.errors());
   };
   if (Status status =
           write(arguments.folder, trees::capture_cameras(bounds, arguments.views), arguments.name);
       !status)
     return status;
-  if (arguments.held_out == 0) return Done{};
-  arguments.capture.seed += 76;
-  const Result<std::filesystem::path> held_out = path_inside(arguments.folder, "held_out");
-  if (!held_out) return held_out.errors();
-  return write(*held_out, trees::held_out_cameras(bounds, arguments.held_out, arguments.seed + 4),
-               arguments.name + "_held_out");
+  if (arguments.held_out > 0) {
+    arguments.capture.seed += 76;
+    const Result<std::filesystem::path> held_out = path_inside(arguments.folder, "held_out");
+    if (!held_out) return held_out.errors();
+    if (Status status =
+            write(*held_out, trees::held_out_cameras(bounds, arguments.held_out, arguments.seed + 4),
+                  arguments.name + "_held_out");
+        !status)
+      return status;
+  }
+  checkpoint.remove();
+  return Done{};
 }
 
-/// The pictures of a folder, by name.
-std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code code;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".JPG")
-      files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  return files;
-}
-
-Status make_matte(const MatteArguments& arguments, const std::filesystem::path& file,
-                  const std::filesystem::path& output) {
-  const std::string name = file.filename().string();
-  const Result<std::filesystem::path> inside = path_inside(arguments.photographs, name);
-  if (!inside) return inside.errors();
-  const Result<Image8> photograph = read_image8(file);
-  if (!photograph) return photograph.errors();
-  const std::filesystem::path painted = arguments.zones / (file.stem().string() + ".png");
-  Result<trees::Zones> zones = trees::Zones();
-  if (!arguments.zones.empty() && std::filesystem::exists(painted)) {
-    const Result<Image8> scribbles = read_image8(painted);
-    if (!scribbles) return scribbles.errors();
-    zones = trees::zones_of_scribbles(*scribbles, photograph->width, photograph->height, name);
-  } else if (trees::has_matte(*photograph)) {
-    return write_image(output, *photograph);
-  } else {
-    zones = trees::zones_of_plain_background(*photograph, name);
-    if (!zones)
-      if (Result<trees::Zones> sky = trees::zones_of_sky(*photograph, name); sky) zones = std::move(sky);
-  }
-  if (!zones) return zones.errors();
-  const Result<Image8> rgba = trees::matte(*photograph, *zones, name, arguments.method);
-  if (!rgba) return rgba.errors();
-  return write_image(output, *rgba);
-}
-
-/// Every photograph; those that have their matte already are passed over, so that the command can be
-/// repeated.
-Status mattes(const MatteArguments& arguments) {
-  const std::vector<std::filesystem::path> files = pictures_of(arguments.photographs);
-  if (files.empty()) return error("{}: no .png or .jpg pictures are there", arguments.photographs.string());
-  std::error_code code;
-  if (!arguments.zones.empty() && !std::filesystem::is_directory(arguments.zones, code))
-    return error("--zones {}: there is no such folder", arguments.zones.string());
-  std::filesystem::create_directories(arguments.output, code);
-  if (code) return error("{}: the folder cannot be made: {}", arguments.output.string(), code.message());
-  std::map<std::filesystem::path, std::filesystem::path> file_of;
-  for (const std::filesystem::path& file : files)
-    if (const auto [known, is_new] = file_of.try_emplace(file.stem(), file); !is_new)
-      return error("{} and {} would have the same matte; rename one of them", known->second.string(),
-                   file.string());
-  Progress progress("mattes", files.size());
-  Errors problems;
-  for (const std::filesystem::path& file : files) {
-    const std::filesystem::path output = arguments.output / (file.stem().string() + ".png");
-    if (!std::filesystem::exists(output))
-      if (const Status status = make_matte(arguments, file, output); !status)
-        problems.insert(problems.end(), status.errors().begin(), status.errors().end());
-    progress.advance();
-  }
-  return problems.empty() ? Status(Done{}) : Status(problems);
+Status mattes(const trees::MatteFolder& folder) {
+  const Result<trees::MatteCounts> counts = trees::write_mattes(folder);
+  if (!counts) return counts.errors();
+  fmt::print("{}: {} mattes made, {} were up to date, {} are not as made and were kept\n",
+             folder.output.string(), counts->made, counts->up_to_date, counts->foreign);
+  return Done{};
 }
 
 Status reconstruct(ReconstructArguments arguments) {
@@ -224,17 +176,26 @@ Status texture(const TextureArguments& arguments) {
   return Done{};
 }
 
-Status pack(const FileArguments& arguments) {
-  const Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
+/// What the thesis's packing would save; with codes, the tree by vector quantisation.
+Status pack(const PackArguments& arguments) {
+  Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
   if (!tree) return tree.errors();
   const trees::Packing packing = trees::packed_disjoint_alphas(*tree);
   const double raw = 4e-6 * double(packing.textures) * tree->texels_per_side * tree->texels_per_side;
   std::error_code code;
   fmt::print(
       "{} textures, {} after packing disjoint alphas: {:.1f} MB become {:.1f} MB ({:.0f} %); this file "
-      "{:.1f} MB\n",
+      "{:.2f} MB\n",
       packing.textures, packing.packed, raw, raw * packing.ratio(), 100.0 * packing.ratio(),
       1e-6 * double(std::filesystem::file_size(arguments.file, code)));
+  if (arguments.output.empty()) return Done{};
+  const Result<trees::Quantisation> done = trees::quantise_textures(*tree, arguments.codes);
+  if (!done) return done.errors();
+  const Result<std::size_t> bytes = trees::write_tree(arguments.output, *tree);
+  if (!bytes) return bytes.errors();
+  fmt::print("{}: {} blocks of 4 x 4 texels share {} codes, {:.2f} MB; texels differ by {:.4f} ({:.1f} dB)\n",
+             arguments.output.string(), done->blocks, done->codes, 1e-6 * double(*bytes), done->rmse,
+             done->psnr_db());
   return Done{};
 }
 
@@ -312,13 +273,15 @@ void add_synthesize(CLI::App& tree, Chosen& chosen) {
                    "Azimuth of the sun, degrees clockwise from north")
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "Another seed gives another tree")->capture_default_str();
-  command->footer("Example: parvis tree synthesize oak --views 22 --held-out 8 -o out/oak");
+  command->footer(
+      "Interrupted, it goes on when the same command is given again.\n"
+      "Example: parvis tree synthesize oak --views 22 --held-out 8 -o out/oak");
   command->callback([arguments, &chosen] { chosen = [arguments] { return synthesize(*arguments); }; });
 }
 
 void add_matte(CLI::App& tree, Chosen& chosen) {
   CLI::App* command = tree.add_subcommand("matte", "Alpha and pure foreground of photographs");
-  const auto arguments = std::make_shared<MatteArguments>();
+  const auto arguments = std::make_shared<trees::MatteFolder>();
   command->add_option("photographs", arguments->photographs, "A folder of .png and .jpg pictures")
       ->required();
   command->add_option("-o,--output", arguments->output, "The folder for the RGBA pictures")->required();
@@ -401,6 +364,24 @@ void add_texture(CLI::App& tree, Chosen& chosen) {
   command->callback([arguments, &chosen] { chosen = [arguments] { return texture(*arguments); }; });
 }
 
+void add_pack(CLI::App& tree, Chosen& chosen) {
+  CLI::App* command = tree.add_subcommand(
+      "pack",
+      "What the thesis's packing of disjoint alphas saves; with -o, a smaller tree by vector quantisation");
+  const auto arguments = std::make_shared<PackArguments>();
+  command->add_option("file", arguments->file, "The tree (.tree, or such a .glb)")->required();
+  CLI::Option* output =
+      command->add_option("-o,--output", arguments->output, "The smaller tree (.tree, .glb)");
+  command
+      ->add_option("--codes", arguments->codes,
+                   "Blocks of 4 x 4 texels that all textures share, at most so many")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t(1), trees::BlockTable::max_blocks))
+      ->needs(output);
+  command->footer("Example: parvis tree pack out/oak.tree --codes 16384 -o out/oak_small.tree");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return pack(*arguments); }; });
+}
+
 void add_on_file(CLI::App& tree, Chosen& chosen, const char* name, const char* help, const char* file,
                  const char* example, Status (*act)(const FileArguments&), bool takes_capture) {
   CLI::App* command = tree.add_subcommand(name, help);
@@ -429,8 +410,7 @@ void add_tree(CLI::App& app, Chosen& chosen) {
   add_tree_calibrate(*tree, chosen);
   add_reconstruct(*tree, chosen);
   add_texture(*tree, chosen);
-  add_on_file(*tree, chosen, "pack", "What the thesis's packing of disjoint alphas saves", "The tree (.tree)",
-              "Example: parvis tree pack out/oak.tree", pack, false);
+  add_pack(*tree, chosen);
   add_on_file(*tree, chosen, "measure", "Height, crown, trunk and leaf area density", "The volume (.volume)",
               "Example: parvis tree measure out/oak.volume", measure, false);
   add_on_file(*tree, chosen, "report", "Compares a tree with views of the real one", "The tree (.tree)",

@@ -41,10 +41,14 @@ struct RayCells {
   }
 };
 
-/// Numerators, then denominators, per cell. Lengths in them are parts of the mean chord.
+/// Numerator and denominator of each cell, side by side: the cells of a ray lie all over the memory, and so
+/// it takes one cache line for both. Lengths in them are parts of the mean chord.
 using Sums = std::vector<double>;
 
-void add(double& sum, float term) { sum += exact_term<term_bits>(double(term)); }
+void add(Sums& sums, std::size_t cell, float top, float bottom) {
+  sums[2 * cell] += exact_term<term_bits>(double(top));
+  sums[2 * cell + 1] += exact_term<term_bits>(double(bottom));
+}
 
 /// A matte at the resolution of the estimate.
 struct Matte {
@@ -63,7 +67,6 @@ struct Estimate {
 /// the cutoff has emptied are ignored.
 void add_projection(const Estimate& e, const RayCells& ray, float alpha, float inverse_focal_area,
                     Sums& sums) {
-  const std::size_t count = e.tau.size();
   float q_sum = 0.0f;
   int n = 0;
   for (const std::uint32_t cell : ray.cells)
@@ -81,35 +84,28 @@ void add_projection(const Estimate& e, const RayCells& ray, float alpha, float i
     if (e.options.clamps) projected = std::min(projected, 1.0f);
     const float weight =
         ray.lengths_m[k] * ray.enter_m[k] * ray.enter_m[k] * inverse_focal_area * inverse_volume;
-    add(sums[cell], weight * (projected - std::exp(q)));
-    add(sums[count + cell], weight);
+    add(sums, cell, weight * (projected - std::exp(q)), weight);
   }
 }
 
 /// SIRT: tau_j += sum_i l_ij (y_i - sum_k l_ik tau_k) / sum_k l_ik, over sum_i l_ij.
 void add_sirt(const Estimate& e, const RayCells& ray, float alpha, Sums& sums) {
-  const std::size_t count = e.tau.size();
   float depth = 0.0f, length = 0.0f;
   for (std::size_t k = 0; k < ray.cells.size(); ++k)
     depth += e.tau[ray.cells[k]] * ray.lengths_m[k], length += ray.lengths_m[k];
   if (length <= 0.0f) return;
   const float residual = (-std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_alpha)) - depth) / length;
-  for (std::size_t k = 0; k < ray.cells.size(); ++k) {
-    add(sums[ray.cells[k]], ray.lengths_m[k] * residual);
-    add(sums[count + ray.cells[k]], ray.lengths_m[k] / e.chord_m);
-  }
+  for (std::size_t k = 0; k < ray.cells.size(); ++k)
+    add(sums, ray.cells[k], ray.lengths_m[k] * residual, ray.lengths_m[k] / e.chord_m);
 }
 
 void add_multiplicative(const Estimate& e, const RayCells& ray, float alpha, Sums& sums) {
-  const std::size_t count = e.tau.size();
   float depth = 0.0f;
   for (std::size_t k = 0; k < ray.cells.size(); ++k) depth += e.tau[ray.cells[k]] * ray.lengths_m[k];
   const float passed = std::exp(-depth), wanted = alpha * passed / e.chord_m,
               found = (1.0f - passed) * passed / e.chord_m;
-  for (std::size_t k = 0; k < ray.cells.size(); ++k) {
-    add(sums[ray.cells[k]], ray.lengths_m[k] * wanted);
-    add(sums[count + ray.cells[k]], ray.lengths_m[k] * found);
-  }
+  for (std::size_t k = 0; k < ray.cells.size(); ++k)
+    add(sums, ray.cells[k], ray.lengths_m[k] * wanted, ray.lengths_m[k] * found);
 }
 
 /// One pass over all pixels of all mattes.
@@ -156,7 +152,7 @@ double update_cells(const Estimate& e, const Sums& sums) {
   const std::size_t count = e.tau.size();
   double change = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double top = sums[i], bottom = sums[count + i];
+    const double top = sums[2 * i], bottom = sums[2 * i + 1];
     if (bottom < min_evidence) continue;
     const float before = std::exp(-e.tau[i] * e.chord_m);
     switch (e.options.method) {

@@ -58,8 +58,16 @@ struct TreeDetail {
   /// Billboards of which the crowns before them leave less visible are not drawn; 0: all are drawn.
   float min_visible = 0.01f;
 
+  /// What trees may differ from reality where a view affords it: half a pixel.
+  DetailLimits finer_limits = {0.5f, 0.5f, 0.5f};
+  /// Billboards of a view up to which trees are shown within `finer_limits`: a tree or two, as large as the
+  /// picture. 0: never.
+  std::size_t affordable_billboards = 60'000;
+
   /// Adds the limits.
-  void hash(ContentHash& hash) const { limits.hash(hash), hash.add(min_visible); }
+  void hash(ContentHash& hash) const {
+    limits.hash(hash), finer_limits.hash(hash), hash.add(min_visible), hash.add(affordable_billboards);
+  }
 };
 
 /// Trees that have been read, by file: a node that changes does not read them again.

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "base/colour.h"
+#include "base/content_hash.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/path_tracer.h"
 #include "graphics/shading/sky.h"
+#include "scene/data/scene_key.h"
 
 namespace parvis::trees {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 constexpr float fov = 0.52f;                             // radians: a lens of about 65 mm
 constexpr float lowest_deg = 2.0f, highest_deg = 26.0f;  // of the cameras, above the tree's middle
 constexpr float golden_share = 0.61803399f;
+constexpr int tracer_version = 1;  // to be raised whenever the same scene gives other photographs
 
 /// From where the box fills the picture's height or width, from the highest camera.
 float distance_m(const Bounds& tree) {
@@ -35,6 +39,16 @@ Camera camera_at(const Bounds& tree, float azimuth, float elevation) {
   camera.world_from_camera = look_at(tree.centre() + distance_m(tree) * out, tree.centre());
   camera.vertical_fov = fov;
   return camera;
+}
+
+/// A photograph that was kept; none where it has not as many pixels as these options give it.
+std::optional<Image8> kept_picture(const Checkpoint& checkpoint, const std::string& name, std::uint64_t key,
+                                   const CaptureOptions& options) {
+  const std::optional<std::string> bytes = checkpoint.find(name, key);
+  Image8 picture(options.width, options.height, 4);
+  if (!bytes || bytes->size() != picture.pixels.size()) return std::nullopt;
+  std::ranges::copy(*bytes, picture.pixels.begin());
+  return picture;
 }
 
 }  // namespace
@@ -105,15 +119,42 @@ TreeView photograph_tree(const scene::Scene& scene, const Camera& camera, std::s
   return view;
 }
 
+std::uint64_t photograph_key(std::uint64_t shown_scene, const Camera& camera, float exposure,
+                             const CaptureOptions& options) {
+  ContentHash hash;
+  hash.add(tracer_version), hash.add(shown_scene);
+  hash.add(camera.world_from_camera), hash.add(camera.vertical_fov), hash.add(exposure);
+  for (const int number : {options.width, options.height, options.samples_per_pixel, options.bounces})
+    hash.add(number);
+  hash.add(options.seed);
+  return hash.value();
+}
+
 std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                       const std::string& name, const CaptureOptions& options) {
+  return *photograph_tree(scene, cameras, name, options, Checkpoint());  // what keeps nothing cannot fail
+}
+
+Result<std::vector<TreeView>> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
+                                              const std::string& name, const CaptureOptions& options,
+                                              const Checkpoint& checkpoint) {
   Progress progress("photographing " + name, cameras.size());
+  const std::uint64_t shown_scene = checkpoint.keeps_parts() ? scene::scene_key(scene) : 0;
   std::vector<TreeView> views;
+  views.reserve(cameras.size());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     CaptureOptions own = options;
     own.seed = options.seed + 7919 * i;
-    views.push_back(
-        photograph_tree(scene, cameras[i], fmt::format("{}_{:03}", name, i), capture_exposure, own));
+    const std::string own_name = fmt::format("{}_{:03}", name, i);
+    const std::uint64_t key = photograph_key(shown_scene, cameras[i], capture_exposure, own);
+    if (std::optional<Image8> picture = kept_picture(checkpoint, own_name, key, own)) {
+      views.push_back({own_name, pinhole_of(cameras[i], own.width, own.height), *std::move(picture)});
+    } else {
+      views.push_back(photograph_tree(scene, cameras[i], own_name, capture_exposure, own));
+      const std::vector<std::uint8_t>& pixels = views.back().picture.pixels;
+      const std::string_view bytes(reinterpret_cast<const char*>(pixels.data()), pixels.size());
+      if (Status status = checkpoint.keep(own_name, key, bytes); !status) return status.errors();
+    }
     progress.advance();
   }
   return views;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "capture/trees/checkpoint.h"
 #include "capture/trees/tree_view.h"
 #include "scene/data/scene.h"
 
@@ -44,5 +45,14 @@ TreeView photograph_tree(const scene::Scene& scene, const Camera& camera, std::s
 /// All cameras, one after the other, at capture_exposure; names are NAME_000 ...
 std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                       const std::string& name, const CaptureOptions& options);
+/// The same. Each photograph is kept under its name when it is taken, and found again by the same call:
+/// `checkpoint` is the caller's to remove. Error: one cannot be kept; those that were stay.
+Result<std::vector<TreeView>> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
+                                              const std::string& name, const CaptureOptions& options,
+                                              const Checkpoint& checkpoint);
+
+/// The hash of all that a photograph depends on. `shown_scene`: scene_key of what it shows.
+std::uint64_t photograph_key(std::uint64_t shown_scene, const Camera& camera, float exposure,
+                             const CaptureOptions& options);
 
 }  // namespace parvis::trees

@@ -9,6 +9,7 @@
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/cell_order.h"
 #include "capture/trees/judge.h"
+#include "capture/trees/level_choice.h"
 #include "capture/trees/room.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/shown_tree.h"
@@ -301,6 +302,29 @@ TEST(TreeLevels, AreChosenByPixels) {
   }
 }
 
+TEST(TreeLevels, TreesInFrontAreFinerWhileAViewAffordsIt) {
+  const TreeLevels& tree = *ball_levels();
+  TreeDetail detail;
+  const SeenTree seen{0.8f / texel_size_m(tree.levels[0]), 0.0f};  // from a photograph's place
+  const std::size_t usual = level_for(tree, seen, detail.limits);
+  ASSERT_EQ(level_for(tree, seen, detail.finer_limits), 0u)
+      << "texels of .8 pixels are not to be drawn again";
+  ASSERT_GT(usual, 0u);
+  const std::vector<TreeInView> three(3, TreeInView{&tree, seen});
+  const std::size_t fine = tree.levels[0].grid.size(), coarse = tree.levels[usual].grid.size();
+  using Levels = std::vector<std::size_t>;
+  EXPECT_EQ(levels_in_view(three, detail), (Levels{0, 0, 0}));
+  detail.affordable_billboards = fine + 2 * coarse;
+  EXPECT_EQ(levels_in_view(three, detail), (Levels{0, usual, usual})) << "the first in front";
+  --detail.affordable_billboards;
+  EXPECT_EQ(levels_in_view(three, detail), (Levels{usual, usual, usual}));
+  // As small as this there is nothing that a finer level would show.
+  const SeenTree small{0.1f / texel_size_m(tree.levels[0]), 0.0f};
+  EXPECT_EQ(levels_in_view(std::vector<TreeInView>{{&tree, small}}, TreeDetail()),
+            Levels{level_for(tree, small, TreeDetail().finer_limits)});
+  EXPECT_GT(level_for(tree, small, TreeDetail().finer_limits), 0u);
+}
+
 TEST(TreeLevels, ParallaxIsNoneAtAPhotographAndAllFromAbove) {
   const BillboardTree& tree = ball_tree();
   const glm::vec3 middle = tree.grid.box().centre(), camera = tree.views[0].camera.position_in_world,
@@ -345,7 +369,7 @@ TEST_F(TreeDisplayTest, FarLevelsAreAsRaysSeeThem) {
   camera_.vertical_fov = 0.2f;
   const auto kept = renderer();
   const auto drawn_with = [&](const DetailLimits& limits) {
-    scene_.data<TreeDetail>().limits = limits;
+    scene_.data<TreeDetail>().limits = limits, scene_.data<TreeDetail>().affordable_billboards = 0;
     return drawn(*kept);
   };
   const Image8 finest = drawn_with({0.0f, 0.0f}), shipped = drawn_with({}),
@@ -381,7 +405,7 @@ TEST_F(TreeDisplayTest, FarLevelsCastTheShadowsOfTheFinest) {
   scene_.sun.direction_to_sun = glm::normalize(glm::vec3(1, 0, 0.7f));
   plant({0, 0, 0}), plant({0, 5, 0}, 3.0f);
   const auto shaded_with = [&](const DetailLimits& limits) {
-    scene_.data<TreeDetail>().limits = limits;
+    scene_.data<TreeDetail>().limits = limits, scene_.data<TreeDetail>().affordable_billboards = 0;
     Image8 picture = drawn(*renderer());
     for (int y = 0; y < picture.height; ++y)  // the shadows alone, which lie to the west
       for (int x = width / 2 - 14; x < picture.width; ++x) std::fill_n(picture.at(x, y), picture.channels, 0);

@@ -14,6 +14,7 @@
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/cell_order.h"
 #include "capture/trees/crown_cover.h"
+#include "capture/trees/level_choice.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
 #include "graphics/render/bindings.h"
@@ -143,7 +144,16 @@ class TreeDrawable final : public render::Drawable {
     std::ranges::sort(seen);
     const bool has_cover = view.kind == ViewKind::main || view.kind == ViewKind::cube_face;
     cover_.begin(view, has_cover ? detail_.min_visible : 0.0f);
-    for (const auto& [distance, i] : seen) add(i, view, culling, list.billboards);
+    std::vector<TreeInView> in_view;
+    in_view.reserve(seen.size());
+    for (const auto& [distance, i] : seen)
+      in_view.push_back({trees_[i].tree.get(), seen_tree(trees_[i], bounds_[i], view, culling)});
+    TreeDetail detail = detail_;
+    if (view.kind != ViewKind::main)
+      detail.affordable_billboards = 0;  // shadows and reflections do with less
+    const std::vector<std::size_t> levels = levels_in_view(in_view, detail);
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      add(seen[k].second, view, in_view[k].seen, levels[k], list.billboards);
     std::ranges::reverse(list.billboards);
     render::StreamBuffer& stream = view.kind == ViewKind::main ? main_stream_ : other_stream_;
     list.offset = stream.append(std::span<const DrawnBillboard>(list.billboards), 16);
@@ -209,14 +219,13 @@ class TreeDrawable final : public render::Drawable {
   }
 
   /// What is visible of a tree's billboards, from front to back.
-  void add(std::size_t i, const View& view, const Culling& culling, std::vector<DrawnBillboard>& out) {
+  void add(std::size_t i, const View& view, const SeenTree& seen, std::size_t level,
+           std::vector<DrawnBillboard>& out) {
     const SceneTree& placed = trees_[i];
     const glm::mat4& world_from_tree = placed.world_from_tree;
     const glm::mat3 turn(world_from_tree);
     const float scale = scale_of(world_from_tree);
     const glm::vec3 eye(glm::inverse(world_from_tree) * glm::vec4(view.position_in_world, 1.0f));
-    const SeenTree seen = seen_tree(placed, bounds_[i], view, culling);
-    const std::size_t level = level_for(*placed.tree, seen, detail_.limits);
     const BillboardTree& shown = placed.tree->levels[level];
     const float mip_level = TreeAtlas::mip_level(texel_size_m(shown) * seen.pixels_per_metre);
     order_.back_to_front(shown.grid, eye, cells_);

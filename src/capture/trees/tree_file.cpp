@@ -4,10 +4,14 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "base/checked.h"
+#include "base/file_front.h"
 #include "base/memory_budget.h"
+#include "capture/trees/billboard_blocks.h"
+#include "capture/trees/block_table.h"
 #include "capture/trees/crossed_billboards.h"
 #include "capture/trees/texture_blocks.h"
 #include "formats/gltf/gltf_own_data.h"
@@ -15,45 +19,26 @@
 namespace parvis::trees {
 namespace {
 
-constexpr SealedKind kind{"PVTREE_2", "captured tree"}, volume_kind{"PVTVOL_2", "tree volume"};
+// Coded: the textures' blocks are numbers into a table (block_table.h).
+constexpr SealedKind plain_kind{"PVTREE_2", "captured tree"}, coded_kind{"PVTREE_3", "captured tree"};
+constexpr SealedKind volume_kind{"PVTVOL_2", "tree volume"};
 const std::string gltf_extension = "PARVIS_captured_tree";
 const std::string gltf_view = "tree";
 constexpr int max_billboard_side = 256;  // finer billboards than this are smaller than pixels
 constexpr int max_texels_per_side = 64, max_views = 1024;
 
-/// A texture's block at (column, row), counted in blocks.
-BlockTexels block_of(const std::uint8_t* texture, int side, int column, int row) {
-  BlockTexels texels;
-  for (int y = 0; y < 4; ++y)
-    std::copy_n(texture + 4 * std::size_t((4 * row + y) * side + 4 * column), 16, texels.data() + 16 * y);
-  return texels;
-}
-
-void put_block(std::uint8_t* texture, int side, int column, int row, const BlockTexels& texels) {
-  for (int y = 0; y < 4; ++y)
-    std::copy_n(texels.data() + 16 * y, 16, texture + 4 * std::size_t((4 * row + y) * side + 4 * column));
-}
-
 std::vector<TextureBlock> blocks_of(const BillboardTextures& view, int side) {
   std::vector<TextureBlock> blocks;
-  const std::size_t count = view.count(side);
-  for (std::size_t i = 0; i < count; ++i)
-    for (int row = 0; row < side / 4; ++row)
-      for (int column = 0; column < side / 4; ++column)
-        blocks.push_back(compressed_block(
-            block_of(view.texels.data() + 4 * i * std::size_t(side * side), side, column, row)));
+  blocks.reserve(view.texels.size() / std::tuple_size_v<BlockTexels>);
+  for_each_block(view, side, [&](const BlockTexels& texels) { blocks.push_back(compressed_block(texels)); });
   return blocks;
 }
 
-std::vector<std::uint8_t> texels_of(const std::vector<TextureBlock>& blocks, int side) {
-  const std::size_t per_texture = std::size_t(side / 4) * std::size_t(side / 4);
-  std::vector<std::uint8_t> texels(blocks.size() * 64);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const int within = int(i % per_texture);
-    put_block(texels.data() + 4 * (i / per_texture) * std::size_t(side * side), side, within % (side / 4),
-              within / (side / 4), decompressed_block(blocks[i]));
-  }
-  return texels;
+/// The textures that blocks hold.
+void put_blocks(BillboardTextures& view, const std::vector<TextureBlock>& blocks, int side) {
+  view.texels.resize(blocks.size() * std::tuple_size_v<BlockTexels>);
+  std::size_t next = 0;
+  replace_blocks(view, side, [&] { return decompressed_block(blocks[next++]); });
 }
 
 /// One bit per cell: has the view a texture of it?
@@ -100,35 +85,78 @@ std::string grid_problem(const Bounds& box, int branching, int side, int max_sid
 
 namespace {
 
+/// What a tree's file holds.
+struct Content {
+  SealedKind kind;
+  std::string bytes;
+};
+
+/// The kind of a file that begins so.
+SealedKind kind_of(std::string_view front) {
+  return front.starts_with(coded_kind.magic) ? coded_kind : plain_kind;
+}
+
+/// A view's textures in the order of the cells that have one: then a bit per cell says which is whose.
+BillboardTextures ordered(const BillboardTextures& view, int side) {
+  const std::size_t bytes_per_texture = 4 * std::size_t(side) * std::size_t(side);
+  BillboardTextures result{view.camera, {}, {}};
+  result.texels.reserve(view.texels.size());
+  for (const std::int32_t texture : view.texture_of_cell)
+    if (texture >= 0) {
+      const auto first = view.texels.begin() + std::ptrdiff_t(std::size_t(texture) * bytes_per_texture);
+      result.texels.insert(result.texels.end(), first, first + std::ptrdiff_t(bytes_per_texture));
+    }
+  return result;
+}
+
 /// The content of a tree's file. `file`: as errors call it.
-Result<std::string> content_of(const std::filesystem::path& file, const BillboardTree& tree) {
+Result<Content> content_of(const std::filesystem::path& file, const BillboardTree& tree) {
   if (tree.texels_per_side % 4 != 0 || tree.texels_per_side > max_texels_per_side)
     return error(
         "{}: textures of {} texels along a side cannot be written, expected a multiple of 4 up to {}",
         file.string(), tree.texels_per_side, max_texels_per_side);
-  // Views number the textures in the order of the cells: then a bit per cell says it all.
-  std::string content;
-  append_value(content, tree.grid.box()), append_value(content, std::int32_t(tree.grid.branching()));
-  append_value(content, std::int32_t(tree.grid.side())),
-      append_value(content, std::int32_t(tree.texels_per_side));
-  append_values(content, tree.grid.cells()), append_values(content, tree.base);
-  append_value(content, tree.light), append_value(content, std::uint32_t(tree.views.size()));
-  const std::size_t bytes_per_texture =
-      4 * std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
-  for (const BillboardTextures& view : tree.views) {
-    BillboardTextures ordered{view.camera, {}, {}};
-    for (const std::int32_t texture : view.texture_of_cell)
-      if (texture >= 0) {
-        const auto first = view.texels.begin() + std::ptrdiff_t(std::size_t(texture) * bytes_per_texture);
-        ordered.texels.insert(ordered.texels.end(), first, first + std::ptrdiff_t(bytes_per_texture));
-      }
-    append_value(content, view.camera), append_values(content, bits_of(view.texture_of_cell));
-    append_values(content, blocks_of(ordered, tree.texels_per_side));
+  std::vector<std::vector<TextureBlock>> blocks;
+  blocks.reserve(tree.views.size());
+  for (const BillboardTextures& view : tree.views)
+    blocks.push_back(blocks_of(ordered(view, tree.texels_per_side), tree.texels_per_side));
+  const std::optional<BlockTable> table = BlockTable::of(blocks);
+  Content content{table ? coded_kind : plain_kind, {}};
+  std::string& bytes = content.bytes;
+  append_value(bytes, tree.grid.box()), append_value(bytes, std::int32_t(tree.grid.branching()));
+  append_value(bytes, std::int32_t(tree.grid.side()));
+  append_value(bytes, std::int32_t(tree.texels_per_side));
+  append_values(bytes, tree.grid.cells()), append_values(bytes, tree.base);
+  append_value(bytes, tree.light), append_value(bytes, std::uint32_t(tree.views.size()));
+  if (table) append_values(bytes, table->blocks());
+  for (std::size_t v = 0; v < tree.views.size(); ++v) {
+    append_value(bytes, tree.views[v].camera), append_values(bytes, bits_of(tree.views[v].texture_of_cell));
+    if (table)
+      append_values(bytes, table->numbers_of(blocks[v]));
+    else
+      append_values(bytes, blocks[v]);
   }
   return content;
 }
 
-Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::string& content) {
+/// Takes a view's blocks: numbers into the table, where there is one. Error: a number beyond it; memory, of
+/// which the blocks of a few bytes take much.
+Result<std::vector<TextureBlock>> take_blocks(Taker& taker, const std::optional<BlockTable>& table,
+                                              const std::filesystem::path& file) {
+  if (!table) return taker.take_values<TextureBlock>();
+  const auto numbers = taker.take_values<std::uint16_t>();
+  if (Status enough = check_memory(checked_product({numbers.size(), block_bytes}),
+                                   file.string() + ": the blocks of a view");
+      !enough)
+    return enough.errors();
+  std::optional<std::vector<TextureBlock>> blocks = table->blocks_of(numbers);
+  if (!blocks)
+    return error("{}: the captured tree is damaged: a block's number is beyond its table of {}",
+                 file.string(), table->blocks().size());
+  return *std::move(blocks);
+}
+
+Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKind& kind,
+                              const std::string& content) {
   const auto wrong = [&](const std::string& what) {
     return error("{}: the captured tree is damaged: {}", file.string(), what);
   };
@@ -160,11 +188,20 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::stri
       !enough)
     return enough.errors();
   tree.grid = CellGrid(box, branching, side, std::move(cells)), tree.texels_per_side = texels;
+  std::optional<BlockTable> table;
+  if (kind.magic == coded_kind.magic) {
+    std::vector<TextureBlock> blocks = taker.take_values<TextureBlock>();
+    if (blocks.size() > BlockTable::max_blocks)
+      return wrong(fmt::format("a table of {} blocks, at most {} are possible", blocks.size(),
+                               BlockTable::max_blocks));
+    table.emplace(std::move(blocks));
+  }
   for (std::uint32_t v = 0; v < view_count; ++v) {
     BillboardTextures view;
     view.camera = taker.take<Pinhole>();
     const auto bits = taker.take_values<std::uint8_t>();
-    const auto blocks = taker.take_values<TextureBlock>();
+    const Result<std::vector<TextureBlock>> blocks = take_blocks(taker, table, file);
+    if (!blocks) return blocks.errors();
     if (taker.has_ended_early()) return cut_short(file);
     if (!is_finite(view.camera) || view.camera.width < 1 || view.camera.height < 1)
       return wrong("a camera is no camera");
@@ -172,13 +209,13 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::stri
     std::int32_t next = 0;
     for (std::size_t i = 0; i < cell_count; ++i)
       view.texture_of_cell.push_back(bits[i / 8] >> (i % 8) & 1 ? next++ : -1);
-    if (blocks.size() != std::size_t(next) * blocks_per_texture)
+    if (blocks->size() != std::size_t(next) * blocks_per_texture)
       return wrong("a view's textures do not match its cells");
-    if (Status enough = check_memory(checked_product({blocks.size(), std::tuple_size_v<BlockTexels>}),
+    if (Status enough = check_memory(checked_product({blocks->size(), std::tuple_size_v<BlockTexels>}),
                                      file.string() + ": the textures of a view");
         !enough)
       return enough.errors();
-    view.texels = texels_of(blocks, texels);
+    put_blocks(view, *blocks, texels);
     tree.views.push_back(std::move(view));
   }
   if (!taker.is_at_end()) return wrong("bytes follow its end");
@@ -188,29 +225,34 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const std::stri
 }  // namespace
 
 Result<std::size_t> write_tree(const std::filesystem::path& file, const BillboardTree& tree) {
-  const Result<std::string> content = content_of(file, tree);
+  const Result<Content> content = content_of(file, tree);
   if (!content) return content.errors();
   if (file.extension() == ".glb") {
-    const scene::GltfOwnData own{gltf_extension, "{}", {{gltf_view, sealed_bytes(kind, *content)}}};
+    const scene::GltfOwnData own{
+        gltf_extension, "{}", {{gltf_view, sealed_bytes(content->kind, content->bytes)}}};
     if (Status status = scene::write_gltf(file, crossed_model(tree), own); !status) return status.errors();
-  } else if (Status status = write_sealed(file, kind, *content); !status) {
+  } else if (Status status = write_sealed(file, content->kind, content->bytes); !status) {
     return status.errors();
   }
-  return content->size() + kind.magic.size() + sizeof(std::uint64_t);
+  return content->bytes.size() + content->kind.magic.size() + sizeof(std::uint64_t);
 }
 
 Result<BillboardTree> read_tree(const std::filesystem::path& file) {
   if (file.extension() != ".glb") {
+    const Result<std::string> front = read_front(file, plain_kind.magic.size());
+    const SealedKind kind = front ? kind_of(*front) : plain_kind;
     const Result<std::string> content = read_sealed(file, kind);
-    return content ? tree_of(file, *content) : content.errors();
+    return content ? tree_of(file, kind, *content) : content.errors();
   }
   const Result<scene::GltfOwnData> own = scene::read_gltf_own_data(file, gltf_extension);
   if (!own) return own.errors();
   if (own->views.size() != 1 || own->views.front().first != gltf_view)
     return error("{}: its extension {} does not hold one view \"{}\"", file.string(), gltf_extension,
                  gltf_view);
-  const Result<std::string> content = opened_sealed(file, own->views.front().second, kind);
-  return content ? tree_of(file, *content) : content.errors();
+  const std::string_view bytes = own->views.front().second;
+  const SealedKind kind = kind_of(bytes);
+  const Result<std::string> content = opened_sealed(file, bytes, kind);
+  return content ? tree_of(file, kind, *content) : content.errors();
 }
 
 void append_volume(std::string& content, const TreeVolume& volume) {
@@ -259,7 +301,7 @@ Result<TreeVolume> take_volume(Taker& taker, const std::filesystem::path& file) 
 
 BillboardTree as_stored(BillboardTree tree) {
   for (BillboardTextures& view : tree.views)
-    view.texels = texels_of(blocks_of(view, tree.texels_per_side), tree.texels_per_side);
+    put_blocks(view, blocks_of(view, tree.texels_per_side), tree.texels_per_side);
   return tree;
 }
 

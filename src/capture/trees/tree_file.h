@@ -10,7 +10,8 @@
 
 namespace parvis::trees {
 
-/// Writes the tree, whole or not at all. A file that ends in .glb is glTF 2.0: two crossed billboards for
+/// Writes the tree, whole or not at all. Where textures repeat the same blocks (texture_codes.h makes them),
+/// each is stored once. A file that ends in .glb is glTF 2.0: two crossed billboards for
 /// other programs, with the tree in the extension PARVIS_captured_tree (docs/trees.md). Returns the tree's
 /// size in bytes, without those two pictures. Errors: a texture side that is no multiple of 4; what the disk
 /// says.

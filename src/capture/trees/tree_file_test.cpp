@@ -124,31 +124,75 @@ TEST(TreeFile, ReturnsVolumes) {
   EXPECT_EQ(again->grid.cells(), volume.grid.cells());
 }
 
+constexpr SealedKind plain{"PVTREE_2", "captured tree"}, coded{"PVTREE_3", "captured tree"};
+
+/// The same with noise: no two blocks are alike, so that the file has no table of blocks.
+BillboardTree noisy_tree() {
+  BillboardTree tree = random_tree();
+  Random random(9);
+  for (BillboardTextures& view : tree.views)
+    for (std::uint8_t& value : view.texels) value = std::uint8_t(random.index(256));
+  return tree;
+}
+
 TEST(TreeFile, EveryShorterFileIsRefused) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
-  ASSERT_TRUE(write_tree(file, random_tree()).ok());
-  const std::string content = *read_sealed(file, {"PVTREE_2", "captured tree"});
-  for (std::size_t size = 0; size < content.size(); size += 1 + size / 20) {
-    ASSERT_TRUE(
-        write_sealed(file, {"PVTREE_2", "captured tree"}, std::string_view(content).substr(0, size)).ok());
-    EXPECT_FALSE(read_tree(file).ok()) << size << " of " << content.size();
+  for (const auto& [kind, tree] : {std::pair{plain, noisy_tree()}, std::pair{coded, random_tree()}}) {
+    ASSERT_TRUE(write_tree(file, tree).ok());
+    const std::string content = *read_sealed(file, kind);
+    for (std::size_t size = 0; size < content.size(); size += 1 + size / 20) {
+      ASSERT_TRUE(write_sealed(file, kind, std::string_view(content).substr(0, size)).ok());
+      EXPECT_FALSE(read_tree(file).ok()) << size << " of " << content.size();
+    }
   }
 }
 
 TEST(TreeFile, RefusesImpossibleGridsAndCounts) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
-  ASSERT_TRUE(write_tree(file, random_tree()).ok());
-  const std::string content = *read_sealed(file, {"PVTREE_2", "captured tree"});
-  // Offsets: box 24 bytes, branching, side, texels, cell count, cells.
-  for (const auto& [offset, value] :
-       {std::pair{24, 7}, std::pair{28, 10}, std::pair{28, 6561}, std::pair{32, 5}, std::pair{32, 4000},
-        std::pair{36, 0x7fffffff}, std::pair{40, 0xffff}}) {
-    std::string damaged = content;
-    std::memcpy(damaged.data() + offset, &value, 4);
-    ASSERT_TRUE(write_sealed(file, {"PVTREE_2", "captured tree"}, damaged).ok());
-    EXPECT_FALSE(read_tree(file).ok()) << "offset " << offset;
+  for (const auto& [kind, tree] : {std::pair{plain, noisy_tree()}, std::pair{coded, random_tree()}}) {
+    ASSERT_TRUE(write_tree(file, tree).ok());
+    const std::string content = *read_sealed(file, kind);
+    // Offsets: box 24 bytes, branching, side, texels, cell count, cells.
+    for (const auto& [offset, value] :
+         {std::pair{24, 7}, std::pair{28, 10}, std::pair{28, 6561}, std::pair{32, 5}, std::pair{32, 4000},
+          std::pair{36, 0x7fffffff}, std::pair{40, 0xffff}}) {
+      std::string damaged = content;
+      std::memcpy(damaged.data() + offset, &value, 4);
+      ASSERT_TRUE(write_sealed(file, kind, damaged).ok());
+      EXPECT_FALSE(read_tree(file).ok()) << "offset " << offset;
+    }
+  }
+}
+
+TEST(TreeFile, RefusesNumbersOfBlocksBeyondTheirTable) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.tree";
+  const BillboardTree tree = random_tree();
+  ASSERT_TRUE(write_tree(file, tree).ok());
+  const std::string content = *read_sealed(file, coded);
+  // The numbers of the last view are the last bytes.
+  std::string damaged = content;
+  damaged[damaged.size() - 1] = damaged[damaged.size() - 2] = '\xff';
+  ASSERT_TRUE(write_sealed(file, coded, damaged).ok());
+  const Result<BillboardTree> beyond = read_tree(file);
+  ASSERT_FALSE(beyond.ok());
+  EXPECT_NE(to_string(beyond.errors()).find("beyond its table"), std::string::npos)
+      << to_string(beyond.errors());
+  // Behind box, three numbers, cells, base colours, light and count of views lies that of the table's blocks.
+  const std::size_t table = 24 + 3 * 4 + 4 + 6 * tree.grid.size() + 4 + 4 * tree.grid.size() + 20 + 4;
+  for (const std::uint32_t count : {0u, 65537u, 0xffffffffu}) {
+    damaged = content;
+    damaged.replace(table, 4, reinterpret_cast<const char*>(&count), 4);
+    if (count == 65537u) damaged.insert(table + 4, std::size_t(count) * block_bytes, '\0');
+    ASSERT_TRUE(write_sealed(file, coded, damaged).ok());
+    const Result<BillboardTree> refused = read_tree(file);
+    ASSERT_FALSE(refused.ok()) << count;
+    if (count == 65537u) {
+      EXPECT_NE(to_string(refused.errors()).find("65536 are possible"), std::string::npos)
+          << to_string(refused.errors());
+    }
   }
 }
 
@@ -159,14 +203,16 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
   const std::string corpus = fmt::format("{}/src/capture/trees/fuzz/corpus/tree", PARVIS_SOURCE_DIR);
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     const std::string content = *read_file(entry.path());
-    const bool is_tree = entry.path().filename().string().starts_with("tree");
-    const SealedKind kind =
-        is_tree ? SealedKind{"PVTREE_2", "captured tree"} : SealedKind{"PVTVOL_2", "tree volume"};
+    const std::string name = entry.path().filename().string();
+    const bool is_volume = name.starts_with("volume");
+    const SealedKind kind = is_volume                   ? SealedKind{"PVTVOL_2", "tree volume"}
+                            : name.starts_with("coded") ? coded
+                                                        : plain;
     ASSERT_TRUE(write_sealed(file, kind, content).ok());
-    EXPECT_TRUE(is_tree ? read_tree(file).ok() : read_volume(file).ok()) << entry.path();
+    EXPECT_TRUE(is_volume ? read_volume(file).ok() : read_tree(file).ok()) << entry.path();
     ++seeds;
   }
-  EXPECT_GE(seeds, 6);
+  EXPECT_GE(seeds, 8);
 }
 
 TEST(Packing, PairsTexturesOfDisjointAlphas) {

@@ -210,8 +210,10 @@ std::size_t level_for(const TreeLevels& tree, const SeenTree& seen, const Detail
   std::size_t level = 0;
   while (level + 1 < tree.levels.size()) {
     const BillboardTree& next = tree.levels[level + 1];
-    const bool is_as_sharp = texel_size_m(next) <= 1.001f * texel_size_m(tree.levels.front()) ||
-                             texel_size_m(next) * seen.pixels_per_metre <= limits.max_texel_pixels;
+    const float texel_pixels = texel_size_m(next) * seen.pixels_per_metre;
+    const bool is_as_fine = texel_size_m(next) <= 1.001f * texel_size_m(tree.levels.front());
+    const bool is_as_sharp = texel_pixels <= limits.max_texel_pixels ||
+                             (is_as_fine && texel_pixels <= limits.max_drawn_texel_pixels);
     const float shift_pixels = 0.5f * longest_edge(next.grid) * seen.parallax * seen.pixels_per_metre;
     if (!(is_as_sharp && shift_pixels <= limits.max_shift_pixels)) break;
     ++level;

@@ -1,6 +1,7 @@
 // Levels of detail of a captured tree, from the hierarchy of its grid down to a few billboards.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "base/content_hash.h"
@@ -45,9 +46,13 @@ struct DetailLimits {
   /// How far a billboard shows the front and the back of its cell beside their places: half a cell times the
   /// parallax.
   float max_shift_pixels = 3.0f;
+  /// The width of a texel that is as wide as those of the finest level, but was drawn from them.
+  float max_drawn_texel_pixels = std::numeric_limits<float>::infinity();
 
   /// Adds the limits.
-  void hash(ContentHash& hash) const { hash.add(max_texel_pixels), hash.add(max_shift_pixels); }
+  void hash(ContentHash& hash) const {
+    for (const float limit : {max_texel_pixels, max_shift_pixels, max_drawn_texel_pixels}) hash.add(limit);
+  }
 };
 
 /// The coarsest level within the limits.

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "capture/trees/bench/reconstructed_tree.h"
+#include "capture/trees/level_choice.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
 #include "graphics/light/sun_and_sky.h"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr int width = 1280, height = 720, frames = 5;
 constexpr int wood_columns = 25, wood_rows = 40;
-const TreeDetail finest{{0.0f, 0.0f}, 0.0f}, coarsest{{1e9f, 1e9f}, 0.0f};
+const TreeDetail finest{{0.0f, 0.0f}, 0.0f}, coarsest{{1e9f, 1e9f}, 0.0f, {}, 0};
 constexpr double max_lod_flip = 0.05;         // the target: what the control must miss
 constexpr double min_covered_percent = 20.0;  // below it neither speed nor difference says anything
 constexpr float spacing_m = 11.0f, turn = 2.4f;
@@ -112,15 +113,24 @@ struct Drawn {
 Drawn drawn_in(const scene::Scene& scene, const WoodView& at) {
   const render::View view = render::camera_view(camera_of(at), 0, width, height);
   const render::Culling culling(view, nullptr);
-  Drawn drawn;
+  std::vector<std::pair<float, TreeInView>> in_view;
   for (const SceneTree& tree : scene_trees(scene)) {
     const Bounds bounds = transformed(tree.world_from_tree, tree.tree->box);
     if (!culling.may_see(bounds)) continue;
-    const std::size_t level =
-        level_for(*tree.tree, seen_tree(tree, bounds, view, culling), scene.data<TreeDetail>().limits);
-    drawn.trees_of_level.resize(tree.tree->levels.size());
-    ++drawn.trees_of_level[level];
-    drawn.billboards += tree.tree->levels[level].grid.size();
+    in_view.emplace_back(glm::distance(bounds.centre(), view.position_in_world),
+                         TreeInView{tree.tree.get(), seen_tree(tree, bounds, view, culling)});
+  }
+  std::ranges::stable_sort(in_view, {}, &std::pair<float, TreeInView>::first);
+  std::vector<TreeInView> ordered;
+  ordered.reserve(in_view.size());
+  for (const auto& [distance, tree] : in_view) ordered.push_back(tree);
+  const std::vector<std::size_t> levels = levels_in_view(ordered, scene.data<TreeDetail>());
+  Drawn drawn;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const std::vector<BillboardTree>& own = ordered[i].tree->levels;
+    drawn.trees_of_level.resize(own.size());
+    ++drawn.trees_of_level[levels[i]];
+    drawn.billboards += own[levels[i]].grid.size();
   }
   return drawn;
 }

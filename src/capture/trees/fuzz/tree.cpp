@@ -12,8 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)parvis::trees::read_tree(file);
   (void)parvis::trees::read_volume(file);
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  if (parvis::write_sealed(file, {"PVTREE_2", "captured tree"}, content))
-    (void)parvis::trees::read_tree(file);
+  for (const std::string_view magic : {"PVTREE_2", "PVTREE_3"})
+    if (parvis::write_sealed(file, {magic, "captured tree"}, content)) (void)parvis::trees::read_tree(file);
   if (parvis::write_sealed(file, {"PVTVOL_2", "tree volume"}, content))
     (void)parvis::trees::read_volume(file);
   return 0;
