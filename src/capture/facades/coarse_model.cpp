@@ -70,18 +70,20 @@ Piece piece_of(const FoundPlane& plane, std::vector<std::size_t> members, const 
 }
 
 /// Calls `visit(s, t)` for each ray from a camera to a point that it sees where the ray passes through the
-/// plane of a piece, well before its end.
+/// plane of a piece, well before its end. From behind as well: who stands behind a wall sees nothing of what
+/// is before it.
 template <class Visit>
 void for_rays_through(const Piece& piece, const Place& place, Visit&& visit) {
   const double margin = 4.0 * plane_tolerance * place.scale;
+  const auto height_of = [&](glm::dvec3 p) { return glm::dot(piece.plane->normal, p) - piece.plane->offset; };
   for (const photographs::SparsePoint& point : place.set.points) {
-    const double behind = glm::dot(piece.plane->normal, point.position_in_world) - piece.plane->offset;
-    if (behind > -margin) continue;
+    const double end = height_of(point.position_in_world);
+    if (std::abs(end) < margin) continue;
     for (const photographs::Observation& o : point.observations) {
       const glm::dvec3 eye = place.set.photographs[std::size_t(o.photograph)].position_in_world();
-      const double before = glm::dot(piece.plane->normal, eye) - piece.plane->offset;
-      if (before < margin) continue;
-      const glm::dvec3 hit = glm::mix(eye, point.position_in_world, before / (before - behind));
+      const double begin = height_of(eye);
+      if (std::abs(begin) < margin || (begin > 0.0) == (end > 0.0)) continue;
+      const glm::dvec3 hit = glm::mix(eye, point.position_in_world, begin / (begin - end));
       const double s = glm::dot(hit, piece.u), t = glm::dot(hit, piece.v);
       if (t > piece.across.low && t < piece.across.high) visit(s, t);
     }
@@ -202,11 +204,10 @@ double ground_height(const Piece& wall, double s, const FoundPlane& ground) {
 }
 
 /// Rays through a rectangle of a piece's plane.
-double rays_through(Piece piece, Range across, const Place& place) {
+double rays_through(Piece piece, Range along, Range across, const Place& place) {
   piece.across = across;
   double through = 0.0;
-  for_rays_through(piece, place,
-                   [&](double s, double) { through += s > piece.along.low && s < piece.along.high; });
+  for_rays_through(piece, place, [&](double s, double) { through += s > along.low && s < along.high; });
   return through;
 }
 
@@ -214,6 +215,19 @@ double rays_ended(const Piece& piece, const Place& place) {
   double ended = 0.0;
   for (const std::size_t i : piece.inliers) ended += place.points[i].views;
   return ended;
+}
+
+bool is_looked_through(double through, double ended) {
+  return through > max_looked_through * (through + ended);
+}
+
+/// Do photographs look through a rectangle that a wall would be continued over? Rays through it are compared
+/// with those that end on as large a part of the wall: a rich wall says nothing about the gap beside it.
+bool is_open(const Piece& wall, Range along, Range across, const Place& place) {
+  const double area = wall.along.length() * wall.across.length();
+  const double through = rays_through(wall, along, across, place);
+  if (!(through > 0.0) || !(area > 0.0)) return false;
+  return is_looked_through(through, rays_ended(wall, place) * along.length() * across.length() / area);
 }
 
 /// Walls stand on the ground, or on the part of the same wall below them, unless photographs look through
@@ -227,12 +241,13 @@ void stand_on_ground(std::vector<Piece>& walls, const FoundPlane& ground, const 
                             other.along.high > wall.along.low;
       if (is_below) foot = std::max(foot, other.across.high);
     }
-    const double through = foot < wall.across.low ? rays_through(wall, {foot, wall.across.low}, place) : 0.0;
-    if (through <= max_looked_through * (through + rays_ended(wall, place))) wall.across.low = foot;
+    if (foot >= wall.across.low || !is_open(wall, wall.along, {foot, wall.across.low}, place))
+      wall.across.low = foot;
   }
 }
 
-/// Lets each end of a wall reach the nearest wall that crosses its line close by.
+/// Lets each end of a wall reach the nearest wall that crosses its line close by, unless photographs look
+/// through between them.
 void join_corners(std::vector<Piece>& walls, const Place& place) {
   const double reach = max_corner_gap * place.scale;
   std::vector<Range> joined;
@@ -249,6 +264,9 @@ void join_corners(std::vector<Piece>& walls, const Place& place) {
       if (std::abs(s - wall.along.high) < best_high)
         best_high = std::abs(s - wall.along.high), range.high = s;
     }
+    const Range before{range.low, wall.along.low}, behind{wall.along.high, range.high};
+    if (before.length() > 0.0 && is_open(wall, before, wall.across, place)) range.low = wall.along.low;
+    if (behind.length() > 0.0 && is_open(wall, behind, wall.across, place)) range.high = wall.along.high;
     joined.push_back(range.length() > 0.0 ? range : wall.along);
   }
   for (std::size_t i = 0; i < walls.size(); ++i) walls[i].along = joined[i];
@@ -286,13 +304,14 @@ void seat_roofs(std::vector<Piece>& roofs, std::vector<Piece>& walls, const Plac
 void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Place& place, Errors& notes) {
   std::erase_if(pieces, [&](const Piece& piece) {
     if (std::min(piece.along.length(), piece.across.length()) < min_extent * place.scale) return true;
-    const double through = rays_through(piece, piece.across, place), ended = rays_ended(piece, place);
-    const bool is_open = through > max_looked_through * (through + ended);
-    if (is_open)
+    const double through = rays_through(piece, piece.along, piece.across, place),
+                 ended = rays_ended(piece, place);
+    const bool is_false = is_looked_through(through, ended);
+    if (is_false)
       notes.push_back(
           error("a surface of {} points is left out: {:.0f} % of the rays that reach it go through",
                 piece.inliers.size(), 100.0 * through / (through + ended)));
-    return is_open;
+    return is_false;
   });
 }
 

@@ -117,6 +117,61 @@ TEST(CoarseModel, AGateStaysOpen) {
   }
 }
 
+/// Adds points with 2 cm of noise that the named photographs observe.
+void add_patch(PhotographSet& set, int count, glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v,
+               std::initializer_list<int> photographs) {
+  Random random(11);
+  const auto noise = [&] { return 0.04 * double(random.uniform()) - 0.02; };
+  for (int i = 0; i < count; ++i) {
+    photographs::SparsePoint point;
+    point.position_in_world = corner + double(random.uniform()) * u + double(random.uniform()) * v +
+                              glm::dvec3(noise(), noise(), noise());
+    for (const int k : photographs) point.observations.push_back({k, {0.0, 0.0}});
+    set.points.push_back(point);
+  }
+}
+
+/// Photographs from given places, without points.
+PhotographSet photographs_from(std::initializer_list<glm::vec3> places) {
+  PhotographSet set;
+  for (const glm::vec3& place : places) {
+    Camera camera;
+    camera.world_from_camera = look_at(place, place + glm::vec3(0.0f, 1.0f, 0.0f));
+    set.photographs.push_back(
+        photographs::photograph_of(camera, fmt::format("{}.jpg", set.photographs.size()), 1200, 900));
+  }
+  return set;
+}
+
+TEST(CoarseModel, ASurfaceThatIsLookedThroughFromBehindIsFalse) {
+  PhotographSet set = photographs_from({{-6, -4, 1.6f}, {-5, 4, 1.6f}, {6, -4, 1.6f}, {5, 4, 1.6f}});
+  add_patch(set, 1000, {-10, -8, 0}, {0, 16, 0}, {0, 0, 8}, {2, 3});  // seen through x = 0, from x > 0
+  add_patch(set, 300, {0, -4, 1}, {0, 5, 0}, {0, 0, 2.5}, {0, 1});    // leaves, say
+  add_patch(set, 400, {-10, -8, 0}, {20, 0, 0}, {0, 16, 0}, {0, 1, 2, 3});
+  const auto model = propose_coarse_model(set);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  int walls = 0;
+  for (const CoarseSurface& surface : model->surfaces) {
+    if (surface.kind != SurfaceKind::wall) continue;
+    ++walls;
+    EXPECT_NEAR(surface.corners[0].x, -10.0, 0.2) << surface.name;
+  }
+  EXPECT_EQ(walls, 1);
+}
+
+TEST(CoarseModel, AWallIsContinuedOnlyWhereNothingIsSeenThroughIt) {
+  PhotographSet set = photographs_from({{-6, -8, 1.6f}, {-2, -9, 1.6f}, {2, -8, 1.6f}, {6, -9, 1.6f}});
+  add_patch(set, 1500, {-10, 8, 3}, {20, 0, 0}, {0, 0, 9}, {0, 1, 2, 3});  // it stands on posts
+  add_patch(set, 600, {-10, 14, 0}, {20, 0, 0}, {0, 0, 3}, {0, 1, 2, 3});  // seen between them
+  add_patch(set, 400, {-10, -9, 0}, {20, 0, 0}, {0, 23, 0}, {0, 1, 2, 3});
+  const auto model = propose_coarse_model(set);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  const CoarseSurface* wall = find(*model, "wall_1");
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(wall->corners[0].y, 8.0, 0.2);
+  EXPECT_NEAR(wall->corners[0].z, 3.0, 0.4) << "the passage below it stays open";
+}
+
 TEST(CoarseModel, TooFewPointsAreAnError) {
   PhotographSet set = courtyard(100);
   set.points.resize(5);

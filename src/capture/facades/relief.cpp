@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/progress.h"
@@ -53,7 +54,24 @@ bool is_over(glm::dvec3 place) {
   return place.x >= 0.0 && place.x <= 1.0 && place.y >= 0.0 && place.y <= 1.0;
 }
 
-/// The range of heights that sparse points have over the rectangle; it holds the plane itself.
+/// How far the nearest camera before the rectangle, or before what it may grow over, stands from its plane.
+/// A relief is solid down to its plane, and who takes a photograph stands in the open.
+double nearest_camera(const SweptRectangle& rectangle, const photographs::PhotographSet& set,
+                      double distance) {
+  const double beside = max_growth * distance / glm::length(rectangle.u),
+               above = max_growth * distance / glm::length(rectangle.v);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const photographs::Photograph& photograph : set.photographs) {
+    const glm::dvec3 place = over(rectangle, photograph.position_in_world());
+    const bool is_before = place.x > -beside && place.x < 1.0 + beside && place.y > 0.0 &&
+                           place.y < 1.0 + above && place.z > 0.0;
+    if (is_before) nearest = std::min(nearest, place.z);
+  }
+  return nearest;
+}
+
+/// The range of heights that sparse points have over the rectangle, at most up to the nearest camera; it
+/// holds the plane itself.
 void set_range(SweptRectangle& rectangle, const photographs::PhotographSet& set, double distance) {
   std::vector<double> heights;
   for (const photographs::SparsePoint& point : set.points) {
@@ -63,11 +81,12 @@ void set_range(SweptRectangle& rectangle, const photographs::PhotographSet& set,
   }
   std::ranges::sort(heights);
   const double margin = height_margin * distance;
-  rectangle.low = -margin, rectangle.high = margin;
+  const double camera = nearest_camera(rectangle, set, distance);
+  rectangle.low = -margin, rectangle.high = std::min(margin, camera);
   if (heights.size() < min_points_for_range) return;
   const auto at = [&](double q) { return heights[std::size_t(q * double(heights.size() - 1) + 0.5)]; };
   rectangle.low = std::min(at(outer_quantile), 0.0) - margin;
-  rectangle.high = std::max(at(1.0 - outer_quantile), 0.0) + margin;
+  rectangle.high = std::min(std::max(at(1.0 - outer_quantile), 0.0) + margin, camera);
 }
 
 /// Does the surface lie on a relief (or inside it) for the most part?

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -81,6 +82,41 @@ TEST(PlaneSweep, PhotographsFromOnePlaceFindNothing) {
   const std::vector<GreyPhoto> same(4, all[2]);
   EXPECT_EQ(swept_heights(rectangle(), same).photographs, 0);
   EXPECT_TRUE(swept_heights(rectangle(), same).heights.empty());
+}
+
+/// The nearest that the relief of the wall comes to the photographers, who stand at y = 0 and, where it is
+/// asked for, one metre before the wall beside the box.
+float nearest_y_of_relief(bool has_camera_at_wall) {
+  photographs::PhotographSet set;
+  const auto add_photograph = [&](glm::vec3 place) {
+    Camera camera;
+    camera.world_from_camera = look_at(place, place + glm::vec3(0.0f, 1.0f, 0.0f));
+    set.photographs.push_back(
+        photographs::photograph_of(camera, fmt::format("{}.jpg", set.photographs.size()), 240, 180));
+  };
+  add_photograph({-1.0f, 0.0f, 0.0f});
+  add_photograph({1.0f, 0.0f, 0.0f});
+  if (has_camera_at_wall) add_photograph({1.8f, 7.0f, 0.0f});
+  for (int i = 0; i < 100; ++i) {
+    const double x = -1.9 + 3.8 * (i % 10) / 9.0, z = -1.5 + 3.0 * (i / 10) / 9.0;
+    photographs::SparsePoint point;
+    point.position_in_world = {x, true_depth(x, z), z};
+    point.observations = {{0, {0.0, 0.0}}, {1, {0.0, 0.0}}};
+    set.points.push_back(point);
+  }
+  CoarseModel model;
+  model.surfaces.push_back(
+      {"wall_1", SurfaceKind::wall, {{-2, 8, -1.6}, {2, 8, -1.6}, {2, 8, 1.6}, {-2, 8, 1.6}}, 100});
+  const ReliefModel found = with_reliefs(model, set, photos());
+  float nearest = 8.0f;
+  for (const NamedMesh& named : found.meshes)
+    for (const glm::vec3& position : named.mesh.positions) nearest = std::min(nearest, position.y);
+  return nearest;
+}
+
+TEST(Relief, DoesNotReachBeyondACameraBeforeTheWall) {
+  EXPECT_NEAR(nearest_y_of_relief(false), 6.5f, 0.3f) << "the box";
+  EXPECT_GE(nearest_y_of_relief(true), 7.0f - 1e-3f) << "a photographer stands in the open";
 }
 
 TEST(ReliefMesh, HoldsItsToleranceWithoutCracks) {
