@@ -182,7 +182,7 @@ bool stops(QueryContext& context, const RTCFilterFunctionNArguments* arguments, 
   const PlacedPart& place = *context.places[place_of(RTCHitN_instID(arguments->hit, n, lane, 0),
                                                      RTCHitN_geomID(arguments->hit, n, lane))];
   if (context.passes_recorded && place.is_recorded) return false;
-  if (is_of_context && has_filter(place)) return true;  // its own filter has been asked
+  if (is_of_context && place.is_filtered) return true;  // its own filter has been asked
   const glm::vec3 ng(RTCHitN_Ng_x(arguments->hit, n, lane), RTCHitN_Ng_y(arguments->hit, n, lane),
                      RTCHitN_Ng_z(arguments->hit, n, lane));
   const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, lane), RTCRayN_dir_y(arguments->ray, n, lane),
@@ -204,6 +204,11 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
   for (unsigned lane = 0; lane < arguments->N; ++lane)
     if (arguments->valid[lane] != 0 && !stops<is_shadow, is_of_context>(context, arguments, lane))
       arguments->valid[lane] = 0;
+}
+
+/// Without passages rays see as the renderer draws: no backs of single-sided parts.
+bool asks_about_backs(std::span<const Passage> passages) {
+  return passages.empty() || std::ranges::any_of(passages, [](const Passage& p) { return !p.sees_backs; });
 }
 
 RTCRay embree_ray(const Ray& ray) {
@@ -354,10 +359,9 @@ std::uint32_t RayScene::are_blocked(std::span<const FineRay> rays) const {
 }
 
 std::uint32_t RayScene::are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const {
-  assert(margin_m_ == 0.0f && passages.size() >= rays.size());
+  assert(margin_m_ == 0.0f && (passages.empty() || passages.size() >= rays.size()));
   QueryContext context(places_, passages);
-  for (const Passage& passage : passages)
-    if (!passage.sees_backs) context.embree.filter = filter<true, true>;
+  if (asks_about_backs(passages)) context.embree.filter = filter<true, true>;
   std::uint32_t blocked = 0;
   each_packet(
       rays.size(), has_wide_packets_, [&](std::size_t i) { return rays[i]; },
@@ -367,10 +371,10 @@ std::uint32_t RayScene::are_blocked(std::span<const Ray> rays, std::span<Passage
 
 void RayScene::nearest_hits(std::span<const Ray> rays, std::span<Passage> passages,
                             std::span<std::optional<Hit>> hits) const {
-  assert(margin_m_ == 0.0f && passages.size() >= rays.size() && hits.size() >= rays.size());
+  assert(margin_m_ == 0.0f && (passages.empty() || passages.size() >= rays.size()) &&
+         hits.size() >= rays.size());
   QueryContext context(places_, passages);
-  for (const Passage& passage : passages)
-    if (!passage.sees_backs) context.embree.filter = filter<false, true>;
+  if (asks_about_backs(passages)) context.embree.filter = filter<false, true>;
   const auto answer = [&](auto& packet) {
     packet.intersect(top_, context.embree);
     for (std::size_t i = 0; i < std::size(packet.valid); ++i) {

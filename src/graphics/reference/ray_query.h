@@ -21,11 +21,9 @@ inline std::size_t place_of(unsigned instance, unsigned geometry) {
   return instance == joined_instance ? geometry : instance - 1;
 }
 
-/// Do all queries of a scene in single precision have to ask about this part's triangles? Else those alone do
-/// that see as the renderer draws.
-inline bool has_filter(const PlacedPart& part) {
-  return !part.is_joined || part.material->alpha_mode != scene::Alpha::opaque;
-}
+/// Do some queries of a scene in single precision have to ask about this part's triangles, whatever the rays?
+/// Of opaque parts those alone do that see as the renderer draws.
+inline bool needs_filter(const PlacedPart& part) { return part.material->alpha_mode != scene::Alpha::opaque; }
 
 /// Embree's filter function of a geometry, for rays that see.
 void filter_seen(const RTCFilterFunctionNArguments* arguments);

@@ -246,7 +246,7 @@ void RayScene::forget_meshes_but_those_placed() {
   std::unordered_set<const Mesh*> placed;
   for (const std::unique_ptr<PlacedPart>& place : places_) placed.insert(place->mesh);
   std::erase_if(mesh_scenes_, [&](const auto& entry) {
-    if (placed.contains(entry.first)) return false;
+    if (placed.contains(entry.first.first)) return false;
     rtcReleaseScene(entry.second);
     return true;
   });
@@ -315,8 +315,8 @@ void RayScene::join(std::size_t place) {
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(part.world_from_mesh)));
   part.is_joined = part.is_traced = true, part.is_mirrored = false;
   part.bounds = transformed(part.world_from_mesh, part.mesh->bounds());
-  const RTCGeometry geometry =
-      triangles(*part.mesh, part.world_from_mesh, margin_m_, margin_m_ > 0.0f || has_filter(part));
+  part.is_filtered = is_to_be_filtered(part);
+  const RTCGeometry geometry = triangles(*part.mesh, part.world_from_mesh, margin_m_, part.is_filtered);
   rtcAttachGeometryByID(joined_, geometry, unsigned(place));
   rtcReleaseGeometry(geometry);
   has_other_joined_ = true;
@@ -334,7 +334,9 @@ void RayScene::leave_joined(std::size_t place) {
 bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible) {
   PlacedPart& part = *places_[number];
   const bool is_seen = is_visible && !mesh.indices.empty() && volume_of(world_from_mesh) != 0.0f;
-  const bool is_same = part.world_from_mesh == world_from_mesh && part.mesh == &mesh;
+  const bool is_filtered = is_to_be_filtered(part);  // its material may be another one
+  const bool is_same =
+      part.world_from_mesh == world_from_mesh && part.mesh == &mesh && part.is_filtered == is_filtered;
   if (is_seen == part.is_traced && (is_same || !is_seen)) return false;
   if (part.is_joined) leave_joined(number);
   const RTCGeometry instance = rtcGetGeometry(top_, instance_of(number));
@@ -344,11 +346,12 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
     return true;
   }
   part.mesh = &mesh;
+  part.is_filtered = is_filtered;
   part.world_from_mesh = world_from_mesh;
   part.bounds = transformed(world_from_mesh, mesh.bounds());
   part.world_from_normal = glm::transpose(glm::inverse(glm::mat3(world_from_mesh)));
   part.is_mirrored = volume_of(world_from_mesh) < 0.0f;
-  rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh));
+  rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh, is_filtered));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
@@ -360,10 +363,15 @@ float RayScene::margin_in_mesh(const glm::mat4& world_from_mesh) const {
   return margin_m_ / std::cbrt(std::abs(glm::determinant(glm::mat3(world_from_mesh))));
 }
 
-RTCScene RayScene::mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh) {
-  const auto [entry, is_new] = mesh_scenes_.try_emplace(&mesh, nullptr);
+/// Fine rays ask about all triangles.
+bool RayScene::is_to_be_filtered(const PlacedPart& part) const {
+  return margin_m_ > 0.0f || needs_filter(part);
+}
+
+RTCScene RayScene::mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_filtered) {
+  const auto [entry, is_new] = mesh_scenes_.try_emplace({&mesh, is_filtered}, nullptr);
   if (!is_new) return entry->second;
-  const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), true);
+  const RTCGeometry geometry = triangles(mesh, glm::mat4(1.0f), margin_in_mesh(world_from_mesh), is_filtered);
   entry->second = rtcNewScene(device_);
   rtcSetSceneFlags(entry->second, traced_flags);
   rtcAttachGeometry(entry->second, geometry);
@@ -423,7 +431,7 @@ void RayScene::deform(std::size_t place) {
   const Mesh& mesh = *places_[place]->mesh;
   const glm::mat4& world_from_mesh = places_[place]->world_from_mesh;
   places_[place]->bounds = transformed(world_from_mesh, mesh.bounds());
-  const RTCScene scene = mesh_scene(mesh, world_from_mesh);
+  const RTCScene scene = mesh_scene(mesh, world_from_mesh, places_[place]->is_filtered);
   const RTCGeometry geometry = rtcGetGeometry(scene, 0);
   auto* const corners =
       static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));

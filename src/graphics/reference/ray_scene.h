@@ -5,10 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -47,6 +49,7 @@ struct PlacedPart {
   bool is_mirrored;          ///< the transform turns right into left, and with it the winding of triangles
   bool is_traced;            ///< else rays pass it: it is hidden, empty, or flattened by its transform
   bool is_joined = false;    ///< its triangles are in the hierarchy of static meshes, in the world
+  bool is_filtered = false;  ///< Embree asks about each of its triangles that a ray hits, whatever the query
   Bounds bounds = {};        ///< in the world, as it was last placed or deformed
 };
 
@@ -113,9 +116,11 @@ class RayScene {
   bool is_blocked(const Ray& ray, Passage& passage) const;
   /// The same, but for what photographs show.
   bool is_blocked_by_inserted(const Ray& ray, Passage& passage) const;
-  /// is_blocked of each ray of a packet, each with its own `passages`: bit i is that of ray i.
+  /// is_blocked of each ray of a packet, each with its own `passages`, or without any as the renderer draws:
+  /// bit i is that of ray i.
   std::uint32_t are_blocked(std::span<const Ray> rays, std::span<Passage> passages) const;
-  /// nearest_hit of each ray of a packet, each with its own `passages`, into `hits`.
+  /// nearest_hit of each ray of a packet, each with its own `passages`, or without any as the renderer draws,
+  /// into `hits`.
   void nearest_hits(std::span<const Ray> rays, std::span<Passage> passages,
                     std::span<std::optional<Hit>> hits) const;
   /// nearest_hit of each ray of a packet, into `hits`.
@@ -149,7 +154,8 @@ class RayScene {
   static void set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners);
   float margin_in_mesh(const glm::mat4& world_from_mesh) const;
   const std::vector<MipTexture>& textures_of(const scene::Model& model);
-  RTCSceneTy* mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh);
+  bool is_to_be_filtered(const PlacedPart& part) const;
+  RTCSceneTy* mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_filtered);
   void deform(std::size_t place);
 
   scene::SunShadows shadows_;
@@ -161,7 +167,7 @@ class RayScene {
   std::unordered_map<const Mesh*, int> placed_;      ///< how many parts of objects have the mesh
   std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things
   std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
-  std::unordered_map<const Mesh*, RTCSceneTy*> mesh_scenes_;
+  std::map<std::pair<const Mesh*, bool>, RTCSceneTy*> mesh_scenes_;  ///< with filters and without
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::vector<Bounds> moved_;

@@ -95,6 +95,46 @@ TEST(RayScene, HiddenObjectsAppear) {
   expect_same(rays, scene, "shown");
 }
 
+/// Opaque parts are traced without a question about each triangle.
+TEST(RayScene, PartsThatGetHolesAreFollowed) {
+  scene::Scene scene = three_things();
+  auto model = std::make_shared<scene::Model>(*scene.objects[1].model);
+  scene.objects[1].model = model;
+  for (const bool is_dynamic : {true, false}) {
+    scene.objects[1].is_dynamic = is_dynamic;
+    model->materials[0].alpha_mode = scene::Alpha::opaque, model->materials[0].alpha = 1.0f;
+    RayScene rays(scene);
+    const auto is_blocked = [&] {
+      Passage passage{Random(1)};
+      return rays.is_blocked({{0.9f, -0.9f, 9.0f}, {0, 0, -1}, 1e-4f, 8.0f}, passage);
+    };
+    EXPECT_TRUE(is_blocked());
+    model->materials[0].alpha_mode = scene::Alpha::cutout, model->materials[0].alpha = 0.0f;
+    rays.update(scene);
+    EXPECT_FALSE(is_blocked());
+    model->materials[0].alpha_mode = scene::Alpha::opaque;
+    rays.update(scene);
+    EXPECT_TRUE(is_blocked());
+  }
+}
+
+/// A mesh that is opaque in one place and full of holes in another.
+TEST(RayScene, PlacesOfAMeshHaveTheirOwnHoles) {
+  scene::Scene scene = three_things();
+  scene.objects.push_back(scene.objects[1]);
+  scene.objects[3].world_from_model = glm::translate(glm::mat4(1.0f), {4, 0, 0});
+  scene::Material gone = scene::matt(glm::vec3(0.5f));
+  gone.alpha_mode = scene::Alpha::cutout, gone.alpha = 0.0f;
+  scene.objects[3].paint = std::make_shared<const std::vector<scene::Material>>(1, gone);
+  const RayScene rays(scene);
+  const auto is_blocked = [&](float x) {
+    Passage passage{Random(1)};
+    return rays.is_blocked({{x, -0.9f, 9.0f}, {0, 0, -1}, 1e-4f, 8.0f}, passage);
+  };
+  EXPECT_TRUE(is_blocked(0.9f));
+  EXPECT_FALSE(is_blocked(4.9f));
+}
+
 /// A skinned body: its mesh changes in place, and may be elsewhere in memory.
 TEST(RayScene, BentMeshesAreFollowed) {
   scene::Scene scene = three_things();
@@ -175,8 +215,14 @@ TEST(RayScene, PacketsFindWhatSingleRaysFind) {
     const std::uint32_t passed_not = coarse.are_blocked(rays, passages);
     std::array<std::optional<Hit>, RayScene::packet_size> seen;
     coarse.nearest_hits(rays, passages, seen);
+    const std::uint32_t drawn_not = coarse.are_blocked(rays, {});
+    std::array<std::optional<Hit>, RayScene::packet_size> drawn;
+    coarse.nearest_hits(rays, {}, drawn);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::optional<Hit> expected = coarse.nearest_hit(rays[i]);
+      EXPECT_EQ((drawn_not >> i & 1u) != 0, coarse.is_blocked(rays[i]));
+      ASSERT_EQ(drawn[i].has_value(), expected.has_value());
+      EXPECT_EQ(drawn[i] ? drawn[i]->place : nullptr, expected ? expected->place : nullptr);
       ASSERT_EQ(found[i].place != nullptr, expected.has_value());
       EXPECT_EQ((stopped >> i & 1u) != 0, coarse.is_blocked(rays[i]));
       EXPECT_EQ((passed_not >> i & 1u) != 0, coarse.is_blocked(rays[i], passages[i]));

@@ -51,10 +51,10 @@ struct LobePoints {
     glm::vec2& point = last[std::size_t(bounce)];
     return point = glm::fract(point + step);
   }
-  /// The points of one pixel of a drawn picture that takes `rays` of them: those of a square of
-  /// mirror_tile_px pixels go on from each other.
-  static LobePoints in_tile(const MirrorPixel& pixel, int rays) {
-    const int turn = pixel.x % mirror_tile_px + mirror_tile_px * (pixel.y % mirror_tile_px);
+  /// The points of one pixel of a drawn picture that takes `rays` of them: those of a square of `tile_px`
+  /// pixels go on from each other.
+  static LobePoints in_tile(const MirrorPixel& pixel, int rays, int tile_px) {
+    const int turn = pixel.x % tile_px + tile_px * (pixel.y % tile_px);
     const glm::vec2 first = glm::fract(float(turn * rays) * step);
     return {{first, first}};
   }
@@ -93,7 +93,39 @@ struct Surroundings {
   shading::BouncedCell bounced{vec4(0.0f), vec3(0.0f)};
 };
 
-/// Follows the rays of one pixel.
+/// A ray toward the sun, where one decides whether it is seen.
+struct SunRay {
+  float let_in;  ///< of the sun, where nothing blocks the ray; where there is none, all that is known
+  std::optional<Ray> ray;
+};
+
+/// What a ray of a packet hits first, made ready for shading.
+struct FirstHit {
+  bool is_known = false;
+  std::optional<Hit> hit;  ///< none: the sky
+  ShadingPoint point = {};
+  float sun = 0.0f;  ///< share of it that is seen at the point
+};
+
+/// A mirror-like surface that a cone sees, and what it shows.
+struct MirrorPoint {
+  ShadingPoint point;
+  Hit hit;
+  Cone cone;  ///< widened to the hit
+  LobePoints* lobe_points;
+  int base_rays = lobe_samples;
+  MirrorLight light = {};
+
+  bool is_sharp() const { return point.surface.roughness <= sharp_roughness; }
+};
+
+/// A mirror ray.
+struct MirrorRay {
+  MirrorPoint* mirror;
+  Cone cone;
+};
+
+/// Follows the rays of one pixel, or of a packet of pixels.
 class Tracer {
  public:
   Tracer(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
@@ -116,24 +148,28 @@ class Tracer {
   }
 
   /// Light that comes along a cone; `hidden_object` (or -1) is passed through.
+  /// `first`: what the cone's ray hits first, where that is known.
   vec3 radiance(Cone cone, int bounce, int hidden_object, LobePoints& lobe_points, std::uint64_t& ray_count,
-                bool* is_mirror) const {
+                bool* is_mirror, const FirstHit& first = {}) const {
     vec3 sum(0.0f);
     float left = 1.0f;  // what blended layers in front let through
     for (int layer = 0; layer < max_blended_layers; ++layer) {
       ++ray_count;
-      const std::optional<Hit> hit = nearest_hit_but(cone.ray, hidden_object);
+      const bool is_known = layer == 0 && first.is_known;
+      const std::optional<Hit> hit = is_known ? first.hit : nearest_hit_but(cone.ray, hidden_object);
       if (!hit) {
         const bool sees_sun = bounce == 0 && !spot_ && sun_disc_.contains(cone.ray.direction);
         return sum + left * (sky_radiance(sky_, cone.ray.direction, 0.0f) +
                              (sees_sun ? sun_disc_.radiance() : vec3(0.0f)));
       }
       const Cone seen = widened(cone, hit->distance_m);
-      const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
+      const ShadingPoint point =
+          is_known ? first.point : shading_point(*hit, cone.ray.direction, seen.width_m);
       const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
       const float alpha = blends && layer + 1 < max_blended_layers ? point.alpha : 1.0f;
       if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
-      const vec3 shaded = shade(point, *hit, seen, bounce, lobe_points, ray_count);
+      const float sun = is_known ? first.sun : sun_visible(point, *hit, ray_count);
+      const vec3 shaded = shade(point, *hit, seen, bounce, sun, lobe_points, ray_count);
       sum += left * alpha *
              shading::through_haze(shaded, hit->distance_m, light_.haze_per_m, light_.haze_radiance);
       left *= 1.0f - alpha;
@@ -143,57 +179,154 @@ class Tracer {
     return sum;
   }
 
-  /// What the base and the coat of a mirror-like surface show, by mirror rays.
-  MirrorLight mirror_light(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
-                           LobePoints& lobe_points, std::uint64_t& ray_count,
-                           int base_rays = lobe_samples) const {
-    const Surface& s = point.surface;
-    const auto traced = [&](vec3 direction) {
-      const vec3 away = kept_above(direction, point.geometric_normal);
-      // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
-      const float spread = cone.spread + 2.0f * point.curvature_per_m * cone.width_m;
-      const Cone next{{point.position + 1e-3f * point.geometric_normal, away}, cone.width_m, spread};
-      const int hidden_object = mirrors_see_themselves_ ? -1 : hit.place->object;
-      return radiance(next, bounce + 1, hidden_object, lobe_points, ray_count, nullptr);
-    };
-    const bool needs_sharp = s.clear_coat > 0.0f || s.roughness <= sharp_roughness;
-    const vec3 sharp = needs_sharp ? traced(glm::reflect(cone.ray.direction, s.normal)) : vec3(0.0f);
-    if (s.roughness <= sharp_roughness) return {sharp, sharp};
-    if (base_rays == 0) return {sharp, sharp};
-    vec3 sum(0.0f);
-    for (int i = 0; i < base_rays; ++i)
-      sum += traced(
-          glm::reflect(cone.ray.direction, ggx_half_vector(s.normal, s.roughness, lobe_points.next(bounce))));
-    return {sum / float(base_rays), sharp};
+  /// What the base and the coat of mirror-like surfaces show, by mirror rays: those of a packet of surfaces
+  /// that lie side by side run alike.
+  void find_mirror_light(std::span<MirrorPoint> mirrors, int bounce, std::uint64_t& ray_count) const {
+    int max_base_rays = 0;
+    trace_from(
+        mirrors, bounce, ray_count,
+        [&](MirrorPoint& m) -> std::optional<vec3> {
+          const Surface& s = m.point.surface;
+          if (!m.is_sharp()) max_base_rays = std::max(max_base_rays, m.base_rays);
+          if (s.clear_coat <= 0.0f && !m.is_sharp()) return std::nullopt;
+          return glm::reflect(m.cone.ray.direction, s.normal);
+        },
+        [](MirrorPoint& m, vec3 light) { m.light.coat = light; });
+    for (MirrorPoint& m : mirrors)
+      m.light.base = m.is_sharp() || m.base_rays == 0 ? m.light.coat : vec3(0.0f);
+    for (int i = 0; i < max_base_rays; ++i)
+      trace_from(
+          mirrors, bounce, ray_count,
+          [&](MirrorPoint& m) -> std::optional<vec3> {
+            const Surface& s = m.point.surface;
+            if (m.is_sharp() || i >= m.base_rays) return std::nullopt;
+            return glm::reflect(m.cone.ray.direction,
+                                ggx_half_vector(s.normal, s.roughness, m.lobe_points->next(bounce)));
+          },
+          [](MirrorPoint& m, vec3 light) { m.light.base += light / float(m.base_rays); });
   }
 
-  /// What the mirror shows in a drawn pixel.
-  std::optional<MirrorLight> light_of_mirror(const MirrorPixel& pixel, vec3 eye, float spread) const {
-    const float distance_m = glm::distance(eye, pixel.position);
-    const Cone cone{
-        {eye, beside((pixel.position - eye) / distance_m, spread * pixel.offset_px)}, 0.0f, spread};
-    const float within_m = drawn_error_m + drawn_error_px * spread * distance_m;
-    const std::optional<Hit> hit = mirror_near(cone, distance_m, within_m, pixel.object);
-    if (!hit) return std::nullopt;
-    const Cone seen = widened(cone, hit->distance_m);
+  /// What mirrors show in drawn pixels that lie side by side, at most RayScene::packet_size of them.
+  void find_light_of_mirrors(std::span<const MirrorPixel> pixels, vec3 eye, float spread,
+                             std::span<std::optional<MirrorLight>> light) const {
+    std::array<Ray, RayScene::packet_size> rays;
+    std::array<std::optional<Hit>, RayScene::packet_size> hits;
+    for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = ray_to(pixels[i], eye, spread);
+    rays_.nearest_hits(std::span<const Ray>(rays.data(), pixels.size()), {}, hits);
+    std::vector<MirrorPoint> mirrors;
+    std::array<LobePoints, RayScene::packet_size> lobe_points;
+    std::array<std::size_t, RayScene::packet_size> pixel_of;
+    mirrors.reserve(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      light[i].reset();
+      const std::optional<Hit> hit = mirror_near(rays[i], hits[i], pixels[i].object);
+      if (!hit) continue;
+      MirrorPoint& mirror = mirrors.emplace_back(mirror_in(pixels[i], {rays[i], 0.0f, spread}, *hit));
+      const std::size_t number = mirrors.size() - 1;
+      lobe_points[number] = LobePoints::in_tile(
+          pixels[i], mirror.base_rays, mirror.light.has_weak_base ? weak_mirror_tile_px : mirror_tile_px);
+      mirror.lobe_points = &lobe_points[number];
+      pixel_of[number] = i;
+    }
     std::uint64_t ray_count = 0;
-    const ShadingPoint point = shading_point(*hit, cone.ray.direction, seen.width_m);
-    const Surface& s = point.surface;
-    const float n_dot_v = std::clamp(-glm::dot(s.normal, cone.ray.direction), 1e-4f, 1.0f);
-    const float base = luminance(base_reflectance(s, n_dot_v)), coat = fresnel_of_coat(s, n_dot_v);
-    const int base_rays = base < weak_reflectance ? pixel.weak_base_rays : pixel.base_rays;
-    LobePoints lobe_points = LobePoints::in_tile(pixel, base_rays);
-    MirrorLight light = mirror_light(point, *hit, seen, 0, lobe_points, ray_count, base_rays);
-    light.sharp_share = coat + (s.roughness <= sharp_roughness ? (1.0f - coat) * base : 0.0f);
-    return light;
+    find_mirror_light(mirrors, 0, ray_count);
+    for (std::size_t k = 0; k < mirrors.size(); ++k) light[pixel_of[k]] = mirrors[k].light;
   }
 
  private:
-  /// The mirror-like surface of `object` near a point that the renderer has drawn, seen along the cone.
-  std::optional<Hit> mirror_near(const Cone& cone, float distance_m, float within_m, int object) const {
-    Ray ray = cone.ray;
+  /// What one mirror-like surface shows.
+  MirrorLight mirror_light(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
+                           LobePoints& lobe_points, std::uint64_t& ray_count) const {
+    MirrorPoint mirror{point, hit, cone, &lobe_points};
+    find_mirror_light(std::span(&mirror, 1), bounce, ray_count);
+    return mirror.light;
+  }
+
+  /// To a drawn pixel, no longer than where it was drawn or a finer mesh may lie.
+  static Ray ray_to(const MirrorPixel& pixel, vec3 eye, float spread) {
+    const float distance_m = glm::distance(eye, pixel.position);
+    const float within_m = drawn_error_m + drawn_error_px * spread * distance_m;
+    Ray ray{eye, beside((pixel.position - eye) / distance_m, spread * pixel.offset_px)};
     ray.min_m = std::max(distance_m - within_m, ray.min_m), ray.max_m = distance_m + within_m;
-    std::optional<Hit> hit = rays_.nearest_hit(ray);
+    return ray;
+  }
+
+  /// The mirror that a drawn pixel shows, with its sharp share.
+  static MirrorPoint mirror_in(const MirrorPixel& pixel, const Cone& cone, const Hit& hit) {
+    const Cone seen = widened(cone, hit.distance_m);
+    MirrorPoint mirror{shading_point(hit, cone.ray.direction, seen.width_m), hit, seen, nullptr};
+    const Surface& s = mirror.point.surface;
+    const float n_dot_v = std::clamp(-glm::dot(s.normal, cone.ray.direction), 1e-4f, 1.0f);
+    const float base = luminance(base_reflectance(s, n_dot_v)), coat = fresnel_of_coat(s, n_dot_v);
+    mirror.light.has_weak_base = base < weak_reflectance;
+    mirror.base_rays = mirror.light.has_weak_base ? pixel.weak_base_rays : pixel.base_rays;
+    mirror.light.sharp_share = coat + (mirror.is_sharp() ? (1.0f - coat) * base : 0.0f);
+    return mirror;
+  }
+
+  /// Of a mirror ray in this direction.
+  static Cone mirrored_cone(const MirrorPoint& mirror, vec3 direction) {
+    const ShadingPoint& point = mirror.point;
+    const vec3 away = kept_above(direction, point.geometric_normal);
+    // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
+    const float spread = mirror.cone.spread + 2.0f * point.curvature_per_m * mirror.cone.width_m;
+    return {{point.position + 1e-3f * point.geometric_normal, away}, mirror.cone.width_m, spread};
+  }
+
+  int hidden_from(const MirrorPoint& mirror) const {
+    return mirrors_see_themselves_ ? -1 : mirror.hit.place->object;
+  }
+
+  /// Traces a mirror ray of each mirror for which `direction_of` names a direction, and has `take` take what
+  /// it shows.
+  template <class DirectionOf, class Take>
+  void trace_from(std::span<MirrorPoint> mirrors, int bounce, std::uint64_t& ray_count,
+                  const DirectionOf& direction_of, const Take& take) const {
+    std::array<MirrorRay, RayScene::packet_size> rays;
+    std::size_t count = 0;
+    for (MirrorPoint& mirror : mirrors)
+      if (const std::optional<vec3> direction = direction_of(mirror))
+        rays[count++] = {&mirror, mirrored_cone(mirror, *direction)};
+    const auto follow = [&](const MirrorRay& ray, const FirstHit& first) {
+      MirrorPoint& mirror = *ray.mirror;
+      take(mirror, radiance(ray.cone, bounce + 1, hidden_from(mirror), *mirror.lobe_points, ray_count,
+                            nullptr, first));
+    };
+    if (count == 1) return follow(rays[0], {});
+    std::array<FirstHit, RayScene::packet_size> first;
+    look_ahead(std::span<const MirrorRay>(rays.data(), count), first, ray_count);
+    for (std::size_t i = 0; i < count; ++i) follow(rays[i], first[i]);
+  }
+
+  /// Finds what a packet of mirror rays hits first, and whether the sun shines there.
+  void look_ahead(std::span<const MirrorRay> mirror_rays, std::span<FirstHit> first,
+                  std::uint64_t& ray_count) const {
+    std::array<Ray, RayScene::packet_size> rays, to_sun;
+    std::array<std::optional<Hit>, RayScene::packet_size> hits;
+    std::array<FirstHit*, RayScene::packet_size> lit;
+    const std::size_t count = mirror_rays.size();
+    for (std::size_t i = 0; i < count; ++i) rays[i] = mirror_rays[i].cone.ray;
+    rays_.nearest_hits(std::span<const Ray>(rays.data(), count), {}, hits);
+    std::size_t sun_rays = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::optional<Hit>& hit = hits[i];
+      if (hit && hit->place->object == hidden_from(*mirror_rays[i].mirror)) continue;  // goes on behind it
+      first[i].is_known = true, first[i].hit = hit;
+      if (!hit) continue;
+      const Cone seen = widened(mirror_rays[i].cone, hit->distance_m);
+      first[i].point = shading_point(*hit, seen.ray.direction, seen.width_m);
+      const SunRay sun = ray_to_sun(first[i].point, *hit);
+      first[i].sun = sun.let_in;
+      if (sun.ray) to_sun[sun_rays] = *sun.ray, lit[sun_rays++] = &first[i];
+    }
+    ray_count += sun_rays;
+    const std::uint32_t blocked = rays_.are_blocked(std::span<const Ray>(to_sun.data(), sun_rays), {});
+    for (std::size_t k = 0; k < sun_rays; ++k)
+      if ((blocked >> k & 1u) != 0) lit[k]->sun = 0.0f;
+  }
+
+  /// The first mirror-like surface of `object` along a ray; `hit`: the first of all surfaces.
+  std::optional<Hit> mirror_near(Ray ray, std::optional<Hit> hit, int object) const {
     while (hit && (hit->place->object != object || !hit->place->is_mirror)) {
       ray.min_m = past(hit->distance_m);
       if (ray.min_m >= ray.max_m) return std::nullopt;
@@ -211,8 +344,9 @@ class Tracer {
     return hit;
   }
 
-  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce, LobePoints& lobe_points,
-             std::uint64_t& ray_count) const {
+  /// `sun`: share of it that is seen.
+  vec3 shade(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce, float sun,
+             LobePoints& lobe_points, std::uint64_t& ray_count) const {
     Surface s = point.surface;
     const vec3 to_viewer = -cone.ray.direction;
     const bool traces = hit.place->is_mirror && bounce < mirror_bounces_;
@@ -229,10 +363,9 @@ class Tracer {
     }
     if (point.kept_in_shadow < 1.0f) s.emission *= kept_of_recorded(point, ray_count);
     shading::SceneLight light = light_;
-    if (spot_) light.to_sun = glm::normalize(spot_->position - point.position);
+    light.to_sun = to_sun_at(point.position);
     light.bounced = bounced_irradiance(around.bounced, s.normal);
     light.bounced_behind = bounced_irradiance(around.bounced, -s.normal);
-    const float sun = sun_visible(point, light.to_sun, hit.place->receives_shadow, ray_count);
     const vec3 by_lamps = lamp_radiance_at(point, s, to_viewer, ray_count);
     if (const scene::LitVertices* lit = lit_->of(std::size_t(hit.place->object))) {
       const auto [before, behind] = vertex_light(*lit, hit, point.is_back);
@@ -314,7 +447,7 @@ class Tracer {
 
   /// The share of a photograph's light that shadows of what it does not show leave.
   float kept_of_recorded(const ShadingPoint& point, std::uint64_t& ray_count) const {
-    const vec3 to_sun = spot_ ? glm::normalize(spot_->position - point.position) : light_.to_sun;
+    const vec3 to_sun = to_sun_at(point.position);
     const float facing = glm::dot(point.geometric_normal, to_sun);
     if (facing <= 0.0f || light_.sun_irradiance == vec3(0.0f)) return 1.0f;
     const auto visible = [&] {
@@ -329,18 +462,33 @@ class Tracer {
     return shading::kept_recorded_light(point.kept_in_shadow, facing, visible());
   }
 
-  float sun_visible(const ShadingPoint& point, vec3 to_sun, bool receives_shadow,
-                    std::uint64_t& ray_count) const {
+  /// Unit; of a spot light in the sun's place it differs from point to point.
+  vec3 to_sun_at(vec3 position) const {
+    return spot_ ? glm::normalize(spot_->position - position) : light_.to_sun;
+  }
+
+  /// How much of the sun a surface that `hit` has found sees. None is asked for where it shows nothing of it.
+  SunRay ray_to_sun(const ShadingPoint& point, const Hit& hit) const {
+    const vec3 to_sun = to_sun_at(point.position);
+    const Surface& s = point.surface;
+    if (glm::dot(s.normal, to_sun) <= 0.0f && s.translucency <= 0.0f) return {0.0f, {}};
     float let_in = point.relief.light_from(to_sun);
     if (spot_) let_in *= shading::spot_share(glm::dot(to_sun, light_.to_sun), std::cos(spot_->half_angle));
-    if (!receives_shadow || let_in <= 0.0f) return let_in;
+    if (!hit.place->receives_shadow || let_in <= 0.0f) return {let_in, {}};
     if (drawn_light_ && !drawn_light_->has_exact_shadows)
-      return let_in *
-             shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal, to_sun);
-    ++ray_count;
+      return {let_in * shading::sun_visibility(drawn_light_->shadow, point.position, point.geometric_normal,
+                                               to_sun),
+              {}};
     Ray ray{point.position + 1e-3f * point.geometric_normal, to_sun};
     if (spot_) ray.max_m = glm::distance(spot_->position, ray.origin);
-    return rays_.is_blocked(ray) ? 0.0f : let_in;
+    return {let_in, ray};
+  }
+
+  float sun_visible(const ShadingPoint& point, const Hit& hit, std::uint64_t& ray_count) const {
+    const SunRay sun = ray_to_sun(point, hit);
+    if (!sun.ray) return sun.let_in;
+    ++ray_count;
+    return rays_.is_blocked(*sun.ray) ? 0.0f : sun.let_in;
   }
 
   const RayScene& rays_;
@@ -469,11 +617,15 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
 void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky, vec3 eye,
                    float spread, std::span<const MirrorPixel> pixels, const TraceOptions& options,
                    std::span<std::optional<MirrorLight>> light) {
-  constexpr std::size_t pixels_per_task = 64;
+  constexpr std::size_t packet = RayScene::packet_size, packets_per_task = 4;
   const Tracer tracer(rays, scene, sky, options);
-  parallel_for(
-      pixels.size(), [&](std::size_t i) { light[i] = tracer.light_of_mirror(pixels[i], eye, spread); },
-      pixels_per_task);
+  parallel_for((pixels.size() + packet - 1) / packet,
+               [&](std::size_t i) {
+                 const std::size_t first = i * packet, count = std::min(packet, pixels.size() - first);
+                 tracer.find_light_of_mirrors(pixels.subspan(first, count), eye, spread,
+                                              light.subspan(first, count));
+               },
+               packets_per_task);
 }
 
 }  // namespace parvis::reference

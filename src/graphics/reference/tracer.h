@@ -69,8 +69,9 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
 inline constexpr int lobe_samples = 4;
 
 /// Pixels of a square of this side send their rays for a rough base in directions that together cover its
-/// lobe evenly: their mean has less noise than that of random ones.
-inline constexpr int mirror_tile_px = 5;
+/// lobe evenly: their mean has less noise than that of random ones. The second is that of a base that
+/// reflects little, which may be averaged over more pixels.
+inline constexpr int mirror_tile_px = 5, weak_mirror_tile_px = 9;
 
 /// A pixel of a drawn picture that shows a mirror-like surface.
 struct MirrorPixel {
@@ -83,9 +84,11 @@ struct MirrorPixel {
 
 /// Light that a mirror-like surface reflects, each over its own lobe. Linear radiance.
 struct MirrorLight {
-  glm::vec3 base;            ///< what the base layer mirrors
-  glm::vec3 coat;            ///< what the clear coat mirrors
-  float sharp_share = 0.0f;  ///< of the surface's light that is a sharp mirror image; trace_mirrors alone
+  glm::vec3 base;  ///< what the base layer mirrors
+  glm::vec3 coat;  ///< what the clear coat mirrors
+  // By trace_mirrors alone:
+  float sharp_share = 0.0f;    ///< of the surface's light that is a sharp mirror image
+  bool has_weak_base = false;  ///< the base reflects little
 };
 
 /// What the mirror-like surfaces in these pixels mirror, as trace_picture has it, one sample each: a ray for

@@ -84,6 +84,68 @@ TEST(Tracer, AMirrorShowsWhatStandsInItsDirection) {
   EXPECT_EQ(*picture.mirror_mask.at(0, 0), 0);
 }
 
+/// A coated mirror in the ground among a wall, a pane and the sky.
+scene::Scene mirror_among_things() {
+  scene::Material coated;
+  coated.base_colour = glm::vec3(0.6f, 0.4f, 0.3f);
+  coated.metallic = 0.7f, coated.roughness = 0.4f;
+  coated.clear_coat = 1.0f, coated.clear_coat_roughness = 0.0f;
+  coated.is_mirror_like = true;
+  scene::Scene scene = scene_of(quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}), coated, true);
+  scene::Material white, pane;
+  white.base_colour = glm::vec3(0.8f);
+  pane.base_colour = {0.2f, 0.8f, 0.3f};
+  pane.alpha = 0.4f, pane.alpha_mode = scene::Alpha::blend;
+  const scene::Scene wall = scene_of(quad({-2, 2.5f, 0}, {1, 2.5f, 0}, {1, 2.5f, 2}, {-2, 2.5f, 2}), white),
+                     front = scene_of(quad({-1, 2.2f, 0}, {2, 2.2f, 0}, {2, 2.2f, 1}, {-1, 2.2f, 1}), pane);
+  scene.objects.push_back(wall.objects[0]);
+  scene.objects.push_back(front.objects[0]);
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(0.4f, -1.0f, 0.8f));
+  scene.sun.irradiance = glm::vec3(3.0f);
+  return scene;
+}
+
+TEST(Tracer, MirrorsInPacketsShowWhatSingleOnesShow) {
+  const scene::Scene scene = mirror_among_things();
+  const RayScene rays(scene);
+  const shading::SkyLight sky = shading::make_sky_light(ImageF(32, 16, 3, 0.5f), 1.0f, 0.0f);
+  const glm::vec3 eye(0, -6, 2);
+  constexpr float spread = 0.002f;
+  std::vector<MirrorPixel> pixels;
+  for (int i = 0; i < 55; ++i)  // some beside the mirror
+    pixels.push_back(
+        {i % 11, i / 11, 0, {-2.2f + 0.44f * float(i % 11), -1.5f + 0.7f * float(i / 11), 0.0f}});
+  pixels[3].base_rays = 1, pixels[4].base_rays = 0;
+  std::vector<std::optional<MirrorLight>> together(pixels.size()), alone(pixels.size());
+  trace_mirrors(rays, scene, sky, eye, spread, pixels, {}, together);
+  int found = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    trace_mirrors(rays, scene, sky, eye, spread, std::span(&pixels[i], 1), {}, std::span(&alone[i], 1));
+    ASSERT_EQ(together[i].has_value(), alone[i].has_value());
+    if (!alone[i]) continue;
+    ++found;
+    for (int c = 0; c < 3; ++c) {  // Embree's packets round otherwise than its single rays
+      EXPECT_NEAR(together[i]->base[c], alone[i]->base[c], 1e-3f) << i;
+      EXPECT_NEAR(together[i]->coat[c], alone[i]->coat[c], 1e-3f) << i;
+    }
+  }
+  EXPECT_GT(found, 30);
+  EXPECT_LT(found, 55);
+}
+
+TEST(Tracer, NoRayAsksForASunThatASurfaceTurnsAwayFrom) {
+  scene::Material white;
+  white.base_colour = glm::vec3(0.8f);
+  scene::Scene scene = scene_of(quad({-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}), white);
+  scene.sun.irradiance = glm::vec3(3.0f);
+  const auto rays_of = [&](glm::vec3 to_sun) {
+    scene.sun.direction_to_sun = to_sun;
+    return trace(scene, looking_north(), 8, 8).rays;
+  };
+  EXPECT_EQ(rays_of({0, 1, 0}), 8u * 8u * 16u);
+  EXPECT_EQ(rays_of({0, -1, 0}), 2u * 8u * 8u * 16u);
+}
+
 TEST(Tracer, TheShadowOfAWallEndsWhereTrigonometrySays) {
   scene::Material white;
   white.base_colour = glm::vec3(0.8f);

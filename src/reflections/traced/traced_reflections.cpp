@@ -125,12 +125,13 @@ void TracedReflections::add_edge_samples(float exposure) {
   }
 }
 
-/// Calls `visit` with the place of each pixel about one that shows the same object and mirrors nearly the
-/// same direction, itself included.
+/// Calls `visit` with the place of each pixel of the tile about one that shows the same object with the same
+/// roughness and mirrors nearly the same direction, itself included.
 template <typename Visit>
-void TracedReflections::for_each_alike(std::size_t here, const Visit& visit) const {
-  constexpr int radius = reference::mirror_tile_px / 2;
+void TracedReflections::for_each_alike(std::size_t here, int tile_px, const Visit& visit) const {
+  const int radius = tile_px / 2;
   constexpr float turn_per_pixel = 0.02f;  // of the octahedral direction
+  constexpr float alike_roughness = 0.05f;
   const int width = drawn_.pixels.z, height = drawn_.pixels.w;
   const int x = int(here % std::size_t(width)), y = int(here / std::size_t(width));
   for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
@@ -138,6 +139,7 @@ void TracedReflections::for_each_alike(std::size_t here, const Visit& visit) con
       const std::size_t there = std::size_t(v) * std::size_t(width) + std::size_t(u);
       const glm::vec2 turn(drawn_.directions[there] - drawn_.directions[here]);
       if (drawn_.directions[there].w == drawn_.directions[here].w &&
+          std::abs(drawn_.starts[there].w - drawn_.starts[here].w) < alike_roughness &&
           glm::length(turn) < float(radius) * turn_per_pixel)
         visit(there);
     }
@@ -153,7 +155,9 @@ void TracedReflections::smooth_rough_light() {
         const std::size_t here = places_[i];
         if (base_[here].w == 0.0f || drawn_.starts[here].w <= rough_from) return;
         glm::vec4 sum(0.0f);
-        for_each_alike(here, [&](std::size_t there) { sum += base_[there]; });
+        const bool is_weak = light_[i]->has_weak_base;
+        for_each_alike(here, is_weak ? reference::weak_mirror_tile_px : reference::mirror_tile_px,
+                       [&](std::size_t there) { sum += base_[there]; });
         smoothed_[here] = sum / sum.w;
       },
       pixels_per_task);
@@ -177,7 +181,7 @@ void TracedReflections::gather_pixels() {
       [&](std::size_t i) {
         if (drawn_.starts[places_[i]].w <= rough_from) return;
         int alike = 0;
-        for_each_alike(places_[i], [&](std::size_t) { ++alike; });
+        for_each_alike(places_[i], reference::weak_mirror_tile_px, [&](std::size_t) { ++alike; });
         pixels_[i].weak_base_rays = std::clamp(weak_lobe_rays / alike, 1, reference::lobe_samples);
       },
       pixels_per_task);

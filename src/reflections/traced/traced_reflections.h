@@ -39,7 +39,7 @@ class TracedReflections final : public methods::Reflections {
   void gather_edges(float exposure);
   void add_edge_samples(float exposure);
   template <typename Visit>
-  void for_each_alike(std::size_t here, const Visit& visit) const;
+  void for_each_alike(std::size_t here, int tile_px, const Visit& visit) const;
   void smooth_rough_light();
 
   methods::MirrorPicture picture_;
