@@ -10,7 +10,7 @@ namespace parvis::bench {
 
 /// `cost_ratio_100_over_1` and `pixel_ns`: a car in the street, and in its place a hundred of the same model
 /// that cover as much of the picture, with the reflections of both in full detail. Costs are per reflective
-/// pixel.
+/// pixel. `cost_100_flip_mem_over_none` says that the hundred reflect, and re-rendered maps are the control.
 Status measure_body_count(const House& house, const scene::Scene& city, const methods::Settings& reflection,
                           int repeats, Report& report);
 

@@ -1,6 +1,7 @@
 #include "reflections/environment_rays/bench/map_figures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/random.h"
 #include "reflections/reference_maps/placement.h"
@@ -46,9 +47,20 @@ void measure_placement(const scene::Scene& scene, Report& report) {
   const std::vector<glm::vec3> plain = enough(any_sharpness), sharply = enough(sharp);
   const std::size_t spread = maps_enough(heights, even, points, any_sharpness);
   report.add("placement_maps", double(plain.size()));
-  report.add("placement_valid_percent", 100.0 * double(coverage(heights, plain, points).back()));
+  const double valid_share = double(coverage(heights, plain, points).back());
+  report.add("placement_valid_percent", 100.0 * valid_share, {100.0 * double(wanted_share), true});
   report.add("placement_maps_sharp", double(sharply.size()));
-  report.add("placement_saving_percent", 100.0 * (1.0 - double(plain.size()) / double(spread)));
+  // Maps that show too little save nothing.
+  const auto saving_percent = [&](std::size_t maps) { return 100.0 * (1.0 - double(maps) / double(spread)); };
+  constexpr Target saving{30.0, true};
+  report.add("placement_saving_percent",
+             valid_share < double(wanted_share) ? std::nan("") : saving_percent(plain.size()), saving);
+  std::vector<glm::vec3> by_chance = even;
+  Random random(judging_seed);
+  for (std::size_t i = by_chance.size(); i > 1; --i)
+    std::swap(by_chance[i - 1], by_chance[std::size_t(random.index(int(i)))]);
+  report.add_control("placement_saving_percent_by_chance",
+                     saving_percent(maps_enough(heights, by_chance, points, any_sharpness)), saving);
   report.note(
       fmt::format("judged by {} points of another seed; an even spread takes {} maps, sharply {}; sharply "
                   "placed ones show {:.2f} %",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/reflection_cost.h"
+#include "reflections/environment_rays/bench/timed_pictures.h"
 
 namespace parvis::bench {
 namespace {
@@ -49,6 +50,10 @@ Result<NearCosts> near_costs(house::Stage& stage, const methods::Settings& shipp
     near.traced_ms.push_back(median((*costs)[3].ms).value);
     near.seen.push_back(double(methods[2].reflections->faces_drawn()) / 6.0);
     near.face_ms.push_back(near.rerendered_ms.back() / std::max(methods[2].reflections->faces_drawn(), 1));
+    const Result<double> flip = flip_over_none(stage, {methods[1], methods[0], methods[3]}, view->camera,
+                                               width, height, view->window);
+    if (!flip) return flip.errors();
+    near.mem_flip_over_none.push_back(*flip);
   }
   return near;
 }
@@ -68,6 +73,7 @@ Status measure_near_costs(house::Stage& stage, const methods::Settings& shipped,
   report.add("near_cost_ratio_rerendered_over_mem", rerendered, {min_rerendered, true});
   report.add_control("near_cost_ratio_rerendered_over_mem_one_car_of_the_ten",
                      rerendered / median(among->seen).value, {min_rerendered, true});
+  report.add("near_cost_flip_mem_over_none", median(among->mem_flip_over_none).value, shows_reflections);
   report.note(fmt::format("in views of one car: {:.2f} times", one));
   report.add("traced_cost_over_mem_ten_seen", ratio_in_turn(among->traced_ms, among->mem_ms).value);
   report.add_control("traced_cost_over_mem_ten_re_rendered_in_its_place", rerendered, up_to(2.0));

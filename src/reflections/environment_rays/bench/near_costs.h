@@ -8,9 +8,10 @@
 
 namespace parvis::bench {
 
-/// Milliseconds of each near view.
+/// Milliseconds of each near view, and what the pictures are that they buy.
 struct NearCosts {
   std::vector<double> mem_ms, traced_ms, rerendered_ms, face_ms, seen;
+  std::vector<double> mem_flip_over_none;  ///< flip_over_none, about the near car
 };
 
 /// Times `shipped`, traced and re-rendered reflections at 1280 x 720 in as many near views, each `repeats`

@@ -2,6 +2,7 @@
 
 #include "bench/reflection_cost.h"
 #include "bench/street_views.h"
+#include "reflections/environment_rays/bench/timed_pictures.h"
 #include "reflections/environment_rays/bench/view_error.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/scene_maps.h"
@@ -34,11 +35,10 @@ Status measure_paper_configuration(const House& house, const scene::Scene& city,
       rerendered{"rerendered_cube_map", map_pixels, false}, none{"none"};
   const scene::Scene scene = whole_city(city);
   if (Status kept = keep_maps(house, scene, local); !kept) return kept;
-  const auto made = [&](house::Stage& stage, bool has_none) -> Result<std::vector<JudgedMethod>> {
+  const auto made = [&](house::Stage& stage) -> Result<std::vector<JudgedMethod>> {
     std::vector<JudgedMethod> methods;
     for (const auto& [name, reflection] :
          {std::pair{"none", none}, {"paper", local}, {"rerendered", rerendered}}) {
-      if (!has_none && reflection.method == "none") continue;
       Result<JudgedMethod> method = judged_method(stage, name, reflection);
       if (!method) return method.errors();
       methods.push_back(*std::move(method));
@@ -47,7 +47,7 @@ Status measure_paper_configuration(const House& house, const scene::Scene& city,
   };
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(play_with(house, scene, vehicles));
   if (!stage) return stage.errors();
-  const Result<std::vector<JudgedMethod>> judged = made(**stage, false);
+  const Result<std::vector<JudgedMethod>> judged = made(**stage);
   if (!judged) return judged.errors();
   const Result<std::vector<ViewFlips>> views =
       is_quick ? flips_of_methods(**stage, *judged, 6, width / 2, height / 2)
@@ -56,14 +56,18 @@ Status measure_paper_configuration(const House& house, const scene::Scene& city,
   report.note(fmt::format("the paper's configuration: {} maps of {} pixels over {} lanes", map_count,
                           map_pixels, scene.roads.lanes.size()));
   note_flips(*judged, *views, report);
-  report.add("paper_flip_ratio", mean_flip(*views, 0) / mean_flip(*views, 1));
+  const double rerendered_flip = mean_flip(*views, 2);
+  const double paper = mean_flip(*views, 1) / rerendered_flip;
+  report.add("paper_flip_ratio", paper);
+  report.add_control("paper_flip_ratio_without_reflections", mean_flip(*views, 0) / rerendered_flip,
+                     up_to(paper));
 
   Result<std::unique_ptr<house::Stage>> crowded =
       house::Stage::create(play_with(house, scene, cars_for_cost));
   if (!crowded) return crowded.errors();
   const Result<Camera> camera = view_of_cars(**crowded, seen_min, seen_max, width, height, report);
   if (!camera) return camera.errors();
-  const Result<std::vector<JudgedMethod>> timed = made(**crowded, true);
+  const Result<std::vector<JudgedMethod>> timed = made(**crowded);
   if (!timed) return timed.errors();
   const Result<std::vector<ReflectionCost>> costs = reflection_costs(
       **crowded, *timed, *camera, width, height, is_quick ? 5 : 20, Frames::left_out, step_s);
@@ -71,6 +75,12 @@ Status measure_paper_configuration(const House& house, const scene::Scene& city,
   for (std::size_t m = 1; m < timed->size(); ++m)
     report.note(fmt::format("{}, cars moving: {:.1f} ms", (*timed)[m].name, median((*costs)[m].ms).value));
   report.add("paper_cost_ratio", ratio_in_turn((*costs)[2].ms, (*costs)[1].ms));
+  const Result<JudgedMethod> rays = judged_method(**crowded, "traced", methods::Settings{"traced"});
+  if (!rays) return rays.errors();
+  const Result<double> flip = flip_over_none(**crowded, {(*timed)[1], (*timed)[0], *rays}, *camera, width,
+                                             height, {0, 0, width, height});
+  if (!flip) return flip.errors();
+  report.add("paper_cost_flip_over_none", *flip, shows_reflections);
   return Done{};
 }
 

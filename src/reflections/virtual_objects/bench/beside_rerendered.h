@@ -11,8 +11,8 @@ namespace parvis::bench {
 
 /// Adds the figure `key`: FLIP to the ray tracer's pictures inside what mirrors or refracts, by the stage's
 /// method over that by cube maps of 512 pixels per face with centres of their own, summed over views from
-/// `cameras`.
+/// `cameras`. It is to be at most `max_ratio`; the control has no reflections.
 Status measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, int width,
-                                 int height, const std::string& key, Report& report);
+                                 int height, const std::string& key, double max_ratio, Report& report);
 
 }  // namespace parvis::bench

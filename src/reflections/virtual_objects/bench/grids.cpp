@@ -29,6 +29,7 @@ constexpr std::size_t stride = 20, quick_stride = 120;  // of the vertices whose
 constexpr int paper_iterations = 9, newton_steps = 12, exact_starts = 8;
 constexpr float search_ends = 2e-9f;    // error, 0.005 degrees
 constexpr float grid10_share = 0.096f;  // the paper's 9.6 %
+constexpr double max_flicker_ratio = 0.5, max_off_px = 0.1, max_flip_ratio = 1.0;
 const Ellipsoid mirror{{1.0f, 0.6f, 0.8f}};
 
 /// The whale of Meyer and Loscos, 1.8 m long, beside the mirror.
@@ -135,11 +136,25 @@ double flicker_px(const std::vector<std::vector<glm::dvec2>>& off) {
   return count ? sum / double(count) : 0.0;
 }
 
+/// Mean distance of virtual vertices from where they should be.
+double mean_px(const std::vector<std::vector<glm::dvec2>>& off) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const std::vector<glm::dvec2>& frame : off)
+    for (const glm::dvec2 away : frame)
+      if (const double distance = glm::length(away); std::isfinite(distance)) sum += distance, ++count;
+  return count ? sum / double(count) : 0.0;
+}
+
 void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, const BenchSetup& setup, Report& report) {
   const std::size_t step = setup.is_quick ? quick_stride : stride;
   std::vector<glm::vec3> watched;
   for (std::size_t i = 0; i < mesh.positions.size(); i += step) watched.push_back(mesh.positions[i]);
-  std::vector<std::vector<glm::dvec2>> grid_off(frames), fixed_off(frames);
+  std::vector<std::vector<glm::dvec2>> grid_off(frames), fixed_off(frames), still_off(frames),
+      turns_off(frames);
+  // Controls: what one frame has shown stays where it is; the truth and nine iterations in turn.
+  const std::vector<VirtualPoint> still =
+      by_grid(grid, camera_at(frames / 2).position_in_world(), mesh.positions);
   parallel_for(std::size_t(frames), [&](std::size_t f) {
     const Camera camera = camera_at(int(f));
     const glm::vec3 viewer = camera.position_in_world();
@@ -150,6 +165,8 @@ void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, const BenchSetup
       const glm::dvec2 right = truth[i].is_lost ? glm::dvec2(NAN) : pixel_of(camera, truth[i].position);
       grid_off[f].push_back(pixel_of(camera, of_grid[i * step].position) - right);
       fixed_off[f].push_back(pixel_of(camera, fixed[i].position) - right);
+      still_off[f].push_back(pixel_of(camera, still[i * step].position) - right);
+      turns_off[f].push_back(f % 2 == 0 ? 0.0 * fixed_off[f].back() : fixed_off[f].back());
     }
   });
   const double of_grid = flicker_px(grid_off), of_fixed = flicker_px(fixed_off);
@@ -157,7 +174,12 @@ void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, const BenchSetup
       fmt::format("over {} frames vertices jump by {:.4f} px with a grid of 9.6 %, {:.4f} px with 9 midpoint "
                   "iterations each",
                   frames, of_grid, of_fixed));
-  report.add("flicker_ratio_grid_over_fixed_iterations", of_grid / of_fixed);
+  report.add("flicker_ratio_grid_over_fixed_iterations", of_grid / of_fixed, up_to(max_flicker_ratio));
+  report.add_control("flicker_ratio_of_two_searches_in_turn", flicker_px(turns_off) / of_fixed,
+                     up_to(max_flicker_ratio));
+  // Vertices that never move do not flicker, either: they are to be where they should.
+  report.add("flicker_grid_off_px", mean_px(grid_off), up_to(max_off_px));
+  report.add_control("flicker_still_off_px", mean_px(still_off), up_to(max_off_px));
 }
 
 Image8 where_different(const Image8& a, const Image8& b) {
@@ -180,8 +202,10 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
     return difference->flip;
   };
   const Result<double> all = flip_of(all_by(by_newton, viewer, mesh.positions)),
-                       midpoint = flip_of(all_by(by_midpoint, viewer, mesh.positions));
-  if (!all || !midpoint) return (all ? midpoint : all).errors();
+                       midpoint = flip_of(all_by(by_midpoint, viewer, mesh.positions)),
+                       without = flip_of(nothing);
+  for (const Result<double>* flip : {&all, &midpoint, &without})
+    if (!*flip) return flip->errors();
   std::string row =
       fmt::format("FLIP of the virtual mesh against exact vertices: all {:.5f}, 9 midpoint iterations {:.5f}",
                   *all, *midpoint);
@@ -189,8 +213,9 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
     const Result<double> flip = flip_of(by_grid(VirtualGrid(mesh.positions, share), viewer, mesh.positions));
     if (!flip) return flip.errors();
     row += fmt::format(", a grid of {:.1f} % {:.5f}", 100.0f * share, *flip);
-    if (share == grid10_share) report.add("grid10_flip_over_all", *flip / *midpoint);
+    if (share == grid10_share) report.add("grid10_flip_over_all", *flip / *midpoint, up_to(max_flip_ratio));
   }
+  report.add_control("grid10_flip_over_all_without_mesh", *without / *midpoint, up_to(max_flip_ratio));
   report.note(row);
   return Done{};
 }

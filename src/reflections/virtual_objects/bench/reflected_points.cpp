@@ -5,7 +5,6 @@
 
 #include "graphics/reference/camera_ray.h"
 #include "reflections/reflector_maps/reflector_cache.h"
-#include "reflections/virtual_objects/bench/judged_body.h"
 
 namespace parvis::bench {
 namespace {
@@ -42,7 +41,8 @@ Result<ReflectedPoints> ReflectedPoints::make(const scene::Scene& scene) {
 }
 
 double ReflectedPoints::error_px(const Mirror& mirror, const scene::Object& object, const Camera& camera,
-                                 const glm::mat4& pixel_from_world, glm::vec3 direction) const {
+                                 const glm::mat4& pixel_from_world, glm::vec3 direction,
+                                 const PatchSearch& search_patch) const {
   const glm::mat4 world_from_reflector = object.world_from_model,
                   reflector_from_world = glm::inverse(world_from_reflector);
   const glm::vec3 eye = reflector_from_world * glm::vec4(camera.position_in_world(), 1.0f),
@@ -70,8 +70,7 @@ double ReflectedPoints::error_px(const Mirror& mirror, const scene::Object& obje
   double nearest_px = missed_px;
   const int first = map.shows_once ? -1 : 0, end = map.shows_once ? 0 : search.layer_count;
   for (int layer = first; layer < end; ++layer) {
-    const MapSearch::PatchPoint found =
-        search.search_patch({eye, vertex, map.window.centre}, search.patch_kind(), layer);
+    const MapSearch::PatchPoint found = search_patch(search, {eye, vertex, map.window.centre}, layer);
     if (search.is_found(found))
       nearest_px = std::min(nearest_px,
                             double(glm::distance(on_screen(found.point.position), on_screen(at->position))));
@@ -79,8 +78,8 @@ double ReflectedPoints::error_px(const Mirror& mirror, const scene::Object& obje
   return nearest_px;
 }
 
-std::vector<double> ReflectedPoints::errors_px(const Camera& camera, int width, int height,
-                                               std::size_t count) const {
+std::vector<double> ReflectedPoints::errors_px(const Camera& camera, int width, int height, std::size_t count,
+                                               const PatchSearch& search) const {
   const glm::mat4 clip_from_world =
       camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
   const glm::mat4 pixel_from_world =
@@ -94,7 +93,7 @@ std::vector<double> ReflectedPoints::errors_px(const Camera& camera, int width, 
     if (!hit || !hit->place->is_mirror) continue;
     const scene::Object& object = scene_->objects[std::size_t(hit->place->object)];
     const double error =
-        error_px(mirrors_.at(object.model.get()), object, camera, pixel_from_world, ray.direction);
+        error_px(mirrors_.at(object.model.get()), object, camera, pixel_from_world, ray.direction, search);
     if (error != none) errors.push_back(error);
   }
   return errors;

@@ -2,6 +2,7 @@
 // there the search over reflector maps shows what those rays hit.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -10,12 +11,17 @@
 #include "graphics/reference/ray_scene.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/reflector_maps/surface_rays.h"
+#include "reflections/virtual_objects/bench/judged_body.h"
 #include "scene/data/scene.h"
 
 namespace parvis::bench {
 
 /// A point that is not shown where it is, or not at all, counts as so many pixels.
 inline constexpr double missed_px = 100.0;
+
+/// A search over one map; `layer` is search_patch's.
+using PatchSearch =
+    std::function<MapSearch::PatchPoint(MapSearch& search, const MapSearch::ReflectionTask& task, int layer)>;
 
 /// Compares, at sampled pixels of a view, what mirror rays hit with where the search shows it.
 class ReflectedPoints {
@@ -25,7 +31,8 @@ class ReflectedPoints {
 
   /// For `count` chance pixels that show mirrors which show the scene: pixels between where the fine mesh,
   /// with interpolated normals, mirrors a point and where the search finds it mirrored.
-  std::vector<double> errors_px(const Camera& camera, int width, int height, std::size_t count) const;
+  std::vector<double> errors_px(const Camera& camera, int width, int height, std::size_t count,
+                                const PatchSearch& search) const;
 
  private:
   /// A mirror's maps, and the fine mesh of each patch.
@@ -34,7 +41,7 @@ class ReflectedPoints {
     std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> patches;
   };
   double error_px(const Mirror& mirror, const scene::Object& object, const Camera& camera,
-                  const glm::mat4& pixel_from_world, glm::vec3 direction) const;
+                  const glm::mat4& pixel_from_world, glm::vec3 direction, const PatchSearch& search) const;
 
   const scene::Scene* scene_ = nullptr;
   std::unique_ptr<reference::RayScene> rays_;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array cameras{"ball", "egg", "both"};
 constexpr std::size_t quick_cameras = 2;
+constexpr double max_flip_ratio = 0.5;
 constexpr int width = 960, height = 600, quick_width = 320, quick_height = 200;
 
 }  // namespace
@@ -25,7 +26,7 @@ Status measure_refraction(const BenchSetup& setup, Report& report) {
   return measure_beside_rerendered(
       **stage, std::span(cameras).first(setup.is_quick ? quick_cameras : cameras.size()),
       setup.is_quick ? quick_width : width, setup.is_quick ? quick_height : height,
-      "refraction_flip_over_rerendered", report);
+      "refraction_flip_over_rerendered", max_flip_ratio, report);
 }
 
 }  // namespace parvis::bench

@@ -3,8 +3,13 @@
 #pragma once
 
 #include "bench/benches.h"
+#include "reflections/virtual_objects/bench/judged_body.h"
 
 namespace parvis::bench {
+
+/// The paper's search on one map: nine steps of the midpoint method. It does not look up once more whether
+/// there is surface at its end.
+MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::ReflectionTask& task);
 
 /// Real bodies come from the shared data; where it is absent, ellipsoids alone are measured, and a row says
 /// so.
