@@ -1,5 +1,7 @@
 // parvis car: a script that makes a car of a bare body, or of a car's model as it comes.
+#include "base/file_set.h"
 #include "base/files.h"
+#include "base/partial_file.h"
 #include "commands.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/readers/readers.h"
@@ -26,15 +28,32 @@ Status expect_free(const std::filesystem::path& file) {
   return error("{} is there already; remove it or name another file", file.string());
 }
 
-/// The script of a copy of the model, which is written beside the script.
-Result<std::string> script_of_copy(const car_bodies::CarCopy& copy, const std::filesystem::path& output) {
+/// The copy as its file will be read: a script goes by the names that things have then.
+Result<scene::Model> as_read_again(const scene::Model& copy, const std::filesystem::path& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  std::error_code code;  // what stands in the way is said by the next line
+  std::filesystem::create_directories(folder, code);
+  const Result<PartialFolder> unfinished = PartialFolder::create(folder);
+  if (!unfinished) return unfinished.errors();
+  const std::filesystem::path trial = unfinished->path() / file.filename();
+  if (Status status = scene::write_gltf(trial, copy); !status) return status.errors();
+  return read(trial);
+}
+
+/// Writes the script `output` and, beside it, the copy of the model that it is for: both or none.
+Status write_with_copy(const car_bodies::CarCopy& copy, const std::filesystem::path& output) {
   const std::filesystem::path file = output.parent_path() / (output.stem().string() + "_model.glb");
-  if (Status status = expect_free(file); !status) return status.errors();
-  if (Status status = scene::write_gltf(file, copy.model); !status) return status.errors();
-  fmt::print("{}: a copy of the model, for the script\n", file.string());
-  const Result<scene::Model> model = read(file);  // by the names that it has as a file
+  if (Status status = expect_free(file); !status) return status;
+  const Result<scene::Model> model = as_read_again(copy.model, file);
   if (!model) return model.errors();
-  return car_bodies::car_script(*model, file.filename().generic_string(), copy.remark);
+  const Result<std::string> script =
+      car_bodies::car_script(*model, file.filename().generic_string(), copy.remark);
+  if (!script) return script.errors();
+  // The script is whole beside its place before the copy appears: what can fail has failed by then.
+  const Status status =
+      write_together({{output, *script}}, [&] { return scene::write_gltf(file, copy.model); });
+  if (status) fmt::print("{}: a copy of the model, for the script\n", file.string());
+  return status;
 }
 
 Status propose(const Arguments& arguments) {
@@ -52,9 +71,8 @@ Status propose(const Arguments& arguments) {
           .generic_string();
   const Result<std::optional<car_bodies::CarCopy>> made = car_bodies::car_copy(*model, file);
   if (!made) return made.errors();
-  const std::optional<car_bodies::CarCopy>& copy = *made;
-  const Result<std::string> script =
-      copy ? script_of_copy(*copy, arguments.output) : car_bodies::car_script(*model, file);
+  if (const std::optional<car_bodies::CarCopy>& copy = *made) return write_with_copy(*copy, arguments.output);
+  const Result<std::string> script = car_bodies::car_script(*model, file);
   if (!script) return script.errors();
   return write_file(arguments.output, *script);
 }

@@ -838,6 +838,43 @@ class Hostile(InAFolder):
             self.assertEqual(done.returncode, 1, arguments)
 
 
+class Cars(InAFolder):
+    """What `parvis car` writes."""
+
+    def write_lying_car(self):
+        """A body of which the glTF has z up, not y: its script needs a copy of it."""
+        profile = [(-2, 0.2), (2, 0.2), (2, 0.8), (0.9, 0.9), (0.2, 1.4), (-1.6, 1.4), (-2, 0.9)]
+        corners = [(x, y, z) for y in (-0.85, 0.85) for x, z in profile]
+        count, triangles = len(profile), []
+        for i in range(count):
+            following = (i + 1) % count
+            triangles += [(i, following, count + following), (i, count + following, count + i)]
+        for first in (0, count):
+            triangles += [(first, first + i, first + i + 1) for i in range(1, count - 1)]
+        positions = struct.pack(f"<{3 * len(corners)}f", *(value for corner in corners for value in corner))
+        indices = struct.pack(f"<{3 * len(triangles)}I", *(index for one in triangles for index in one))
+        document, _ = triangle()
+        document["accessors"][0].update(count=len(corners), min=[-2, -0.85, 0.2], max=[2, 0.85, 1.4])
+        document["accessors"][1].update(count=3 * len(triangles))
+        document["bufferViews"][0]["byteLength"] = len(positions)
+        document["bufferViews"][1].update(byteOffset=len(positions), byteLength=len(indices))
+        document["buffers"][0]["byteLength"] = len(positions) + len(indices)
+        return self.write("lying.glb", glb(document, positions + indices))
+
+    def test_the_script_and_its_copy_of_the_model_are_written(self):
+        done = run("car", self.write_lying_car(), "-o", self.folder / "new" / "car.xp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.files(), ["lying.glb", "new", "new/car.xp", "new/car_model.glb"])
+        self.assertIn('file="car_model.glb"', (self.folder / "new" / "car.xp").read_text())
+
+    def test_a_script_that_cannot_be_written_leaves_no_copy_of_the_model(self):
+        (self.folder / "car.xp").symlink_to("../elsewhere.xp")  # nothing writes out of the folder
+        done = run("car", self.write_lying_car(), "-o", self.folder / "car.xp")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("car.xp", done.stderr)
+        self.assertEqual(self.files(), ["car.xp", "lying.glb"])
+
+
 class Facades(InAFolder):
     def test_stages_say_what_is_missing(self):
         self.assertEqual(run("facade", "pack", self.folder / "nowhere").returncode, 2)
@@ -911,6 +948,50 @@ class Trees(InAFolder):
         done = run("tree", "synthesize", "winter", "--views", views, "--size", "64x64", "--samples", "4", "-o", capture)
         self.assertEqual(done.returncode, 0, done.stderr)
         return capture
+
+    def test_photographs_that_were_taken_before_a_kill_are_not_taken_again(self):
+        first, whole = self.folder / "first", self.folder / "whole"
+        steps = self.folder / "first.steps"
+        command = ["tree", "synthesize", "winter", "--views", "6", "--held-out", "1", "--size", "96x96", "--samples", "64", "-o"]
+        process = subprocess.Popen([PARVIS, *command, first], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not (steps / "winter_001.part").exists():
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "it ended too soon for this test")
+        process.kill()
+        process.wait(timeout=60)
+        self.assertFalse(first.exists())
+        taken = (steps / "winter_000.part").stat().st_mtime_ns
+        # The last one cannot be kept: so the steps stay to be looked at.
+        (steps / "winter_held_out_000.part").mkdir()
+        done = run(*command, first)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("winter_held_out_000", done.stderr)
+        self.assertEqual((steps / "winter_000.part").stat().st_mtime_ns, taken, "taken once more")
+        (steps / "winter_held_out_000.part").rmdir()
+        self.assertEqual(run(*command, first).returncode, 0)
+        self.assertFalse(steps.exists())
+        self.assertEqual(run(*command, whole).returncode, 0)
+        for name in ["winter_000.png", "winter_005.png", "held_out/winter_held_out_000.png"]:
+            self.assertEqual((first / name).read_bytes(), (whole / name).read_bytes())
+
+    def test_a_tree_is_packed_by_vector_quantisation(self):
+        capture, volume = self.photograph(8), self.folder / "a.volume"
+        tree, small, model = self.folder / "a.tree", self.folder / "small.tree", self.folder / "small.glb"
+        quick = ["--level", "2", "--coarse-epochs", "1", "--fine-epochs", "0"]
+        self.assertEqual(run("tree", "reconstruct", capture, "-o", volume, *quick).returncode, 0)
+        self.assertEqual(run("tree", "texture", capture, volume, "-o", tree, "--parents", "0").returncode, 0)
+        done = run("tree", "pack", tree)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("after packing disjoint alphas", done.stdout)
+        self.assertEqual(run("tree", "pack", tree, "--codes", "16").returncode, 2, "codes without an output")
+        done = run("tree", "pack", tree, "--codes", "16", "-o", small)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("share 16 codes", done.stdout)
+        self.assertLess(small.stat().st_size, 0.6 * tree.stat().st_size)
+        self.assertEqual(run("tree", "export", small, "-o", model).returncode, 0)
+        again = self.folder / "again.tree"
+        self.assertEqual(run("tree", "export", model, "-o", again).returncode, 0)
+        self.assertLess(again.stat().st_size, 0.6 * tree.stat().st_size)
 
     def test_two_photographs_are_too_few(self):
         capture = self.photograph(2)

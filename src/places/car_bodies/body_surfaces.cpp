@@ -51,13 +51,14 @@ struct Areas {
   float all = 0.0f, outer = 0.0f;
   float panes = 0.0f, lamps = 0.0f, painted = 0.0f;  // of the outer one
   float height = 0.0f, off_middle = 0.0f;            // of all
+  float panes_top = 0.0f;                            // share of the car's height
 
   void add(const SurfaceSample& sample, glm::vec3 paint) {
     const float m2 = sample.area_m2;
     all += m2, height += m2 * sample.height, off_middle += m2 * std::abs(sample.forward);
     if (!sample.is_outer) return;
     outer += m2;
-    if (is_pane(sample, paint)) panes += m2;
+    if (is_pane(sample, paint)) panes += m2, panes_top = std::max(panes_top, sample.top);
     if (is_lamp(sample, paint)) lamps += m2;
     const glm::vec3 off = glm::abs(sample.srgb - paint);
     if (std::max({off.x, off.y, off.z}) <= paint_tolerance) painted += m2;
@@ -83,7 +84,8 @@ std::optional<Finish> finish_shown(const std::optional<Finish>& named, bool sees
     return std::nullopt;
   }
   if (named == Finish::chrome || named == Finish::rubber || named == Finish::plastic) return named;
-  if (of.panes >= whole_share * of.outer && of.outer > 0.0f) return Finish::glass;
+  const bool is_pane_alone = of.panes >= whole_share * of.outer && of.outer > 0.0f;
+  if (is_pane_alone && reaches_roof(of.panes_top)) return Finish::glass;
   if (of.lamps >= whole_share * of.outer && of.outer > 0.0f) return Finish::lamp;
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
+#include "places/car_bodies/sampling_limit.h"
 #include "places/car_bodies/side_view.h"
 #include "places/car_bodies/wheel_arches.h"
 
@@ -163,8 +164,9 @@ glm::mat4 CarFrame::car_from_model() const {
 
 Result<CarFrame> find_frame(const scene::Model& model, const std::string& file) {
   const FileLocation where{file, 0, 0};
-  const Body as_read(model);
-  const glm::vec3 size = as_read.bounds().empty() ? glm::vec3(0.0f) : as_read.bounds().size();
+  const Result<Bounds> bounds = bounds_to_sample(model, file);
+  if (!bounds) return bounds.errors();
+  const glm::vec3 size = bounds->empty() ? glm::vec3(0.0f) : bounds->size();
   const float longest = std::max({size.x, size.y, size.z});
   if (!(std::min({size.x, size.y, size.z}) > min_flatness * longest))
     return error_at(
@@ -172,6 +174,7 @@ Result<CarFrame> find_frame(const scene::Model& model, const std::string& file) 
         "is no body of a car: its box is {:.3g} x {:.3g} x {:.3g}; expected a length, a width and a "
         "height",
         size.x, size.y, size.z);
+  const Body as_read(model);
   const Cells cells(as_read);
   const Axes axes = axes_of(size, cells);
   if (axes.height == x || (axes.length == z && axes.height != y))

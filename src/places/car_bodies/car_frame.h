@@ -24,8 +24,8 @@ struct CarFrame {
 
 /// The longest axis is the length. Of the others the width is the one about whose middle the body is alike on
 /// both sides. A car of no plausible size in metres is taken as one in millimetres, centimetres, inches or
-/// feet. The front is where the cabin is not. Errors: `model` is flat, or lies so that no attribute turns it
-/// upright.
+/// feet. The front is where the cabin is not. Errors: `model` is flat, lies so that no attribute turns it
+/// upright, or has more surface than can be looked at (sampling_limit.h).
 Result<CarFrame> find_frame(const scene::Model& model, const std::string& file);
 
 }  // namespace parvis::car_bodies

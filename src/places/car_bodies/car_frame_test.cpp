@@ -106,5 +106,25 @@ TEST(CarFrame, WhatIsFlatOrOnItsSideIsAnError) {
   EXPECT_NE(to_string(on_its_side.errors()).find("on its side"), std::string::npos);
 }
 
+TEST(CarFrame, ThousandsOfTrianglesAsLongAsTheCarAreRefused) {
+  const auto with_long_triangles = [](int pairs) {
+    scene::Model model = bare_body();
+    scene::Part sheet;
+    sheet.object = "sheet";
+    add_quad(sheet,
+             {{-2.2f, -0.85f, 0.12f}, {2.2f, -0.85f, 0.12f}, {2.2f, 0.85f, 1.4f}, {-2.2f, 0.85f, 1.4f}});
+    const std::vector<std::uint32_t> pair = sheet.mesh.indices;
+    for (int i = 1; i < pairs; ++i)
+      sheet.mesh.indices.insert(sheet.mesh.indices.end(), pair.begin(), pair.end());
+    model.parts.push_back(std::move(sheet));
+    return model;
+  };
+  EXPECT_TRUE(find_frame(with_long_triangles(20), "car.obj"));
+  const Result<CarFrame> frame = find_frame(with_long_triangles(3000), "car.obj");
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.errors().front().where.file, "car.obj");
+  EXPECT_NE(frame.errors().front().message.find("as long as the whole car"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace parvis::car_bodies

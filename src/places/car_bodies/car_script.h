@@ -11,7 +11,7 @@ namespace parvis::car_bodies {
 
 /// The script of `model`, which `file` names, for use in `traffic`. Comments say what was not found and has
 /// to be given by hand, and what only a copy of the model can have (car_copy.h). `remark`, comment lines,
-/// stands above the node. Errors: a model that is flat, or that no attribute can turn upright.
+/// stands above the node. Errors: those of find_frame (car_frame.h).
 Result<std::string> car_script(const scene::Model& model, const std::string& file,
                                const std::string& remark = "");
 

@@ -32,6 +32,16 @@ TEST(CarScript, WheelsFillTheArches) {
   EXPECT_NEAR(fit->track, 1.7f - fit->width, 0.05f);
 }
 
+TEST(CarScript, WheelsInFlatArchesDoNotRaiseTheBodyHigh) {
+  const scene::Model model = moved(bare_body(), glm::scale(glm::mat4(1.0f), {1.0f, 1.0f, 0.7f}));
+  const SideView side{Body(model)};
+  const std::optional<WheelFit> fit = fit_wheels(side);
+  ASSERT_TRUE(fit);
+  const float clearance_m = side.bounds().min.z - (fit->axle_z - fit->radius);
+  EXPECT_GT(clearance_m, 0.1f);
+  EXPECT_LT(clearance_m, 0.23f);
+}
+
 TEST(CarScript, TheCabinSaysWhereTheFrontIs) {
   const scene::Model model = bare_body();
   EXPECT_FALSE(faces_back(SideView(Body(model))));

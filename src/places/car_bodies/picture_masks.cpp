@@ -28,10 +28,31 @@ bool is_front_lamp(const SurfaceSample& s) {
   return s.forward > 0.35f && s.srgb.x > 0.7f && s.srgb.y > 0.6f && s.srgb.z < 0.5f;
 }
 
+/// As dark as a hole or as grey as a pane, wherever it lies.
+bool has_colour_of_pane(const SurfaceSample& sample, glm::vec3 paint) {
+  constexpr float max_light = 0.92f;
+  const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;
+  return sample.is_hole || (spread(sample.srgb) <= grey_tolerance && light < max_light &&
+                            difference(sample.srgb, paint) > grey_tolerance);
+}
+
+/// Panes begin above; grilles are holes, too.
+bool lies_low(const SurfaceSample& sample) {
+  constexpr float min_hole_height = 0.4f, min_height = 0.5f;
+  return sample.height <= (sample.is_hole ? min_hole_height : min_height);
+}
+
+bool faces_up_or_down(const SurfaceSample& sample) {
+  constexpr float roof_z = 0.9f, underside_z = -0.3f;
+  return sample.normal.z >= roof_z || sample.normal.z <= underside_z;
+}
+
 /// Panes of one region of the picture.
 struct Region {
   Bounds box;  // of texture coordinates
   float area_m2 = 0.0f, holes_m2 = 0.0f;
+  float low_m2 = 0.0f;  // of what has a pane's colour in this region and lies where no panes do
+  float top = 0.0f;     // share of the car's height
   glm::vec3 weighted_srgb{0.0f};
 };
 
@@ -39,12 +60,15 @@ glm::ivec2 cell_of(glm::vec2 uv) {
   return glm::clamp(glm::ivec2(glm::floor(uv * float(grid))), glm::ivec2(0), glm::ivec2(grid - 1));
 }
 
-/// Regions of the picture that samples cover: cells of a grid that touch one another.
-std::vector<Region> regions_of(std::span<const SurfaceSample> samples) {
+/// Regions of the picture that panes cover: cells of a grid that touch one another.
+std::vector<Region> regions_of(std::span<const SurfaceSample> samples, glm::vec3 paint) {
+  std::vector<SurfaceSample> panes;
+  std::ranges::copy_if(samples, std::back_inserter(panes),
+                       [&](const SurfaceSample& sample) { return is_pane(sample, paint); });
   std::vector<int> region(std::size_t(grid) * grid, -1);
   const auto at = [&](int x, int y) -> int& { return region[std::size_t(y) * grid + std::size_t(x)]; };
   constexpr int covered = -2;
-  for (const SurfaceSample& sample : samples) {
+  for (const SurfaceSample& sample : panes) {
     const auto& uvs = sample.corner_uvs;
     const glm::ivec2 low = cell_of(glm::min(uvs[0], glm::min(uvs[1], uvs[2])));
     const glm::ivec2 high = cell_of(glm::max(uvs[0], glm::max(uvs[1], uvs[2])));
@@ -70,7 +94,14 @@ std::vector<Region> regions_of(std::span<const SurfaceSample> samples) {
   std::vector<Region> regions{std::size_t(count)};
   for (const SurfaceSample& sample : samples) {
     const glm::ivec2 cell = cell_of(sample.uv);
+    const int here = at(cell.x, cell.y);
+    if (here >= 0 && sample.is_outer && lies_low(sample) && has_colour_of_pane(sample, paint))
+      regions[std::size_t(here)].low_m2 += sample.area_m2;
+  }
+  for (const SurfaceSample& sample : panes) {
+    const glm::ivec2 cell = cell_of(sample.uv);
     Region& here = regions[std::size_t(at(cell.x, cell.y))];
+    here.top = std::max(here.top, sample.top);
     for (const glm::vec2& uv : sample.corner_uvs) here.box.add(glm::vec3(uv, 0.0f));
     here.area_m2 += sample.area_m2;
     if (sample.is_hole) here.holes_m2 += sample.area_m2;
@@ -124,13 +155,12 @@ PictureMask pane_mask(const Image8& picture, const Region& region, glm::vec3 pai
 
 std::vector<PictureMask> glass_masks(const Image8& picture, std::span<const SurfaceSample> samples,
                                      glm::vec3 paint, float all_panes_m2) {
-  std::vector<SurfaceSample> panes;
-  std::ranges::copy_if(samples, std::back_inserter(panes),
-                       [&](const SurfaceSample& sample) { return is_pane(sample, paint); });
   std::vector<PictureMask> masks;
-  for (const Region& region : regions_of(panes))
-    if (region.area_m2 >= min_pane_share * all_panes_m2 && region.area_m2 > 0.0f)
+  for (const Region& region : regions_of(samples, paint)) {
+    const bool is_large = region.area_m2 >= min_pane_share * all_panes_m2 && region.area_m2 > 0.0f;
+    if (is_large && reaches_roof(region.top) && region.low_m2 <= region.area_m2)
       masks.push_back(pane_mask(picture, region, paint));
+  }
   return masks;
 }
 
@@ -181,14 +211,13 @@ glm::vec3 paint_of(std::span<const SurfaceSample> samples) {
 }
 
 bool is_pane(const SurfaceSample& sample, glm::vec3 paint) {
-  constexpr float min_hole_height = 0.4f, min_height = 0.5f;  // grilles are holes, too
-  constexpr float roof_z = 0.9f, underside_z = -0.3f, max_light = 0.92f;
-  if (!sample.is_outer) return false;
-  if (sample.is_hole) return sample.height > min_hole_height;
-  const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;
-  return sample.height > min_height && sample.normal.z < roof_z && sample.normal.z > underside_z &&
-         spread(sample.srgb) <= grey_tolerance && light < max_light &&
-         difference(sample.srgb, paint) > grey_tolerance;
+  return sample.is_outer && !lies_low(sample) && has_colour_of_pane(sample, paint) &&
+         (sample.is_hole || !faces_up_or_down(sample));
+}
+
+bool reaches_roof(float top) {
+  constexpr float min_top = 0.65f;  // a rack or an aerial may be a third of the height of the body
+  return top >= min_top;
 }
 
 bool is_lamp(const SurfaceSample& sample, glm::vec3 paint) {

@@ -33,13 +33,17 @@ struct PictureMasks {
 glm::vec3 paint_of(std::span<const SurfaceSample> samples);
 
 /// Panes are grey, not of the paint's kind, in the upper half and do not face up; or they are holes in a
-/// picture.
+/// picture. Bumpers and aerofoils may have such triangles, too: what they belong to says that it is none.
 bool is_pane(const SurfaceSample& sample, glm::vec3 paint);
+/// Whether a surface whose highest point is at this share of the car's height can be a pane: these lie on the
+/// cabin and reach up to its roof. Bumpers, grilles and aerofoils on boots end below.
+bool reaches_roof(float top);
 /// Lamps are red at the rear and yellow at the front, where the paint is not.
 bool is_lamp(const SurfaceSample& sample, glm::vec3 paint);
 
 /// The panes and lamps in `picture`, that the material of `samples` has. Regions of less than a fiftieth of
-/// `all_panes_m2`, which the whole car has, are seals and shadows.
+/// `all_panes_m2`, which the whole car has, are seals and shadows. Those that do not reach up to the roof,
+/// and those whose colour lies for the most part below where panes begin, are bumpers and trim.
 PictureMasks find_masks(const Image8& picture, std::span<const SurfaceSample> samples, glm::vec3 paint,
                         float all_panes_m2);
 

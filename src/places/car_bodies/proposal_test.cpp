@@ -2,6 +2,7 @@
 // of the car in the scene are looked at.
 #include <gtest/gtest.h>
 
+#include "base/files.h"
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/readers/readers.h"
@@ -138,6 +139,46 @@ TEST_F(CarProposal, APaneThatIsAnObjectNeedsNoMask) {
   EXPECT_TRUE(says("material(target=\"WISIDE\", preset=\"glass\")")) << script_;
   EXPECT_FALSE(says("mask=")) << script_;
   EXPECT_NEAR(area_of(model, "glass"), panes_m2, 0.01) << script_;
+}
+
+/// Adds quads across the front and the rear, between heights in metres, to a part, in steps of 0.05 m. They
+/// have the grey of the panes in the picture, at a place of their own.
+void add_bumpers(scene::Part& part, float low_m, float high_m) {
+  constexpr float step_m = 0.05f, half_m = 0.6f;
+  const int steps = int(std::lround((high_m - low_m) / step_m));
+  for (int i = 0; i < steps; ++i)
+    for (const float x : {-2.2f, 2.2f}) {
+      const float z = low_m + float(i) * step_m;
+      add_quad(part, {{x, -half_m, z}, {x, half_m, z}, {x, half_m, z + step_m}, {x, -half_m, z + step_m}},
+               {0.88f, 0.85f}, {0.95f, 0.92f});
+    }
+}
+
+TEST_F(CarProposal, BumpersInTheGreyOfPanesAreNone) {
+  for (const float low_m : {0.45f, 0.8f}) {  // mostly below half of the height, or all of it above
+    scene::Model body = bare_body();
+    add_bumpers(body.parts[0], low_m, 0.9f);
+    EXPECT_NEAR(area_of(proposed(body), "glass"), panes_m2, 0.01) << low_m << script_;
+  }
+}
+
+TEST_F(CarProposal, ABumperThatIsAnObjectIsNoPane) {
+  scene::Model body = bare_body();
+  scene::Part bumper;
+  bumper.object = "STOSS";
+  add_bumpers(bumper, 0.8f, 0.9f);
+  body.parts.push_back(bumper);
+  EXPECT_NEAR(area_of(proposed(body), "glass"), panes_m2, 0.01) << script_;
+}
+
+TEST_F(CarProposal, AGreyThatLiesMostlyBelowIsNoPaneAtTheRoof) {
+  scene::Model body = bare_body();
+  add_bumpers(body.parts[0], 0.3f, 0.6f);
+  // A frame above the rear pane, of the bumpers' plastic.
+  add_quad(body.parts[0],
+           {{-1.9f, -0.6f, 1.3f}, {-1.9f, 0.6f, 1.3f}, {-1.9f, 0.6f, 1.4f}, {-1.9f, -0.6f, 1.4f}},
+           {0.88f, 0.85f}, {0.95f, 0.92f});
+  EXPECT_NEAR(area_of(proposed(body), "glass"), panes_m2, 0.01) << script_;
 }
 
 TEST_F(CarProposal, TheRearOfARedCarIsNoLamp) {
@@ -306,6 +347,21 @@ TEST_F(CarProposal, ATurnedGltfWithWheelNodesNeedsNoCopy) {
   EXPECT_FALSE(car_copy(car, "car.glb")->has_value());
   proposed(car);
   EXPECT_TRUE(says("heading_deg=-90")) << script_;
+}
+
+TEST_F(CarProposal, OfTheBodyAmongTheScenesIsTheOneBesideIt) {
+  const std::filesystem::path folder = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes";
+  Errors warnings;
+  const Result<scene::Model> body =
+      house_.get<formats::Readers>().read(folder / "bare_saloon.glb", {}, warnings);
+  ASSERT_TRUE(body) << to_string(body.errors());
+  EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+  const Result<std::string> script = car_script(*body, "bare_saloon.glb"),
+                            beside = read_file(folder / "bare_saloon.xp");
+  ASSERT_TRUE(script && beside);
+  EXPECT_EQ(*script, *beside) << "parvis car scenes/bare_saloon.glb -o scenes/bare_saloon.xp";
+  EXPECT_NE(script->find("preset=\"glass\""), std::string::npos);
+  EXPECT_NE(script->find("  wheels(front_axle_x=1."), std::string::npos);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ std::vector<SurfaceSample> samples_of(const Body& body) {
       if (sample.area_m2 > min_area_m2) sample.normal = glm::normalize(sides);
       if (glm::dot(sample.normal, sample.centre - bounds.centre()) < 0.0f) sample.normal = -sample.normal;
       sample.height = (sample.centre.z - bounds.min.z) / bounds.size().z;
+      sample.top = (std::max({at[0].z, at[1].z, at[2].z}) - bounds.min.z) / bounds.size().z;
       sample.forward = (sample.centre.x - bounds.centre().x) / bounds.size().x;
       sample.is_outer = skin.holds(sample.centre);
       look_up(model, material, sample);

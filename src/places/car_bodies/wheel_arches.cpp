@@ -13,9 +13,10 @@ constexpr float min_inset_m = 0.06f;     // of an arch behind the skin beside it
 constexpr float skin_reach_m = 0.6f;     // along the car, in which the skin is looked for
 constexpr float min_arch_m = 0.4f, max_arch_m = 1.3f;
 constexpr float min_radius_m = 0.2f, max_radius_m = 0.8f;
-constexpr float gap_m = 0.04f;       // between tyre and arch
-constexpr float tyre_share = 0.82f;  // of the arch's radius
-constexpr float width_share = 0.6f;  // of the tyre's radius
+constexpr float gap_m = 0.04f;            // between tyre and arch
+constexpr float tyre_share = 0.82f;       // of the arch's radius
+constexpr float width_share = 0.6f;       // of the tyre's radius
+constexpr float max_clearance_m = 0.22f;  // between the road and the lowest point of the body
 
 /// How far out the skin of doors and wings lies about a column.
 float skin_depth(const SideView& side, int column) {
@@ -98,8 +99,11 @@ std::optional<WheelFit> fit_wheels(const SideView& side) {
   const float top = 0.5f * (first.top + last.top) - gap_m;
   WheelFit fit;
   fit.left_x = first.centre.x, fit.right_x = last.centre.x;
-  // Never so small that the body would reach below the road.
-  fit.radius = std::max(tyre_share * 0.5f * (first.radius + last.radius), 0.5f * (top - side.bounds().min.z));
+  // Never so small that the body would reach below the road, nor so large that it would stand on stilts: the
+  // circle through a flat arch is larger than its wheel.
+  const float body_m = top - side.bounds().min.z;
+  fit.radius = std::clamp(tyre_share * 0.5f * (first.radius + last.radius), 0.5f * body_m,
+                          0.5f * (body_m + max_clearance_m));
   fit.axle_z = top - fit.radius;
   fit.width = width_share * fit.radius;
   fit.track = 2.0f * (std::min(first.skin, last.skin) - 0.5f * fit.width - 0.01f);

@@ -14,6 +14,7 @@
 #include "base/random.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/kind_walls.h"
+#include "places/dressing/round_walls.h"
 #include "places/dressing/street_level_texture.h"
 #include "places/dressing/undersides.h"
 #include "places/dressing/wall_panels.h"
@@ -227,14 +228,14 @@ class Dresser {
     const auto [bottom_m, top_m] = bottom_and_top(pieces_);
     foot_m_ = panel.low.y - bottom_m > seam_m ? panel.low.y : bottom_m;
     eaves_m_ = top_m - panel.eaves_m > seam_m ? panel.eaves_m : top_m;
-    const float width_m = panel.high.x - panel.low.x, height_m = eaves_m_ - foot_m_;
-    Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.low.x + panel.offset_m)));
+    const float width_m = panel.run.length_m, height_m = eaves_m_ - foot_m_;
+    Random random(seed_ + 104729 * panel.building, std::uint64_t(std::abs(panel.run.place_m)));
     const bool is_side = !panel.stands_on_ground && !panel.hangs && width_m < narrowest_on_roof_m;
     if (!has_openings_ || panel.has_openings || panel.is_party_wall || is_side || !is_large(panel))
       return plain(bottom_m, top_m);
     plain(bottom_m, foot_m_);
     if (panel.kind.use == scene::BuildingUse::church)
-      add_nave(width_m, height_m);
+      add_nave(height_m);
     else if (panel.kind.use == scene::BuildingUse::industry)
       add_gates(width_m, height_m, gates_m, random);
     else if (panel.stands_on_ground && height_m < shed_m && !style_.look)
@@ -242,22 +243,26 @@ class Dresser {
     else if (panel.kind.use == scene::BuildingUse::shed || (panel.stands_on_ground && height_m < shed_m))
       add_gates(width_m, height_m, low_gates_m, random);
     else
-      add_house_front(width_m, height_m, random);
+      add_house_front(height_m, random);
     plain(eaves_m_, top_m);
   }
 
  private:
   void add_shed(float width_m, Random& random) {
-    const bool has_garage = width_m > garage_m && random.chance(0.5f);
-    const float bays = std::max(1.0f, std::round(width_m / brick_bay_m));
+    const bool has_garage = width_m > garage_m && random.chance(0.5f) && !is_round();
+    const RunBays bays = bays_of(panel_->run, brick_bay_m);
     add(sheet_of(BrickSheet::street), foot_m_, eaves_m_,
-        {has_garage ? garage_bay : small_window_bay, float(StreetBand::sheds)}, {bays, 1.0f});
+        {float(has_garage ? garage_bay : small_window_bay) + bays.shift, float(StreetBand::sheds)},
+        {bays.count, 1.0f});
   }
 
-  /// Gates on some walls at the ground, no windows.
+  bool is_round() const { return panel_->run.facets > 1; }
+
+  /// Gates on some flat walls at the ground, no windows.
   void add_gates(float width_m, float height_m, float strip_m, Random& random) {
     const glm::vec2 cell_m = layout_of(KindSheet::gates).cell_m * (strip_m / gates_m);
-    const bool has_gates = panel_->stands_on_ground && width_m > 0.7f * cell_m.x && random.chance(0.5f);
+    const bool has_gates =
+        panel_->stands_on_ground && width_m > 0.7f * cell_m.x && random.chance(0.5f) && !is_round();
     if (!has_gates) return plain(foot_m_, eaves_m_);
     const float top_m = foot_m_ + std::min(strip_m, height_m);
     const float bays = std::max(1.0f, std::round(width_m / cell_m.x));
@@ -266,12 +271,12 @@ class Dresser {
   }
 
   /// Tall windows that begin above the heads of people.
-  void add_nave(float width_m, float height_m) {
+  void add_nave(float height_m) {
     const float top_m = std::min(eaves_m_ - nave_top_m, foot_m_ + nave_foot_m + nave_m);
     if (height_m < lowest_nave_m) return plain(foot_m_, eaves_m_);
+    const RunBays bays = bays_of(panel_->run, nave_bay_m);
     plain(foot_m_, foot_m_ + nave_foot_m);
-    add(sheet_of(KindSheet::nave), foot_m_ + nave_foot_m, top_m, {0.0f, 0.0f},
-        {std::max(1.0f, std::round(width_m / nave_bay_m)), 1.0f});
+    add(sheet_of(KindSheet::nave), foot_m_ + nave_foot_m, top_m, {bays.shift, 0.0f}, {bays.count, 1.0f});
     plain(top_m, eaves_m_);
   }
 
@@ -283,8 +288,8 @@ class Dresser {
   }
 
   /// The street's storey, those above it, and a plain rest where there is less than a storey.
-  void add_house_front(float width_m, float height_m, Random& random) {
-    const float bays = std::max(1.0f, std::round(width_m / style_.bay_m));
+  void add_house_front(float height_m, Random& random) {
+    const RunBays bays = bays_of(panel_->run, style_.bay_m);
     const float each_m = storey_m(height_m);
     const float street_m = !panel_->stands_on_ground ? 0.0f : each_m + (style_.is_shop ? 0.6f : 0.15f);
     const float rest_m = height_m - street_m - cornice_m;
@@ -292,24 +297,28 @@ class Dresser {
     const float street_top = foot_m_ + (storeys > 0.0f ? street_m : std::min(height_m, max_ground_storey_m));
     if (panel_->stands_on_ground) {
       const StreetBand band = style_.is_shop ? StreetBand::shops : style_.band;
-      const int span = std::min(int(bays), brick_bays);  // the first bays that hold a door
+      const int span = std::min(int(bays.count), brick_bays);  // the first bays that hold a door
       const int start = (brick_bays + door_bay - random.index(span)) % brick_bays;
       const float row = !style_.look ? float(band) : style_.is_shop ? 1.0f : 0.0f;
       // Up to a little below the next row of the sheet, whose plinth would be a dark line under the storeys.
       add(style_.look ? sheet_of(KindSheet::street) : sheet_of(BrickSheet::street), foot_m_, street_top,
-          {start, row}, {bays, 1.0f - below_next_row});
+          {float(start) + bays.shift, row}, {bays.count, 1.0f - below_next_row});
     }
     if (storeys == 0.0f) return plain(street_top, eaves_m_);
     const float start = float(random.index(brick_bays)), row = float(random.index(brick_storeys));
     add(style_.look ? sheet_of(KindSheet::storeys) : sheet_of(BrickSheet::storeys),
-        panel_->stands_on_ground ? street_top : foot_m_, eaves_m_, {start, row}, {bays, storeys});
+        panel_->stands_on_ground ? street_top : foot_m_, eaves_m_, {start + bays.shift, row},
+        {bays.count, storeys});
   }
 
   /// The wall without openings.
   void plain(float low_m, float high_m) {
     const glm::vec2 cell_m(brick_bay_m, brick_storey_m);
-    add(style_.look ? sheet_of(KindSheet::plain) : sheet_of(BrickSheet::plain), low_m, high_m, {0.0f, 0.0f},
-        glm::vec2(panel_->high.x - panel_->low.x, high_m - low_m) / cell_m);
+    const StripSheet sheet = style_.look ? sheet_of(KindSheet::plain) : sheet_of(BrickSheet::plain);
+    glm::vec2 count = glm::vec2(panel_->run.length_m, high_m - low_m) / cell_m;
+    if (panel_->run.is_ring)  // whole sheets, or the ring would have a seam
+      count.x = std::max(1.0f, std::round(count.x / sheet.cells.x)) * sheet.cells.x;
+    add(sheet, low_m, high_m, {0.0f, 0.0f}, count);
   }
 
   StripSheet sheet_of(BrickSheet sheet) {
@@ -322,20 +331,32 @@ class Dresser {
     return {materials_.of(sheet, style_.look.value_or(WallLook{}), style_.colour), layout_of(sheet).count};
   }
 
-  /// A strip of the panel between two heights: `count` bays and storeys from the cell `first` of a sheet on.
+  /// The panel's part of a strip of its run between two heights: `count` bays and storeys from the cell
+  /// `first` of a sheet on.
   void add(const StripSheet& sheet, float low_m, float high_m, glm::vec2 first, glm::vec2 count) {
     if (!(high_m > low_m)) return;
-    const glm::vec2 low(panel_->low.x, low_m);
-    const glm::vec2 size = glm::max(glm::vec2(panel_->high.x - panel_->low.x, high_m - low_m), 1e-4f);
+    const glm::vec2 low(panel_->low.x - panel_->run.before_m, low_m);
+    const glm::vec2 size = glm::max(glm::vec2(panel_->run.length_m, high_m - low_m), 1e-4f);
     for (const ModelTriangle& piece : clipped(pieces_, {0.0f, 0.0f, 1.0f}, low_m, high_m)) {
       std::array<glm::vec2, 3> uvs;
+      std::array<glm::vec3, 3> normals;
       for (std::size_t k = 0; k < 3; ++k) {
         const glm::vec2 place(glm::dot(piece.corners[k], panel_->along), piece.corners[k].z);
         const glm::vec2 at = (first + (place - low) / size * count) / sheet.cells;
         uvs[k] = {at.x, -at.y};
+        if (is_round()) normals[k] = normal_at(place.x);
       }
-      parts_.add(piece, sheet.material, uvs);
+      if (is_round())
+        parts_.add(piece, sheet.material, uvs, normals);
+      else
+        parts_.add(piece, sheet.material, uvs);
     }
+  }
+
+  /// Of the curve that the panel is a facet of, at a place along it.
+  glm::vec3 normal_at(float place) const {
+    const float share = (place - panel_->low.x) / std::max(panel_->high.x - panel_->low.x, 1e-4f);
+    return glm::normalize(glm::mix(panel_->run.first_normal, panel_->run.last_normal, share));
   }
 
   DressedParts& parts_;

@@ -156,7 +156,8 @@ void paint_nave(SurfaceCanvas& canvas, Random& random) {
     };
     const Rect around{x - half_m - 0.2f, foot - 0.2f, x + half_m + 0.2f, spring + half_m + 0.2f};
     const Texel frame = matt(trim_stone(), 0.04f), lead = matt(glm::vec3(0.05f), -0.17f, 0.5f);
-    const glm::vec3 tone(random.uniform(0.02f, 0.05f), 0.035f, random.uniform(0.03f, 0.06f));
+    const float blue = random.uniform(0.03f, 0.06f), red = random.uniform(0.02f, 0.05f);
+    const glm::vec3 tone(red, 0.035f, blue);
     canvas.paint(around, [&](float px, float py, Texel& t) {
       if (!is_inside(px, py, 0.0f)) {
         if (is_inside(px, py, 0.16f)) t = frame;

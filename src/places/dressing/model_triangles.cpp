@@ -24,6 +24,12 @@ struct CutPoint {
   glm::vec3 in_model, in_node;
 };
 
+/// Unit normal in the triangle's node.
+glm::vec3 flat_in_node(const ModelTriangle& triangle) {
+  const std::array<glm::vec3, 3>& corners = triangle.corners_in_node;
+  return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
 CutPoint mix(const CutPoint& a, const CutPoint& b, float share) {
   return {glm::mix(a.in_model, b.in_model, share), glm::mix(a.in_node, b.in_node, share)};
 }
@@ -105,6 +111,25 @@ std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, 
 }
 
 void DressedParts::add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs) {
+  const glm::vec3 flat = flat_in_node(triangle);
+  add_in_node(triangle, material, uvs, {flat, flat, flat});
+}
+
+void DressedParts::add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs,
+                       const std::array<glm::vec3, 3>& normals) {
+  const glm::mat3 node_from_model_of_normals =
+      glm::transpose(glm::mat3(model_from_node_[std::size_t(triangle.node)]));
+  const glm::vec3 flat = flat_in_node(triangle);
+  std::array<glm::vec3, 3> in_node;
+  for (std::size_t k = 0; k < 3; ++k) {
+    in_node[k] = glm::normalize(node_from_model_of_normals * normals[k]);
+    if (glm::dot(in_node[k], flat) < 0.0f) in_node[k] = -in_node[k];  // of a mirrored node
+  }
+  add_in_node(triangle, material, uvs, in_node);
+}
+
+void DressedParts::add_in_node(const ModelTriangle& triangle, int material,
+                               const std::array<glm::vec2, 3>& uvs, const std::array<glm::vec3, 3>& normals) {
   const auto [known, is_new] = parts_.try_emplace({triangle.node, material}, model_.parts.size());
   if (is_new) {
     scene::Part part;
@@ -112,11 +137,10 @@ void DressedParts::add(const ModelTriangle& triangle, int material, const std::a
     model_.parts.push_back(std::move(part));
   }
   Mesh& mesh = model_.parts[known->second].mesh;
-  const std::array<glm::vec3, 3>& corners = triangle.corners_in_node;
-  const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   for (std::size_t k = 0; k < 3; ++k) {
     mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
-    mesh.positions.push_back(corners[k]), mesh.normals.push_back(normal), mesh.uvs.push_back(uvs[k]);
+    mesh.positions.push_back(triangle.corners_in_node[k]);
+    mesh.normals.push_back(normals[k]), mesh.uvs.push_back(uvs[k]);
   }
 }
 

@@ -41,14 +41,22 @@ std::vector<ModelTriangle> clipped(const std::vector<ModelTriangle>& triangles, 
 class DressedParts {
  public:
   /// `model` must outlive this; `object` is the name of the parts.
-  DressedParts(scene::Model& model, std::string object) : model_(model), object_(std::move(object)) {}
+  DressedParts(scene::Model& model, std::string object)
+      : model_(model), object_(std::move(object)), model_from_node_(scene::rest_pose(model)) {}
 
-  /// Adds a triangle with flat normal and its texture coordinates to the part of its node and this material.
+  /// Adds a triangle with its texture coordinates to the part of its node and this material. It is flat.
   void add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs);
+  /// The same with normals of its corners: unit, in the model's frame.
+  void add(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs,
+           const std::array<glm::vec3, 3>& normals);
 
  private:
+  void add_in_node(const ModelTriangle& triangle, int material, const std::array<glm::vec2, 3>& uvs,
+                   const std::array<glm::vec3, 3>& normals);
+
   scene::Model& model_;
   std::string object_;
+  std::vector<glm::mat4> model_from_node_;
   std::map<std::pair<int, int>, std::size_t> parts_;
 };
 

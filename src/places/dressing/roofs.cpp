@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/random.h"
+#include "places/dressing/cone_normals.h"
 #include "places/dressing/model_triangles.h"
 #include "places/dressing/roof_details.h"
 #include "places/paper_city/ground_texture.h"
@@ -77,12 +78,18 @@ std::size_t add_roofs(scene::Model& model, std::string_view target, bool has_det
   for (const Tint& tint : flat_tints) add_material(model, "flat roof", gravel, tint.colour);
 
   DressedParts parts(model, "RoofSurface");
-  for (const ModelTriangle& roof : roofs) {
+  const std::vector<std::optional<std::array<glm::vec3, 3>>> round = cone_normals(roofs);
+  for (std::size_t i = 0; i < roofs.size(); ++i) {
+    const ModelTriangle& roof = roofs[i];
     const bool flat = is_flat(roof);
     const float choice = Random(roof.building + 1).uniform();
     const int material =
         flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
-    parts.add(roof, material, roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m));
+    const std::array<glm::vec2, 3> uvs = roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m);
+    if (round[i])
+      parts.add(roof, material, uvs, *round[i]);
+    else
+      parts.add(roof, material, uvs);
   }
   if (has_details) add_roof_details(model, roofs);
   return roofs.size();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "base/mesh.h"
 
@@ -116,6 +117,46 @@ TEST(Roofs, WithoutRoofsNothingChanges) {
   scene::Model model = roof(1.0f);
   EXPECT_EQ(add_roofs(model, "no such name"), 0u);
   EXPECT_TRUE(model.textures.empty());
+}
+
+/// The sides of a pyramid, each a polygon of its own.
+scene::Model pyramid(int sides, float radius_m, float rise_m) {
+  scene::Model model;
+  model.materials.emplace_back();
+  scene::Part part;
+  part.object = "RoofSurface";
+  const auto corner = [&](int i) {
+    const float angle = glm::two_pi<float>() * float(i % sides) / float(sides);
+    return glm::vec3(radius_m * std::cos(angle), radius_m * std::sin(angle), 8.0f);
+  };
+  for (int i = 0; i < sides; ++i) {
+    const std::uint32_t first = std::uint32_t(part.mesh.positions.size());
+    part.mesh.positions.insert(part.mesh.positions.end(),
+                               {corner(i), corner(i + 1), glm::vec3(0.0f, 0.0f, 8.0f + rise_m)});
+    part.mesh.indices.insert(part.mesh.indices.end(), {first, first + 1, first + 2});
+  }
+  fill_normals(part.mesh);
+  part.mesh.uvs.resize(part.mesh.positions.size());
+  model.parts.push_back(std::move(part));
+  return model;
+}
+
+TEST(Roofs, ConesAreShadedAsRoundAndPyramidsHaveEdges) {
+  scene::Model cone = pyramid(24, 5.0f, 4.0f), octagon = pyramid(8, 5.0f, 1.0f);
+  for (scene::Model* model : {&cone, &octagon}) {
+    add_roofs(*model, "Roof*", false);
+    ASSERT_EQ(model->parts.size(), 1u);
+    const Mesh& mesh = model->parts[0].mesh;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (mesh.positions[i].z > 8.1f) continue;
+      const glm::vec2 outward = glm::normalize(glm::vec2(mesh.positions[i])),
+                      facing = glm::normalize(glm::vec2(mesh.normals[i]));
+      if (model == &cone)
+        EXPECT_GT(glm::dot(outward, facing), 0.9999f);
+      else
+        EXPECT_NEAR(glm::dot(outward, facing), std::cos(glm::pi<float>() / 8.0f), 1e-3f);
+    }
+  }
 }
 
 }  // namespace

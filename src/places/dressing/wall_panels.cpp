@@ -9,6 +9,8 @@
 #include <span>
 #include <unordered_map>
 
+#include "places/dressing/round_walls.h"
+
 namespace parvis::dressing {
 namespace {
 
@@ -22,6 +24,7 @@ constexpr float tiny_m = 0.02f;
 constexpr float party_gap_m = 1.2f, party_overlap_m = 0.3f;  // between walls of two houses
 constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others nearby stands on a roof
 constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
+constexpr float thinnest_m = 2.4f;                    // diameter of a round tower with openings
 constexpr float before_wall_m = 0.6f;                 // an opening so near belongs to the wall
 constexpr float hash_cell_m = 6.0f;
 constexpr std::size_t max_panels = 4000;  // of one wall: triangles may cross all of them
@@ -298,6 +301,9 @@ void find_openings(std::vector<WallPanel>& panels, const std::vector<glm::vec3>&
     plan.near(glm::vec2(opening), [&](std::size_t i) {
       panels[i].has_openings = panels[i].has_openings || is_on(opening, panels[i]);
     });
+  for (const WallPanel& panel : panels)
+    if (panel.has_openings) panels[panel.run.first].has_openings = true;
+  for (WallPanel& panel : panels) panel.has_openings = panels[panel.run.first].has_openings;
 }
 
 /// True if another house's wall stands before most of the panel's lowest storey.
@@ -331,7 +337,8 @@ void find_party_walls(std::vector<WallPanel>& panels) {
 }  // namespace
 
 bool is_large(const WallPanel& panel) {
-  return panel.high.x - panel.low.x >= narrowest_m && panel.eaves_m - panel.low.y >= lowest_m;
+  const float needed_m = panel.run.is_ring ? glm::pi<float>() * thinnest_m : narrowest_m;
+  return panel.run.length_m >= needed_m && panel.eaves_m - panel.low.y >= lowest_m;
 }
 
 std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
@@ -340,6 +347,7 @@ std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,
   for (std::vector<Surface>& plane : planes_of(walls))
     for (Surface& surface : joined(std::move(plane), walls)) add_panels(std::move(surface), walls, panels);
   find_ground(panels);
+  find_runs(panels, walls);
   find_openings(panels, openings);
   find_party_walls(panels);
   return panels;

@@ -42,10 +42,10 @@ SurfacePictures leaf_pictures(glm::vec3 colour, std::uint32_t seed) {
   canvas.fill({0.492f, 0.0f, 0.508f, 0.75f}, twig);
   for (int i = 0; i < 17; ++i) {  // in turn to both sides, one at the tip
     const float up = 0.06f + 0.6f * float(i) / 16.0f, side = i == 16 ? 0.0f : i % 2 == 0 ? 1.0f : -1.0f;
-    const float heading =
-        side * random.uniform(0.7f, 1.35f) * (1.1f - 0.5f * up) + random.uniform(-0.15f, 0.15f);
-    const glm::vec3 own =
-        colour * random.uniform(0.75f, 1.2f) * glm::vec3(random.uniform(0.9f, 1.15f), 1.0f, 0.9f);
+    const float spread = random.uniform(0.7f, 1.35f), stray = random.uniform(-0.15f, 0.15f);
+    const float heading = side * spread * (1.1f - 0.5f * up) + stray;
+    const float red = random.uniform(0.9f, 1.15f), light = random.uniform(0.75f, 1.2f);
+    const glm::vec3 own = colour * light * glm::vec3(red, 1.0f, 0.9f);
     paint_leaf(canvas, {0.5f, up}, heading, random.uniform(0.34f, 0.44f), own);
   }
   return canvas.pictures(2, 4);

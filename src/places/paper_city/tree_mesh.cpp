@@ -18,10 +18,18 @@ std::array<glm::vec3, 2> cross_section(const Branch& branch, std::size_t i) {
   return {side, glm::cross(axis, side)};
 }
 
+/// A vector between two corners of a box, drawn component by component from z to x: as arguments of one call
+/// the draws would have no order.
+glm::vec3 draw_between(glm::vec3 low, glm::vec3 high, Random& random) {
+  glm::vec3 drawn;
+  for (int axis = 2; axis >= 0; --axis) drawn[axis] = random.uniform(low[axis], high[axis]);
+  return drawn;
+}
+
 /// A spray of leaves that grows from `foot` along `along`, its upper side turned to the light outside of the
 /// crown.
 void add_spray(Mesh& mesh, glm::vec3 foot, glm::vec3 along, glm::vec3 outward, float size_m, Random& random) {
-  const glm::vec3 tilt(random.uniform(-0.8f, 0.8f), random.uniform(-0.8f, 0.8f), random.uniform(-0.2f, 0.9f));
+  const glm::vec3 tilt = draw_between({-0.8f, -0.8f, -0.2f}, {0.8f, 0.8f, 0.9f}, random);
   const glm::vec3 across = glm::normalize(glm::cross(along, glm::normalize(outward + tilt + 0.01f * along)));
   const glm::vec3 face = glm::cross(across, along);
   const glm::vec3 normal =
@@ -74,8 +82,7 @@ Mesh foliage(const std::vector<Branch>& tree, const Sprays& sprays, glm::vec3 cr
     const glm::vec3 foot = glm::mix(twig.points[k], twig.points[k + 1], place - float(k));
     const glm::vec3 axis = glm::normalize(twig.points[k + 1] - twig.points[k]);
     const glm::vec3 outward = glm::normalize(foot - crown_middle + glm::vec3(0, 0, 0.6f));
-    const glm::vec3 stray(random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f),
-                          random.uniform(-0.8f, 0.6f));
+    const glm::vec3 stray = draw_between({-1.0f, -1.0f, -0.8f}, {1.0f, 1.0f, 0.6f}, random);
     add_spray(mesh, foot, glm::normalize(0.55f * axis + 0.85f * stray + 0.3f * outward), outward,
               sprays.size_m * random.uniform(0.765f, 1.235f), random);
   }

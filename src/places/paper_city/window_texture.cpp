@@ -14,7 +14,8 @@ void paint_curtains(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
   const float drawn = random.uniform(0.12f, 0.42f) * rect.width();  // each side
   const float tone = random.uniform(0.13f, 0.3f), waves = random.uniform(40.0f, 70.0f),
               phase = random.uniform(0.0f, 6.0f);
-  const glm::vec3 cloth = tone * glm::vec3(1.0f, random.uniform(0.9f, 0.98f), random.uniform(0.75f, 0.92f));
+  const float blue = random.uniform(0.75f, 0.92f), green = random.uniform(0.9f, 0.98f);
+  const glm::vec3 cloth = tone * glm::vec3(1.0f, green, blue);
   canvas.paint(rect, [&](float x, float y, Texel& t) {
     const float inward = std::min(x - rect.x0, rect.x1 - x);
     const float gathered =
