@@ -1,8 +1,6 @@
 #include "graphics/lamps/lamp_process.h"
 
 #include <map>
-#include <set>
-#include <tuple>
 #include <utility>
 
 #include "scene/data/model_parts.h"
@@ -37,17 +35,14 @@ std::set<std::string> parts_of(const std::vector<const scene::Object*>& objects)
   return names;
 }
 
-/// What a lamp names: `of`, `shows`, `part`.
-using Names = std::tuple<std::string, std::string, std::string>;
-
 /// Lamps that name something, and their nodes. Nodes that are hidden, with their group or for the scenario,
 /// have made no lamp.
-void find_named(const std::vector<scene::Node>& nodes, const std::set<Names>& made,
-                std::map<Names, const scene::Node*>& found) {
+void find_named(const std::vector<scene::Node>& nodes, const std::set<LampNames>& made,
+                std::map<LampNames, const scene::Node*>& found) {
   for (const scene::Node& node : nodes) {
     find_named(node.children, made, found);
     if (node.schema->type != "lamp") continue;
-    const Names names{node.text("of"), node.text("shows"), node.text("part")};
+    const LampNames names{node.text("of"), node.text("shows"), node.text("part")};
     if (made.contains(names)) found.try_emplace(names, &node);
   }
 }
@@ -55,21 +50,24 @@ void find_named(const std::vector<scene::Node>& nodes, const std::set<Names>& ma
 }  // namespace
 
 void LampProcess::begin(scene::Scene& scene, action::SharedByProcesses& shared) {
-  unchecked_ = &shared.live;
+  live_ = &shared.live;
   scene::show_what_lamps_show(scene);
 }
 
 void LampProcess::present(scene::Scene& scene, double /*ahead_s*/) {
   scene::show_what_lamps_show(scene);
-  if (const scene::LiveScene* begun = std::exchange(unchecked_, nullptr)) warn_of_idle(scene, begun->nodes());
+  if (live_ && checked_ != live_->scenario()) warn_of_idle(scene);
 }
 
-void LampProcess::warn_of_idle(const scene::Scene& scene, const std::vector<scene::Node>& nodes) {
+void LampProcess::warn_of_idle(const scene::Scene& scene) {
   constexpr int max_warnings = 10;
-  std::set<Names> made;
-  for (const scene::Lamp& lamp : scene.items<scene::Lamp>()) made.emplace(lamp.of, lamp.shows, lamp.part);
-  std::map<Names, const scene::Node*> named;
-  find_named(nodes, made, named);
+  checked_ = live_->scenario();
+  std::set<LampNames> made;
+  for (const scene::Lamp& lamp : scene.items<scene::Lamp>())
+    if (LampNames names{lamp.of, lamp.shows, lamp.part}; looked_at_.insert(names).second)
+      made.insert(std::move(names));
+  std::map<LampNames, const scene::Node*> named;
+  find_named(live_->nodes(), made, named);
   ObjectsByName objects_by_name;
   for (const scene::Object& object : scene.objects) objects_by_name.emplace(object.name, &object);
   int warnings = 0;

@@ -1,13 +1,21 @@
 // Shows what is seen only while a lamp burns: lit windows.
 #pragma once
 
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+
 #include "scene/action/process.h"
 #include "scene/data/lamp.h"
 
 namespace parvis::lamps {
 
-/// Shows and hides the objects of Lamp::shows. Warns once, when all processes have made their objects, of
-/// lamps that name none.
+/// What a lamp names: Lamp::of, shows and part.
+using LampNames = std::tuple<std::string, std::string, std::string>;
+
+/// Shows and hides the objects of Lamp::shows. Warns once of each lamp that names none: when all processes
+/// have made their objects, and of lamps that a scenario shows later, when it does.
 class LampProcess final : public action::Process {
  public:
   std::string name() const override { return "lamps"; }
@@ -15,9 +23,11 @@ class LampProcess final : public action::Process {
   void present(scene::Scene& scene, double ahead_s) override;
 
  private:
-  void warn_of_idle(const scene::Scene& scene, const std::vector<scene::Node>& nodes);
+  void warn_of_idle(const scene::Scene& scene);
 
-  const scene::LiveScene* unchecked_ = nullptr;  ///< until a first moment is shown
+  const scene::LiveScene* live_ = nullptr;
+  std::optional<std::string> checked_;  ///< the scenario whose lamps were looked at last
+  std::set<LampNames> looked_at_;
 };
 
 }  // namespace parvis::lamps

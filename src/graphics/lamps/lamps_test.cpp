@@ -331,6 +331,30 @@ TEST_F(LampNode, WarnsOfNamesThatNothingHas) {
   EXPECT_NE(part.find("no part of \"post *\" is called \"bulb\""), std::string::npos) << part;
 }
 
+/// A group that is hidden at first: its lamps are looked at when a scenario shows it, and once.
+TEST_F(LampNode, WarnsOfNamesThatNothingHasWhenAScenarioShowsTheLamp) {
+  auto loaded = load(
+      "group(name=\"stalls\", visible=0) { lamp(of=\"pots *\", burns=always) lamp(position=\"0 0 4\", "
+      "burns=always) }\n"
+      "scenario(name=\"market\") { override(of=\"stalls\", visible=1) }\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  action::Processes processes;
+  processes.add([] { return std::make_unique<LampProcess>(); });
+  action::SceneClock clock(processes, scene::LiveScene(std::move(loaded->script)), loaded->scene);
+  EXPECT_EQ(to_string(clock.take_warnings()), "");
+  EXPECT_TRUE(reference::lit_lamps(loaded->scene).empty());
+  ASSERT_TRUE(clock.live().choose(loaded->scene, "market"));
+  clock.follow(loaded->scene);
+  EXPECT_NE(to_string(clock.take_warnings()).find("\"pots *\""), std::string::npos);
+  EXPECT_EQ(reference::lit_lamps(loaded->scene).size(), 1u) << "the one that stands by itself";
+  ASSERT_TRUE(clock.live().choose(loaded->scene, ""));
+  clock.follow(loaded->scene);
+  EXPECT_TRUE(reference::lit_lamps(loaded->scene).empty());
+  ASSERT_TRUE(clock.live().choose(loaded->scene, "market"));
+  clock.follow(loaded->scene);
+  EXPECT_EQ(to_string(clock.take_warnings()), "") << "once";
+}
+
 TEST_F(LampNode, SaysWhatIsWrong) {
   EXPECT_NE(message("lamp(part=\"lamp\")").find("give of="), std::string::npos);
   EXPECT_NE(message("lamp(direction=\"0 0 0\")").find("no length"), std::string::npos);

@@ -1,135 +1,107 @@
-// Diffuse light of sky and sun at the vertices of virtual objects (thesis, section 5.3.4 and appendix A.2.2):
-// with the visibility of the sky by rays, interpolated between places where it was traced before, or not at
-// all.
+// Diffuse light of sky and sun at the vertices of virtual objects (thesis, section 5.3.4 and appendix A.2.2),
+// traced progressively. What rays found of the sky is kept as the directions that are open, so that it holds
+// for any other sky.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
 #include <vector>
 
-#include "base/bounds.h"
-#include "graphics/light/sky_model.h"
+#include "graphics/light/estimate_weights.h"
+#include "graphics/light/lit_vertex.h"
+#include "graphics/light/sky_table.h"
+#include "graphics/light/visibility_places.h"
 #include "graphics/reference/ray_scene.h"
-#include "scene/data/sun_shadows.h"
 
 namespace parvis::light {
 
-struct LitVertex {
-  glm::vec3 position, normal;  ///< in the world; unit normal
-};
-
-/// A sky that is asked for many directions: its radiance in a table, linear Rec. 709.
-class SkyTable {
- public:
-  explicit SkyTable(const SkyModel& sky);
-  /// Of a scene, as its renderer has them: Scene::sky, Scene::sun, and the lamp in the sun's place.
-  explicit SkyTable(const scene::Scene& scene);
-  /// Radiance of the sky without the sun's disc, from a unit direction.
-  glm::vec3 radiance(glm::vec3 direction) const;
-  /// Unit direction to the sun.
-  glm::vec3 to_sun() const { return to_sun_; }
-  /// Irradiance of the sun on a surface that faces it.
-  glm::vec3 sun_irradiance() const { return sun_irradiance_; }
-  /// A lamp in the sun's place, or none.
-  const std::optional<scene::Spot>& spot() const { return spot_; }
-  /// Irradiance of the open sky without the sun on a surface with unit `normal`.
-  glm::vec3 irradiance(glm::vec3 normal) const;
-
- private:
-  void fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance);
-
-  static constexpr int side = 128;  ///< of an octahedral map
-  glm::vec3 to_sun_, sun_irradiance_;
-  std::optional<scene::Spot> spot_;
-  std::vector<glm::vec3> texels_;
-  std::array<glm::vec3, 9> sh_{};  ///< shading/sky.glsl
-};
-
-/// What a ray that does not reach the sky brings.
-enum class Blocked : std::uint8_t {
-  dark,    ///< nothing: the sum of the thesis's appendix A.2, visibility alone
-  bounces  ///< light that the surface it hits gives back of the sun, which a ray finds, and of half the sky
-};
+class DiscPatterns;
+class Packet;
 
 /// The irradiance of vertices, traced progressively: each call adds rays, and what was traced counts on.
 class VertexLight {
  public:
   explicit VertexLight(std::vector<LitVertex> vertices);
 
-  /// The object has moved, or the light has changed: what was traced no longer counts.
+  /// The object has moved: what was traced no longer counts.
   void restart(std::vector<LitVertex> vertices);
   /// Restarts for the same vertices.
   void restart();
+  /// The light has changed and nothing has moved. What rays found of the sky, and of its light that surfaces
+  /// give back, is known under the new sky at once, without a ray; the sun and what surfaces give back of it
+  /// are found by the next rays, and the latter is estimated until then.
+  void follow(const SkyTable& sky);
 
   /// Adds `rays` directions of low discrepancy per vertex, cosine-weighted about its normal, and a quarter as
-  /// many to the sun's disc. Same result for any number of threads, and however rays are divided into calls
-  /// of whole fours.
+  /// many to the sun's disc; after `follow` those come first that bring the sun. Same result for any number
+  /// of threads, and however rays are divided into calls of whole fours.
   void refine(const reference::RayScene& scene, const SkyTable& sky, int rays,
               Blocked blocked = Blocked::dark);
 
   /// Of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
   std::vector<glm::vec3> irradiance() const;
-  /// The same without the sun.
+  /// The same without the sun that comes straight.
   std::vector<glm::vec3> sky_irradiance() const;
-  /// Rays that each vertex has had.
-  int rays() const { return rays_; }
+  /// Of the sun that comes straight.
+  std::vector<glm::vec3> sun_irradiance() const;
+  /// sky_irradiance by rays of even and by those of odd numbers.
+  Halves halves_of_sky() const;
+  /// The same of sun_irradiance.
+  Halves halves_of_sun() const;
+  /// Rays that each vertex has had under this sky and sun.
+  int rays() const { return sunlit_rays_; }
+  /// Rays whose directions are known to be open or not, under any sky.
+  int sky_rays() const { return rays_; }
   /// As given.
   const std::vector<LitVertex>& vertices() const { return vertices_; }
 
  private:
-  void add_sky_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
-                     std::span<const glm::vec2> disc, std::size_t bounces);
-  glm::vec3 sun_light(const reference::RayScene& scene, const SkyTable& sky, std::size_t vertex,
-                      std::span<const glm::vec2> disc) const;
+  /// Over the rays of a vertex.
+  struct Sums {
+    glm::vec3 sky{0.0f}, bounced{0.0f}, bounced_sun{0.0f}, sun{0.0f};  ///< bounced: that of the sky
+    float odd_sky = 0.0f, odd_bounced = 0.0f, odd_bounced_sun = 0.0f, odd_sun = 0.0f;  ///< odd rays' green
+  };
+  /// By what each harmonic of a sky's irradiance is multiplied in the sum of what surfaces give back of it.
+  using Transfer = std::array<glm::vec3, 9>;
+  enum class Finds : unsigned char { all, sun };  ///< what of the light of its rays a call finds
+
+  void add_rays(const reference::RayScene& scene, const SkyTable& sky, int first, int count, Blocked blocked,
+                Finds finds);
+  void add_to_sky(const reference::RayScene& scene, const SkyTable& sky, std::size_t begin, std::size_t end,
+                  const DiscPatterns& disc, Blocked blocked, Finds finds);
+  void add_open(Packet& packet, const SkyTable& sky);
+  void add_seen(const reference::RayScene& scene, Packet& packet, const SkyTable& sky, Finds finds);
+  void open(std::size_t vertex, std::size_t ray, glm::vec3 radiance);
+  void add_from_sky(std::size_t vertex, std::size_t ray, glm::vec3 radiance);
+  bool is_open(std::size_t vertex, std::size_t ray) const;
+  glm::vec3 unshadowed(std::size_t vertex) const;
+  std::vector<glm::vec3> bounced_sun() const;
+  float share_in_sun() const;
 
   std::vector<LitVertex> vertices_;
-  std::vector<glm::vec3> sky_sums_, bounced_sums_, sun_sums_;
-  int rays_ = 0, sun_rays_ = 0;
+  std::vector<Sums> sums_;
+  std::vector<std::uint64_t> open_;  ///< a bit for each ray: 64 rays of all vertices, then the next 64
+  std::vector<Transfer> transfers_;  ///< none before the first bounces
+  int rays_ = 0;                     ///< whose directions are known to be open or not
+  int sunlit_rays_ = 0;              ///< of them, under this sun
+  int sun_rays_ = 0;
+  Transfer sun_harmonics_{};          ///< of the irradiance of this sun
+  float former_share_in_sun_ = 0.5f;  ///< share_in_sun under the sun before
 };
 
-/// What places of a region see of the sky, traced once: 64 directions each, a bit per direction.
-class VisibilityPlaces {
- public:
-  /// A place every `spacing_m` in `region`, or farther apart, so that there are no more than `max_places`.
-  /// Those inside of things see nothing.
-  VisibilityPlaces(const reference::RayScene& scene, const Bounds& region, float spacing_m,
-                   std::size_t max_places = 1'000'000);
+/// Irradiance of the sun at vertices by `rays` to its disc each, all of them in common packets.
+std::vector<glm::vec3> traced_sun(const std::vector<LitVertex>& vertices, const reference::RayScene& scene,
+                                  const SkyTable& sky, int rays);
 
-  /// The share of the light of each direction that arrives at a point, between the eight places around it.
-  void interpolate(glm::vec3 point, float (&shares)[64]) const;
-  /// Evenly over the upper hemisphere; each stands for 2 pi / 64 steradians.
-  static const std::vector<glm::vec3>& directions();
-  /// Number of places.
-  std::size_t size() const { return masks_.size(); }
-
- private:
-  std::uint64_t mask(glm::ivec3 place) const;
-  glm::vec3 origin_;
-  glm::ivec3 counts_;
-  float spacing_m_;
-  std::vector<std::uint64_t> masks_;
-};
-
-/// What interpolation finds for vertices: irradiance by the sky, and by the sun or the lamp in its place.
-struct InterpolatedLight {
-  std::vector<glm::vec3> sky, sun;
-};
-
-/// With interpolated visibility, no rays at all; the sun by one ray per vertex. Here and in open_irradiance
-/// `Blocked::bounces` has the sky's own ground shine from below, where `dark` leaves out all that is below.
-InterpolatedLight interpolated_irradiance(const std::vector<LitVertex>& vertices,
-                                          const VisibilityPlaces& places, const reference::RayScene& scene,
-                                          const SkyTable& sky, Blocked blocked = Blocked::dark);
+/// A vertex interpolates in the time of about so many.
+inline constexpr double rays_per_interpolation = 2.0;
 
 /// How an object that has moved is lit again.
 enum class Relighting : unsigned char { traced, interpolated, open };
 
 /// The best that a time budget allows for so many vertices, given how many rays a millisecond traces; `rays`
-/// is how many each vertex gets when it is traced.
+/// is how many each vertex gets when it is traced, and of interpolated ones how many go to the sun.
 struct RelightingPlan {
   Relighting method;
   int rays;
@@ -137,9 +109,5 @@ struct RelightingPlan {
 /// Chooses tracing while at least one round of rays fits the budget, else interpolation where there are
 /// places.
 RelightingPlan plan_relighting(std::size_t vertices, double budget_ms, double rays_per_ms, bool has_places);
-
-/// As if nothing stood in the way.
-std::vector<glm::vec3> open_irradiance(const std::vector<LitVertex>& vertices, const SkyTable& sky,
-                                       Blocked blocked = Blocked::dark);
 
 }  // namespace parvis::light

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "base/random.h"
 #include "graphics/light/test_box.h"
@@ -94,6 +95,93 @@ TEST(VertexLight, MovedObjectsAreLitAgain) {
   EXPECT_GT(light.irradiance()[0].y, 1.4f * near);
 }
 
+std::shared_ptr<const SkyModel> sky_of(double azimuth_deg, double zenith_deg) {
+  return make_sky(SkyKind::preetham, Air{3.0}, {.azimuth_deg = azimuth_deg, .zenith_deg = zenith_deg})
+      .value();
+}
+
+double mean_of(const std::vector<glm::vec3>& light) {
+  double sum = 0.0;
+  for (const glm::vec3 each : light) sum += double(each.y);
+  return sum / double(light.size());
+}
+
+TEST(VertexLight, KnowsTheLightOfANewSkyWithoutARay) {
+  const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
+  const reference::RayScene rays(scene);
+  const SkyTable before(*sky_of(230.0, 80.0)), after(*sky_of(120.0, 30.0));
+  const std::vector<LitVertex> vertices = around_the_box(200);
+  VertexLight followed(vertices), fresh(vertices);
+  followed.refine(rays, before, 256);
+  followed.follow(after);
+  EXPECT_EQ(followed.rays(), 0) << "none has found this sun";
+  fresh.refine(rays, after, 256);
+  const std::vector<glm::vec3> known = followed.sky_irradiance(), wanted = fresh.sky_irradiance();
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    EXPECT_NEAR(known[v].y, wanted[v].y, 1e-3f * wanted[v].y + 1e-4f);  // sums in another order
+  EXPECT_EQ(mean_of(followed.sun_irradiance()), 0.0);
+  EXPECT_GT(mean_of(fresh.sun_irradiance()), 0.0);
+}
+
+TEST(VertexLight, EndsUnderANewSkyWithTheLightOfAllItsRays) {
+  const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
+  const reference::RayScene rays(scene);
+  const SkyTable before(*sky_of(230.0, 80.0)), after(*sky_of(120.0, 30.0));
+  const std::vector<LitVertex> vertices = around_the_box(200);
+  VertexLight followed(vertices), fresh(vertices);
+  followed.refine(rays, before, 256, Blocked::bounces);
+  followed.follow(after);
+  fresh.refine(rays, after, 16, Blocked::bounces);
+  followed.refine(rays, after, 16, Blocked::bounces);
+  const std::vector<glm::vec3> after_16 = fresh.sky_irradiance(), followed_16 = followed.sky_irradiance();
+  fresh.refine(rays, after, 240, Blocked::bounces);
+  const std::vector<glm::vec3> wanted = fresh.irradiance(), of_sky = fresh.sky_irradiance();
+  EXPECT_LT(rmse_percent(followed_16, of_sky), 0.85 * rmse_percent(after_16, of_sky));
+  followed.refine(rays, after, 240, Blocked::bounces);
+  EXPECT_EQ(followed.rays(), 256);
+  const std::vector<glm::vec3> found = followed.irradiance();
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    EXPECT_NEAR(found[v].y, wanted[v].y, 1e-3f * wanted[v].y + 1e-4f);
+  // Rays beyond those of the first sky count on.
+  followed.refine(rays, after, 64, Blocked::bounces), fresh.refine(rays, after, 64, Blocked::bounces);
+  EXPECT_NEAR(mean_of(followed.irradiance()), mean_of(fresh.irradiance()), 1e-3 * mean_of(wanted));
+}
+
+/// While rays to the sun are few, surfaces have their light of the sun by estimate, and none when it has set.
+TEST(VertexLight, EstimatesWhatSurfacesGiveBackOfANewSun) {
+  const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
+  const reference::RayScene rays(scene);
+  const EvenSky east(xyz_from_rec709(glm::vec3(10.0f)));
+  const SkyTable day(east), night{EvenSky()};
+  const std::vector<LitVertex> vertices = around_the_box(200);
+  VertexLight light(vertices);
+  light.refine(rays, day, 256, Blocked::bounces);
+  const std::vector<glm::vec3> by_day = light.sky_irradiance();
+  light.follow(night);
+  const std::vector<glm::vec3> by_night = light.sky_irradiance();
+  EXPECT_LT(mean_of(by_night), 0.9 * mean_of(by_day));
+  light.follow(day);
+  EXPECT_LT(rmse_percent(light.sky_irradiance(), by_day), 0.7 * rmse_percent(by_night, by_day))
+      << "without a ray";
+}
+
+TEST(VertexLight, HalvesOfItsRaysMakeUpTheWhole) {
+  const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
+  const reference::RayScene rays(scene);
+  const SkyTable sky(*sky_of(230.0, 50.0));
+  VertexLight light(around_the_box(50));
+  light.refine(rays, sky, 24, Blocked::bounces);
+  const Halves of_sky = light.halves_of_sky(), of_sun = light.halves_of_sun();
+  const std::vector<glm::vec3> from_sky = light.sky_irradiance(), from_sun = light.sun_irradiance();
+  bool differ = false;
+  for (std::size_t v = 0; v < from_sky.size(); ++v) {
+    EXPECT_NEAR(0.5f * (of_sky.first[v] + of_sky.second[v]), from_sky[v].y, 1e-3f * from_sky[v].y);
+    EXPECT_NEAR(0.5f * (of_sun.first[v] + of_sun.second[v]), from_sun[v].y, 1e-3f * from_sun[v].y + 1e-4f);
+    differ = differ || std::abs(of_sky.first[v] - of_sky.second[v]) > 0.01f * from_sky[v].y;
+  }
+  EXPECT_TRUE(differ);
+}
+
 TEST(VisibilityPlaces, InterpolatesWhatWasTraced) {
   const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
   const reference::RayScene rays(scene);
@@ -105,9 +193,10 @@ TEST(VisibilityPlaces, InterpolatesWhatWasTraced) {
   Bounds region;
   region.add({-14, 5, 0}), region.add({14, 14, 4});
   const VisibilityPlaces places(rays, region, 0.5f);
-  const InterpolatedLight light = interpolated_irradiance(vertices, places, rays, table);
+  const std::vector<glm::vec3> from_sky = interpolated_irradiance(vertices, places, table),
+                               from_sun = traced_sun(vertices, rays, table, 1);
   std::vector<glm::vec3> sum(vertices.size());
-  std::ranges::transform(light.sky, light.sun, sum.begin(), std::plus());
+  std::ranges::transform(from_sky, from_sun, sum.begin(), std::plus());
   const double interpolated = rmse_percent(sum, traced.irradiance());
   const double open = rmse_percent(open_irradiance(vertices, table), traced.irradiance());
   EXPECT_LT(interpolated, 25.0);
@@ -122,10 +211,25 @@ TEST(VisibilityPlaces, AreNoMoreThanTheBudgetAllows) {
   EXPECT_LE(VisibilityPlaces(rays, region, 1.0f, 1000).size(), 1000u);
 }
 
+TEST(VisibilityPlaces, KnowHowFarTheyAreOff) {
+  const reference::RayScene open(box_on_a_plain({28, 28, 0}, {29, 29, 1})),
+      beside_a_box(box_on_a_plain({-5, -5, 0}, {5, 5, 10}));
+  Bounds region;
+  region.add({-8, -8, 1}), region.add({8, 8, 12});
+  const float far = VisibilityPlaces(open, region, 1.0f).uncertainty(),
+              coarse = VisibilityPlaces(beside_a_box, region, 3.0f).uncertainty(),
+              fine = VisibilityPlaces(beside_a_box, region, 1.0f).uncertainty();
+  EXPECT_LT(far, 0.01f);
+  EXPECT_GT(fine, 0.01f);
+  EXPECT_GT(coarse, fine) << "what lies further apart says less";
+}
+
 TEST(RelightingPlan, GoesByTheBudget) {
   EXPECT_EQ(plan_relighting(10'000, 50.0, 20'000.0, true).method, Relighting::traced);
   EXPECT_EQ(plan_relighting(10'000, 50.0, 20'000.0, true).rays, 80);
   EXPECT_EQ(plan_relighting(100'000, 20.0, 20'000.0, true).method, Relighting::interpolated);
+  EXPECT_EQ(plan_relighting(100'000, 20.0, 20'000.0, true).rays, 1) << "to the sun";
+  EXPECT_EQ(plan_relighting(30'000, 20.0, 20'000.0, true).rays, 4);
   EXPECT_EQ(plan_relighting(100'000, 20.0, 20'000.0, false).method, Relighting::open);
   EXPECT_EQ(plan_relighting(10'000'000, 1.0, 20'000.0, true).method, Relighting::open);
   EXPECT_EQ(plan_relighting(0, 50.0, 20'000.0, true).rays, 256);

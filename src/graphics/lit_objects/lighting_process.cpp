@@ -10,27 +10,8 @@
 namespace parvis::lit_objects {
 namespace {
 
-/// A nominal rate, so that pictures do not depend on the machine: two busy cores traced as many among 800,000
-/// triangles, without bounces.
-constexpr double rays_per_ms = 6'000.0;
-/// A ray to the sun for four to the sky.
-constexpr double rays_per_sky_ray = 1.25;
-/// Fewer new rays than these are not shown in place of many old ones.
-constexpr int min_shown_rays = 64;
-constexpr int rays_per_round = 16;
-/// Of the places from which the sky is looked at once, for objects that have no time for rays.
-constexpr float places_spacing_m = 1.0f, places_margin_m = 3.0f;
-/// Of a budget; the rest is for rays to the sun.
-constexpr double places_share = 0.5, min_places = 64.0, max_places = 1000.0;
-
-constexpr double rays_per_place = 64.0;  ///< VisibilityPlaces::directions
-
-/// Of the sky's light from one place to the next: where it is more there was next to none, which says
-/// nothing.
-constexpr float max_change = 10.0f;
-
-double cost(const VertexBlock& block, int rays) {
-  return rays_per_sky_ray * double(rays) * double(block.shown.size());
+bool can_follow_sky(const LitObject& lit) {
+  return std::ranges::all_of(lit.blocks(), &VertexBlock::can_follow_sky);
 }
 
 /// Lit nodes, in the order of the script.
@@ -42,8 +23,10 @@ void find_lit_nodes(const std::vector<scene::Node>& nodes, std::vector<const sce
       find_lit_nodes(node.children, found);
 }
 
+/// A flat thing shades what lies as far before it as it is wide.
 bool is_near(const Bounds& bounds, const Bounds& other) {
-  const glm::vec3 reach = glm::max(bounds.size(), glm::vec3(1.0f));
+  const glm::vec3 size = bounds.size();
+  const float reach = std::max({size.x, size.y, size.z, 1.0f});
   return glm::all(glm::lessThan(bounds.min - reach, other.max)) &&
          glm::all(glm::lessThan(other.min, bounds.max + reach));
 }
@@ -82,6 +65,7 @@ void LightingProcess::find_objects(scene::Scene& scene) {
       std::vector<std::string> odd;
       lit_.emplace_back(scene, object, odd);
       lit_nodes_.push_back(node);
+      was_visible_.push_back(scene.objects[std::size_t(object)].is_visible);
       for (const std::string& sentence : odd) warn(error_at(node->where, "{}", sentence));
       irradiance.objects.resize(scene.objects.size());
       irradiance.objects[std::size_t(object)] = lit_.back().light();
@@ -159,134 +143,59 @@ void LightingProcess::present(scene::Scene& scene, double /*ahead_s*/) {
   for (std::size_t i = 0; i < lit_.size(); ++i)
     for (VertexBlock& block : lit_[i].blocks()) block.rays_wanted = int(lit_nodes_[i]->integer("rays"));
   const bool is_new_place = follow_casters(scene), is_new_sky = follow_sky(scene);
-  std::vector<LitObject*> changed;
-  for (LitObject& lit : lit_) {
-    if (is_new_place || is_new_sky) lit.restart();  // hidden ones, too: they may come back
-    if (!scene.objects[std::size_t(lit.object())].is_visible) continue;
-    const bool has_moved = lit.follow(scene);
-    if (has_moved || is_new_place || is_new_sky || !lit.has_light()) changed.push_back(&lit);
-  }
-  relight(scene, changed);
-}
-
-void LightingProcess::relight(scene::Scene& scene, const std::vector<LitObject*>& changed) {
-  for (LitObject& lit : lit_) {
-    const bool is_neighbour = std::ranges::any_of(
-        changed, [&](const LitObject* other) { return is_near(other->bounds(), lit.bounds()); });
-    if (is_neighbour && std::ranges::find(changed, &lit) == changed.end()) lit.restart();
-  }
-  const bool has_time = is_settling_ || budget_ms_ <= 0.0;
-  double rays_left = has_time ? 1e300 : budget_ms_ * rays_per_ms;
-  if (!has_time) light_quickly(changed, rays_left);
-  refine(rays_left);
+  const Changes changes = changes_in(scene, is_new_place, is_new_sky);
+  light(changes);
   auto& irradiance = scene.data<scene::VertexIrradiance>();
   for (LitObject& lit : lit_)
     if (lit.take_news()) irradiance.objects[std::size_t(lit.object())] = lit.light();
 }
 
-/// Objects that have changed show light of their new place in this very frame.
-void LightingProcess::light_quickly(const std::vector<LitObject*>& changed, double& rays_left) {
-  std::size_t vertices = 0;
-  Bounds bounds;
-  for (const LitObject* lit : changed) vertices += lit->vertex_count(), bounds.add(lit->bounds());
-  if (vertices == 0) return;
-  const light::RelightingPlan plan = light::plan_relighting(vertices, budget_ms_, rays_per_ms, true);
-  const light::VisibilityPlaces* places =
-      plan.method == light::Relighting::interpolated ? &places_around(bounds) : nullptr;
-  if (places) rays_left -= rays_per_place * double(places->size());
-  for (LitObject* lit : changed)
-    for (VertexBlock& block : lit->blocks()) {
-      switch (plan.method) {
-        case light::Relighting::traced:
-          block.light.refine(*rays_, *sky_, plan.rays, light::Blocked::bounces);
-          block.show(block.light.irradiance());
-          rays_left -= cost(block, plan.rays);
-          break;
-        case light::Relighting::interpolated:
-          show_interpolated(block, *places);
-          rays_left -= cost(block, 2);
-          break;
-        case light::Relighting::open:
-          block.show(light::open_irradiance(block.light.vertices(), *sky_, light::Blocked::bounces));
-          break;
-      }
+/// Restarts what has changed, hidden objects, too: they may come back.
+LightingProcess::Changes LightingProcess::changes_in(const scene::Scene& scene, bool is_new_place,
+                                                     bool is_new_sky) {
+  struct Disturbance {
+    const LitObject* cause;
+    Bounds where;
+  };
+  Changes changes;
+  std::vector<LitObject*> others;
+  std::vector<Disturbance> disturbances;
+  for (std::size_t i = 0; i < lit_.size(); ++i) {
+    LitObject& lit = lit_[i];
+    const bool is_visible = scene.objects[std::size_t(lit.object())].is_visible,
+               was_visible = was_visible_[i];
+    was_visible_[i] = is_visible;
+    if (is_new_place) lit.restart();
+    const Bounds before = lit.bounds();
+    if (was_visible && !is_visible) disturbances.push_back({&lit, before});
+    if (!is_visible) {
+      if (is_new_sky) lit.restart();
+      others.push_back(&lit);
+      continue;
     }
-}
-
-light::InterpolatedLight LightingProcess::interpolated(const VertexBlock& block,
-                                                       const light::VisibilityPlaces& places) const {
-  return light::interpolated_irradiance(block.light.vertices(), places, *rays_, *sky_,
-                                        light::Blocked::bounces);
-}
-
-/// What rays have found beside the sun stays, and with it how the object shades and lights itself: it grows
-/// and falls as the sky does that is interpolated. Each frame starts from what was traced, so that no error
-/// grows.
-void LightingProcess::show_interpolated(VertexBlock& block, const light::VisibilityPlaces& places) const {
-  light::InterpolatedLight now = interpolated(block, places);
-  std::vector<glm::vec3> shown = std::move(now.sun);
-  for (std::size_t v = 0; v < shown.size(); ++v) {
-    glm::vec3 sky = now.sky[v];
-    if (block.reference) {
-      const glm::vec3 change = sky / glm::max(block.reference->interpolated[v], 1e-6f);
-      if (glm::all(glm::lessThan(change, glm::vec3(max_change)))) sky = change * block.reference->traced[v];
-    }
-    shown[v] += sky;
+    const bool has_moved = lit.follow(scene), appears = !was_visible;
+    if (has_moved && was_visible) disturbances.push_back({&lit, before});
+    if (has_moved || appears) disturbances.push_back({&lit, lit.bounds()});
+    const bool is_unlit = !lit.has_light() || (appears && !lit.is_finished());
+    (has_moved || is_new_place || is_unlit ? changes.moved : others).push_back(&lit);
   }
-  block.show(std::move(shown));
-}
-
-/// What static things leave of the sky about dynamic objects: lit ones are taken out of the way meanwhile.
-const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& bounds) {
-  const glm::vec3 enough =
-      2.0f * (bounds.size() + 2.0f * places_margin_m);  // in a larger region they lie apart
-  const bool fits = places_ && glm::all(glm::lessThanEqual(places_region_.min, bounds.min)) &&
-                    glm::all(glm::greaterThanEqual(places_region_.max, bounds.max)) &&
-                    glm::all(glm::lessThanEqual(places_region_.size(), enough));
-  if (fits) return *places_;
-  std::vector<bool> was_visible;
-  was_visible.reserve(lit_.size());
-  for (const LitObject& lit : lit_)
-    was_visible.push_back(std::exchange(casters_.objects[std::size_t(lit.object())].is_visible, false));
-  rays_->update(casters_);
-  places_region_ = {bounds.min - places_margin_m, bounds.max + places_margin_m};
-  const double affordable =
-      budget_ms_ > 0.0 ? places_share * budget_ms_ * rays_per_ms / rays_per_place : max_places;
-  places_.emplace(*rays_, places_region_, places_spacing_m,
-                  std::size_t(std::clamp(affordable, min_places, max_places)));
-  for (std::size_t i = 0; i < lit_.size(); ++i)
-    casters_.objects[std::size_t(lit_[i].object())].is_visible = was_visible[i];
-  rays_->update(casters_);
-  return *places_;
-}
-
-/// Rounds of rays for the vertices that have had the fewest.
-void LightingProcess::refine(double rays_left) {
-  std::vector<VertexBlock*> blocks;
-  for (LitObject& lit : lit_)
-    if (casters_.objects[std::size_t(lit.object())].is_visible)
-      for (VertexBlock& block : lit.blocks())
-        if (block.light.rays() < block.rays_wanted) blocks.push_back(&block);
-  const auto fewest = [](const VertexBlock* block) { return block->light.rays(); };
-  std::vector<VertexBlock*> lit;
-  while (rays_left > 0.0 && !blocks.empty()) {
-    const auto next = std::ranges::min_element(blocks, {}, fewest);
-    VertexBlock& block = **next;
-    const int round = rays_left > 1e200 ? block.rays_wanted - block.light.rays() : rays_per_round;
-    block.light.refine(*rays_, *sky_, (round + 3) / 4 * 4, light::Blocked::bounces);
-    rays_left -= cost(block, round);
-    if (std::ranges::find(lit, &block) == lit.end()) lit.push_back(&block);
-    if (block.light.rays() >= block.rays_wanted) blocks.erase(next);
+  for (LitObject* lit : others) {
+    const bool is_visible = scene.objects[std::size_t(lit->object())].is_visible;
+    const bool is_shaded = std::ranges::any_of(disturbances, [&](const Disturbance& disturbance) {
+      return disturbance.cause != lit && is_near(disturbance.where, lit->bounds());
+    });
+    if (is_shaded) lit->restart();
+    if (is_visible && is_new_sky)
+      (is_shaded || !can_follow_sky(*lit) ? changes.moved : changes.under_other_sky).push_back(lit);
   }
-  for (LitObject& object : lit_)
-    for (VertexBlock& block : object.blocks()) {
-      if (std::ranges::find(lit, &block) == lit.end()) continue;
-      if (block.light.rays() < std::min(min_shown_rays, block.rays_wanted)) continue;
-      block.show(block.light.irradiance());
-      if (block.light.rays() >= block.rays_wanted)
-        block.reference = {block.light.sky_irradiance(),
-                           interpolated(block, places_around(object.bounds())).sky};
-    }
+  double follow_cost = 0.0;
+  for (const LitObject* lit : changes.under_other_sky) follow_cost += cost_of_other_sky(lit->vertex_count());
+  if (follow_cost > budget())
+    changes.moved.insert(changes.moved.end(), changes.under_other_sky.begin(), changes.under_other_sky.end()),
+        changes.under_other_sky.clear();
+  if (is_new_sky)
+    for (LitObject* lit : changes.moved) lit->restart();
+  return changes;
 }
 
 int LightingProcess::rays() const {

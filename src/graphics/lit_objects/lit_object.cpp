@@ -11,6 +11,8 @@ namespace parvis::lit_objects {
 namespace {
 
 constexpr std::size_t block_vertices = 4096;
+/// Fewer rays than these to the sky are not shown by themselves.
+constexpr int min_shown_rays = 64;
 
 bool shows_backs(const scene::Model& model, const scene::Part& part) {
   const scene::Material& material = model.materials[std::size_t(part.material)];
@@ -43,7 +45,40 @@ bool faces_inward(const Mesh& mesh) {
   return six_volumes < 0.0;
 }
 
+/// Sky and sun together.
+std::vector<glm::vec3> sum_of(SplitLight light) {
+  for (std::size_t v = 0; v < light.sky.size(); ++v) light.sky[v] += light.sun[v];
+  return std::move(light.sky);
+}
+
 }  // namespace
+
+bool VertexBlock::stands_alone() const {
+  return is_finished() || (light.rays() > 0 && light.sky_rays() >= min_shown_rays);
+}
+
+void VertexBlock::show_light() {
+  if (is_finished()) guess.reset();
+  if (guess)
+    show(sum_of(mixed(*guess, light)));
+  else if (stands_alone())
+    show(light.irradiance());
+}
+
+void VertexBlock::restart() {
+  if (guess)
+    guess = mixed(*guess, light);
+  else if (stands_alone())
+    guess = {light.sky_irradiance(), light.sun_irradiance()};
+  light.restart();
+}
+
+bool VertexBlock::can_follow_sky() const { return light.sky_rays() >= min_shown_rays; }
+
+void VertexBlock::follow_sky(const light::SkyTable& sky) {
+  light.follow(sky);
+  guess.reset();
+}
 
 std::size_t LitObject::texel_count(const scene::Object& object) {
   std::size_t count = 0;
@@ -76,13 +111,9 @@ LitObject::LitObject(const scene::Scene& scene, int object, std::vector<std::str
                       model.parts[p].object));
     for (int side = 0; side < (has_backs ? 2 : 1); ++side)
       for (std::size_t first = 0; first < mesh.positions.size(); first += block_vertices)
-        blocks_.push_back({p,
-                           first,
-                           side == 1,
+        blocks_.push_back({p, first, side == 1,
                            light::VertexLight(std::vector<light::LitVertex>(
-                               std::min(block_vertices, mesh.positions.size() - first))),
-                           {},
-                           {}});
+                               std::min(block_vertices, mesh.positions.size() - first)))});
   }
   for (VertexBlock& block : blocks_) block.shown.assign(block.light.vertices().size(), glm::vec3(0.0f));
   follow(scene);
@@ -127,13 +158,16 @@ bool LitObject::follow(const scene::Scene& scene) {
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
     block.light.restart(std::move(own));
+    block.guess.reset();
   }
   return true;
 }
 
 void LitObject::restart() {
-  for (VertexBlock& block : blocks_) block.light.restart();
+  for (VertexBlock& block : blocks_) block.restart();
 }
+
+bool LitObject::is_finished() const { return std::ranges::all_of(blocks_, &VertexBlock::is_finished); }
 
 bool LitObject::has_light() const {
   return std::ranges::all_of(blocks_, [](const VertexBlock& block) { return block.is_shown; });

@@ -138,6 +138,13 @@ vec3 brute_force(const scene::Scene& scene, const reference::RayScene& rays, vec
   return result;
 }
 
+/// Mean over all vertices of how far two lights are apart.
+double mean_difference(const std::vector<vec3>& light, const std::vector<vec3>& wanted) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < wanted.size(); ++v) sum += std::abs(double(light[v].y - wanted[v].y));
+  return sum / double(wanted.size());
+}
+
 TEST_F(LitObjects, HaveTheLightThatRandomRaysFind) {
   Running street_scene = run(street("rays=256"));
   const scene::LitVertices* light = street_scene.light("ball");
@@ -218,17 +225,13 @@ TEST_F(LitObjects, KeepTheirOwnShadeInTheFrameOfAMove) {
   const scene::LitVertices::PartLight quick = scene.light("shell")->parts[0];
   scene.clock->settle(scene.scene);
   const scene::LitVertices::PartLight truth = scene.light("shell")->parts[0];
-  const auto off = [](const std::vector<vec3>& light, const std::vector<vec3>& wanted) {
-    double sum = 0.0;
-    for (std::size_t v = 0; v < wanted.size(); ++v) sum += std::abs(double(light[v].y - wanted[v].y));
-    return sum / double(wanted.size());
-  };
-  const double mean = off(truth.front, std::vector<vec3>(truth.front.size(), vec3(0.0f)));
+  const double mean = mean_difference(truth.front, std::vector<vec3>(truth.front.size(), vec3(0.0f)));
   std::printf("outside %.3f of the mean off, before the move %.3f; inside %.3f\n",
-              off(quick.front, truth.front) / mean, off(old.front, truth.front) / mean,
-              off(quick.behind, truth.behind) / mean);
-  EXPECT_LT(off(quick.front, truth.front), 0.5 * off(old.front, truth.front));
-  EXPECT_LT(off(quick.behind, truth.behind), 0.2 * mean);
+              mean_difference(quick.front, truth.front) / mean,
+              mean_difference(old.front, truth.front) / mean,
+              mean_difference(quick.behind, truth.behind) / mean);
+  EXPECT_LT(mean_difference(quick.front, truth.front), 0.5 * mean_difference(old.front, truth.front));
+  EXPECT_LT(mean_difference(quick.behind, truth.behind), 0.2 * mean);
 }
 
 /// A surface texture has metallic in blue, by which the factor, 1 by default in glTF, is multiplied.
@@ -286,6 +289,57 @@ TEST_F(LitObjects, FollowTheSkyWhileTheyAreHidden) {
   scene.object("ball").is_visible = true;
   scene.clock->advance(scene.scene, 0.1);
   EXPECT_LT(scene.mean("ball").y, 0.4f * before.y);
+}
+
+/// There is no time for all rays, but what earlier ones found of the sky holds for the new one.
+TEST_F(LitObjects, AreLitByANewSkyInItsFirstFrame) {
+  Running scene = run(street("rays=256, budget_ms=3"));
+  const std::vector<vec3> old = scene.light("ball")->parts[0].front;
+  ASSERT_TRUE(scene.clock->send("%dayLight", "timeOfDay 9"));
+  scene.clock->advance(scene.scene, 0.1);
+  ASSERT_LT(scene.rays(), 64);
+  const std::vector<vec3> quick = scene.light("ball")->parts[0].front;
+  scene.clock->settle(scene.scene);
+  EXPECT_GE(scene.rays(), 256);
+  const std::vector<vec3>& truth = scene.light("ball")->parts[0].front;
+  const double mean = mean_difference(truth, std::vector<vec3>(truth.size(), vec3(0.0f)));
+  std::printf("%.3f of the mean off, old light %.3f\n", mean_difference(quick, truth) / mean,
+              mean_difference(old, truth) / mean);
+  EXPECT_LT(mean_difference(quick, truth), 0.05 * mean)
+      << "few rays to the edges of shadows and to surfaces in the sun";
+  EXPECT_GT(mean_difference(old, truth), 0.2 * mean);
+}
+
+TEST_F(LitObjects, AreLitInTheFrameInWhichTheyComeBack) {
+  Running scene = run(street("rays=256, budget_ms=2"));
+  const vec3 before = scene.mean("ball");
+  scene.object("ball").is_visible = false;
+  ASSERT_TRUE(scene.clock->send("%dayLight", "timeOfDay 20.5"));
+  scene.clock->advance(scene.scene, 0.1);
+  EXPECT_EQ(scene.mean("ball"), before) << "nobody sees it";
+  scene.object("ball").is_visible = true;
+  scene.clock->advance(scene.scene, 0.02);
+  ASSERT_LT(scene.rays(), 64) << "there was time for rays";
+  EXPECT_LT(scene.mean("ball").y, 0.4f * before.y);
+}
+
+TEST_F(LitObjects, AreLitAgainWhereWhatShadedThemHasGone) {
+  save("roof.glb", scene::box({-3, -3, 3}, {3, 3, 3.2f}));
+  const std::string under_a_roof =
+      street("rays=64, budget_ms=0") + "litVirtualObject() { object(file=\"roof.glb\", grab=1) }\n";
+  const auto brighter_after = [&](const auto& change) {
+    Running scene = run(under_a_roof);
+    const float before = scene.mean("ball").y;
+    change(scene.object("roof"));
+    scene.clock->advance(scene.scene, 0.02);
+    return scene.mean("ball").y / before;
+  };
+  EXPECT_GT(brighter_after([](scene::Object& roof) {
+              roof.world_from_model = glm::translate(glm::mat4(1.0f), vec3(0, -18, 0));
+            }),
+            1.5f);
+  EXPECT_GT(brighter_after([](scene::Object& roof) { roof.is_visible = false; }), 1.5f);
+  EXPECT_EQ(brighter_after([](scene::Object&) {}), 1.0f);
 }
 
 TEST_F(LitObjects, HaveOnlyTheSkyWhileTheSunIsBelowTheHorizon) {

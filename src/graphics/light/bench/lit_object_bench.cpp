@@ -8,11 +8,16 @@ namespace parvis::bench {
 namespace {
 
 constexpr int max_frames = 300;
-/// A frame in which there is no time for rays to the sky: plain interpolation is off by 38 % after the jump.
+// The project's own targets. The issue's are those of all vertices by 64 rays and of the error of 256
+// (relighting_bench.cpp).
+
+/// A frame in which there is no time for rays to the sky.
 constexpr Target of_first_frame = {15.0, false};
-/// What the issue asks of 256 rays, which is what is shown in the end.
+/// The first frame is to be nearer than each of the lights that need no rays to the sky.
+constexpr Target of_guesses = {1.0, false};
+/// As the issue asks of 256 rays, which is what is shown in the end.
 constexpr Target of_last_frame = {2.0, false};
-/// What the issue allows lighting in a frame.
+/// As the issue allows lighting in a frame.
 constexpr Target of_frame_ms = {50.0, false};
 /// A second, at 30 frames.
 constexpr Target of_frames = {30.0, false};
@@ -27,10 +32,12 @@ std::vector<glm::vec3> interpolated_light(const CrownCity& city) {
   const reference::RayScene rays_around(around), rays(all);
   const light::VisibilityPlaces places(rays_around, {bounds.min - margin_m, bounds.max + margin_m}, spacing_m,
                                        max_places);
-  light::InterpolatedLight found = light::interpolated_irradiance(
-      city.vertices(), places, rays, light::SkyTable(city.scene()), light::Blocked::bounces);
-  for (std::size_t v = 0; v < found.sky.size(); ++v) found.sky[v] += found.sun[v];
-  return std::move(found.sky);
+  const light::SkyTable sky(city.scene());
+  std::vector<glm::vec3> found =
+      light::interpolated_irradiance(city.vertices(), places, sky, light::Blocked::bounces);
+  const std::vector<glm::vec3> sun = light::traced_sun(city.vertices(), rays, sky, 1);
+  for (std::size_t v = 0; v < found.size(); ++v) found[v] += sun[v];
+  return found;
 }
 
 /// The frames after a change, until what is shown is as it shall be in the end.
@@ -51,13 +58,17 @@ Course course_of(CrownCity& shipped, const std::vector<glm::vec3>& truth) {
   return course;
 }
 
-/// `change` is part of the keys: "", or "sky_" after a new sky.
+/// `change` is part of the keys: "" after the jump, "far_" after one to another light, "sky_" after a new
+/// sky.
 void report_course(const std::string& change, const Course& course, double old_off, double interpolated_off,
                    Report& report) {
   const std::string key = "relight_shipped_" + change;
   report.add(key + "first_frame_rmse_percent", course.first_off, of_first_frame);
   report.add_control(key + "first_frame_rmse_percent_of_plain_interpolation", interpolated_off,
                      of_first_frame);
+  const auto [nearer, other] = std::minmax(old_off, interpolated_off);
+  report.add(key + "first_frame_over_nearer_guess", course.first_off / nearer, of_guesses);
+  report.add_control(key + "first_frame_over_nearer_guess_of_the_other", other / nearer, of_guesses);
   report.add(key + "last_rmse_percent", course.last_off, of_last_frame);
   report.add_control(key + "old_light_rmse_percent", old_off, of_last_frame);
   report.add(key + "first_frame_ms", course.first_ms, of_frame_ms);
@@ -137,8 +148,8 @@ Status measure_new_sky(Pair& pair, Report& report) {
   // Both deliver the message in the frame in which they light.
   const std::vector<glm::vec3> truth = pair.truth();
   const Course course = course_of(pair.shipped, truth);
-  const double old_off = light_rmse_percent(old, truth);
-  report_course("sky_", course, old_off, light_rmse_percent(interpolated_light(pair.shipped), truth), report);
+  report_course("sky_", course, light_rmse_percent(old, truth),
+                light_rmse_percent(interpolated_light(pair.shipped), truth), report);
   report.note("relight_shipped_sky_*: the same crown where it jumped to, from dawn, 6:24, to noon");
   return Done{};
 }
@@ -153,6 +164,7 @@ Status measure_lit_object(const BenchSetup& setup, Report& report) {
   Result<CrownCity> exact = CrownCity::open(setup, folder, "rays=4096, budget_ms=0");
   if (!exact) return exact.errors();
   Pair pair{*std::move(shipped), *std::move(exact)};
+  report.note("all targets of relight_shipped_* are the project's own");
   measure_jump(pair, report);
   measure_drag(pair, setup.is_quick, report);
   return measure_new_sky(pair, report);
