@@ -19,7 +19,7 @@ namespace {
 constexpr double tile_m = 60.0;            // parts of this size are culled one by one
 constexpr double smallest_area_m2 = 1e-9;  // below it a ring has no direction
 constexpr double farthest_m = 1e7;         // of a surface from the origin: no place on earth is as wide
-constexpr std::size_t max_warnings = 20;
+constexpr std::size_t max_warnings_of_a_kind = 20, max_warnings = 200;
 constexpr std::size_t max_named_pictures = 3;  // missing ones; the others are counted
 /// Beside the file, where towns put pictures that the file names without a folder.
 constexpr std::array<const char*, 2> picture_folders{"appearances", "textures"};
@@ -32,6 +32,17 @@ Result<std::filesystem::path> picture_path(const Roots& roots, const std::string
     if (Result<std::filesystem::path> there = roots.find(std::string(folder) + "/" + name, {})) return there;
   }
   return path;
+}
+
+/// What a message says of any object: without figures and names.
+std::string kind_of_warning(const std::string& message) {
+  std::string kind;
+  bool is_name = false;
+  for (const char c : message) {
+    if (c == '"') is_name = !is_name;
+    if (!is_name && (c < '0' || c > '9')) kind += c;
+  }
+  return kind;
 }
 
 /// Newell's normal with the ring's first point as origin: far coordinates would cost it its digits.
@@ -106,8 +117,13 @@ void CityAssembly::warn(const std::string& message) {
   const FileLocation where{file_.string(), 0, 0};
   const auto is_same = [&](const Error& warning) { return warning.message == message; };
   if (std::ranges::any_of(warnings_, is_same)) return;
-  if (++warning_count_ <= max_warnings) warnings_.push_back({message, where});
+  const std::size_t of_kind = ++warnings_of_kind_[kind_of_warning(message)];
+  if (of_kind > max_warnings_of_a_kind + 1 || ++warning_count_ > max_warnings + 1) return;
   if (warning_count_ == max_warnings + 1)
+    warnings_.push_back({"more warnings are not shown", where});
+  else if (of_kind <= max_warnings_of_a_kind)
+    warnings_.push_back({message, where});
+  else
     warnings_.push_back({"more warnings of this kind are not shown", where});
 }
 
@@ -153,13 +169,13 @@ void CityAssembly::add(const CityObject& object, const CitySurface& surface) {
 void CityAssembly::add_triangles(const PartKey& key, const CitySurface& surface,
                                  const std::vector<glm::dvec3>& points,
                                  const std::vector<std::uint32_t>& triangles, glm::vec3 normal) {
-  const bool is_pictured = std::get<3>(key) != no_index;
+  const bool is_pictured = std::get<3>(key) != no_index, is_curved = surface.normals.size() == points.size();
   Mesh& mesh = parts_[key];
   const std::uint32_t first = std::uint32_t(mesh.positions.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::vec3 point(points[i]);
     mesh.positions.push_back(point);
-    mesh.normals.push_back(normal);
+    mesh.normals.push_back(is_curved ? surface.normals[i] : normal);
     mesh.uvs.push_back(is_pictured ? surface.picture_uv[i] : plane_coordinates(point, normal));
   }
   for (const std::uint32_t index : triangles) mesh.indices.push_back(first + index);

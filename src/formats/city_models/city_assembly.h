@@ -33,6 +33,8 @@ struct CitySurface {
   int picture = no_index;                      ///< index from add_picture()
   /// Texture coordinates of all points, ring by ring, v downward; empty: untextured.
   std::vector<glm::vec2> picture_uv;
+  /// Normals of all points, ring by ring, of a facet of a curved surface; empty: it is flat.
+  std::vector<glm::vec3> normals{};
   bool is_of_solid = false;  ///< part of a closed solid: its back is never visible
   /// What a roof is made of ("metal") that shall keep its own material: stands in the names of its object and
   /// material ("RoofSurface metal"), so that a node that tiles "RoofSurface" leaves it alone. May be empty.
@@ -66,8 +68,8 @@ class CityAssembly {
 
   /// Number of surfaces added, without those left out.
   std::size_t polygon_count() const { return polygon_count_; }
-  /// Records a warning about the file, once where it is the same; after the first 20, others are only
-  /// counted.
+  /// Records a warning about the file, once where it is the same. After the first 20 that differ in names and
+  /// figures alone, and the first 200 in all, it says that there are more.
   void warn(const std::string& message);
 
   /// Builds the model: parts by tile, name and material. Objects and materials are named after their surfaces
@@ -92,6 +94,7 @@ class CityAssembly {
   glm::dvec3 origin_;
   Errors& warnings_;
   std::size_t warning_count_ = 0;
+  std::map<std::string, std::size_t> warnings_of_kind_;
   std::size_t polygon_count_ = 0;
   std::map<std::string, std::size_t> polygons_of_;  ///< by the kind of the surface
   std::size_t finished_roofs_ = 0;                  ///< of these, roofs that have a finish

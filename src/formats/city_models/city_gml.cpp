@@ -21,6 +21,7 @@
 #include "base/exception_reason.h"
 #include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
+#include "formats/city_models/city_gml_3.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
 #include "formats/city_models/xml_guard.h"
@@ -315,15 +316,16 @@ class Reader {
   std::map<std::string, int> pictures_;
 };
 
-Status check_version(const FileLocation& where, const std::string& root) {
-  if (root.find("opengis.net/citygml/3.") != std::string::npos)
-    return error_at(where,
-                    "this is CityGML 3, of which versions 1 and 2 are read; convert it to CityJSON "
-                    "(citygml-tools to-cityjson) or to CityGML 2");
-  if (root.find("CityModel") == std::string::npos)
+/// The text of a file in the elements of CityGML 1 or 2.
+Result<std::string> read_gml_2(const std::filesystem::path& file) {
+  const FileLocation where{file.string(), 0, 0};
+  Result<XmlText> xml = read_xml(file);
+  if (!xml) return xml.errors();
+  if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
-                    root.substr(0, root.find(' ')));
-  return Done{};
+                    xml->root.substr(0, xml->root.find(' ')));
+  if (is_city_gml_3(xml->root)) return city_gml_2_of(xml->bytes, where);
+  return std::move(xml->bytes);
 }
 
 }  // namespace
@@ -331,15 +333,14 @@ Status check_version(const FileLocation& where, const std::string& root) {
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail) {
   const FileLocation where{file.string(), 0, 0};
-  const Result<XmlText> xml = read_xml(file);
-  if (!xml) return xml.errors();
-  if (Status status = check_version(where, xml->root); !status) return status.errors();
+  Result<std::string> text = read_gml_2(file);
+  if (!text) return text.errors();
   const auto complaints = std::make_shared<Complaints>();
   citygml::ParserParams wanted;
   wanted.tesselate = false;  // rings are kept as they are; the assembly makes triangles
   wanted.keepVertices = true;
   try {
-    std::istringstream stream(xml->bytes);
+    std::istringstream stream(*std::move(text));
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
     return Reader(file, *city, warnings, max_detail).read();

@@ -1,4 +1,4 @@
-// CityGML 1 and 2 through libcitygml, as the same kind of model as CityJSON
+// CityGML 1 to 3 through libcitygml, as the same kind of model as CityJSON
 // (formats/city_models/city_assembly.h).
 #pragma once
 
@@ -12,8 +12,8 @@ namespace parvis::scene {
 
 /// Takes each object's highest level of detail, or the highest not above `max_detail`, of which the surfaces
 /// that bound an object (walls, windows) count as its own. Of several themes the first counts. A missing
-/// picture is a warning. Errors: XML with a DOCTYPE or that is not well-formed (line named), a version that
-/// is neither 1 nor 2 (version 3 is refused by name), a file without polygons.
+/// picture is a warning. Errors: XML with a DOCTYPE or that is not well-formed (line named), another
+/// outermost element than CityModel, a file without polygons.
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail = {});
 

@@ -225,14 +225,5 @@ TEST(CityGml, ReadsATexturedBuilding) {
   EXPECT_GT(pictured, 4);
 }
 
-TEST(CityGml, Version3IsRefusedByName) {
-  const auto file = shared_data("cities/citygml/lod2_buildings_v3.gml", PARVIS_SOURCE_DIR);
-  if (!file) GTEST_SKIP() << "skipped: shared data absent";
-  Errors warnings;
-  const Result<Model> city = read_city_gml(*file, warnings);
-  ASSERT_FALSE(city);
-  EXPECT_NE(to_string(city.errors()).find("CityGML 3"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace parvis::scene

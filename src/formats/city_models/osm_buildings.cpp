@@ -8,6 +8,7 @@
 #include "formats/city_models/building_attributes.h"
 #include "formats/city_models/osm_canopies.h"
 #include "formats/city_models/osm_corners.h"
+#include "formats/city_models/osm_curves.h"
 #include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_passages.h"
 #include "formats/city_models/osm_points.h"
@@ -159,9 +160,24 @@ class Building {
     if (high_m > low_m) add("WallSurface", {{{a, low_m}, {b, low_m}, {b, high_m}, {a, high_m}}});
   }
 
-  /// Of one piece each where no passage leads through them.
+  /// Of one piece each, round where they turn by little.
+  void draw_whole_walls() {
+    if (!(eaves_m_ > base_m_)) return;
+    std::vector<OsmFacet> walls, facets;
+    std::vector<bool> is_facet;
+    each_edge(rings_, [&](dvec2 a, dvec2 b) {
+      walls.push_back({{a, base_m_}, {b, base_m_}, {b, eaves_m_}, {a, eaves_m_}});
+      is_facet.push_back(is_curved(a, b));
+      if (is_facet.back()) facets.push_back(walls.back());
+    });
+    std::vector<std::vector<glm::vec3>> normals = curved_normals(facets);
+    for (std::size_t i = 0, facet = 0; i < walls.size(); ++i)
+      add("WallSurface", {std::move(walls[i])},
+          is_facet[i] ? std::move(normals[facet++]) : std::vector<glm::vec3>());
+  }
+
   void draw_walls() {
-    if (!opening_) return each_edge(rings_, [&](dvec2 a, dvec2 b) { wall(a, b, base_m_, eaves_m_); });
+    if (!opening_) return draw_whole_walls();
     std::set<Edge> own, whole;
     each_edge(rings_, [&](dvec2 a, dvec2 b) { own.insert(edge(a, b)); });
     each_edge(opening_->ground, [&](dvec2 a, dvec2 b) {
@@ -179,8 +195,17 @@ class Building {
 
   void draw_roof() {
     if (!roof_) return add("RoofSurface", level_surface(top_m_, false));
-    for (OsmRoofFace& face : osm_roof_faces(*roof_, eaves_m_, top_m_))
-      add(is_canopy_ ? "RoofSurface" : face.semantics, {std::move(face.points)});
+    std::vector<OsmRoofFace> faces = osm_roof_faces(*roof_, eaves_m_, top_m_);
+    std::vector<std::vector<glm::vec3>> normals(faces.size());
+    if (is_curved(*roof_)) {
+      std::vector<OsmFacet> facets;
+      facets.reserve(faces.size());
+      for (const OsmRoofFace& face : faces) facets.push_back(face.points);
+      normals = curved_normals(facets);
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      add(is_canopy_ ? "RoofSurface" : faces[i].semantics, {std::move(faces[i].points)},
+          std::move(normals[i]));
   }
 
   /// A slab on posts, or what its tags put on top of one; open below.
@@ -204,11 +229,13 @@ class Building {
     return surface;
   }
 
-  void add(const std::string& semantics, std::vector<std::vector<dvec3>> rings) {
+  void add(const std::string& semantics, std::vector<std::vector<dvec3>> rings,
+           std::vector<glm::vec3> normals = {}) {
     for (std::vector<dvec3>& ring : rings)
       for (dvec3& point : ring) point.z += ground_m_;
     CitySurface surface;
     surface.rings = std::move(rings);
+    surface.normals = std::move(normals);
     surface.semantics = semantics;
     surface.is_of_solid = true;
     if (semantics == "RoofSurface") surface.finish = finish_.name, surface.material = finish_.material;

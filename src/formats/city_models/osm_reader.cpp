@@ -5,6 +5,7 @@
 
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_buildings.h"
+#include "formats/city_models/osm_earthworks.h"
 #include "formats/city_models/osm_file.h"
 #include "formats/city_models/osm_land.h"
 #include "formats/city_models/osm_roads.h"
@@ -52,20 +53,21 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
     return found == places.end() ? std::nullopt : std::optional(found->second);
   };
   CityAssembly city(file, origin, warnings);
-  const std::size_t buildings = add_osm_buildings(osm, on_map, ground, city);
   const OsmPlaces place = on_map;
   const OsmRelief relief(osm, place, !ground);
   const OsmTrenches trenches(osm, relief);
   std::vector<Road> roads = osm_roads(osm, place, relief, ground, origin, file, city);
+  const GroundOnMap shaped = ground_shaped_for(roads, ground, origin);
+  const std::size_t buildings = add_osm_buildings(osm, on_map, shaped, city);
   if (!ground) {
     add_ground(osm, utm, origin, trenches, city);
     add_osm_land(osm, place, origin.z, trenches, city);
     add_osm_tunnels(osm, relief, city);
     add_osm_crossings(osm, place, roads, origin, city);
   }
-  add_osm_plants_and_barriers(osm, place, ground, trenches, city);
-  add_osm_woods(osm, place, ground, trenches, city);
-  add_osm_rails(osm, place, relief, ground, city);
+  add_osm_plants_and_barriers(osm, place, shaped, trenches, city);
+  add_osm_woods(osm, place, shaped, trenches, city);
+  add_osm_rails(osm, relief, ground, shaped, city);
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   Result<Model> model = city.finish(buildings);
   if (model) model->roads = std::move(roads);

@@ -239,7 +239,10 @@ TEST(Osm, BridgesLeaveClearanceAndRampsLeadUpToThem) {
   const std::vector<Road>& roads = town.model->roads;
   ASSERT_EQ(roads.size(), 3u);
   EXPECT_EQ(highest_m(roads[0]), 0.0f) << "the street below stays on the ground";
-  for (const glm::vec3& point : roads[1].path) EXPECT_NEAR(point.z, 5.4f, 1e-3f);
+  ASSERT_EQ(roads[1].path.size(), 3u) << "the map ends south of it, but the street goes on to the ground";
+  EXPECT_NEAR(roads[1].path[0].z, 0.0f, 1e-3f);
+  EXPECT_NEAR(glm::distance(glm::vec2(roads[1].path[0]), glm::vec2(roads[1].path[1])), 90.0f, 0.1f);
+  for (const std::size_t i : {1u, 2u}) EXPECT_NEAR(roads[1].path[i].z, 5.4f, 1e-3f);
   ASSERT_EQ(roads[2].path.size(), 3u) << "the ramp ends between the nodes";
   EXPECT_NEAR(roads[2].path[0].z, 5.4f, 1e-3f);
   EXPECT_NEAR(roads[2].path[1].z, 0.0f, 1e-3f);
@@ -255,6 +258,19 @@ TEST(Osm, BridgesLeaveClearanceAndRampsLeadUpToThem) {
         EXPECT_GT(p.z, 4.4f);
       }
     }
+}
+
+TEST(Osm, AStreetThatLeadsHighIntoABuildingOrEndsOnAPierStaysAsItIs) {
+  const std::string tags_of_house = way(104, "21 1 2 21", {{"building", "yes"}, {"height", "9"}});
+  const Read garage = read(
+      osm(street_and_bridge({{"highway", "primary"}, {"bridge", "yes"}, {"layer", "1"}}) + tags_of_house));
+  ASSERT_TRUE(garage.model) << to_string(garage.model.errors());
+  EXPECT_EQ(garage.model->roads[1].path.size(), 2u);
+  const Read pier =
+      read(osm(R"(<node id="21" lat="52.1693" lon="4.4902"/><node id="22" lat="52.1697" lon="4.4902"/>)" +
+               way(101, "21 22", {{"highway", "primary"}, {"bridge", "yes"}})));
+  ASSERT_TRUE(pier.model) << to_string(pier.model.errors());
+  EXPECT_EQ(pier.model->roads[0].path.size(), 2u);
 }
 
 TEST(Osm, RailwaysAndPathsHaveBridgesOfTheirOwn) {
@@ -276,7 +292,7 @@ TEST(Osm, WhatGoesAlongOnAStreetsBridgeHasNoParapetsOfItsOwn) {
     const Read town =
         read(osm(street_and_bridge({{"highway", "primary"}, {"bridge", "yes"}, {"layer", "1"}}) + beside));
     EXPECT_TRUE(town.model) << to_string(town.model.errors());
-    const float middle = town.model->roads[1].path[0].x;
+    const float middle = town.model->roads[1].path[1].x;  // where the bridge begins
     float highest = -1.0f;
     for (const Part& part : town.model->parts)
       for (std::size_t i = 0; part.object == "Bridge" && i < part.mesh.positions.size(); ++i)

@@ -18,6 +18,7 @@ constexpr double low_bridge_m = 1.0;               // over water
 constexpr double road_slope = 0.06, rail_slope = 0.03;
 constexpr int max_layer = 4;
 constexpr double max_steepness = 2.5;   // of ramps to portals, of the usual slope
+constexpr double loose_m = 2.0;         // above the ground: low bridges that end are piers
 constexpr double lowest_ramp_m = 0.05;  // what rises less is level
 constexpr int max_ramp_nodes = 10'000;  // that are walked from a portal to a junction
 
@@ -89,6 +90,7 @@ OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs) : os
   if (above_.empty() && !has_tunnels) return;
   const Steps along = steps();
   lead_to_ground(along, above_);
+  find_loose_ends();
   if (has_tunnels) dig_tunnels(along);
 }
 
@@ -189,6 +191,36 @@ OsmRelief::Level OsmRelief::level_of(OsmId node) const {
   return {-below->second.away_m, below->second.steepness};
 }
 
+/// Where other ways, areas or buildings use the node, the street leads there.
+void OsmRelief::find_loose_ends() {
+  std::unordered_map<OsmId, int> uses;
+  for (const OsmWay& way : osm_.ways) {
+    if (!is_street(way.tags) || way.nodes.size() < 2) continue;
+    for (const OsmId end : {way.nodes.front(), way.nodes.back()})
+      if (level_of(end).away_m > loose_m) uses.emplace(end, 0);
+  }
+  if (uses.empty()) return;
+  for (const OsmWay& way : osm_.ways)
+    for (const OsmId node : way.nodes)
+      if (const auto end = uses.find(node); end != uses.end()) ++end->second;
+  for (const auto& [end, count] : uses)
+    if (count == 1) loose_ends_.insert(end);
+}
+
+/// Straight on from the ends of a street that are loose, down to the ground.
+std::vector<RaisedPoint> OsmRelief::with_run_outs(const OsmWay& way, std::vector<RaisedPoint> points) const {
+  if (loose_ends_.empty() || !is_street(way.tags)) return points;
+  for (const OsmId end : {way.nodes.front(), way.nodes.back()}) {
+    std::ranges::reverse(points);  // twice: the end of the first round is the way's first point
+    if (!loose_ends_.contains(end) || points.size() < 2) continue;
+    const RaisedPoint last = points.back();
+    const dvec2 along = last.place - points[points.size() - 2].place;
+    if (glm::length(along) <= 0.0 || !place_(end)) continue;
+    points.push_back({last.place + glm::normalize(along) * (last.above_m / road_slope), 0.0});
+  }
+  return points;
+}
+
 std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
   std::vector<RaisedPoint> nodes;
   std::vector<double> slopes;
@@ -198,7 +230,7 @@ std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
       nodes.push_back({*point, level.away_m});
       slopes.push_back(level.steepness * slope_of(way.tags));
     }
-  if (is_bridge(way.tags) || is_underground(way.tags)) return nodes;
+  if (is_bridge(way.tags) || is_underground(way.tags)) return with_run_outs(way, std::move(nodes));
   std::vector<RaisedPoint> points;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     points.push_back(nodes[i]);
@@ -219,7 +251,7 @@ std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
       add(valley_m, std::copysign(from_m - slopes[i] * valley_m, a.above_m));
     }
   }
-  return points;
+  return with_run_outs(way, std::move(points));
 }
 
 }  // namespace parvis::scene

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "formats/city_models/osm_areas.h"
 #include "formats/city_models/osm_segments.h"
@@ -36,7 +37,8 @@ void each_stretch(const std::vector<RaisedPoint>& profile, double side,
 /// Heights of roads and railways above the ground. A bridge over a road or railway leaves it 4.5 m of
 /// clearance per layer, one over anything else rises 1 m; from its ends ways fall by 6 % (railways 3 %) until
 /// they reach the ground. Tunnels lie 5.1 m per layer below it; ways fall to their portals by the same
-/// slopes, or up to 2.5 times as steeply where a junction is near.
+/// slopes, or up to 2.5 times as steeply where a junction is near. A street that ends above the ground, where
+/// the map is cut off, goes straight on down to it.
 class OsmRelief {
  public:
   /// Height of the ceiling of a tunnel above its carriageway, and depth of the carriageway per layer.
@@ -45,8 +47,8 @@ class OsmRelief {
   /// `place` and `osm` must outlive this. Where `digs` is false, tunnels do not count.
   OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs);
 
-  /// The way's points with those between them where a ramp begins or ends. Nodes that are not in the file are
-  /// left out.
+  /// The way's points with those between them where a ramp begins or ends, and those to which a street goes
+  /// on beyond its end. Nodes that are not in the file are left out.
   std::vector<RaisedPoint> profile(const OsmWay& way) const;
 
  private:
@@ -70,11 +72,14 @@ class OsmRelief {
   double steepness(const Steps& steps, OsmId portal, double depth_m) const;
   static void lead_to_ground(const Steps& steps, Levels& levels);
   void dig_tunnels(const Steps& steps);
+  void find_loose_ends();
+  std::vector<RaisedPoint> with_run_outs(const OsmWay& way, std::vector<RaisedPoint> points) const;
   Level level_of(OsmId node) const;
 
   const OsmFile& osm_;
   const OsmPlaces& place_;
   Levels above_, below_;
+  std::unordered_set<OsmId> loose_ends_;  ///< nodes high above the ground at which a street ends
 };
 
 }  // namespace parvis::scene

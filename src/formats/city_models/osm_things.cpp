@@ -302,8 +302,8 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
     if (is_row(way)) add_row(way, step_m, place, ground, city);
 }
 
-void add_osm_rails(const OsmFile& osm, [[maybe_unused]] const OsmPlaces& place, const OsmRelief& relief,
-                   const GroundOnMap& ground, CityAssembly& city) {
+void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
+                   const GroundOnMap& shaped, CityAssembly& city) {
   const LineLook steel = coloured("CityFurniture", {0.36f, 0.33f, 0.31f}, city);
   const LineLook ballast{{"Railway", "Railway", ""}};
   for (const OsmWay& way : osm.ways) {
@@ -313,7 +313,11 @@ void add_osm_rails(const OsmFile& osm, [[maybe_unused]] const OsmPlaces& place, 
         is_tram || kind == "rail" || kind == "light_rail" || kind == "narrow_gauge" || kind == "subway";
     const bool is_left_out = is_underground(way.tags) && (ground || !is_tunnel(way.tags));
     if (!is_shown || is_left_out) continue;
-    const std::vector<dvec3> line = on_ground(relief.profile(way), ground);
+    std::vector<dvec3> line;
+    for (const RaisedPoint& point : relief.profile(way)) {
+      const GroundOnMap& below = point.above_m == 0.0 ? shaped : ground;
+      line.emplace_back(point.place, point.above_m + (below ? below(point.place) : 0.0));
+    }
     if (!is_tram) add_band(sides_of(line, -ballast_half_m, ballast_half_m, ballast_lift_m), ballast, city);
     for (const double side : {-0.5, 0.5}) {
       const double middle_m = side * gauge_m, half_m = 0.5 * rail_width_m;

@@ -20,10 +20,11 @@ inline constexpr std::size_t max_row_trees = 20'000;
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
                                  const OsmTrenches& trenches, CityAssembly& city);
 
-/// Adds railways on ballast and tram tracks in the street. Of those below ground tunnels in level ground are
+/// Adds railways on ballast and tram tracks in the street: on the ground as it is `shaped` for streets, or on
+/// bridges and ramps, which stand over the bare `ground`. Of those below ground tunnels in level ground are
 /// shown.
-void add_osm_rails(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,
-                   const GroundOnMap& ground, CityAssembly& city);
+void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
+                   const GroundOnMap& shaped, CityAssembly& city);
 
 /// Adds decks with parapets below bridges of streets, railways and paths, abutments at their ends, and
 /// embankments below ramps. Trams on a bridge of a street have none of their own, and paths beside one no

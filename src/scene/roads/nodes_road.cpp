@@ -4,6 +4,7 @@
 
 #include "base/house.h"
 #include "base/memory_budget.h"
+#include "formats/terrain/open_rooms.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/object_names.h"
 #include "scene/roads/paving.h"
@@ -11,6 +12,7 @@
 #include "scene/roads/road_data.h"
 #include "scene/roads/road_from_polygons.h"
 #include "scene/roads/room.h"
+#include "scene/roads/shaped_terrain.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -154,7 +156,8 @@ NodeSchema paving_schema() {
 
 void build_paving(const Node&, SceneBuilder& builder) { builder.scene.data<Paving>().is_laid = true; }
 
-/// Makes lanes of the roads, on the ground, and carriageways of the lanes where the script asks for them.
+/// Makes lanes of the roads, on the ground. Where the script asks for carriageways, terrain is cut and filled
+/// for them first.
 void finish_roads(SceneBuilder& builder) {
   std::vector<Road> roads;
   for (const PlannedRoad& planned : builder.scene.items<PlannedRoad>()) roads.push_back(planned.road);
@@ -165,7 +168,10 @@ void finish_roads(SceneBuilder& builder) {
   if (!builder.scene.data<Paving>().is_laid) return lay_lanes(builder.scene);
   const Status enough = check_memory(paving_bytes(builder.scene.roads),
                                      fmt::format("paving {} lanes", builder.scene.roads.lanes.size()));
-  if (!enough) return builder.fail(enough.errors(), roads.empty() ? FileLocation{} : roads.front().where);
+  const FileLocation where = roads.empty() ? FileLocation{} : roads.front().where;
+  if (!enough) return builder.fail(enough.errors(), where);
+  if (const Status shaped = shape_terrain(builder.scene, roads); !shaped)
+    builder.warn({shaped.errors().front().message + "; it is neither cut nor filled", where});
   pave(builder.scene);
 }
 
@@ -179,5 +185,7 @@ void parvis::roads::furnish(House& house) {
   registry.add(road_schema(), build_road);
   registry.add(streets_schema(), build_streets);
   registry.add(paving_schema(), build_paving);
+  // The ground is complete here: terrain_plane, which dressing lays, comes before roads.
+  registry.add_finish_step([](SceneBuilder& builder) { open_rooms(builder.scene); });
   registry.add_finish_step(finish_roads);
 }

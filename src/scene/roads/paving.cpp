@@ -18,6 +18,7 @@ constexpr float tile_m = 6.0f;      // of the pictures
 constexpr float margin_m = 0.25f;   // of asphalt beside a lane, so that neighbours leave no gap
 constexpr float kerb_m = 0.15f;     // beside the asphalt
 constexpr float pavement_m = 2.6f;  // beside the asphalt
+static_assert(margin_m + pavement_m <= paved_beside_m + 1e-6f);
 // Over the ground, whose mesh is coarse. What lies higher covers what is below: so all lanes together give
 // one carriageway with one kerb, however they cross.
 constexpr float pavement_lift_m = 0.03f, kerb_lift_m = 0.045f, asphalt_lift_m = 0.06f, paint_lift_m = 0.07f;

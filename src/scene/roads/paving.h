@@ -5,6 +5,9 @@
 
 namespace parvis::scene {
 
+/// How far beside the outer edge of a road's lanes paving reaches: a margin of asphalt, then pavements.
+inline constexpr float paved_beside_m = 2.85f;
+
 /// Lays the lanes of the scene on the ground below them (GroundHeights: within 2.5 m of a lane's own height);
 /// lanes that lie on it as they are, within 3 cm, stay as they are. Where there is no ground, lanes keep
 /// their height.

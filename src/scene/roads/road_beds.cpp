@@ -1,0 +1,169 @@
+#include "scene/roads/road_beds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "formats/terrain/city_surfaces.h"
+#include "scene/data/surroundings.h"
+#include "scene/roads/paving.h"
+#include "scene/roads/road_network.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr float shoulder_m = 1.0f;  // of earth beside what is paved, so that slopes begin beyond it
+constexpr float step_m = 10.0f;     // between points of a bed
+constexpr float above_or_below_m = 2.5f, above_or_below_deck_m = 0.5f;  // of a road: as GroundHeights has it
+constexpr float lies_on_m = 0.05f;      // what lies so much higher than terrain covers it
+constexpr float below_cover_m = 0.15f;  // of terrain that other ground covers: both are drawn to centimetres
+constexpr float steepest = 0.7f;        // cosine of 45 degrees: what is steeper is no ground
+constexpr float cell_m = 16.0f;
+constexpr float farthest_cell = 1e8f;  // meshes may reach farther than cells have numbers
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// A point of a road's middle line, with the ground that is found below or above it.
+struct Sample {
+  glm::vec3 position;
+  float terrain_m = unknown, other_m = unknown;
+  bool is_covered = false;  ///< far above lies a ceiling, a roof or the ground over a tunnel
+};
+
+/// What kind of ground a part is.
+enum class Ground { none, terrain, other, deck, cover };
+
+Ground ground_of(const std::string& object, Terrain terrain) {
+  if (terrain_of(object) == terrain) return Ground::terrain;
+  if (object.starts_with("Bridge")) return Ground::deck;
+  if (is_ground(object)) return Ground::other;
+  const bool may_cover = object.starts_with("Tunnel") || object.starts_with("Roof") ||
+                         object.starts_with("OuterCeiling");  // trees and bridges leave a trench open
+  return may_cover ? Ground::cover : Ground::none;
+}
+
+/// Samples by cells of the plan.
+class Samples {
+ public:
+  explicit Samples(std::vector<Sample>& samples) : samples_(samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      cells_[key(cell_of(glm::vec2(samples[i].position)))].push_back(i);
+  }
+
+  void note(glm::vec3 a, glm::vec3 b, glm::vec3 c, Ground ground) {
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    if (!(std::abs(normal.z) > steepest * glm::length(normal)) || normal.z == 0.0f) return;
+    const glm::ivec2 low = cell_of(glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)))),
+                     high = cell_of(glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c))));
+    const glm::i64vec2 size = glm::i64vec2(high - low) + std::int64_t(1);
+    if (size.x * size.y > std::int64_t(cells_.size())) {  // of a triangle as large as a town
+      for (const auto& [cell, indices] : cells_)
+        for (const std::size_t i : indices) note_at(samples_[i], a, b, c, normal, ground);
+      return;
+    }
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (const auto cell = cells_.find(key({x, y})); cell != cells_.end())
+          for (const std::size_t i : cell->second) note_at(samples_[i], a, b, c, normal, ground);
+  }
+
+ private:
+  static std::uint64_t key(glm::ivec2 cell) {
+    return std::uint64_t(std::uint32_t(cell.x)) << 32u | std::uint32_t(cell.y);
+  }
+  static glm::ivec2 cell_of(glm::vec2 point) {
+    return glm::ivec2(glm::clamp(glm::floor(point / cell_m), -farthest_cell, farthest_cell));
+  }
+
+  static void note_at(Sample& sample, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 normal,
+                      Ground ground) {
+    const glm::vec2 p(sample.position);
+    const auto side = [&](glm::vec3 from, glm::vec3 to) {
+      return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+    };
+    const float ab = side(a, b), bc = side(b, c), ca = side(c, a);
+    if (std::min({ab, bc, ca}) < 0.0f && std::max({ab, bc, ca}) > 0.0f) return;
+    const float height_m = a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
+    const bool may_cover = ground == Ground::cover || ground == Ground::other;
+    if (may_cover && height_m > sample.position.z + above_or_below_m) sample.is_covered = true;
+    if (ground == Ground::cover) return;
+    const float near_m = ground == Ground::deck ? above_or_below_deck_m : above_or_below_m;
+    float& known_m = ground == Ground::terrain ? sample.terrain_m : sample.other_m;
+    if (std::abs(height_m - sample.position.z) < near_m && !(known_m >= height_m)) known_m = height_m;
+  }
+
+  std::vector<Sample>& samples_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+};
+
+/// The path's points, with others between them.
+void add_samples(const std::vector<glm::vec3>& path, std::vector<Sample>& samples) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const glm::vec3 next = path[std::min(i + 1, path.size() - 1)];
+    const int steps =
+        std::max(1, int(std::ceil(glm::distance(glm::vec2(path[i]), glm::vec2(next)) / step_m)));
+    for (int k = 0; k < (i + 1 < path.size() ? steps : 1); ++k)
+      samples.push_back({glm::mix(path[i], next, float(k) / float(steps))});
+  }
+}
+
+/// Trenches are dug through generated ground however deep they are: nothing covers them.
+RoadBed::Point bed_of(const Sample& sample, Terrain terrain) {
+  const glm::vec2 place(sample.position);
+  const bool lies_on_terrain =
+      !std::isnan(sample.terrain_m) && !(sample.terrain_m < sample.other_m - lies_on_m);
+  if (lies_on_terrain) return {{place, sample.terrain_m}, Bed::earth};
+  const bool is_trench = terrain == Terrain::generated && !sample.is_covered;
+  if (!std::isnan(sample.other_m) && (is_trench || !std::isnan(sample.terrain_m)))
+    return {{place, sample.other_m - below_cover_m}, Bed::cut};
+  return {sample.position, Bed::none};
+}
+
+}  // namespace
+
+std::optional<Terrain> terrain_of(const std::string& object) {
+  if (object == "TINRelief") return Terrain::surveyed;
+  if (object.starts_with("TINRelief ")) return Terrain::generated;
+  return std::nullopt;
+}
+
+float half_bed_m(const Road& road) { return half_width_m(road) + paved_beside_m + shoulder_m; }
+
+bool has_ground(const Scene& scene, const Object& object) {
+  return !object.is_dynamic && object.is_visible && !surrounds_place(scene, object);
+}
+
+std::vector<RoadBed> road_beds(const Scene& scene, std::span<const Road> roads, Terrain terrain) {
+  std::vector<Sample> samples;
+  std::vector<std::size_t> first_of_road;
+  first_of_road.reserve(roads.size() + 1);
+  for (const Road& road : roads) first_of_road.push_back(samples.size()), add_samples(road.path, samples);
+  first_of_road.push_back(samples.size());
+
+  Samples by_cell(samples);
+  for (const Object& object : scene.objects) {
+    if (!has_ground(scene, object)) continue;
+    const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
+    for (const Part& part : object.model->parts) {
+      const Ground ground = ground_of(part.object, terrain);
+      if (ground == Ground::none) continue;
+      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+      const auto corner = [&](std::size_t i) {
+        return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
+      };
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
+        by_cell.note(corner(i), corner(i + 1), corner(i + 2), ground);
+    }
+  }
+
+  std::vector<RoadBed> beds;
+  beds.reserve(roads.size());
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    RoadBed& bed = beds.emplace_back();
+    bed.half_m = half_bed_m(roads[i]);
+    for (std::size_t k = first_of_road[i]; k < first_of_road[i + 1]; ++k)
+      bed.points.push_back(bed_of(samples[k], terrain));
+  }
+  return beds;
+}
+
+}  // namespace parvis::scene

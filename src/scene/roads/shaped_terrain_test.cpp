@@ -1,0 +1,245 @@
+#include "scene/roads/shaped_terrain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "scene/data/surroundings.h"
+#include "scene/data/test_scene.h"
+#include "scene/roads/paving.h"
+#include "scene/roads/road_beds.h"
+#include "scene/roads/road_builder.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr float rise = 0.2f;  // of the hillside, to the north
+
+/// A hillside in squares with sides of `cell_m`, from `west_m` on.
+Mesh hillside(float west_m, float east_m, float cell_m, float lift_m = 0.0f) {
+  constexpr float half_m = 60.0f;
+  Mesh mesh;
+  const glm::ivec2 cells(glm::round(glm::vec2(east_m - west_m, 2.0f * half_m) / cell_m));
+  for (int y = 0; y <= cells.y; ++y)
+    for (int x = 0; x <= cells.x; ++x) {
+      const glm::vec2 p(west_m + cell_m * float(x), -half_m + cell_m * float(y));
+      mesh.positions.emplace_back(p, rise * p.y + lift_m);
+      mesh.uvs.push_back(p);
+    }
+  const std::uint32_t row = std::uint32_t(cells.x) + 1;
+  for (std::uint32_t y = 0; y < std::uint32_t(cells.y); ++y)
+    for (std::uint32_t x = 0; x + 1 < row; ++x) {
+      const std::uint32_t a = y * row + x;
+      mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + row, a + 1, a + row + 1, a + row});
+    }
+  fill_normals(mesh);
+  return mesh;
+}
+
+int add_part(Scene& scene, Mesh mesh, const char* name) {
+  auto model = model_of(std::move(mesh), matt(glm::vec3(0.5f)));
+  model->parts.front().object = name;
+  return add(scene, model);
+}
+
+const Mesh& mesh_of(const Scene& scene, std::size_t object) {
+  return scene.objects[object].model->parts.front().mesh;
+}
+
+/// The highest surface of a mesh at a place.
+std::optional<float> height_of(const Mesh& mesh, glm::vec2 p) {
+  std::optional<float> highest_m;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]]; };
+    const glm::vec2 a(at(0)), ab = glm::vec2(at(1)) - a, ac = glm::vec2(at(2)) - a, ap = p - a;
+    const float area = ab.x * ac.y - ab.y * ac.x;
+    if (area == 0.0f) continue;
+    const float v = (ap.x * ac.y - ap.y * ac.x) / area, w = (ab.x * ap.y - ab.y * ap.x) / area;
+    if (v < -1e-4f || w < -1e-4f || v + w > 1.0f + 1e-4f) continue;
+    const float z = (1.0f - v - w) * at(0).z + v * at(1).z + w * at(2).z;
+    highest_m = std::max(highest_m.value_or(z), z);
+  }
+  return highest_m;
+}
+
+/// In plan, without triangles that face down.
+double plan_m2(const Mesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]]; };
+    sum += std::max(0.5 * double(glm::cross(at(1) - at(0), at(2) - at(0)).z), 0.0);
+  }
+  return sum;
+}
+
+/// Along the middle of the hillside, at height 0.
+std::vector<Road> street(float west_m = -200.0f, float east_m = 200.0f, float z = 0.0f) {
+  Road road;
+  road.path = {{west_m, 0, z}, {east_m, 0, z}};
+  return {road};
+}
+
+TEST(ShapedTerrain, AStreetAcrossAHillsideIsLevelFromSideToSide) {
+  for (const float cell_m : {1.0f, 4.0f, 40.0f}) {
+    Scene scene;
+    const auto hill = std::size_t(add_part(scene, hillside(-80, 80, cell_m), "TINRelief"));
+    const double before_m2 = plan_m2(mesh_of(scene, hill));
+    ASSERT_TRUE(shape_terrain(scene, street()));
+    const Mesh& mesh = mesh_of(scene, hill);
+    ASSERT_TRUE(check(mesh, "terrain").ok());
+    for (const float x : {-31.0f, 0.5f, 47.3f})
+      for (const float y : {-5.8f, -3.0f, 0.0f, 3.0f, 5.8f})
+        EXPECT_NEAR(height_of(mesh, {x, y}).value_or(99.0f), 0.0f, 0.05f) << cell_m << ": " << x << " " << y;
+    EXPECT_LT(*height_of(mesh, {0.5f, 9.0f}), rise * 9.0f - 0.4f) << "cut, control: 1.8 m";
+    EXPECT_GT(*height_of(mesh, {0.5f, -9.0f}), rise * -9.0f + 0.4f) << "filled";
+    EXPECT_NEAR(*height_of(mesh, {0.5f, 35.0f}), rise * 35.0f, 1e-3f);
+    EXPECT_NEAR(plan_m2(mesh), before_m2, 1e-4 * before_m2) << "neither gaps nor folds";
+  }
+}
+
+TEST(ShapedTerrain, NeverRisesThroughThePaving) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 8), "TINRelief"));
+  Road other;
+  other.path = {{10, -50, rise * -50.0f}, {10, 50, rise * 50.0f}};
+  std::vector<Road> roads = street(-70, 70);
+  roads.push_back(other);
+  scene.roads = *build_road_graph(roads);
+  ASSERT_TRUE(shape_terrain(scene, roads));
+  pave(scene);
+  Mesh paving;
+  for (const Part& part : scene.objects.back().model->parts) append(paving, part.mesh);
+  constexpr float bent_m =
+      0.02f;  // of paving, whose rows lie a metre apart, where a street of 20 % is crossed
+  int paved = 0;
+  for (float x = -60.0f; x < 61.0f; x += 1.7f)
+    for (float y = -40.0f; y < 41.0f; y += 1.3f)
+      if (const auto paved_m = height_of(paving, {x, y})) {
+        EXPECT_LT(*height_of(mesh_of(scene, hill), {x, y}), *paved_m + bent_m) << x << " " << y;
+        ++paved;
+      }
+  EXPECT_GT(paved, 500);
+}
+
+TEST(ShapedTerrain, LeavesNoGapBetweenTiles) {
+  Scene scene;
+  const auto west = std::size_t(add_part(scene, hillside(-80, 0, 20), "TINRelief")),
+             east = std::size_t(add_part(scene, hillside(0, 80, 20), "TINRelief"));
+  ASSERT_TRUE(shape_terrain(scene, street()));
+  const auto seam = [&](std::size_t object) {
+    std::set<std::pair<float, float>> points;
+    for (const glm::vec3& p : mesh_of(scene, object).positions)
+      if (p.x == 0.0f) points.emplace(p.y, p.z);
+    return points;
+  };
+  EXPECT_GT(seam(west).size(), 15u);
+  EXPECT_EQ(seam(west), seam(east));
+}
+
+TEST(ShapedTerrain, ADeadEndInsideOneTriangleIsFound) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(
+      scene, quad({-300, -300, -60}, {300, -300, -60}, {300, 300, 60}, {-300, 300, 60}), "TINRelief"));
+  std::vector<Road> roads = street(100, 150);
+  for (glm::vec3& point : roads.front().path) point.y = -50.0f, point.z = -10.0f;
+  ASSERT_TRUE(shape_terrain(scene, roads));
+  for (const float y : {-55.0f, -50.0f, -45.0f})
+    EXPECT_NEAR(height_of(mesh_of(scene, hill), {125.0f, y}).value_or(99.0f), -10.0f, 0.05f) << y;
+}
+
+TEST(ShapedTerrain, NormalsAreThoseOfTheNewGround) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 1), "TINRelief"));
+  ASSERT_TRUE(shape_terrain(scene, street()));
+  const Mesh& mesh = mesh_of(scene, hill);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (std::abs(mesh.positions[i].y) < 5.0f && std::abs(mesh.positions[i].x) < 70.0f) {
+      EXPECT_GT(mesh.normals[i].z, 0.999f) << "control: 0.98 on the hillside";
+    }
+}
+
+TEST(ShapedTerrain, EvenGroundAndOtherSurfacesStayAsTheyAre) {
+  Scene scene;
+  const auto level =
+      std::size_t(add_part(scene, quad({-80, -60, 0}, {80, -60, 0}, {80, 60, 0}, {-80, 60, 0}), "TINRelief"));
+  ASSERT_TRUE(shape_terrain(scene, street()));
+  EXPECT_EQ(mesh_of(scene, level).indices.size(), 6u);
+  Scene squares;
+  const auto square = std::size_t(add_part(squares, hillside(-80, 80, 4), "TransportSquare"));
+  const auto model = squares.objects[square].model;
+  ASSERT_TRUE(shape_terrain(squares, street()));
+  EXPECT_EQ(squares.objects[square].model, model);
+}
+
+TEST(ShapedTerrain, IsNotRaisedUnderABridgeButCutWhereARampStandsInTheHill) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 4), "TINRelief"));
+  add_part(scene, quad({-80, -7, 0.3f}, {80, -7, 0.3f}, {80, 7, 0.3f}, {-80, 7, 0.3f}), "Bridge");
+  ASSERT_TRUE(shape_terrain(scene, street(-200, 200, 0.3f)));
+  EXPECT_NEAR(*height_of(mesh_of(scene, hill), {0.5f, -5.0f}), rise * -5.0f, 0.05f);
+  EXPECT_LT(*height_of(mesh_of(scene, hill), {0.5f, 5.0f}), 0.3f) << "control: 1 m";
+  EXPECT_TRUE(road_beds(scene, street(-200, 200, 9.0f), Terrain::surveyed).front().points.front().kind ==
+              Bed::none);
+}
+
+TEST(ShapedTerrain, GeneratedGroundStaysBelowWhatWasSurveyed) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 4), "TINRelief")),
+             below = std::size_t(add_part(scene, hillside(-80, 80, 4, -0.4f), "TINRelief near"));
+  ASSERT_TRUE(shape_terrain(scene, street()));
+  for (float y = -25.0f; y < 26.0f; y += 0.7f)
+    EXPECT_LT(*height_of(mesh_of(scene, below), {0.5f, y}), *height_of(mesh_of(scene, hill), {0.5f, y})) << y;
+}
+
+TEST(ShapedTerrain, GeneratedGroundDoesNotRiseThroughATrenchButCoversATunnel) {
+  for (const bool is_tunnel : {false, true}) {
+    Scene scene;
+    const auto plane = std::size_t(
+        add_part(scene, quad({-80, -60, -0.4f}, {80, -60, -0.4f}, {80, 60, -0.4f}, {-80, 60, -0.4f}),
+                 "TINRelief near"));
+    add_part(scene, quad({-80, -7, -5}, {80, -7, -5}, {80, 7, -5}, {-80, 7, -5}), "Road ramp");
+    if (is_tunnel)
+      add_part(scene, quad({-80, -7, -0.5f}, {80, -7, -0.5f}, {80, 7, -0.5f}, {-80, 7, -0.5f}), "Tunnel");
+    ASSERT_TRUE(shape_terrain(scene, street(-200, 200, -5.0f)));
+    for (const float y : {-6.0f, 0.0f, 6.0f}) {
+      const float height_m = *height_of(mesh_of(scene, plane), {0.5f, y});
+      EXPECT_TRUE(is_tunnel ? std::abs(height_m + 0.4f) < 1e-4f : height_m < -5.0f)
+          << is_tunnel << ": " << height_m;
+    }
+  }
+}
+
+TEST(ShapedTerrain, SurveyedGroundIsNotDugOutOverARoadDeepBelowIt) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 4), "TINRelief"));
+  add_part(scene, quad({-80, -7, -9}, {80, -7, -9}, {80, 7, -9}, {-80, 7, -9}), "Road");
+  const auto model = scene.objects[hill].model;
+  ASSERT_TRUE(shape_terrain(scene, street(-200, 200, -9.0f)));
+  EXPECT_EQ(scene.objects[hill].model, model);
+}
+
+TEST(ShapedTerrain, TheLandAroundAPlaceKeepsItsModel) {
+  Scene scene;
+  const auto land = std::size_t(add_part(scene, hillside(-80, 80, 4), "TINRelief around"));
+  const auto model = scene.objects[land].model;
+  scene.data<ItemsOf<Surroundings>>().add({model}, 0);
+  ASSERT_TRUE(shape_terrain(scene, street()));
+  EXPECT_EQ(scene.objects[land].model, model);
+}
+
+TEST(ShapedTerrain, StandsWhereItsObjectIsPlaced) {
+  Scene scene;
+  auto model = model_of(hillside(-80, 80, 4), matt(glm::vec3(0.5f)));
+  model->parts.front().object = "TINRelief";
+  glm::mat4 placed(1.0f);
+  placed[3] = {0, 0, 30, 1};
+  const auto hill = std::size_t(add(scene, model, false, placed));
+  ASSERT_TRUE(shape_terrain(scene, street(-200, 200, 30.0f)));
+  EXPECT_NEAR(*height_of(mesh_of(scene, hill), {0.5f, 5.0f}), 0.0f, 0.05f);
+}
+
+}  // namespace
+}  // namespace parvis::scene
