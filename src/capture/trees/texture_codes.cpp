@@ -120,7 +120,7 @@ class Codes {
   Vector principal_axis(const Set& whole) const {
     Vector axis{};
     add_scaled(axis, vectors_[order_[whole.first]], 1.0f), add_scaled(axis, whole.mean, -1.0f);
-    for (glm::vec4& part : axis) part += 1e-3f;  // a start that no set is at right angles to by chance
+    for (glm::vec4& part : axis) part += 1e-3f;  // a start that hardly any set is at right angles to
     for (int step = 0; step < power_steps; ++step) {
       Vector next{};
       for (const std::uint32_t i : members(whole)) {

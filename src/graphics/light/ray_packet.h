@@ -17,6 +17,7 @@ inline constexpr float lift_m = 1e-3f;
 /// Rays that go about the same way, answered together. Everything stops light, from both sides.
 class Packet {
  public:
+  /// Empty; the scene must outlive it.
   explicit Packet(const reference::RayScene& scene) : scene_(scene) {}
 
   /// By what a caller knows a ray.
