@@ -30,7 +30,7 @@ struct Range {
 
 Range quantiles(std::vector<double> values) {
   std::ranges::sort(values);
-  const auto at = [&](double q) { return values[std::size_t(q * double(values.size() - 1) + 0.5)]; };
+  const auto at = [&](double q) { return values[std::size_t(std::lround(q * double(values.size() - 1)))]; };
   return {at(outer_quantile), at(1.0 - outer_quantile)};
 }
 
@@ -318,6 +318,7 @@ void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Place& place
 /// A level plane below nearly all points, for places whose ground shows no points.
 FoundPlane assumed_ground(const Place& place) {
   std::vector<double> heights;
+  heights.reserve(place.points.size());
   for (const OrientedPoint& point : place.points) heights.push_back(glm::dot(point.position, place.up));
   return {SurfaceKind::ground, place.up, quantiles(std::move(heights)).low, {}};
 }
@@ -382,7 +383,7 @@ CoarseSurface ground_surface(const FoundPlane& ground, const std::vector<Piece>&
 }
 
 void name_surfaces(std::vector<CoarseSurface>& surfaces) {
-  std::ranges::stable_sort(surfaces, [](const CoarseSurface& a, const CoarseSurface& b) {
+  std::ranges::sort(surfaces, [](const CoarseSurface& a, const CoarseSurface& b) {
     return std::pair(a.kind, b.points) < std::pair(b.kind, a.points);
   });
   int walls = 0, roofs = 0;
@@ -402,6 +403,7 @@ Result<CoarseModel> propose_coarse_model(const PhotographSet& set) {
   const Place place{set, points, photographs::up_of_place(set, points).value_or(glm::dvec3(0.0, 0.0, 1.0)),
                     photographs::viewing_distance(set)};
   std::vector<glm::dvec3> cameras;
+  cameras.reserve(set.photographs.size());
   for (const photographs::Photograph& photograph : set.photographs)
     cameras.push_back(photograph.position_in_world());
   const std::vector<FoundPlane> planes =

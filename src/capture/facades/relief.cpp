@@ -84,7 +84,7 @@ void set_range(SweptRectangle& rectangle, const photographs::PhotographSet& set,
   const double camera = nearest_camera(rectangle, set, distance);
   rectangle.low = -margin, rectangle.high = std::min(margin, camera);
   if (heights.size() < min_points_for_range) return;
-  const auto at = [&](double q) { return heights[std::size_t(q * double(heights.size() - 1) + 0.5)]; };
+  const auto at = [&](double q) { return heights[std::size_t(std::lround(q * double(heights.size() - 1)))]; };
   rectangle.low = std::min(at(outer_quantile), 0.0) - margin;
   rectangle.high = std::min(std::max(at(1.0 - outer_quantile), 0.0) + margin, camera);
 }
@@ -94,7 +94,8 @@ bool lies_on(const SweptRectangle& surface, const Relief& relief, double toleran
   constexpr int samples = 12;
   int on = 0;
   for (int k = 0; k < samples * samples; ++k) {
-    const double s = (k % samples + 0.5) / samples, t = (k / samples + 0.5) / samples;
+    const int row = k / samples;
+    const double s = (k % samples + 0.5) / samples, t = (row + 0.5) / samples;
     const glm::dvec3 place = over(relief.rectangle, surface.origin + s * surface.u + t * surface.v);
     if (!is_over(place)) continue;
     const glm::dvec3 heights = relief.heights_around(place.x, place.y);
@@ -302,8 +303,8 @@ Mesh mesh_of(const Relief& relief, double tolerance) {
   for (const std::size_t corner : triangulation.corners()) {
     if (number[corner] == ~0u) {
       number[corner] = std::uint32_t(mesh.positions.size());
-      const double s = double(corner % std::size_t(r.columns)) / (r.columns - 1),
-                   t = double(corner / std::size_t(r.columns)) / (r.rows - 1);
+      const std::size_t column = corner % std::size_t(r.columns), row = corner / std::size_t(r.columns);
+      const double s = double(column) / (r.columns - 1), t = double(row) / (r.rows - 1);
       mesh.positions.push_back(
           glm::vec3(r.origin + s * r.u + t * r.v + double(relief.found.heights[corner]) * r.normal));
       mesh.normals.push_back(glm::vec3(r.normal)), mesh.uvs.push_back({float(s), float(t)});
@@ -318,7 +319,7 @@ ReliefModel with_reliefs(const CoarseModel& model, const photographs::Photograph
   const double distance = photographs::viewing_distance(set);
   std::vector<std::size_t> order(model.surfaces.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return model.surfaces[i].points; });
+  std::ranges::sort(order, std::greater{}, [&](std::size_t i) { return model.surfaces[i].points; });
   ReliefModel result;
   std::vector<NamedMesh> meshes(model.surfaces.size());
   std::vector<Relief> reliefs;

@@ -161,7 +161,7 @@ class Codes {
     }
     const auto begin = order_.begin() + std::ptrdiff_t(whole.first);
     const auto end = begin + std::ptrdiff_t(whole.count);
-    const auto front = std::size_t(std::stable_partition(begin, end, is_first) - begin);
+    const auto front = std::size_t(std::partition(begin, end, is_first) - begin);
     return front < whole.count ? front : 0;
   }
 

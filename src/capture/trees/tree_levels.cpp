@@ -18,7 +18,6 @@ namespace {
 constexpr int max_texels_per_side = 128;
 constexpr float off_middle = 0.25f;  // of the box's diagonal: where a tree's leaves are, in the mean
 constexpr float foot_share = 0.06f;  // of the height: what of the tree is near the ground
-constexpr float min_opacity = 1.0f / 510.0f;
 
 /// Cells of a coarser grid and the finer cells that each stands for.
 struct Parents {
@@ -80,8 +79,9 @@ class PartsPicture {
       for (int u = 0; u < side; ++u) {
         glm::vec4 sum(0.0f);
         for (int s = 0; s < samples_per_side * samples_per_side; ++s) {
+          const int row = s / samples_per_side;
           const glm::vec2 at(float(u * samples_per_side + s % samples_per_side) + 0.5f,
-                             float(v * samples_per_side + s / samples_per_side) + 0.5f);
+                             float(v * samples_per_side + row) + 0.5f);
           glm::vec2 place(2.0f * at.x / float(fine_side) - 1.0f, 1.0f - 2.0f * at.y / float(fine_side));
           place /= std::max(display::silhouette_reach(place, whole.slants) / 0.99f, 1.0f);
           const glm::vec2 m = place * whole.half_size_m;

@@ -40,8 +40,9 @@ constexpr WoodView wood_views[]{{"at its edge", {0, -18, 4}, {0, 30, 5}},
 void plant(scene::Scene& scene, const std::shared_ptr<const TreeLevels>& tree) {
   SceneTrees& trees = scene.data<SceneTrees>();
   for (int i = 0; i < wood_columns * wood_rows; ++i) {
+    const int row = i / wood_columns;
     const glm::vec3 foot(spacing_m * (float(i % wood_columns) - 0.5f * float(wood_columns - 1)),
-                         spacing_m * float(i / wood_columns), 0.0f);
+                         spacing_m * float(row), 0.0f);
     SceneTree placed;
     placed.tree = tree;
     placed.world_from_tree = glm::translate(
@@ -120,7 +121,7 @@ Drawn drawn_in(const scene::Scene& scene, const WoodView& at) {
     in_view.emplace_back(glm::distance(bounds.centre(), view.position_in_world),
                          TreeInView{tree.tree.get(), seen_tree(tree, bounds, view, culling)});
   }
-  std::ranges::stable_sort(in_view, {}, &std::pair<float, TreeInView>::first);
+  std::ranges::sort(in_view, {}, &std::pair<float, TreeInView>::first);
   std::vector<TreeInView> ordered;
   ordered.reserve(in_view.size());
   for (const auto& [distance, tree] : in_view) ordered.push_back(tree);
