@@ -147,9 +147,10 @@ GuessWeights LightingProcess::weights_of(const LitObject& lit, const std::vector
   rays_left_ -= rays_per_sky_ray * double(rays_per_judge) * double(places.size());
   const std::vector<glm::vec3> sky = judge.sky_irradiance(), sun = judge.sun_irradiance();
   GuessJudge guesses;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    guesses.add(*lit.blocks()[places[i].block].known, clues[places[i].block], places[i].vertex, sky[i],
-                sun[i]);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& known = lit.blocks()[places[i].block].known;
+    if (known) guesses.add(*known, clues[places[i].block], places[i].vertex, sky[i], sun[i]);
+  }
   return guesses.weights();
 }
 

@@ -86,8 +86,8 @@ std::size_t add_roofs(scene::Model& model, std::string_view target, bool has_det
     const int material =
         flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
     const std::array<glm::vec2, 3> uvs = roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m);
-    if (round[i])
-      parts.add(roof, material, uvs, *round[i]);
+    if (const auto& normals = round[i])
+      parts.add(roof, material, uvs, *normals);
     else
       parts.add(roof, material, uvs);
   }

@@ -150,7 +150,8 @@ RunBays bays_of(const WallRun& run, float bay_m) {
   if (run.facets % in_each != 0) return usual;
   // The middle of a bay of two facets is the edge between them.
   const bool shifts = run.is_ring && in_each % 2 == 0;
-  return {float(run.facets / in_each), shifts ? 0.5f / float(in_each) : 0.0f};
+  const int bays = run.facets / in_each;
+  return {float(bays), shifts ? 0.5f / float(in_each) : 0.0f};
 }
 
 }  // namespace parvis::dressing
