@@ -64,9 +64,10 @@ void TracedReflections::update_maps(render::Renderer& renderer, const scene::Sce
   base_.assign(drawn_.directions.size(), glm::vec4(0.0f));
   coat_.assign(drawn_.directions.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    if (!light_[i]) continue;
-    base_[places_[i]] = glm::vec4(light_[i]->base, 1.0f);
-    coat_[places_[i]] = light_[i]->coat;
+    const auto& light = light_[i];
+    if (!light) continue;
+    base_[places_[i]] = glm::vec4(light->base, 1.0f);
+    coat_[places_[i]] = light->coat;
   }
   smooth_rough_light();
   picture_.put_light(renderer, reflectors, drawn_, smoothed_, coat_);
@@ -74,9 +75,10 @@ void TracedReflections::update_maps(render::Renderer& renderer, const scene::Sce
 
 /// Whether the mirror images of two pixels differ by more than an eye overlooks.
 bool TracedReflections::differs(std::size_t pixel, std::size_t other, float exposure) const {
-  if (!light_[pixel] || !light_[other]) return false;
-  const float share = exposure * std::max(light_[pixel]->sharp_share, light_[other]->sharp_share);
-  const float a = share * luminance(light_[pixel]->coat), b = share * luminance(light_[other]->coat);
+  const auto &one = light_[pixel], &two = light_[other];
+  if (!one || !two) return false;
+  const float share = exposure * std::max(one->sharp_share, two->sharp_share);
+  const float a = share * luminance(one->coat), b = share * luminance(two->coat);
   return std::abs(a - b) > edge_contrast * (1.0f + std::max(a, b));
 }
 
@@ -110,7 +112,9 @@ void TracedReflections::gather_edges(float exposure) {
 /// Makes the mirror image of each edge the mean of its samples, as the ray tracer weighs them.
 void TracedReflections::add_edge_samples(float exposure) {
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    reference::MirrorLight& light = *light_[edges_[e]];
+    auto& found = light_[edges_[e]];
+    if (!found) continue;
+    reference::MirrorLight& light = *found;
     float weights = shading::sample_weight(exposure * light.coat);
     glm::vec3 sum = weights * light.coat;
     for (std::size_t k = 0; k < edge_samples.size(); ++k) {

@@ -67,8 +67,10 @@ Texture pavement_picture() {
     const glm::vec2 p = glm::vec2(x, y) / float(picture_side);
     const float soil = 22.0f * stains.at(p) + 14.0f * grains.at(p);
     const bool is_joint = (row - std::floor(row)) < 0.06f || (column - std::floor(column)) < 0.06f;
-    return is_joint ? 92.0f + soil
-                    : 138.0f + soil + tones[std::size_t(int(row) * slabs + int(column) % slabs)];
+    return is_joint
+               ? 92.0f + soil
+               : 138.0f + soil +
+                     tones[std::size_t(int(row)) * std::size_t(slabs) + std::size_t(int(column) % slabs)];
   });
 }
 

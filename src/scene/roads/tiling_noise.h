@@ -25,7 +25,9 @@ class TilingNoise {
   }
 
  private:
-  float corner(int x, int y) const { return corners_[std::size_t(y % count_ * count_ + x % count_)]; }
+  float corner(int x, int y) const {
+    return corners_[std::size_t(y % count_) * std::size_t(count_) + std::size_t(x % count_)];
+  }
 
   int count_;
   std::vector<float> corners_;

@@ -51,8 +51,9 @@ void add_cars(scene::Scene& scene, const Camera& camera, int count) {
   const glm::vec3 middle = camera.position_in_world() + ahead_m * ahead;
   const float half = 0.5f * float(count - 1);
   for (int i = 0; i < count * count; ++i) {
+    const int row = i / count;
     const float across = (float(i % count) - half) * scale * box.size().x,
-                above = (float(i / count) - half) * scale * box.size().z;
+                above = (float(row) - half) * scale * box.size().z;
     scene::Object car;
     car.model = model;
     car.is_dynamic = car.takes_reflection = true;
