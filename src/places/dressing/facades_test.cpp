@@ -14,16 +14,11 @@
 #include "formats/readers/readers.h"
 #include "house/rooms.h"
 #include "places/dressing/brick_texture.h"
+#include "places/dressing/test_walls.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::dressing {
 namespace {
-
-void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-  const std::uint32_t first = std::uint32_t(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
-  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-}
 
 /// Two walls that meet at a corner, and a roof, in one part.
 scene::Model house(float width, float height) {
@@ -86,14 +81,6 @@ void add_wall(scene::Model& model, float x0, float x1, float foot, float top, fl
     add_quad(mesh, {x0, y, foot}, {x1, y, foot}, {x1, y, top}, {x0, y, top});
   fill_normals(mesh);
   mesh.uvs.resize(mesh.positions.size());
-}
-
-scene::Model no_walls() {
-  scene::Model model;
-  model.materials.emplace_back();
-  model.parts.emplace_back();
-  model.parts.front().object = "building";
-  return model;
 }
 
 double share_of(const scene::Model& model, const char* material) {

@@ -13,15 +13,10 @@
 #include "house/rooms.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/facades.h"
+#include "places/dressing/test_walls.h"
 
 namespace parvis::dressing {
 namespace {
-
-void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-  const std::uint32_t first = std::uint32_t(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
-  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-}
 
 /// A wall along an outline, counter-clockwise, each side a polygon of its own.
 void add_walls(scene::Model& model, const std::vector<glm::vec2>& outline, float height_m, bool is_ring) {
@@ -32,14 +27,6 @@ void add_walls(scene::Model& model, const std::vector<glm::vec2>& outline, float
   }
   fill_normals(mesh);
   mesh.uvs.resize(mesh.positions.size());
-}
-
-scene::Model no_walls() {
-  scene::Model model;
-  model.materials.emplace_back();
-  model.parts.emplace_back();
-  model.parts.front().object = "building";
-  return model;
 }
 
 std::vector<glm::vec2> circle(int sides, float radius_m) {

@@ -5,15 +5,10 @@
 #include <cmath>
 
 #include "base/mesh.h"
+#include "places/dressing/test_walls.h"
 
 namespace parvis::dressing {
 namespace {
-
-void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-  const std::uint32_t first = std::uint32_t(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
-  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-}
 
 std::vector<ModelTriangle> triangles_of(const Mesh& mesh) {
   scene::Model model;
