@@ -133,6 +133,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
 
 RayScene::RayScene(const scene::Scene& scene, Precision precision)
     : shadows_(scene.data<scene::SunShadows>()),
+      leaves_(scene.data<scene::LeafOpenness>()),
       device_(rtcNewDevice(nullptr)),
       has_wide_packets_(rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0),
       top_(rtcNewScene(device_)),
@@ -288,6 +289,7 @@ void RayScene::place(const scene::Model& model, const std::vector<scene::Materia
   part.part = int(p);
   part.material = &materials[std::size_t(source.material)];
   part.textures = &textures_of(model);
+  part.openness = leaves_.of(model, p);
   part.world_from_mesh = world_from_mesh;
   part.object = number;
   part.casts_shadow = source.casts_shadow && shadows_.casts(std::size_t(number));

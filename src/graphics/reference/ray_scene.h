@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "graphics/reference/fine_triangle.h"
 #include "graphics/reference/mip_texture.h"
+#include "scene/data/leaf_openness.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
 
@@ -38,6 +39,7 @@ struct PlacedPart {
   const scene::Material* material;
   const std::vector<MipTexture>* textures;  ///< of its model
   const scene::TracedSurface* surface;      ///< in place of material and textures; null: they hold
+  std::span<const float> openness = {};     ///< of foliage, by vertex: scene::LeafOpenness
   glm::mat4 world_from_mesh;
   glm::mat3 world_from_normal;
   int part = 0;  ///< of the object's model
@@ -159,6 +161,7 @@ class RayScene {
   void deform(std::size_t place);
 
   scene::SunShadows shadows_;
+  scene::LeafOpenness leaves_;
   RTCDeviceTy* device_;
   bool has_wide_packets_;  ///< the processor has instructions for packets of 16 rays (AVX-512)
   RTCSceneTy* top_;

@@ -76,6 +76,7 @@ ShadingPoint traced_point(const Hit& hit, vec3 direction, float width_m) {
   point.curvature_per_m = 0.0f;
   point.is_back = seen.is_back;
   point.alpha = hit.place->surface->alpha(seen);
+  point.openness = found.openness;
   point.kept_in_shadow = found.kept_in_shadow;
   point.surface = {found.normal,       found.base_colour, found.metallic,
                    found.roughness,    found.clear_coat,  found.clear_coat_roughness,
@@ -96,10 +97,14 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   const float weights[3]{1.0f - hit.u - hit.v, hit.u, hit.v};
   vec3 normal(0.0f), position(0.0f);
   vec2 uv(0.0f);
+  float openness = place.openness.empty() ? 1.0f : 0.0f;
   for (int k = 0; k < 3; ++k) {
     position += weights[k] * corners.position[k];
     normal += weights[k] * corners.normal[k];
     uv += weights[k] * corners.uv[k];
+    if (!place.openness.empty())
+      openness +=
+          weights[k] * place.openness[place.mesh->indices[3 * std::size_t(hit.triangle) + std::size_t(k)]];
   }
   normal = unit_or(normal, facet);
   const bool is_back = glm::dot(facet, direction) > 0.0f;
@@ -133,6 +138,7 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   point.geometric_normal = normal;
   point.curvature_per_m = place.is_mirror || material.refracts() ? curvature_per_m(corners, facet) : 0.0f;
   point.is_back = is_back;
+  point.openness = openness;
   point.alpha = base.w * material.alpha;
   shading::Surface& s = point.surface;
   const vec3 shading_normal =

@@ -14,6 +14,7 @@ struct ShadingPoint {
   float curvature_per_m;       ///< how fast that normal turns, in radians a metre: spreads reflected cones
   float alpha;
   bool is_back;                 ///< seen from behind
+  float openness = 1.0f;        ///< TracedPoint::openness
   float kept_in_shadow = 1.0f;  ///< TracedPoint::kept_in_shadow
   Relief relief;
 };

@@ -77,8 +77,9 @@ std::uint32_t order_evenly(std::vector<Piece>& pieces) {
 }
 
 /// The pieces whose order is below `limit`, enlarged.
-Mesh with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t limit, float enlarged) {
-  Mesh kept;
+FoliageLevel with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t limit, float enlarged) {
+  FoliageLevel level;
+  Mesh& kept = level.mesh;
   const auto piece_of = [&](std::uint32_t vertex) -> const Piece& {
     return pieces.all[pieces.of_vertex[vertex]];
   };
@@ -91,10 +92,11 @@ Mesh with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t limit, fl
     kept.positions.push_back(middle + enlarged * (mesh.positions[vertex] - middle));
     kept.normals.push_back(mesh.normals[vertex]);
     kept.uvs.push_back(mesh.uvs[vertex]);
+    level.vertices.push_back(vertex);
   }
   for (const std::uint32_t vertex : mesh.indices)
     if (piece_of(vertex).order < limit) kept.indices.push_back(place[vertex]);
-  return kept;
+  return level;
 }
 
 /// Of the pieces whose order is below `limit`.
@@ -113,7 +115,8 @@ float mean_size_m(const std::vector<Piece>& pieces) {
 }  // namespace
 
 std::uint64_t max_level_bytes(const Mesh& mesh) {
-  constexpr std::uint64_t vertex_bytes = 2 * sizeof(glm::vec3) + sizeof(glm::vec2);
+  constexpr std::uint64_t vertex_bytes =
+      2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(std::uint32_t);  // and which it was
   const std::uint64_t mesh_bytes =
       vertex_bytes * mesh.positions.size() + sizeof(std::uint32_t) * mesh.indices.size();
   return std::uint64_t(double(mesh_bytes) * kept_share / (1.0 - kept_share));  // the geometric series
@@ -133,7 +136,8 @@ std::vector<FoliageLevel> foliage_levels(const Mesh& mesh) {
     const double kept_m2 = area_m2(pieces.all, limit);
     if (!(kept_m2 > 0.0)) break;
     const float enlarged = float(std::sqrt(whole_m2 / kept_m2));
-    levels.push_back({with_pieces(mesh, pieces, limit, enlarged), error_of_leaf * enlarged * leaf_m});
+    levels.push_back(with_pieces(mesh, pieces, limit, enlarged));
+    levels.back().error_m = error_of_leaf * enlarged * leaf_m;
   }
   return levels;
 }

@@ -15,8 +15,9 @@ inline constexpr int max_foliage_levels = 7;  ///< one leaf in 17
 /// Foliage with fewer leaves: vertices of its own.
 struct FoliageLevel {
   Mesh mesh;
+  std::vector<std::uint32_t> vertices;  ///< of the finest mesh, one for each of `mesh`
   /// As the error of a surface (MeshLevel::error_m): a small, fixed share of the mean size of its leaves.
-  float error_m;
+  float error_m = 0.0f;
 };
 
 /// Levels of detail of a mesh of many small pieces that share no vertices (leaves, sprays). Each keeps two

@@ -5,40 +5,15 @@
 #include <array>
 #include <cmath>
 
-#include "base/random.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
-#include "scene/data/test_scene.h"
+#include "scene/data/test_crown.h"
 
 namespace parvis::render {
 namespace {
 
-constexpr float leaf_m = 0.3f, crown_m = 3.0f;
-
-/// A ball of square leaves, twig by twig.
-Mesh crown(int leaves) {
-  constexpr int leaves_of_twig = 12;
-  Random random(5);
-  const auto about = [&](float radius) {
-    glm::vec3 place(radius);
-    while (glm::length(place) > radius)
-      place = {random.uniform(-radius, radius), random.uniform(-radius, radius),
-               random.uniform(-radius, radius)};
-    return place;
-  };
-  Mesh mesh;
-  glm::vec3 twig(0.0f);
-  for (int i = 0; i < leaves; ++i) {
-    if (i % leaves_of_twig == 0) twig = about(crown_m);
-    const glm::vec3 middle = twig + about(0.5f), normal = glm::normalize(about(1.0f));
-    const glm::vec3 along = 0.5f * leaf_m * glm::normalize(glm::cross(normal, about(1.0f)));
-    const glm::vec3 aside = glm::cross(normal, along);
-    append(mesh, scene::quad(middle - along - aside, middle + along - aside, middle + along + aside,
-                             middle - along + aside));
-  }
-  return mesh;
-}
+using scene::crown, scene::crown_m, scene::leaf_m;
 
 double area_m2(const Mesh& mesh) {
   double area = 0.0;
@@ -58,11 +33,14 @@ TEST(FoliageLevels, HaveEverFewerLeavesOverTheSameArea) {
   float error_m = 0.0f;
   std::uint64_t bytes = 0;
   for (const FoliageLevel& level : levels) {
-    bytes += level.mesh.positions.size() * 32 + level.mesh.indices.size() * 4;
+    bytes += level.mesh.positions.size() * 32 + (level.vertices.size() + level.mesh.indices.size()) * 4;
     EXPECT_TRUE(check(level.mesh, "level"));
     EXPECT_NEAR(double(level.mesh.indices.size()) / double(finer), 2.0 / 3.0, 0.05);
     EXPECT_NEAR(area_m2(level.mesh) / area_m2(whole), 1.0, 1e-3);
     EXPECT_GT(level.error_m, error_m);
+    ASSERT_EQ(level.vertices.size(), level.mesh.normals.size());
+    for (std::size_t v = 0; v < level.vertices.size(); ++v)
+      EXPECT_EQ(level.mesh.normals[v], whole.normals[level.vertices[v]]);
     finer = level.mesh.indices.size(), error_m = level.error_m;
   }
   EXPECT_LE(bytes, max_level_bytes(whole));

@@ -4,18 +4,21 @@
 
 namespace parvis::render {
 
-MeshRange GpuGeometry::add_deforming(const Mesh& mesh) {
+MeshRange GpuGeometry::append(const Mesh& mesh, std::span<const float> openness) {
   const MeshRange range{std::uint32_t(indices_.size()), std::uint32_t(mesh.indices.size()),
                         std::int32_t(vertices_.size())};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    vertices_.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
+    vertices_.push_back(
+        {mesh.positions[i], mesh.normals[i], mesh.uvs[i], openness.empty() ? 1.0f : openness[i]});
   indices_.insert(indices_.end(), mesh.indices.begin(), mesh.indices.end());
   return range;
 }
 
-MeshRange GpuGeometry::add(const Mesh& mesh) {
+MeshRange GpuGeometry::add_deforming(const Mesh& mesh) { return append(mesh, {}); }
+
+MeshRange GpuGeometry::add(const Mesh& mesh, std::span<const float> openness) {
   assert(vertices_.size() == rigid_vertices_);
-  const MeshRange range = add_deforming(mesh);
+  const MeshRange range = append(mesh, openness);
   rigid_vertices_ = vertices_.size();
   return range;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/mesh.h"
@@ -24,10 +25,12 @@ class GpuGeometry {
   struct Vertex {
     glm::vec3 position, normal;
     glm::vec2 uv;
+    float openness;  ///< scene::LeafOpenness
   };
 
-  /// Appends a rigid mesh; all of them come before the first deforming one.
-  MeshRange add(const Mesh& mesh);
+  /// Appends a rigid mesh; all of them come before the first deforming one. `openness`: by vertex; empty: all
+  /// is open.
+  MeshRange add(const Mesh& mesh, std::span<const float> openness = {});
   /// Appends further triangles over the vertices of `mesh` (a coarser level of detail).
   MeshRange add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices);
   /// Appends a mesh that deforms; no rigid mesh may follow.
@@ -46,6 +49,8 @@ class GpuGeometry {
   GLuint index_buffer() const { return index_buffer_.name(); }
 
  private:
+  MeshRange append(const Mesh& mesh, std::span<const float> openness);
+
   std::vector<Vertex> vertices_;  ///< after `upload`: only those of deforming meshes
   std::vector<std::uint32_t> indices_;
   std::size_t rigid_vertices_ = 0;

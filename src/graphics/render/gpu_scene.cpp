@@ -13,6 +13,7 @@
 #include "graphics/render/foliage_levels.h"
 #include "graphics/render/mesh_levels.h"
 #include "graphics/shading/glsl.h"
+#include "scene/data/leaf_openness.h"
 #include "scene/data/mip_levels.h"
 #include "scene/data/sun_shadows.h"
 #include "scene/data/surroundings.h"
@@ -78,10 +79,8 @@ std::uint16_t features_of(const scene::Material& material) {
   if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
   if (material.clear_coat > 0.0f) features |= surface_has_coat;
   if (material.is_double_sided) features |= surface_has_backs;
-  if (material.alpha_mode == scene::Alpha::cutout) {
-    features |= surface_has_holes;
-    if (material.translucency > 0.0f) features |= surface_is_leaf;
-  }
+  if (material.alpha_mode == scene::Alpha::cutout) features |= surface_has_holes;
+  if (scene::is_foliage(material)) features |= surface_is_leaf;
   return features;
 }
 
@@ -116,6 +115,7 @@ GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
 }
 
 void GpuScene::add_models(const scene::Scene& scene) {
+  const auto& leaves = scene.data<scene::LeafOpenness>();
   for (const scene::Object& object : scene.objects) {
     const scene::Model& model = *object.model;
     const auto [first, is_new] = first_part_of_model_.try_emplace(&model, int(parts_.size()));
@@ -123,17 +123,18 @@ void GpuScene::add_models(const scene::Scene& scene) {
     if (!is_new) continue;
     upload_textures(model);
     const int first_material = add_materials(model, model.materials);
-    for (const scene::Part& part : model.parts) {
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const scene::Part& part = model.parts[p];
       const bool lets_through = model.materials[std::size_t(part.material)].refracts();
-      parts_.push_back({geometry_.add(part.mesh), first_material + part.material, part.node,
-                        part.mesh.bounds(), part.casts_shadow && !lets_through, 0, 0});
+      parts_.push_back({geometry_.add(part.mesh, leaves.of(model, p)), first_material + part.material,
+                        part.node, part.mesh.bounds(), part.casts_shadow && !lets_through, 0, 0});
     }
   }
 }
 
 void GpuScene::add_levels(const scene::Scene& scene) {
   add_surface_levels(scene);
-  add_foliage_levels();
+  add_foliage_levels(scene);
 }
 
 /// For dynamic objects and for models placed many times: only they are far away as a whole.
@@ -160,24 +161,35 @@ void GpuScene::add_surface_levels(const scene::Scene& scene) {
 }
 
 /// For all foliage: of one tree already there are more leaves than a picture shows from across a street.
-void GpuScene::add_foliage_levels() {
-  std::vector<std::pair<const Mesh*, PartRange*>> foliage;
+void GpuScene::add_foliage_levels(const scene::Scene& scene) {
+  struct Foliage {
+    const Mesh* mesh;
+    std::span<const float> openness;
+    PartRange* part;
+  };
+  std::vector<Foliage> foliage;
   for (const auto& [model, first_part] : first_part_of_model_)
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       PartRange& part = parts_[std::size_t(first_part) + p];
       const bool is_leaf = (materials_[std::size_t(part.material)].features & surface_is_leaf) != 0;
-      if (is_leaf && !model->parts[p].deformation) foliage.emplace_back(&model->parts[p].mesh, &part);
+      if (is_leaf && !model->parts[p].deformation)
+        foliage.push_back({&model->parts[p].mesh, scene.data<scene::LeafOpenness>().of(*model, p), &part});
     }
   std::uint64_t bytes = 0;
-  for (const auto& [mesh, part] : foliage) bytes += max_level_bytes(*mesh);
+  for (const Foliage& each : foliage) bytes += max_level_bytes(*each.mesh);
   if (bytes > memory_left()) return;  // the picture needs none of them
   std::vector<std::vector<FoliageLevel>> levels(foliage.size());
-  parallel_for(foliage.size(), [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].first); });
+  parallel_for(foliage.size(), [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].mesh); });
   for (std::size_t i = 0; i < foliage.size(); ++i) {
-    PartRange& part = *foliage[i].second;
+    PartRange& part = *foliage[i].part;
     part.first_level = int(levels_.size());
     part.level_count = int(levels[i].size());
-    for (const FoliageLevel& level : levels[i]) levels_.push_back({geometry_.add(level.mesh), level.error_m});
+    for (const FoliageLevel& level : levels[i]) {
+      std::vector<float> openness;
+      if (!foliage[i].openness.empty())
+        for (const std::uint32_t vertex : level.vertices) openness.push_back(foliage[i].openness[vertex]);
+      levels_.push_back({geometry_.add(level.mesh, openness), level.error_m});
+    }
   }
 }
 

@@ -130,7 +130,7 @@ class GpuScene {
   void add_models(const scene::Scene& scene);
   void add_levels(const scene::Scene& scene);
   void add_surface_levels(const scene::Scene& scene);
-  void add_foliage_levels();
+  void add_foliage_levels(const scene::Scene& scene);
   void add_painted_parts(const scene::Scene& scene);
   void add_deformed_parts(const scene::Scene& scene);
   void add_lit_parts(const scene::Scene& scene);

@@ -18,11 +18,12 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
     glVertexArrayAttribFormat(name, index, size, GL_FLOAT, GL_FALSE, offset);
     glVertexArrayAttribBinding(name, index, binding);
   };
-  glVertexArrayVertexBuffer(name, 0, gpu.vertex_buffer(), 0, 32);
+  glVertexArrayVertexBuffer(name, 0, gpu.vertex_buffer(), 0, sizeof(GpuGeometry::Vertex));
   glVertexArrayElementBuffer(name, gpu.index_buffer());
   attribute(0, 3, 0, 0);   // position
   attribute(1, 3, 12, 0);  // normal
   attribute(2, 2, 24, 0);  // uv
+  attribute(9, 1, 32, 0);  // openness
   for (GLuint row = 0; row < 3; ++row) attribute(3 + row, 4, 16 * row, 1);
   glEnableVertexArrayAttrib(name, 6);
   glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object

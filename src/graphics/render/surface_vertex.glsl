@@ -15,6 +15,9 @@ layout(location = 3) in vec4 world_from_mesh_row0;
 layout(location = 4) in vec4 world_from_mesh_row1;
 layout(location = 5) in vec4 world_from_mesh_row2;
 layout(location = 6) in uint object;
+#ifdef IS_LEAF
+layout(location = 9) in float mesh_openness;  // share of the sky that the plant itself leaves open
+#endif
 #ifdef HAS_VERTEX_LIGHT
 layout(location = 8) in ivec2 first_light;  // of vertex 0 of the buffer, on both sides
 #include "graphics/render/vertex_light_lookup.glsl"
@@ -51,7 +54,7 @@ void surface_vertex() {
   light_corner(
       normal,
       shaded_cell(sky_visibility_cell(position, normal), sky_share_beside_bodies(position, normal, number)),
-      leaf_roughness(), material_texture_u.w);
+      mesh_openness, leaf_roughness(), material_texture_u.w);
 #endif
 #ifdef HAS_VERTEX_LIGHT
   vertex_light = vertex_light_at(first_light.x + gl_VertexID);

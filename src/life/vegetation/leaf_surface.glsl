@@ -17,8 +17,7 @@ GLSL_FUNCTION vec3 leaf_side_colour(vec3 colour, bool is_back) {
   return is_back ? mix(colour, vec3(0.16f, 0.2f, 0.12f), 0.3f) : colour;
 }
 
-GLSL_FUNCTION Surface leaf_surface(vec3 normal, vec3 colour, float translucency, float roughness,
-                                   float openness) {
+GLSL_FUNCTION Surface leaf_surface(vec3 normal, vec3 colour, float translucency, float roughness) {
   Surface s;
   s.normal = normal;
   s.base_colour = colour;
@@ -27,7 +26,7 @@ GLSL_FUNCTION Surface leaf_surface(vec3 normal, vec3 colour, float translucency,
   s.clear_coat = 0.0f;
   s.clear_coat_roughness = 0.03f;
   s.translucency = translucency;
-  s.occlusion = openness;
+  s.occlusion = 1.0f;  // what hides the sky is in the light of corners
   s.emission = vec3(0.0f);
   return s;
 }
@@ -35,6 +34,6 @@ GLSL_FUNCTION Surface leaf_surface(vec3 normal, vec3 colour, float translucency,
 const float bark_roughness = 0.9f;
 
 // `texel`: of the bark's picture, relative to the kind's colour, which is 0.5.
-GLSL_FUNCTION Surface bark_surface(vec3 normal, vec3 texel, vec3 colour, float openness) {
-  return leaf_surface(normal, min(2.0f * texel * colour, vec3(0.9f)), 0.0f, bark_roughness, openness);
+GLSL_FUNCTION Surface bark_surface(vec3 normal, vec3 texel, vec3 colour) {
+  return leaf_surface(normal, min(2.0f * texel * colour, vec3(0.9f)), 0.0f, bark_roughness);
 }

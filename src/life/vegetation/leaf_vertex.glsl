@@ -12,7 +12,7 @@ uniform float pixels_at_w_1;  // per metre, where the clip coordinate w is 1
 uniform float min_point_px;   // smaller points are left out by their area's chance, 0: none are
 #else
 flat out vec3 leaf_material;  // veins, translucency, roughness
-out vec4 leaf_colour;         // w: openness
+out vec3 leaf_colour;
 
 layout(location = 0) in vec3 leaf_foot;
 layout(location = 1) in vec4 leaf_offset;  // from the foot; w: openness
@@ -41,8 +41,8 @@ void surface_vertex() {
   object_of_surface = int(plant_thing);
   leaf_sun = sun_by_one_texel(vertex_normal);
   light_speck(leaf_surface(vertex_normal, leaf_side_colour(colour_of_blade(), facing < 0.0f),
-                           leaf_translucency(), leaf_roughness(), leaf_size.y),
-              sky_visibility_cell(position, vertex_normal));
+                           leaf_translucency(), leaf_roughness()),
+              sky_visibility_cell(position, vertex_normal), leaf_size.y);
   float w = transpose(clip_from_world)[3].x * position.x + transpose(clip_from_world)[3].y * position.y +
             transpose(clip_from_world)[3].z * position.z + transpose(clip_from_world)[3].w;
   float size = leaf_size.x * sqrt(max(abs(facing), 1e-3f)) * grown_length(leaf_size.z) * shown_leaves.w *
@@ -61,8 +61,9 @@ void surface_vertex() {
   vec3 normal = normalize(vertex_normal);
   normal = dot(normal, viewer_position.xyz - position) < 0.0f ? -normal : normal;
   leaf_sun = sun_by_one_texel(normal);
-  light_corner(normal, sky_visibility_cell(position, normal), leaf_roughness(), leaf_translucency());
-  leaf_colour = vec4(colour_of_blade(), leaf_offset.w);
+  light_corner(normal, sky_visibility_cell(position, normal), leaf_offset.w, leaf_roughness(),
+               leaf_translucency());
+  leaf_colour = colour_of_blade();
   leaf_material = vec3(dark_colour.w, leaf_translucency(), leaf_roughness());
 }
 #endif

@@ -5,9 +5,9 @@
 
 #include "base/random.h"
 #include "life/vegetation/conifer.h"
-#include "life/vegetation/crown_openness.h"
 #include "life/vegetation/leaf_order.h"
 #include "places/paper_city/tree_mesh.h"
+#include "scene/data/crown_openness.h"
 
 namespace parvis::vegetation {
 namespace {
@@ -229,7 +229,11 @@ void add_wood(PlantShape& shape, const std::vector<Branch>& branches, Random& ra
 }
 
 void find_openness(PlantShape& shape) {
-  const CrownOpenness openness(shape.leaves, full_leaf(shape.kind().leaf).area());
+  const float unit_m2 = full_leaf(shape.kind().leaf).area();
+  std::vector<scene::LeafArea> areas;
+  areas.reserve(shape.leaves.size());
+  for (const Leaf& leaf : shape.leaves) areas.push_back({leaf.foot, unit_m2 * leaf.length_m * leaf.length_m});
+  const scene::CrownOpenness openness(areas);
   for (Leaf& leaf : shape.leaves) leaf.openness = openness.at(leaf.foot + 0.5f * leaf.length_m * leaf.along);
   for (Twig& twig : shape.twigs) twig.openness = openness.at(0.5f * (twig.from + twig.to));
   for (const vec3 point : shape.wood.positions) shape.wood_openness.push_back(openness.at(point));

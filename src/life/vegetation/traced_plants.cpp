@@ -20,11 +20,11 @@ using namespace parvis::shading;
 #include "life/vegetation/leaf_surface.glsl"
 }  // namespace shared
 
-scene::TracedPoint traced_point(const shading::Surface& surface) {
+scene::TracedPoint traced_point(const shading::Surface& surface, float openness) {
   scene::TracedPoint point;
   point.normal = surface.normal, point.base_colour = surface.base_colour;
   point.roughness = surface.roughness, point.translucency = surface.translucency;
-  point.occlusion = surface.occlusion;
+  point.openness = openness;
   return point;
 }
 
@@ -41,8 +41,8 @@ class LeafSurface final : public scene::TracedSurface {
     const float shade = shared::vein_shade(hit.uv, kind.veins, hit.width_m / (scale_ * leaf.length_m));
     const glm::vec3 colour =
         shared::leaf_side_colour(glm::mix(kind.dark, kind.light, leaf.tint), hit.is_back);
-    return traced_point(
-        shared::leaf_surface(hit.normal, shade * colour, kind.translucency, kind.roughness, leaf.openness));
+    return traced_point(shared::leaf_surface(hit.normal, shade * colour, kind.translucency, kind.roughness),
+                        leaf.openness);
   }
   scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
 
@@ -67,7 +67,7 @@ class WoodSurface final : public scene::TracedSurface {
     const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],
                                          hit.barycentric.x / std::max(1.0f - hit.barycentric.y, 1e-6f)),
                                 openness[corner[2]], hit.barycentric.y);
-    return traced_point(shared::bark_surface(hit.normal, texel, shape_->kind().bark, open));
+    return traced_point(shared::bark_surface(hit.normal, texel, shape_->kind().bark), open);
   }
   scene::Alpha alpha_mode() const override { return scene::Alpha::cutout; }
 

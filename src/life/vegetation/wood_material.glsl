@@ -4,9 +4,8 @@
 uniform sampler2D bark_texture;
 
 flat in vec3 bark_colour;
-in float wood_openness;
 
 Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
   alpha = 1.0f;
-  return bark_surface(seen.normal, texture(bark_texture, uv).rgb, bark_colour, wood_openness);
+  return bark_surface(seen.normal, texture(bark_texture, uv).rgb, bark_colour);
 }

@@ -11,7 +11,6 @@ layout(location = 2) in vec2 wood_uv;
 uniform sampler2D bark_texture;  // of which the mean counts
 #else
 flat out vec3 bark_colour;
-out float wood_openness;
 #endif
 
 void surface_vertex() {
@@ -26,14 +25,13 @@ void surface_vertex() {
   object_of_surface = int(plant_thing);
 #ifdef IS_LINE
   leaf_sun = sun_by_one_texel(normal);
-  light_speck(bark_surface(normal, textureLod(bark_texture, uv, 8.0f).rgb, dark_colour.rgb, wood_normal.w),
-              sky_visibility_cell(position, normal));
+  light_speck(bark_surface(normal, textureLod(bark_texture, uv, 8.0f).rgb, dark_colour.rgb),
+              sky_visibility_cell(position, normal), wood_normal.w);
 #else
   leaf_sun = visible_sun(position, normal);
   vec4 sky_cell = shaded_cell(sky_visibility_cell(position, normal),
                               sky_share_beside_bodies(position, normal, int(plant_thing)));
-  light_corner(normal, sky_cell, bark_roughness, 0.0f);
+  light_corner(normal, sky_cell, wood_normal.w, bark_roughness, 0.0f);
   bark_colour = dark_colour.rgb;
-  wood_openness = wood_normal.w;
 #endif
 }

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/camera_check.h"
+#include "scene/data/leaf_openness.h"
 #include "scene/script/performer_file.h"
 
 namespace parvis::scene {
@@ -133,6 +134,7 @@ void SceneBuilder::fail(const Errors& errors, const FileLocation& where) {
 Result<LoadedScene> SceneBuilder::finish() && {
   for (const FinishStep& step : registry_.finish_steps()) step(*this);
   if (!errors_.empty()) return std::move(errors_);
+  find_leaf_openness(scene);
   Script script = std::move(*this).take_script();
   return LoadedScene{std::move(scene), std::move(warnings_), std::move(script)};
 }

@@ -1,10 +1,10 @@
-#include "life/vegetation/crown_openness.h"
+#include "scene/data/crown_openness.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace parvis::vegetation {
+namespace parvis::scene {
 namespace {
 
 constexpr int cells_per_side = 24;
@@ -27,18 +27,17 @@ const std::array<glm::vec3, 13>& directions() {
 
 }  // namespace
 
-CrownOpenness::CrownOpenness(const std::vector<Leaf>& leaves, float area_of_unit_leaf) {
-  for (const Leaf& leaf : leaves) box_.add(leaf.foot);
+CrownOpenness::CrownOpenness(std::span<const LeafArea> leaves) {
+  for (const LeafArea& leaf : leaves) box_.add(leaf.place);
   if (leaves.empty()) return;
   const glm::vec3 size = box_.size();
   cell_m_ = std::max(std::max({size.x, size.y, size.z}) / float(cells_per_side), 1e-3f);
   cells_ = glm::ivec3(size / cell_m_) + 1;
   density_.assign(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z), 0.0f);
   const float per_volume = 1.0f / (cell_m_ * cell_m_ * cell_m_);
-  for (const Leaf& leaf : leaves) {
-    const glm::ivec3 cell = glm::min(glm::ivec3((leaf.foot - box_.min) / cell_m_), cells_ - 1);
-    density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)] +=
-        area_of_unit_leaf * leaf.length_m * leaf.length_m * per_volume;
+  for (const LeafArea& leaf : leaves) {
+    const glm::ivec3 cell = glm::min(glm::ivec3((leaf.place - box_.min) / cell_m_), cells_ - 1);
+    density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)] += leaf.area_m2 * per_volume;
   }
 }
 
@@ -66,4 +65,4 @@ float CrownOpenness::at(glm::vec3 place) const {
   return std::max(seen / all, min_openness);
 }
 
-}  // namespace parvis::vegetation
+}  // namespace parvis::scene

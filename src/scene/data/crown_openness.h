@@ -1,0 +1,35 @@
+// How much of the sky the leaves of a crown leave open to a place in it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/bounds.h"
+
+namespace parvis::scene {
+
+/// A leaf, or some leaves that hang together.
+struct LeafArea {
+  glm::vec3 place;
+  float area_m2;  ///< of one side
+};
+
+/// Leaf area density on a coarse grid; light passes it as it passes leaves of all directions (Beer and
+/// Lambert, an extinction of half the leaf area per volume: Ross 1981).
+class CrownOpenness {
+ public:
+  explicit CrownOpenness(std::span<const LeafArea> leaves);
+  /// Share of the sky, weighted by its height, that is seen from a place; at least 0.08, for what leaves
+  /// scatter reaches everywhere.
+  float at(glm::vec3 place) const;
+
+ private:
+  float extinction_per_m(glm::vec3 place) const;
+
+  Bounds box_;
+  glm::ivec3 cells_{0};
+  float cell_m_ = 1.0f;
+  std::vector<float> density_;  ///< leaf area per volume, 1/m
+};
+
+}  // namespace parvis::scene
