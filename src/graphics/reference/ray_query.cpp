@@ -59,7 +59,7 @@ float alpha_of(const Candidate& candidate, bool is_shadow) {
 bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
   const scene::Material& material = *candidate.place.material;
   if (!passage.sees_backs && !material.is_double_sided && candidate.is_back) return false;
-  if (material.alpha_mode == scene::Alpha::opaque) return true;
+  if (material.alpha_mode == scene::Alpha::opaque) return !(is_shadow && is_backdrop(candidate.place));
   if (material.alpha_mode == scene::Alpha::cutout) return alpha_of(candidate, is_shadow) >= 0.5f;
   return candidate.place.casts_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
 }

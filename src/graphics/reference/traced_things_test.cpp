@@ -198,5 +198,26 @@ TEST(TracedThings, PathsSeeThem) {
   EXPECT_FALSE(paths.sample({{1, -5, 0}, {0, 1, 0}}, 1e-3f, numbers, 1).meets_scene);
 }
 
+/// What a photograph shows of all that is far away is seen, and lets sun and sky through.
+TEST(TracedThings, LightPassesABackdrop) {
+  const auto is_dark_behind = [](bool is_recorded, bool casts_shadow) {
+    scene::Scene scene = scene_with([&](scene::TracedScene& traced) {
+      traced.add(facing_south(), std::make_shared<const Shining>(), glm::mat4(1.0f),
+                 {.casts_shadow = casts_shadow});
+    });
+    scene.traced_kinds.front().is_recorded = is_recorded;
+    const RayScene rays(scene);
+    Passage passage;
+    const Ray ray{{0, -5, 0}, {0, 1, 0}};
+    EXPECT_TRUE(rays.nearest_hit(ray, passage));
+    const bool is_blocked = rays.is_blocked(ray, passage);
+    EXPECT_EQ(rays.are_blocked(std::span(&ray, 1), std::span(&passage, 1)) != 0, is_blocked);
+    return is_blocked;
+  };
+  EXPECT_FALSE(is_dark_behind(true, false));
+  EXPECT_TRUE(is_dark_behind(true, true));
+  EXPECT_TRUE(is_dark_behind(false, false));
+}
+
 }  // namespace
 }  // namespace parvis::reference
