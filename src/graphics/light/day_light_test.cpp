@@ -5,12 +5,14 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/colour.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/cloud_cover.h"
 #include "graphics/light/room.h"
+#include "scene/action/scene_clock.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
@@ -18,15 +20,17 @@
 namespace parvis::light {
 namespace {
 
-const scene::NodeRegistry& registry() {
-  static const House house = [] {
+const House& house() {
+  static const House furnished = [] {
     House all;
     script::furnish(all);
     light::furnish(all);
     return all;
   }();
-  return house.get<scene::NodeRegistry>();
+  return furnished;
 }
+
+const scene::NodeRegistry& registry() { return house().get<scene::NodeRegistry>(); }
 
 Result<scene::LoadedScene> load(const TestFolder& folder, const std::string& script) {
   folder.write("scene.xp", script);
@@ -175,6 +179,27 @@ TEST(DayLightNode, TheScriptsExposureMultiplies) {
   EXPECT_FLOAT_EQ(without->scene.exposure, 2.0f);
 }
 
+/// The vertices of the parts of one material of a sun path, in its own frame of radius 1; those that are put
+/// away lie within the horizon.
+std::vector<glm::vec3> shown_vertices(const scene::Object& path, int material) {
+  std::vector<glm::vec3> shown;
+  for (const scene::Part& part : path.model->parts) {
+    if (part.material != material) continue;
+    const glm::mat4& pose = path.pose[std::size_t(part.node)];
+    if (glm::length(glm::vec3(pose[1])) < 0.5f) continue;
+    for (const glm::vec3 p : part.mesh.positions) shown.emplace_back(pose * glm::vec4(p, 1.0f));
+  }
+  return shown;
+}
+
+constexpr int horizon = 0, of_days = 1, of_today = 2, of_sun = 3;  // materials of sun_path_model
+
+glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
+  Bounds bounds;
+  for (const glm::vec3 p : points) bounds.add(p);
+  return bounds.centre();
+}
+
 TEST(SunPathNode, ArcsStandWhereTheSunGoes) {
   const TestFolder folder;
   const auto loaded = load(folder,
@@ -183,30 +208,156 @@ TEST(SunPathNode, ArcsStandWhereTheSunGoes) {
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   ASSERT_EQ(loaded->scene.objects.size(), 1u);
   const scene::Object& path = loaded->scene.objects.front();
-  const Mesh& arc = path.model->parts.front().mesh;
-  EXPECT_FALSE(path.model->parts.front().casts_shadow);
-  float nearest_m = 1e9f, top_m = 0.0f;
-  for (const glm::vec3 p : arc.positions) {
-    EXPECT_NEAR(glm::length(p), 10.0f, 0.2f);
-    nearest_m = std::min(nearest_m, glm::distance(p, 10.0f * loaded->scene.sun.direction_to_sun));
-    top_m = std::max(top_m, p.z);
+  for (const scene::Part& part : path.model->parts) EXPECT_FALSE(part.casts_shadow);
+  const std::vector<glm::vec3> arc = shown_vertices(path, of_days);
+  ASSERT_FALSE(arc.empty());
+  float nearest = 1e9f, top = 0.0f;
+  for (const glm::vec3 p : arc) {
+    EXPECT_NEAR(glm::length(p), 1.0f, 0.02f);
+    nearest = std::min(nearest, glm::distance(p, loaded->scene.sun.direction_to_sun));
+    top = std::max(top, p.z);
   }
-  EXPECT_LT(nearest_m, 0.2f) << "the bead at 15 o'clock";
-  EXPECT_NEAR(top_m, 10.0f * std::sin(glm::radians(69.74f)), 0.2f) << "midsummer's noon";
+  EXPECT_LT(nearest, 0.02f) << "the bead at 15 o'clock";
+  EXPECT_NEAR(top, std::sin(glm::radians(69.74f)), 0.02f) << "midsummer's noon";
+  EXPECT_TRUE(shown_vertices(path, of_today).empty()) << "today is the day that the node names";
+  EXPECT_LT(glm::distance(middle_of(shown_vertices(path, of_sun)), loaded->scene.sun.direction_to_sun),
+            1e-3f);
   EXPECT_EQ(path.world_from_model[3].x, 5.0f);
+  EXPECT_EQ(path.world_from_model[2].z, 10.0f);
+}
+
+/// So that the present hour is seen among the others.
+TEST(SunPathNode, TheSunIsLargerThanTheHoursAndSets) {
+  const TestFolder folder;
+  const auto night = load(folder, "dayLight(timeOfDay=1)\nsunPath()\n");
+  ASSERT_TRUE(night) << to_string(night.errors());
+  const scene::Object& path = night->scene.objects.front();
+  EXPECT_TRUE(shown_vertices(path, of_sun).empty());
+  float bead = 1e9f, sun = 0.0f;  // the smallest of each
+  for (const scene::Part& part : path.model->parts) {
+    const glm::vec3 size = part.mesh.bounds().size();
+    const bool is_bead = part.material == of_days && size.x == size.z;
+    if (is_bead) bead = std::min(bead, size.x);
+    if (part.material == of_sun) sun = size.x;
+  }
+  EXPECT_GT(sun, 2.0f * bead);
 }
 
 TEST(SunPathNode, PolarNightHasTheHorizonAloneAndWrongDaysAreNamed) {
   const TestFolder folder;
-  const auto dark = load(folder, "dayLight(latitude=80, longitude=20)\nsunPath(julianDay=355)\n");
+  const auto dark =
+      load(folder, "dayLight(latitude=80, longitude=20, julianDay=350)\nsunPath(julianDay=355)\n");
   ASSERT_TRUE(dark) << to_string(dark.errors());
-  EXPECT_EQ(dark->scene.objects.front().model->parts.size(), 1u);
+  const scene::Object& path = dark->scene.objects.front();
+  for (const int material : {of_days, of_today, of_sun})
+    EXPECT_TRUE(shown_vertices(path, material).empty()) << material;
+  EXPECT_FALSE(shown_vertices(path, horizon).empty());
+  // What is put away lies inside the ring, which is 0.002 thick.
+  for (const scene::Part& part : path.model->parts)
+    if (part.material != horizon)
+      for (const glm::vec3 p : part.mesh.positions) {
+        const glm::vec3 at(path.pose[std::size_t(part.node)] * glm::vec4(p, 1.0f));
+        EXPECT_LT(glm::length(glm::vec2(glm::length(glm::vec2(at)) - 1.0f, at.z)), 0.002f);
+      }
   const auto without = load(folder, "sunPath()\n");
   ASSERT_FALSE(without);
   EXPECT_NE(to_string(without.errors()).find("needs a dayLight before it"), std::string::npos);
   const auto late = load(folder, "dayLight(year=2026)\nsunPath(julianDay=366)\n");
   ASSERT_FALSE(late);
   EXPECT_NE(to_string(late.errors()).find("365"), std::string::npos);
+}
+
+/// A scene that runs, with the processes of this room.
+class RunningSunPath {
+ public:
+  explicit RunningSunPath(const std::string& script) : loaded_(load(folder_, script)) {
+    EXPECT_TRUE(loaded_) << to_string(loaded_.errors());
+    scene::LiveScene live(std::move(loaded_->script));
+    EXPECT_TRUE(live.prepare_scenarios(loaded_->scene));
+    clock_.emplace(house().get<action::Processes>(), std::move(live), loaded_->scene);
+  }
+  scene::Scene& scene() { return loaded_->scene; }
+  action::SceneClock& clock() { return *clock_; }
+  const scene::Object& path() const { return loaded_->scene.objects.front(); }
+  glm::vec3 sun() const { return middle_of(shown_vertices(path(), of_sun)); }
+  void send(const std::string& target, const std::string& message) {
+    const Status status = clock_->send(target, message);
+    EXPECT_TRUE(status) << to_string(status.errors());
+    clock_->advance(scene(), action::step_s);
+  }
+
+ private:
+  TestFolder folder_;
+  Result<scene::LoadedScene> loaded_;
+  std::optional<action::SceneClock> clock_;
+};
+
+TEST(SunPathNode, TheSunMovesWithMessages) {
+  RunningSunPath running("dayLight(julianDay=130, timeOfDay=9)\nsunPath()\n");
+  const glm::vec3 morning = running.sun();
+  EXPECT_LT(glm::distance(morning, running.scene().sun.direction_to_sun), 1e-3f);
+  const std::vector<glm::vec3> today = shown_vertices(running.path(), of_today);
+  running.send("%dayLight", "timeOfDay 16");
+  EXPECT_GT(glm::distance(running.sun(), morning), 0.5f);
+  EXPECT_LT(glm::distance(running.sun(), running.scene().sun.direction_to_sun), 1e-3f);
+  EXPECT_FALSE(today.empty());
+  EXPECT_EQ(shown_vertices(running.path(), of_today), today) << "the same day";
+  // As the window and films set it: attributes, without a message.
+  scene::LiveScene& live = running.clock().live();
+  live.set(*live.find("%dayLight"), "timeOfDay", 12.0);
+  running.clock().follow(running.scene());
+  EXPECT_LT(glm::distance(running.sun(), running.scene().sun.direction_to_sun), 1e-3f);
+}
+
+TEST(SunPathNode, ArcsFollowTheDayAndThePlaceAndNoObjectIsAdded) {
+  RunningSunPath running("dayLight(julianDay=172, latitude=43.7)\nsunPath(name=\"path\", julianDay=80)\n");
+  // Beads stand 0.012 above the arc's highest point.
+  const auto expect_noon = [&](int material, float elevation_deg) {
+    float top = 0.0f;
+    for (const glm::vec3 p : shown_vertices(running.path(), material)) top = std::max(top, p.z);
+    EXPECT_NEAR(top, std::sin(glm::radians(elevation_deg)), 0.02f) << elevation_deg;
+  };
+  constexpr float tilt_deg = 23.44f;
+  expect_noon(of_days, 90.0f - 43.7f);
+  expect_noon(of_today, 90.0f - 43.7f + tilt_deg);
+  running.send("%dayLight", "julianDay 355");
+  expect_noon(of_days, 90.0f - 43.7f);
+  expect_noon(of_today, 90.0f - 43.7f - tilt_deg);
+  running.send("%dayLight", "latitude 60");
+  expect_noon(of_days, 90.0f - 60.0f);
+  running.send("path", "julianDay 172");
+  expect_noon(of_days, 90.0f - 60.0f + tilt_deg);
+  running.send("path", "radius 12");
+  EXPECT_EQ(running.path().world_from_model[0].x, 12.0f);
+  EXPECT_EQ(running.scene().objects.size(), 1u) << "renderers have the objects that the scene began with";
+}
+
+TEST(SunPathNode, FollowsAScenario) {
+  RunningSunPath running(
+      "dayLight(timeOfDay=9)\nsunPath()\nscenario(name=\"evening\") { override(of=\"%dayLight\", "
+      "timeOfDay=18) }\n");
+  const glm::vec3 morning = running.sun();
+  ASSERT_TRUE(running.clock().live().choose(running.scene(), "evening"));
+  running.clock().follow(running.scene());
+  EXPECT_LT(running.sun().x, 0.0f) << "in the west";
+  ASSERT_TRUE(running.clock().live().choose(running.scene(), scene::base_scene));
+  running.clock().follow(running.scene());
+  EXPECT_LT(glm::distance(running.sun(), morning), 1e-3f);
+}
+
+TEST(SunPathNode, TheLastDayOfALeapYearFollowsIntoTheNext) {
+  RunningSunPath running("dayLight(year=2024)\nsunPath(julianDay=366)\n");
+  running.send("%dayLight", "year 2026");
+  EXPECT_FALSE(shown_vertices(running.path(), of_days).empty());
+}
+
+/// What cannot be has no part in the scene's data either: others read it.
+TEST(DayLightNode, ADayThatTheYearLacksLeavesThePlaceAndTimeAsTheyWere) {
+  RunningSunPath running("dayLight(year=2026, julianDay=80)\nsunPath()\n");
+  const PlaceAndTime before = running.scene().data<DayLight>().when;
+  running.send("%dayLight", "julianDay 366");
+  EXPECT_EQ(running.scene().data<DayLight>().when, before);
+  EXPECT_FALSE(running.clock().take_warnings().empty());
 }
 
 TEST(SkyDome, CloudsOfThePhotographStandInTodaysLight) {

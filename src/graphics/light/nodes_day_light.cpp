@@ -66,8 +66,12 @@ void relight(const scene::Node& node, scene::SceneBuilder& builder) {
 void build_day_light(const scene::Node& node, scene::SceneBuilder& builder) {
   DayLight& day = builder.scene.data<DayLight>();
   day.is_given = true;
-  day.when = {node.number("latitude"),   node.number("longitude"),       node.number("standardMeridian"),
-              int(node.integer("year")), int(node.integer("julianDay")), node.number("timeOfDay")};
+  const PlaceAndTime when{node.number("latitude"),         node.number("longitude"),
+                          node.number("standardMeridian"), int(node.integer("year")),
+                          int(node.integer("julianDay")),  node.number("timeOfDay")};
+  // A message that cannot be leaves all as it was, for those that read it, too.
+  if (const Status status = check(when); !status) return builder.fail(status.errors(), node.where);
+  day.when = when;
   day.air = {node.number("turbidity"), node.number("ground_albedo")};
   for (std::size_t i = 0; i < sky_kind_names.size(); ++i)
     if (node.text("model") == sky_kind_names[i]) day.kind = SkyKind(i);

@@ -132,7 +132,7 @@ void parvis::light::furnish(House& house) {
   registry.add(sky_schema(), build_sky);
   light::add_day_light_nodes(registry);
   light::add_shadow_map_node(registry);
-  light::add_sun_path_node(registry);
+  light::add_sun_path(house);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.scene.haze_per_m = float(node.number("haze_per_m"));
   });
