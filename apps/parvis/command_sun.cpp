@@ -1,5 +1,6 @@
 // parvis sun: hours of direct sun over a scene.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "graphics/light/sun_study.h"
 #include "house/stage/film.h"
 #include "machines/processes.h"
+#include "scene/script/attribute.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -23,6 +25,8 @@ struct Arguments {
   SceneArguments scene;
   std::string from, to;
   std::vector<double> place, area;
+  std::vector<std::string> ground;
+  std::optional<std::string> outline;
   std::optional<double> clock_h;
   double cell_m = 2.0;
   int every = 1;
@@ -78,6 +82,28 @@ Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Sc
   return period;
 }
 
+/// Corners out of "x y, x y, ...", which lie in the area of the study.
+Result<std::vector<glm::dvec2>> read_outline(const Arguments& arguments) {
+  std::vector<glm::dvec2> corners;
+  if (!arguments.outline) return corners;
+  const Result<scene::AttributeValue> points =
+      scene::parse_value(scene::attribute::points("--outline", ""), *arguments.outline, Roots(""), {});
+  if (!points) return points.errors();
+  for (const glm::vec3 point : std::get<std::vector<glm::vec3>>(*points)) corners.emplace_back(point);
+  const std::vector<double>& area = arguments.area;
+  for (const glm::dvec2 corner : corners) {
+    const bool is_inside =
+        area.empty() || (corner.x >= std::min(area[0], area[2]) && corner.x <= std::max(area[0], area[2]) &&
+                         corner.y >= std::min(area[1], area[3]) && corner.y <= std::max(area[1], area[3]));
+    if (!is_inside)
+      return error("--outline: the corner {:g} {:g} lies outside of --area: no hours are studied there",
+                   corner.x, corner.y);
+  }
+  Result<std::vector<glm::dvec2>> checked = light::checked_outline(std::move(corners));
+  if (!checked) return error("--outline: {}", checked.errors().front().message);
+  return checked;
+}
+
 /// The scene with what visitors may move at the place where the script puts it: it casts its shadow there.
 scene::Scene as_it_stands(const house::Play& play) {
   scene::Scene scene = play.scene;
@@ -91,7 +117,14 @@ scene::Scene as_it_stands(const house::Play& play) {
   return scene;
 }
 
-void print_rule(const light::SunStudy& study, const light::SunPeriod& period) {
+/// What is judged, as the command line says it.
+std::string judged_ground(const Arguments& arguments) {
+  if (arguments.ground.empty()) return arguments.outline ? "open ground in the outline" : "open ground";
+  return fmt::format("ground \"{}\"{}", fmt::join(arguments.ground, "\", \""),
+                     arguments.outline ? " in the outline" : "");
+}
+
+void print_rule(const Arguments& arguments, const light::SunStudy& study, const light::SunPeriod& period) {
   const light::OpenSpaceRule rule = light::open_space_rule(study);
   if (rule.area_m2 == 0.0) {
     fmt::print("no open ground: the rule of BRE 209 does not apply\n");
@@ -99,8 +132,7 @@ void print_rule(const light::SunStudy& study, const light::SunPeriod& period) {
   }
   const bool is_equinox =
       period.first_day == light::day_of_year(period.place.year, 3, 21) && period.last_day == period.first_day;
-  fmt::print("open ground: {:.0f} m2, {:.1f} % of it with two hours or more{}\n", rule.area_m2,
-             100.0 * rule.share,
+  fmt::print("{}: {}{}\n", judged_ground(arguments), to_string(rule),
              !is_equinox      ? " (BRE 209 asks for 21 March: --from 2026-03-21)"
              : rule.is_kept() ? ": BRE 209 is kept (half of it)"
                               : ": BRE 209 is NOT kept (it asks for half of it)");
@@ -122,6 +154,8 @@ void print_daylight(const light::SunPeriod& period, const std::string& date) {
 }
 
 Status study(const Arguments& arguments) {
+  Result<std::vector<glm::dvec2>> outline = read_outline(arguments);
+  if (!outline) return outline.errors();
   const Result<machines::Processes> processes = machines::Processes::join();
   if (!processes) return processes.errors();
   const Result<house::Play> play = arguments.scene.open_play();
@@ -132,6 +166,7 @@ Status study(const Arguments& arguments) {
                                  .cell_m = arguments.cell_m,
                                  .area = {},
                                  .has_facades = !arguments.is_ground_only,
+                                 .judged = {arguments.ground, *std::move(outline)},
                                  .processes = *processes};
   if (!arguments.area.empty())
     options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
@@ -152,7 +187,7 @@ Status study(const Arguments& arguments) {
       "hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
       arguments.output.string(),
       result->surfaces.indices.empty() ? "" : ", _facades.csv, .glb with its colours in _sun_hours.jpg");
-  print_rule(*result, *period);
+  print_rule(arguments, *result, *period);
   return Done{};
 }
 
@@ -238,13 +273,23 @@ void add_sun(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--area", arguments->area, "x and y of two corners in metres (default: the whole scene)")
       ->expected(4);
+  CLI::Option* ground =
+      command
+          ->add_option("--ground", arguments->ground,
+                       "What the rule for open space judges: objects of this name, or parts or materials of "
+                       "their models; * and ? stand for other text; may repeat (default: all open ground)")
+          ->allow_extra_args(false);
+  CLI::Option* outline = command->add_option("--outline", arguments->outline,
+                                             "Corners of the ground that it judges, as \"x y, x y, x y\" in "
+                                             "metres; with --ground, what lies in both");
   command->add_option("--cell", arguments->cell_m, "Size of a cell in metres")
       ->check(CLI::Range(0.05, 1000.0))
       ->capture_default_str();
   command->add_flag("--ground-only", arguments->is_ground_only, "No facades: no model");
   command->add_option("-o,--output", arguments->output, "Prefix of the files to write");
-  command->add_option("--film", arguments->film,
-                      "In their place: a film of the shadows of the first day (.mp4)");
+  command
+      ->add_option("--film", arguments->film, "In their place: a film of the shadows of the first day (.mp4)")
+      ->excludes(ground, outline);
   command->add_option("--step", arguments->film_step_min, "Of the film: minutes between frames")
       ->check(CLI::Range(0.1, 120.0))
       ->capture_default_str();
@@ -253,6 +298,8 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   command->footer(
       "Example: parvis sun out/paper/paper_day.xp --from 2026-03-21 --area -120 -120 120 120 -o out/sun\n"
+      "Example: parvis sun place.xp --from 2026-03-21 --outline \"-40 -40, 40 -40, 0 40\" -o out/square\n"
+      "Example: parvis sun place.xp --from 2026-03-21 --ground \"square*\" -o out/square\n"
       "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4\n"
       "Started by mpirun, several processes or machines divide the hours of sun: the same files, sooner.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

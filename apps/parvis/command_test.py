@@ -430,6 +430,71 @@ class HoursOfSun(BeforeAMirror):
             self.assertEqual(done.returncode, 1)
             self.assertIn("366 days at most", done.stderr)
 
+    def test_named_ground_and_an_outline(self):
+        self.write_quad("lawn.obj", (2, 2, 0.1), (8, 2, 0.1), (8, 8, 0.1), (2, 8, 0.1))
+        lawn, equinox = 'model(name="lawn", file="lawn.obj")', ["--from", "2026-03-21"]
+        said, _ = self.study(lawn, options=[*equinox, "--ground", "la*"])
+        self.assertIn('ground "la*": 36 m2, 100.0 % with 2 h or more: BRE 209 is kept', said)
+        outline = ["--outline", "-5 -5, 5 -5, 5 5, -5 5"]
+        said, _ = self.study(lawn, options=[*equinox, *outline])
+        self.assertIn("open ground in the outline: 100 m2", said)
+        said, _ = self.study(lawn, options=[*equinox, *outline, "--ground", "lawn"])
+        self.assertIn('ground "lawn" in the outline: 9 m2', said)
+        judged = [row["judged"] for row in csv.DictReader((self.folder / "out.csv").read_text().splitlines())]
+        self.assertEqual(judged.count("1"), 9)
+        self.assertEqual(len(judged), 400)
+
+    def test_ground_that_is_none(self):
+        self.write_quad("lawn.obj", (2, 2, 0.1), (8, 2, 0.1), (8, 8, 0.1), (2, 8, 0.1))
+        scene = self.write("scene.xp", 'model(file="ground.obj")\nmodel(name="lawn", file="lawn.obj")\n')
+        place = ["--place", "43.7", "7.27", "--area", "-10", "-10", "10", "10", "--from", "2026-03-21"]
+        for options, words in [
+            (["--ground", "laun"], ['"laun"', '"lawn"', "did you mean"]),
+            (["--outline", "0 0, 4 0"], ["--outline", "3 to 1000 corners; this one has 2"]),
+            (["--outline", "0 0, 4 4, 4 0, 0 4"], ["--outline", "crosses itself"]),
+            (["--outline", "0 0, 4 north, 4 4"], ["--outline", "expected points"]),
+            (["--outline", "0 0, 40 0, 40 40"], ["--outline", "40 0 lies outside of --area"]),
+        ]:
+            self.expect_failure("sun", scene, *place, *options, "-o", self.folder / "out", words=words)
+        done = run("sun", scene, *place, "--ground", "lawn", "--film", self.folder / "out.mp4")
+        self.assertEqual(done.returncode, 2)
+
+    def test_a_film_of_a_day(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("skipped: no ffmpeg here")
+        east, west = [(0, -10, 0), (0, 10, 0), (0, 10, 12), (0, -10, 12)], [(0, 10, 0), (0, -10, 0), (0, -10, 12), (0, 10, 12)]
+        self.write_quad("east.obj", *east)
+        self.write_quad("west.obj", *west)
+        models = "".join(f'model(file="{name}.obj")\n' for name in ("ground", "east", "west"))
+        day = "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, julianDay=172)\nsunPath(radius=24)\n"
+        scene = self.write("scene.xp", day + models + 'camera(name="above", position="0 -1 60", target="0 0 0")\n')
+        film = self.folder / "day.mp4"
+        done = run("sun", scene, "--from", "2026-03-21", "--step", "60", *SIZE, "--film", film)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([name for name in self.files() if "partial" in name], [])
+        subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-pix_fmt", "rgb24", self.folder / "frame%02d.png"], check=True)
+        frames = [pixels(path.read_bytes()) for path in sorted(self.folder.glob("frame*.png"))]
+        self.assertEqual(len(frames), 13, "one an hour between sunrise and sunset, 12 h and some minutes apart")
+
+        def brightness(frame, columns):
+            rows, channels = frame
+            values = [value for row in rows[20:28] for value in row[columns.start * channels : columns.stop * channels]]
+            return sum(values) / len(values)
+
+        for before, after in zip(frames, frames[1:]):
+            self.assertEqual((len(before[0]), len(before[0][0])), (48, 64 * before[1]))
+            self.assertNotEqual(before[0], after[0], "the sun moves")
+        for frame in frames[1:-1]:
+            self.assertGreater(brightness(frame, slice(0, 64)), 20, "black")
+        # West and east of the wall, whose shadow goes round with the sun.
+        left, right = slice(12, 28), slice(36, 52)
+        for frame, shaded, lit in [(frames[2], left, right), (frames[-3], right, left)]:
+            self.assertLess(brightness(frame, shaded), 0.85 * brightness(frame, lit))
+
+    def test_a_film_of_a_polar_night(self):
+        scene = self.write("scene.xp", 'dayLight(latitude=78.2, longitude=15.6)\nmodel(file="ground.obj")\ncamera(name="a", position="0 -9 2")\n')
+        self.expect_failure("sun", scene, "--from", "2026-12-21", *SIZE, "--film", self.folder / "day.mp4", words=["does not rise"])
+
 
 class SeveralProcesses(BeforeAMirror):
     """Work that mpirun divides: the same files bit for bit as alone."""

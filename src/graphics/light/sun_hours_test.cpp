@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/finer_mesh.h"
+#include "graphics/light/sun_ground.h"
 #include "graphics/light/sun_plan.h"
 #include "graphics/light/sun_study.h"
 #include "graphics/light/test_box.h"
@@ -117,6 +120,32 @@ TEST(SunStudy, PhotographedSurfacesHaveHours) {
   EXPECT_FALSE(study_sun(scene, options)) << "leaves of trees, say";
 }
 
+/// A photographed place ends in a dome over everything.
+TEST(SunStudy, ABackdropHidesNoSun) {
+  scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const auto sky = std::make_shared<Mesh>();
+  sky->positions = {{-300, -300, 90}, {-300, 300, 90}, {300, 300, 90}, {300, -300, 90}};
+  sky->normals.assign(4, {0, 0, -1}), sky->uvs.assign(4, {0, 0});
+  sky->indices = {0, 1, 2, 0, 2, 3};
+  const auto hours = [&](bool casts_shadow) {
+    scene.traced_kinds = {{.name = "facades",
+                           .count = [](const scene::Scene&) { return 1; },
+                           .trace =
+                               [=](const scene::Scene&, scene::TracedScene& traced) {
+                                 traced.add(sky, std::make_shared<Plaster>(), glm::mat4(1.0f),
+                                            {.casts_shadow = casts_shadow});
+                               },
+                           .is_recorded = true}};
+    const Result<SunStudy> study = study_sun(
+        scene, {.period = equinox, .cell_m = 2.0, .area = glm::dvec4(-9, -9, 9, 9), .has_facades = true});
+    EXPECT_TRUE(study) << to_string(study.errors());
+    EXPECT_LT(study->surfaces.bounds().max.z, casts_shadow ? 91.0f : 2.0f);
+    return study->cells.front().position.z < 1.0f ? study->cells.front().hours : 0.0f;
+  };
+  EXPECT_GT(hours(false), 11.5f);
+  EXPECT_LT(hours(true), 0.1f) << "the control: a roof";
+}
+
 TEST(SunStudy, PlanTableAndModel) {
   const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const Result<SunStudy> study =
@@ -179,6 +208,149 @@ TEST(SunStudy, RefusesWhatItCannotHold) {
   EXPECT_NE(study.errors().front().message.find("take a larger cell"), std::string::npos);
   EXPECT_FALSE(
       study_sun(scene::Scene(), {.period = equinox, .cell_m = 2.0, .area = {}, .has_facades = true}));
+}
+
+/// A level slab of one quad that faces up.
+scene::Object slab(const std::string& name, glm::vec2 low, glm::vec2 high, float z) {
+  scene::Part part;
+  part.object = name + " part";
+  part.mesh.positions = {{low.x, low.y, z}, {high.x, low.y, z}, {high.x, high.y, z}, {low.x, high.y, z}};
+  part.mesh.normals.assign(4, {0, 0, 1}), part.mesh.uvs.assign(4, {0, 0});
+  part.mesh.indices = {0, 1, 2, 0, 2, 3};
+  auto model = std::make_shared<scene::Model>();
+  model->materials.push_back({.name = name + " stone"});
+  model->parts.push_back(std::move(part));
+  scene::Object object;
+  object.name = name, object.model = model;
+  return object;
+}
+
+/// A wall of 60 m that runs east and west, a plain about it, and a roof 14 m over the plain in the south.
+scene::Scene wall_and_roof() {
+  scene::Scene scene = box_on_a_plain({-30, 0, 0}, {30, 1, 40});
+  scene.objects.push_back(slab("roof garden", {-10, -25}, {10, -15}, 14.0f));
+  return scene;
+}
+
+Result<SunStudy> study_judging(const JudgedGround& judged) {
+  return study_sun(wall_and_roof(),
+                   {.period = equinox, .cell_m = 1.0, .area = {}, .has_facades = false, .judged = judged});
+}
+
+TEST(JudgedGround, AnOutlineIsJudgedByItself) {
+  const Result<SunStudy> north =
+                             study_judging({.names = {}, .outline = {{-20, 1}, {20, 1}, {20, 3}, {-20, 3}}}),
+                         south = study_judging({.names = {}, .outline = {{-20, -13}, {20, -13}, {20, -3}}}),
+                         all = study_judging({});
+  for (const Result<SunStudy>* study : {&north, &south, &all})
+    ASSERT_TRUE(*study) << to_string(study->errors());
+  EXPECT_NEAR(open_space_rule(*north).area_m2, 80.0, 1.0);
+  EXPECT_FALSE(open_space_rule(*north).is_kept()) << "in the shade of the wall";
+  EXPECT_NEAR(open_space_rule(*south).area_m2, 200.0, 25.0) << "a triangle, in cells of a metre";
+  EXPECT_EQ(open_space_rule(*south).share, 1.0);
+  EXPECT_GT(open_space_rule(*all).area_m2, 3000.0);
+  EXPECT_TRUE(north->is_chosen);
+  EXPECT_FALSE(all->is_chosen);
+  EXPECT_EQ(to_string(OpenSpaceRule{.share = 0.615, .area_m2 = 1234.2}), "1234 m2, 61.5 % with 2 h or more");
+}
+
+TEST(JudgedGround, WhatIsNamedIsGroundWhereverItLies) {
+  for (const char* name : {"roof garden", "roof*", "roof garden part", "*stone"}) {
+    const Result<SunStudy> study = study_judging({.names = {name}, .outline = {}});
+    ASSERT_TRUE(study) << name << to_string(study.errors());
+    EXPECT_NEAR(open_space_rule(*study).area_m2, 200.0, 1.0) << name;
+  }
+  const Result<SunStudy> half =
+      study_judging({.names = {"roof garden"}, .outline = {{0, -30}, {30, -30}, {30, 30}, {0, 30}}});
+  ASSERT_TRUE(half) << to_string(half.errors());
+  EXPECT_NEAR(open_space_rule(*half).area_m2, 100.0, 1.0) << "both: what lies in both";
+  const Result<SunStudy> both = study_judging({.names = {"roof garden", "box"}, .outline = {}});
+  ASSERT_TRUE(both) << to_string(both.errors());
+  EXPECT_NEAR(open_space_rule(*both).area_m2, 3600.0, 1.0) << "the wall's top, too";
+}
+
+TEST(JudgedGround, SaysWhichNamesThereAre) {
+  for (const char* name : {"rof garden", ""}) {
+    const Result<SunStudy> study = study_judging({.names = {name}, .outline = {}});
+    ASSERT_FALSE(study) << name;
+    const std::string message = to_string(study.errors());
+    EXPECT_NE(message.find("\"roof garden\""), std::string::npos) << message;
+    EXPECT_NE(message.find("\"box\""), std::string::npos) << message;
+  }
+  const Result<SunStudy> nowhere =
+      study_judging({.names = {}, .outline = {{100, 100}, {110, 100}, {110, 110}}});
+  ASSERT_FALSE(nowhere);
+  EXPECT_NE(to_string(nowhere.errors()).find("check its names, its outline"), std::string::npos);
+}
+
+TEST(JudgedGround, OutlinesThatAreNoneAreRefused) {
+  const auto message = [](std::vector<glm::dvec2> corners) {
+    const auto outline = checked_outline(std::move(corners));
+    return outline ? std::string() : to_string(outline.errors());
+  };
+  const auto says = [&](const std::vector<glm::dvec2>& corners, const char* words) {
+    EXPECT_NE(message(corners).find(words), std::string::npos) << message(corners);
+  };
+  says({}, "3 to 1000 corners; this one has 0");
+  says({{0, 0}, {5, 0}}, "this one has 2");
+  says({{0, 0}, {5, 0}, {5, 0}, {0, 0}}, "this one has 2");
+  says(std::vector<glm::dvec2>(5000, glm::dvec2(1.0)), "this one has 1");
+  says({{0, 0}, {5, 5}, {5, 0}, {0, 5}},
+       "crosses itself: its side from corner 1 to 2 meets that from corner 3 to 4");
+  says({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}, "crosses itself");  // touches
+  says({{0, 0}, {4, 0}, {2, 0}}, "goes back over itself");
+  says({{0, 0}, {1e-3, 0}, {0, 1e-3}}, "no area");
+  std::vector<glm::dvec2> circle;
+  circle.reserve(1001);
+  for (int i = 0; i < 1001; ++i) circle.emplace_back(50.0 * std::cos(i / 160.0), 50.0 * std::sin(i / 160.0));
+  says(circle, "this one has 1001");
+  circle.pop_back();
+  EXPECT_EQ(message(circle), "");
+  EXPECT_EQ(message({{0, 0}, {0, 5}, {5, 5}, {5, 0}}), "") << "clockwise";
+  const auto closed = checked_outline({{0, 0}, {5, 0}, {5, 5}, {0, 0}});
+  ASSERT_TRUE(closed) << to_string(closed.errors());
+  EXPECT_EQ(closed->size(), 3u) << "the first corner once more";
+}
+
+TEST(JudgedGround, CellsInsideAConcaveOutline) {
+  // A U of 10 x 10 m around a notch of 4 x 6 m, in cells of half a metre.
+  const std::vector<glm::dvec2> outline{{0, 0}, {10, 0}, {10, 10}, {7, 10}, {7, 4}, {3, 4}, {3, 10}, {0, 10}};
+  const std::vector<std::uint8_t> inside = cells_inside(outline, {-2, -2}, 0.5, 30, 30);
+  EXPECT_EQ(std::ranges::count(inside, 1), 4 * (100 - 24));
+  const auto at = [&](double x, double y) {
+    return inside[std::size_t((y + 2.0) / 0.5) * 30 + std::size_t((x + 2.0) / 0.5)] != 0;
+  };
+  EXPECT_TRUE(at(1.2, 9.2) && at(9.2, 9.2) && at(5.2, 2.2));
+  EXPECT_FALSE(at(5.2, 7.2) || at(-1.2, 5.2) || at(11.2, 5.2) || at(5.2, 11.2));
+}
+
+/// A line around it, and its figures below.
+TEST(JudgedGround, StandsInPlanAndTable) {
+  const Result<SunStudy> study = study_judging(
+                             {.names = {}, .outline = {{-20, 3}, {20, 3}, {20, 13}, {-20, 13}}}),
+                         all = study_judging({});
+  ASSERT_TRUE(study && all);
+  const SunPlan plan = sun_plan(*study), without = sun_plan(*all);
+  EXPECT_GT(plan.picture.height, without.picture.height) << "a line of text more";
+  const auto difference_at = [&](double x, double y) {
+    const glm::ivec2 at =
+        plan.corner + glm::ivec2(int((x + 30.0) * plan.cell_px), int((30.0 - y) * plan.cell_px));
+    const std::uint8_t *one = plan.picture.at(at.x, at.y), *other = without.picture.at(at.x, at.y);
+    return std::abs(one[0] - other[0]) + std::abs(one[1] - other[1]) + std::abs(one[2] - other[2]);
+  };
+  EXPECT_GT(difference_at(0, 12.97), 20) << "its northern side";
+  EXPECT_GT(difference_at(-19.97, 8), 20) << "its western side";
+  EXPECT_EQ(difference_at(0.5, 8.5), 0) << "inside";
+  EXPECT_EQ(difference_at(0.5, -8.5), 0) << "outside";
+  const TestFolder folder;
+  ASSERT_TRUE(write_sun_study(folder.path() / "judged", *study));
+  const Result<std::string> table = read_file(folder.path() / "judged.csv");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->starts_with("x_m,y_m,z_m,kind,hours,judged\n"));
+  std::size_t judged = 0;
+  for (std::size_t at = table->find(",1\n"); at != std::string::npos; at = table->find(",1\n", at + 1))
+    ++judged;
+  EXPECT_EQ(judged, 400u);
 }
 
 TEST(FinerMesh, CoversTheSameArea) {

@@ -38,6 +38,25 @@ void paint_cells(const SunStudy& study, SunPlan& plan) {
     }
 }
 
+/// A line around the judged ground, on its own side.
+void paint_border(const SunStudy& study, SunPlan& plan) {
+  const auto is_judged = [&](int row, int column) {
+    return row >= 0 && column >= 0 && row < study.rows && column < study.columns &&
+           study.cells[std::size_t(row) * std::size_t(study.columns) + std::size_t(column)].is_judged;
+  };
+  const int width = std::max(1, plan.cell_px / 4);
+  for (int row = 0; row < study.rows; ++row)
+    for (int column = 0; column < study.columns; ++column) {
+      if (!is_judged(row, column)) continue;
+      const glm::ivec2 from = plan.corner + plan.cell_px * glm::ivec2(column, study.rows - 1 - row),
+                       to = from + plan.cell_px;
+      if (!is_judged(row, column - 1)) paint(plan.picture, from, {from.x + width, to.y}, ink);
+      if (!is_judged(row, column + 1)) paint(plan.picture, {to.x - width, from.y}, to, ink);
+      if (!is_judged(row + 1, column)) paint(plan.picture, from, {to.x, from.y + width}, ink);
+      if (!is_judged(row - 1, column)) paint(plan.picture, {from.x, to.y - width}, to, ink);
+    }
+}
+
 /// A step for each begun hour, from none to the most, with the hour at its left edge.
 void paint_scale(const SunStudy& study, glm::ivec2 at, int width, Image8& picture) {
   write_text(picture, at - glm::ivec2(0, gap_px), title, text_px, ink);
@@ -78,11 +97,17 @@ SunPlan sun_plan(const SunStudy& study) {
   plan.cell_px = std::clamp(wanted_px / std::max(study.columns, study.rows), 1, max_cell_px);
   const glm::ivec2 size = plan.cell_px * glm::ivec2(study.columns, study.rows);
   const int width = std::max(size.x, min_width_px);
-  const int below = margin_px + text_px + gap_px;  // of the plan: the title
+  const int line_px = text_px + gap_px;
+  const int rule_px = study.is_chosen ? line_px : 0;  // what is said of the judged ground
+  const int below = margin_px + rule_px + line_px;    // of the plan: that and the title
   plan.corner = glm::ivec2(margin_px + (width - size.x) / 2, margin_px);
   plan.picture = Image8(width + 2 * margin_px,
                         margin_px + size.y + below + scale_px + gap_px + text_px + margin_px, 4, 255);
   paint_cells(study, plan);
+  if (study.is_chosen) paint_border(study, plan);
+  if (study.is_chosen)
+    write_text(plan.picture, {margin_px, margin_px + size.y + margin_px + text_px},
+               "outlined: " + to_string(open_space_rule(study)), text_px, ink);
   const int scale_y = margin_px + size.y + below;
   paint_scale(study, {margin_px, scale_y}, width, plan.picture);
   paint_bar(study, plan.cell_px, {margin_px + width, scale_y - gap_px}, plan.picture);

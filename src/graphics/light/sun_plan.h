@@ -11,7 +11,8 @@ namespace parvis::light {
 glm::vec3 hours_colour(double share);
 
 /// North up: ground in the colours of its hours, roofs in paler ones, what is not known white. Below stand a
-/// scale with a step and a number for each hour, and a bar of metres.
+/// scale with a step and a number for each hour, and a bar of metres. Where the study says which ground is
+/// judged, a line runs around that, and its area and share of sunny ground stand below.
 struct SunPlan {
   Image8 picture;
   int cell_px = 1;       ///< side of a cell

@@ -30,6 +30,39 @@ constexpr double ground_reach_m = 20.0;
 
 using VisitMesh = std::function<void(const Mesh& mesh, const glm::mat4& world_from_mesh)>;
 
+/// Passes on what casts shadows. The backdrop of a photographed place stands for all that is far away: it
+/// lies around and over the place, and hides no sun.
+class CastingThings final : public scene::TracedScene {
+ public:
+  explicit CastingThings(scene::TracedScene& traced) : traced_(traced) {}
+
+  void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
+           const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
+    if (placing.casts_shadow) traced_.add(std::move(mesh), std::move(surface), world_from_mesh, placing);
+  }
+  void add(std::shared_ptr<const scene::Model> model, const glm::mat4& world_from_model,
+           const scene::TracedPlacing& placing) override {
+    if (placing.casts_shadow) traced_.add(std::move(model), world_from_model, placing);
+  }
+
+ private:
+  scene::TracedScene& traced_;
+};
+
+/// The scene for rays to the sun: without backdrops, and without dynamic objects, which stand somewhere else
+/// in an hour. All else counts, whatever `shadowMap` says of casters.
+scene::Scene still_scene(const scene::Scene& scene) {
+  scene::Scene still = scene;
+  for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
+  for (scene::TracedKind& kind : still.traced_kinds)
+    if (kind.is_recorded)
+      kind.trace = [trace = kind.trace](const scene::Scene& of, scene::TracedScene& traced) {
+        CastingThings casting(traced);
+        trace(of, casting);
+      };
+  return still;
+}
+
 /// Opaque meshes of what a room draws by itself.
 class OpaqueThings final : public scene::TracedScene {
  public:
@@ -71,13 +104,19 @@ Bounds bounds_of(const scene::Scene& scene) {
   return bounds;
 }
 
+/// What lies below a point.
+struct SurfaceBelow {
+  glm::vec3 position;
+  const reference::PlacedPart* place;
+};
+
 /// The first solid surface below a point; leaves are passed through.
-std::optional<glm::vec3> surface_below(const reference::RayScene& rays, glm::vec3 from) {
+std::optional<SurfaceBelow> surface_below(const reference::RayScene& rays, glm::vec3 from) {
   for (int pass = 0; pass < 64; ++pass) {
     const std::optional<reference::Hit> hit = rays.nearest_hit({from, {0, 0, -1}, 1e-4f, 1e30f});
     if (!hit) return std::nullopt;
     from.z -= hit->distance_m + 1e-3f;
-    if (hit->place->material->alpha_mode == scene::Alpha::opaque) return from;
+    if (hit->place->material->alpha_mode == scene::Alpha::opaque) return SurfaceBelow{from, hit->place};
   }
   return std::nullopt;
 }
@@ -89,14 +128,24 @@ bool is_below_backs(const reference::RayScene& rays, glm::vec3 ground) {
   return hit && hit->place->material->alpha_mode == scene::Alpha::opaque;
 }
 
-void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
+/// `named`: the surfaces that are judged, and ground whatever their height; null: those that lie low.
+void find_ground(const reference::RayScene& rays, float top, const NamedSurfaces* named,
+                 const JudgedGround& judged, SunStudy& study) {
+  const std::vector<std::uint8_t> inside =
+      judged.outline.empty()
+          ? std::vector<std::uint8_t>(study.cells.size(), 1)
+          : cells_inside(judged.outline, study.corner, study.cell_m, study.columns, study.rows);
+  std::vector<std::uint8_t> is_named(study.cells.size(), 0);
   parallel_for(
       study.cells.size(),
       [&](std::size_t i) {
         const std::size_t row = i / std::size_t(study.columns), column = i % std::size_t(study.columns);
         const glm::dvec2 at = study.corner + study.cell_m * (glm::dvec2(double(column), double(row)) + 0.5);
         const auto surface = surface_below(rays, {float(at.x), float(at.y), top + 1.0f});
-        if (surface) study.cells[i] = {GroundCell::Kind::built, *surface, 0.0f};
+        if (!surface) return;
+        study.cells[i].kind = GroundCell::Kind::built;
+        study.cells[i].position = surface->position;
+        is_named[i] = named && named->has(*surface->place) ? 1 : 0;
       },
       256);
   // The lowest surface around, by a minimum over rows, then over columns.
@@ -129,10 +178,15 @@ void find_ground(const reference::RayScene& rays, float top, SunStudy& study) {
       study.cells.size(),
       [&](std::size_t i) {
         GroundCell& cell = study.cells[i];
-        if (cell.kind == GroundCell::Kind::nothing || heights[i] - around[i] >= ground_rise_m) return;
-        const bool is_covered = is_below_backs(rays, cell.position);
-        covered += is_covered ? 1 : 0;
-        if (!is_covered) cell.kind = GroundCell::Kind::ground;
+        if (cell.kind == GroundCell::Kind::nothing) return;
+        const bool is_low = heights[i] - around[i] < ground_rise_m;
+        if (!is_low && is_named[i] == 0) return;
+        if (is_below_backs(rays, cell.position)) {
+          covered += is_low ? 1 : 0;
+          return;
+        }
+        cell.kind = GroundCell::Kind::ground;
+        cell.is_judged = inside[i] != 0 && (!named || is_named[i] != 0);
       },
       256);
   study.covered_m2 = double(covered) * study.cell_m * study.cell_m;
@@ -198,19 +252,29 @@ std::vector<float> divided_hours(const reference::RayScene& rays, const std::vec
 }  // namespace
 
 Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& options) {
-  const Bounds bounds = bounds_of(scene);
+  const scene::Scene still = still_scene(scene);
+  const Bounds bounds = bounds_of(still);
   if (bounds.min.x > bounds.max.x)
     return error("the scene has nothing that stands still: there is nothing to study");
   Result<SunStudy> made = laid_out(bounds, options);
   if (!made) return made;
   SunStudy& study = *made;
 
-  scene::Scene still = scene;  // dynamic objects stand somewhere else in an hour
-  for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
+  std::optional<NamedSurfaces> named;
+  if (!options.judged.names.empty()) {
+    Result<NamedSurfaces> found = NamedSurfaces::find(still, options.judged.names);
+    if (!found) return found.errors();
+    named = *std::move(found);
+  }
   const reference::RayScene rays(still);
-  find_ground(rays, bounds.max.z, study);
+  find_ground(rays, bounds.max.z, named ? &*named : nullptr, options.judged, study);
+  study.is_chosen = !options.judged.is_all();
+  if (study.is_chosen && std::ranges::none_of(study.cells, &GroundCell::is_judged))
+    return error(
+        "nothing of the ground that is to be judged is open from above in the area of the study; check its "
+        "names, its outline and the area");
   if (options.has_facades)
-    if (Status status = gather_surfaces(scene, options, study); !status) return status.errors();
+    if (Status status = gather_surfaces(still, options, study); !status) return status.errors();
 
   std::vector<SunPoint> points;
   points.reserve(study.cells.size() + study.surfaces.positions.size() + 1);
@@ -233,9 +297,13 @@ SunPoint lifted(glm::vec3 position, glm::vec3 normal) { return {position + lift_
 OpenSpaceRule open_space_rule(const SunStudy& study) {
   std::size_t open = 0, sunny = 0;
   for (const GroundCell& cell : study.cells)
-    if (cell.kind == GroundCell::Kind::ground)
-      ++open, sunny += double(cell.hours) >= OpenSpaceRule::min_hours ? 1 : 0;
+    if (cell.is_judged) ++open, sunny += double(cell.hours) >= OpenSpaceRule::min_hours ? 1 : 0;
   return {open ? double(sunny) / double(open) : 0.0, double(open) * study.cell_m * study.cell_m};
+}
+
+std::string to_string(const OpenSpaceRule& rule) {
+  return fmt::format("{:.0f} m2, {:.1f} % with {:g} h or more", rule.area_m2, 100.0 * rule.share,
+                     OpenSpaceRule::min_hours);
 }
 
 namespace {
@@ -280,12 +348,12 @@ Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& stud
   const auto with = [&](const char* extension) { return std::filesystem::path(prefix.string() + extension); };
   const Result<std::string> plan = encode_image(sun_plan(study).picture, with(".png").string());
   if (!plan) return plan.errors();
-  std::string table = "x_m,y_m,z_m,kind,hours\n";
+  std::string table = "x_m,y_m,z_m,kind,hours,judged\n";
   for (const GroundCell& cell : study.cells)
     if (cell.kind != GroundCell::Kind::nothing)
-      table +=
-          fmt::format("{:.2f},{:.2f},{:.2f},{},{:.3f}\n", cell.position.x, cell.position.y, cell.position.z,
-                      cell.kind == GroundCell::Kind::ground ? "ground" : "built", cell.hours);
+      table += fmt::format("{:.2f},{:.2f},{:.2f},{},{:.3f},{}\n", cell.position.x, cell.position.y,
+                           cell.position.z, cell.kind == GroundCell::Kind::ground ? "ground" : "built",
+                           cell.hours, cell.is_judged ? 1 : 0);
   std::vector<FileContent> files{{with(".png"), *plan}, {with(".csv"), std::move(table)}};
   if (study.surfaces.indices.empty()) return write_together(files);
   files.push_back({with("_facades.csv"), facade_table(study)});
