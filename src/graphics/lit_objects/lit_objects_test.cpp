@@ -394,6 +394,25 @@ TEST_F(LitObjects, SayWhatIsWrong) {
             std::string::npos);
 }
 
+/// A group may hold what is not lit so: that is said, not ignored.
+TEST_F(LitObjects, WhatOtherRoomsDrawIsNamed) {
+  house_.get<scene::NodeRegistry>().add({.type = "plant"}, [](const scene::Node&, scene::SceneBuilder&) {});
+  const auto warnings_of = [&](const std::string& script) {
+    const auto loaded =
+        scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    return loaded ? to_string(loaded->warnings) : "";
+  };
+  const std::string told =
+      warnings_of("litVirtualObject() {\n  object(file=\"ball.glb\")\n  group() { plant()\n plant() }\n}\n");
+  for (const char* words :
+       {"scene.xp:3:", "this plant, with 1 more of the kind,", "put it outside of litVirtualObject"})
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+  EXPECT_EQ(warnings_of("litVirtualObject() { object(file=\"ball.glb\") }\ngroup() { plant() }\n"), "");
+  EXPECT_NE(errors_of("litVirtualObject() { plant() }").find("plant does not stand in litVirtualObject"),
+            std::string::npos);
+}
+
 /// Appendix A.2.2, as printed, with models that can be read beside the names of those that cannot.
 TEST_F(LitObjects, TheExampleOfTheThesisRuns) {
   save("duck.glb", scene::sphere({0, 0, 1}, 0.8f, 8));

@@ -1,5 +1,13 @@
 #include "graphics/lit_objects/room.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "graphics/lit_objects/lighting_process.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
@@ -43,12 +51,35 @@ scene::NodeSchema lit_virtual_object_schema() {
           "}"};
 }
 
+/// Nodes of rooms that draw by themselves, whose vertices get no light of their own: groups may hold them.
+constexpr std::array<std::string_view, 4> drawn_otherwise{"plant", "tree", "facade", "vdobject"};
+
+void find_drawn_otherwise(const std::vector<scene::Node>& nodes, std::vector<const scene::Node*>& found) {
+  for (const scene::Node& node : nodes) {
+    if (std::ranges::find(drawn_otherwise, node.schema->type) != drawn_otherwise.end())
+      found.push_back(&node);
+    find_drawn_otherwise(node.children, found);
+  }
+}
+
+void build_lit(const scene::Node& node, scene::SceneBuilder& builder) {
+  builder.build(node.children);
+  std::vector<const scene::Node*> others;
+  find_drawn_otherwise(node.children, others);
+  if (others.empty()) return;
+  const std::string more =
+      others.size() > 1 ? fmt::format(", with {} more of the kind,", others.size() - 1) : "";
+  builder.warn(error_at(others.front()->where,
+                        "{} lights the vertices of objects and models alone: this {}{} stays in the light of "
+                        "the scene, which plants, trees and photographs have; put it outside of {}",
+                        lit_type, others.front()->schema->type, more, lit_type));
+}
+
 }  // namespace
 
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
-  registry.add(lit_virtual_object_schema(),
-               [](const scene::Node& node, scene::SceneBuilder& builder) { builder.build(node.children); });
+  registry.add(lit_virtual_object_schema(), build_lit);
   for (const char* const child : {"object", "model", "group", "include"}) registry.allow(child, lit_type);
   house.get<action::Processes>().add([] { return std::make_unique<LightingProcess>(); });
 }
