@@ -6,26 +6,20 @@
 #include <vector>
 
 #include "base/colour.h"
-#include "base/reduction.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/lamps/lamp_light.h"
-#include "graphics/lamps/lamp_process.h"
+#include "graphics/light/bench/bounced_update_bench.h"
+#include "graphics/light/bench/city_views.h"
 #include "graphics/light/bench/exchanged_bounces.h"
-#include "graphics/light/bench/street_camera.h"
-#include "graphics/light/day_light.h"
-#include "graphics/reference/metrics.h"
-#include "graphics/reference/photograph.h"
-#include "graphics/render/fixed_parts.h"
-#include "graphics/render/frame_views.h"
-#include "graphics/render/light_over.h"
+#include "graphics/light/bench/photographed_city.h"
+#include "graphics/light/bench/set_hour.h"
 #include "graphics/shading/tone_curve.h"
 #include "graphics/shadows/chosen_light.h"
 
 namespace parvis::bench {
 namespace {
 
-constexpr int width = 192, height = 108;
-constexpr int supersample = 4;  // of the renderer's pictures, across and down
+constexpr std::size_t own_views = 5;  // of the scene, before others
 
 /// The city without dynamic objects: neither traffic nor parked cars.
 scene::Scene still_city(const scene::Scene& city) {
@@ -39,16 +33,6 @@ Result<std::unique_ptr<render::Renderer>> renderer_of(const scene::Scene& scene)
       scene, {}, bounced_light::with_bounced_light(lamps::with_lamps(shadows::ChosenLight::create)));
 }
 
-/// Radiance by the renderer whose pixels are the mean of many samples, as those of a photograph are: what is
-/// compared is light, not edges.
-Result<ImageF> drawn(render::Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
-  if (Status status =
-          render::draw_frame(renderer, scene, {camera, supersample * width, supersample * height});
-      !status)
-    return status.errors();
-  return reduced(renderer.read_radiance(), supersample);
-}
-
 double mean_luminance(const ImageF& radiance) {
   double sum = 0.0;
   for (int y = 0; y < radiance.height; ++y)
@@ -59,103 +43,16 @@ double mean_luminance(const ImageF& radiance) {
   return sum / double(radiance.width) / double(radiance.height);
 }
 
-/// Sun and sky that are brought up to date ahead of what is laid over them, so that this can be timed alone.
-class SunAhead final : public render::LightOver {
- public:
-  using LightOver::LightOver;
-  void follow(const scene::Scene& scene) { has_news_ |= LightOver::update(scene); }
-  bool update(const scene::Scene& /*scene*/) override { return std::exchange(has_news_, false); }
-
- private:
-  bool has_news_ = false;
-};
-
-/// How much one differs from the other, relative to all of the first.
-template <class Vector>
-double difference(const std::vector<Vector>& from, const std::vector<Vector>& to) {
-  double difference = 0.0, all = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    difference += double(glm::distance(from[i], to[i]));
-    all += double(glm::length(from[i]));
-  }
-  return difference / std::max(all, 1e-12);
-}
-/// How much the light of all places has changed, its lobes or its colours; all of it where the places are
-/// others.
-double change(const shading::BouncedLight& before, const shading::BouncedLight& after) {
-  if (before.cells != after.cells) return 1.0;
-  return std::max(difference(before.lobes, after.lobes), difference(before.colours, after.colours));
-}
-
-/// Bounced light that is made for a scene as it is, with rays of its own.
-Result<shading::BouncedLight> fresh_light(const scene::Scene& scene) {
-  auto made = bounced_light::with_bounced_light(shadows::ChosenLight::create)(
-      scene, render::bounds_of_fixed_parts(scene, false));
-  if (!made) return made.errors();
-  (*made)->update(scene);
-  if (!(*made)->bounced()) return error("the scene has no bounced light");
-  return *(*made)->bounced();
-}
-
-/// What a frame waits for when the hour, and with it sun and sky, has changed: the light of all places and
-/// its way to the GPU. Sun and sky by themselves take their time without bounced light, too.
-Status measure_update(const scene::Scene& city, Report& report) {
-  SunAhead* ahead = nullptr;
-  const render::MakeLight below = [&](const scene::Scene& scene,
-                                      const Bounds& fixed) -> Result<std::unique_ptr<render::LightSource>> {
-    Result<std::unique_ptr<render::LightSource>> light = shadows::ChosenLight::create(scene, fixed);
-    if (!light) return light.errors();
-    auto made = std::make_unique<SunAhead>(*std::move(light));
-    ahead = made.get();
-    return std::unique_ptr<render::LightSource>(std::move(made));
-  };
-  Result<std::unique_ptr<render::LightSource>> made =
-      bounced_light::with_bounced_light(below)(city, render::bounds_of_fixed_parts(city, false));
-  if (!made) return made.errors();
-  render::LightSource& light = **made;
-  const double traced_ms = milliseconds([&] { light.update(city); });
-  if (!light.bounced()) return error("the scene has no bounced light");
-  scene::Scene later = city;
-  shading::BouncedLight before;
-  std::vector<double> samples;
-  for (int i = 1; i <= 11; ++i) {
-    later.data<light::DayLight>().when.time_of_day_h = 8.0 + 0.5 * double(i);
-    if (Status status = light::light_scene(later); !status) return status;
-    before = *light.bounced();
-    ahead->follow(later);
-    glFinish();
-    samples.push_back(milliseconds([&] { light.update(later), glFinish(); }));
-    if (change(before, *light.bounced()) < 1e-3)
-      return error("the bounced light has not changed with the hour");
-  }
-  const Result<shading::BouncedLight> fresh = fresh_light(later);
-  if (!fresh) return fresh.errors();
-  const Median update = median(samples);
-  report.add("bounced_light_update_ms", update.value, up_to(50.0));
-  report.add_control("bounced_light_update_ms_with_its_rays", traced_ms, up_to(50.0));
-  report.note(
-      fmt::format("95 % interval {:.1f} to {:.1f} ms, from half an hour to the next; control: the "
-                  "first light, with its rays",
-                  update.low, update.high));
-  report.add("bounced_light_updated_off_fresh", change(*fresh, *light.bounced()), up_to(1e-3));
-  report.add_control("bounced_light_updated_off_fresh_half_an_hour_ago", change(*fresh, before), up_to(1e-3));
-  report.note(
-      "bounced_light_updated_off_fresh: light of the places as it was updated eleven times, against light "
-      "that starts over at the last hour, as a share of all of it; control: the light before the last "
-      "update");
-  return Done{};
-}
-
-/// The scene's own first views, then others from its streets.
-std::vector<scene::NamedCamera> views_of(const scene::Scene& city, std::size_t count) {
-  std::vector<scene::NamedCamera> views(
-      city.cameras.begin(),
-      city.cameras.begin() + std::ptrdiff_t(std::min<std::size_t>(5, city.cameras.size())));
-  Random random(7);
-  for (int i = 0; views.size() < count; ++i)
-    views.push_back(
-        {.name = fmt::format("street {}", i + 1), .camera = street_camera(city, i, random), .follows = {}});
-  views.resize(count);
+/// The scene's own first views, then others above its streets.
+Result<std::vector<scene::NamedCamera>> views_of(const scene::Scene& city, std::size_t count) {
+  const std::size_t own = std::min({own_views, count, city.cameras.size()});
+  std::vector<scene::NamedCamera> views(city.cameras.begin(), city.cameras.begin() + std::ptrdiff_t(own));
+  if (views.size() == count) return views;
+  const auto others =
+      city_views(city, DoubleTracer(opaque_twin(city)), count - own, photograph_size.x, photograph_size.y);
+  if (!others) return others.errors();
+  for (const Camera& camera : *others)
+    views.push_back({.name = fmt::format("view {}", views.size() + 1), .camera = camera, .follows = {}});
   return views;
 }
 
@@ -181,11 +78,6 @@ Result<Exchanged> exchanged_renderer_of(const scene::Scene& scene) {
   return Exchanged{*std::move(renderer), light};
 }
 
-Status set_hour(scene::Scene& scene, double hour) {
-  scene.data<light::DayLight>().when.time_of_day_h = hour;
-  return light::light_scene(scene);
-}
-
 /// FLIP against photographs, of one picture or the sum of many.
 struct Flips {
   double with = 0.0, without = 0.0;
@@ -206,7 +98,7 @@ class HourOfCity {
     auto made = std::make_unique<HourOfCity>();
     made->with_ = made->without_ = city;
     made->without_.data<scene::BouncedSettings>().is_on = false;
-    made->options_.samples_per_pixel = setup.is_quick ? 96 : 256;
+    made->samples_per_pixel_ = setup.is_quick ? 96 : 256;
     auto bounced = renderer_of(made->with_), plain = renderer_of(made->without_);
     if (!bounced) return bounced.errors();
     if (!plain) return plain.errors();
@@ -227,12 +119,12 @@ class HourOfCity {
   }
 
   Result<Flips> flips(const Camera& camera) {
-    const Result<ImageF> with = drawn(*bounced_, with_, camera), without = drawn(*plain_, without_, camera),
-                         exchanged = drawn(*exchanged_.renderer, with_, camera);
-    for (const auto* each : {&with, &without, &exchanged})
+    const Result<ImageF> with = drawn_as_photographed(*bounced_, with_, camera),
+                         without = drawn_as_photographed(*plain_, without_, camera),
+                         exchanged = drawn_as_photographed(*exchanged_.renderer, with_, camera),
+                         photograph = photograph_by(1, camera);
+    for (const auto* each : {&with, &without, &exchanged, &photograph})
       if (!*each) return each->errors();
-    const Result<ImageF> photograph = photograph_of(camera, 1);
-    if (!photograph) return photograph.errors();
     const Image8 truth = shading::tone_mapped_picture(*photograph, with_.exposure);
     const float lacking = float(mean_luminance(*photograph) / mean_luminance(*without));
     Flips flips;
@@ -240,39 +132,30 @@ class HourOfCity {
                                                    {&*without, with_.exposure, &flips.without},
                                                    {&*without, lacking * with_.exposure, &flips.brightened},
                                                    {&*exchanged, with_.exposure, &flips.exchanged}}) {
-      const auto difference = reference::compare(shading::tone_mapped_picture(*radiance, exposure), truth);
+      const Result<double> difference = flip_to(truth, *radiance, exposure);
       if (!difference) return difference.errors();
-      *flip = difference->flip;
+      *flip = *difference;
     }
     return flips;
   }
 
   /// Between two photographs by other seeds: noise that no picture can match.
   Result<double> flip_of_noise(const Camera& camera) {
-    const Result<ImageF> one = photograph_of(camera, 1), other = photograph_of(camera, 2);
+    const Result<ImageF> one = photograph_by(1, camera), other = photograph_by(2, camera);
     if (!one) return one.errors();
     if (!other) return other.errors();
-    const auto difference = reference::compare(shading::tone_mapped_picture(*one, with_.exposure),
-                                               shading::tone_mapped_picture(*other, with_.exposure));
-    if (!difference) return difference.errors();
-    return difference->flip;
+    return flip_to(shading::tone_mapped_picture(*other, with_.exposure), *one, with_.exposure);
   }
 
  private:
-  /// Under the sky of the frame that was drawn last.
-  Result<ImageF> photograph_of(const Camera& camera, std::uint64_t seed) {
-    const reference::RayScene rays(with_);
-    options_.seed = seed;
-    auto photograph =
-        reference::take_photograph(rays, with_, bounced_->sky(), camera, width, height, options_);
-    if (!photograph) return photograph.errors();
-    return std::move(photograph->radiance);
+  Result<ImageF> photograph_by(std::uint64_t seed, const Camera& camera) const {
+    return photograph_of(with_, *bounced_, camera, samples_per_pixel_, seed);
   }
 
   scene::Scene with_, without_;
   std::unique_ptr<render::Renderer> bounced_, plain_;
   Exchanged exchanged_{};
-  reference::PhotographOptions options_;
+  int samples_per_pixel_ = 0;
 };
 
 }  // namespace
@@ -282,20 +165,21 @@ Status measure_bounced_light(const BenchSetup& setup, const scene::Scene& city, 
   if (still.objects.empty() || still.cameras.empty())
     return error("the scene has nothing static or no cameras to photograph");
   still.data<scene::BouncedSettings>().is_on = true;
-  if (Status status = measure_update(still, report); !status) return status;
+  if (Status status = measure_bounced_update(still, report); !status) return status;
   auto made = HourOfCity::create(setup, still);
   if (!made) return made.errors();
   HourOfCity& hour_of_city = **made;
 
   const std::vector<double> hours =
       setup.is_quick ? std::vector{9.0, 13.6} : std::vector{6.4, 9.0, 13.6, 19.8};
-  const std::vector<scene::NamedCamera> views = views_of(still, setup.is_quick ? 2 : 20);
+  const Result<std::vector<scene::NamedCamera>> views = views_of(still, setup.is_quick ? 2 : 20);
+  if (!views) return views.errors();
   Flips all;
   Result<double> flip_of_noise = error("no view was photographed");
   for (std::size_t h = 0; h < hours.size(); ++h) {
     const double other_hour = hours[(h + 1) % hours.size()];
     if (Status status = hour_of_city.show(hours[h], other_hour); !status) return status;
-    for (const scene::NamedCamera& view : views) {
+    for (const scene::NamedCamera& view : *views) {
       const Result<Flips> flips = hour_of_city.flips(view.camera);
       if (!flips) return flips.errors();
       all += *flips;

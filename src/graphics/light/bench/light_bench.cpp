@@ -5,10 +5,12 @@
 #include "graphics/gl/context.h"
 #include "graphics/light/bench/bounced_bench.h"
 #include "graphics/light/bench/lit_object_bench.h"
+#include "graphics/light/bench/night_bench.h"
 #include "graphics/light/bench/relighting_bench.h"
 #include "graphics/light/bench/shadow_bench.h"
 #include "graphics/light/bench/shadow_time_bench.h"
 #include "graphics/light/bench/sky_bench.h"
+#include "graphics/light/bench/sky_update_bench.h"
 #include "graphics/light/bench/sun_hours_bench.h"
 #include "places/paper_city/paper_city.h"
 #include "scene/script/scene_loader.h"
@@ -53,18 +55,24 @@ Bench part_of_city(std::string name, std::string summary, MeasureCity measure) {
           }};
 }
 
-Status measure_all(const BenchSetup& setup, Report& report) {
+/// The keys sky_*.
+Status sky(const BenchSetup& setup, Report& report) {
   if (Status status = measure_sky(setup, report); !status) return status;
+  return measure_sky_update(setup, report);
+}
+
+Status measure_all(const BenchSetup& setup, Report& report) {
+  if (Status status = sky(setup, report); !status) return status;
   if (Status status = relight(setup, report); !status) return status;
-  if (Status status =
-          measure_city(setup, report, {measure_bounced_light, measure_sun_hours, measure_shadows});
+  if (Status status = measure_city(
+          setup, report, {measure_bounced_light, measure_night, measure_sun_hours, measure_shadows});
       !status)
     return status;
   return setup.house.get<Benches>().find("vegetation")->run(setup, report);
 }
 
 Status measure_sun_and_sky(const BenchSetup& setup, Report& report) {
-  if (Status status = measure_sky(setup, report); !status) return status;
+  if (Status status = sky(setup, report); !status) return status;
   return measure_city(setup, report, {measure_sun_hours});
 }
 
@@ -80,6 +88,7 @@ void furnish_light(House& house) {
                            }));
   benches.add(part_of_city("bounced_light", "pictures with bounced light against photographs",
                            measure_bounced_light));
+  benches.add(part_of_city("night", "pictures in the light of lamps against photographs", measure_night));
   benches.add({"sun_and_sky", "sun, sky and hours of sun against their ground truths",
                [](const BenchSetup& setup, Report& report) {
                  return with_context([&] { return measure_sun_and_sky(setup, report); }, report);

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/random.h"
+#include "graphics/light/bench/city_views.h"
 #include "graphics/light/bench/shadow_time_bench.h"
-#include "graphics/light/bench/street_camera.h"
 #include "graphics/light/bench/sunlit_city.h"
 #include "graphics/shadows/traced_sun.h"
 #include "scene/data/sun_shadows.h"
@@ -198,13 +198,18 @@ Status measure_shadows(const BenchSetup& setup, const scene::Scene& city, Report
   if (!drawn) return drawn.errors();
   WrongShadows wrong;
   Random random(4);
-  const int cameras = setup.is_quick ? 8 : 200, suns = setup.is_quick ? 3 : 24;
-  for (int c = 0; c < cameras; ++c) {
-    const Camera camera = street_camera(city, c, random);
+  const int suns = setup.is_quick ? 3 : 24;
+  const auto views =
+      city_views(city, tracer, setup.is_quick ? 8 : 200, sunlit_pixels.width, sunlit_pixels.height);
+  if (!views) return views.errors();
+  for (const Camera& camera : *views)
     for (int s = 0; s < suns; ++s)
       if (Status status = add_view(tracer, rays, twin, camera, any_sun(random), **drawn, wrong); !status)
         return status;
-  }
+  report.note(fmt::format(
+      "{} views, each above another point of the lanes: a half at the height of eyes, a quarter at that of "
+      "balconies, a quarter down from above the roofs; {} suns for each",
+      views->size(), suns));
   report_wrong(wrong, report);
   const Walk walk(tracer, city.cameras.front().camera, any_sun(random), setup.is_quick ? 12 : 100);
   if (Status status = measure_flicker(**drawn, walk, report); !status) return status;

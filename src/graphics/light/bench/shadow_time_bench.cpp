@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "graphics/light/bench/exact_sun.h"
+#include "graphics/light/bench/frame_costs.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/render/light_over.h"
 #include "graphics/render/renderer.h"
@@ -45,10 +46,6 @@ class ReadableLight final : public render::LightOver {
  private:
   render::TracedSun texture_ = 0;
   glm::ivec2 size_{0};
-};
-
-struct FrameCost {
-  double ms = 0.0, cpu_ms = 0.0;  ///< by the clock, and of all cores
 };
 
 /// A city whose frames are begun by one technique, as a running scene begins them: what moved, the maps that
@@ -113,10 +110,13 @@ struct Judgement {
   }
 };
 
-struct ShadowTimes {
-  std::vector<double> rays_ms, jump_ms, maps_ms, kept_ms, beyond_maps_ms, control_ms;
-  double rays_cpu_ms = 0.0, maps_cpu_ms = 0.0;
-};
+/// One frame more of each, under a sun that both have not had.
+void add(BegunFrames& rays, BegunFrames& maps, const Camera& camera, glm::vec3 to_sun, glm::ivec2 size,
+         FrameCosts& costs) {
+  costs.rays.push_back(rays.begin(camera, to_sun, size));
+  costs.maps.push_back(maps.begin(camera, to_sun, size));
+  costs.kept.push_back(maps.begin(camera, to_sun, size));
+}
 
 /// The camera, a step further each time.
 Camera ahead(Camera camera, int step) {
@@ -131,26 +131,27 @@ Camera turned_back(Camera camera) {
   return camera;
 }
 
-void report_times(const ShadowTimes& times, Report& report) {
-  const double maps_ms = median(times.maps_ms).value, rays_ms = median(times.rays_ms).value;
-  const double drawing_ms = maps_ms - median(times.kept_ms).value;
-  report.add("shadow_rays_over_depth_pass_time", rays_ms / maps_ms, up_to(0.5));
+void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels,
+                  const std::vector<FrameCost>& jumps, Report& report) {
+  const Target half = up_to(0.5);
+  constexpr Cost ms = &FrameCost::ms;
+  report.add("shadow_rays_over_depth_pass_time", costs.rays_over_depth_pass(ms), half);
   report.add_control("shadow_rays_over_depth_pass_time_control_of_4_times_the_pixels",
-                     median(times.control_ms).value / maps_ms, up_to(0.5));
-  report.add("shadow_rays_over_depth_pass_time_of_a_jump", median(times.jump_ms).value / maps_ms, up_to(0.5));
-  report.add("shadow_rays_over_depth_pass_cpu_time", times.rays_cpu_ms / times.maps_cpu_ms);
-  report.add("shadow_rays_without_their_maps_over_depth_pass_time",
-             median(times.beyond_maps_ms).value / drawing_ms);
+                     of_more_pixels.rays_over_depth_pass(ms), half);
+  report.add("shadow_rays_over_depth_pass_cpu_time", costs.rays_over_depth_pass(&FrameCost::cpu_ms));
+  const double maps_ms = median_of(costs.maps, ms), rays_ms = median_of(costs.rays, ms),
+               jump_ms = median_of(jumps, ms);
+  report.add("shadow_rays_over_depth_pass_time_of_the_frame", rays_ms / maps_ms);
+  report.add("shadow_rays_over_depth_pass_time_of_a_jump", jump_ms / maps_ms);
   report.note(
       fmt::format("beginning of a frame of {} x {} pixels under a new sun: by rays {:.0f} ms, {:.0f} after a "
                   "jump; by the default {:.0f} ms, {:.0f} of them for its maps",
-                  picture.x, picture.y, rays_ms, median(times.jump_ms).value, maps_ms, drawing_ms));
+                  picture.x, picture.y, rays_ms, jump_ms, maps_ms, costs.depth_pass(ms)));
   report.note(
-      "method rays draws the default's maps, too, for edges, leaves and reflections, so that it can take no "
-      "less; the key without its maps is what it takes beyond them, over the drawing of the maps. A view "
-      "that "
-      "moves has a ray to the sun for each pixel, one that has jumped those to its disc that the settings "
-      "ask for");
+      "shadow_rays_over_depth_pass_time: what method rays takes beyond the default's maps, which it draws "
+      "for edges, leaves and reflections, over the drawing of these maps; of_the_frame and of_a_jump: all "
+      "that begins its frame, over the same of the default. A view that moves has a ray to the sun for each "
+      "pixel, one that has jumped those to its disc that the settings ask for");
 }
 
 Status report_judgements(const Judgement& moving, const Judgement& still, Report& report) {
@@ -184,7 +185,8 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
   auto maps = BegunFrames::create(still, light::ShadowSettings().technique);
   if (!maps) return maps.errors();
 
-  ShadowTimes times;
+  FrameCosts costs, of_more_pixels;
+  std::vector<FrameCost> jumps;
   Judgement of_moving, of_still;
   int suns = 0;
   const auto next_sun = [&] { return glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(suns++), 0.7f)); };
@@ -194,29 +196,25 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
     for (BegunFrames* frames : {rays->get(), maps->get()})  // arrays and textures of this size are made
       frames->begin(turned_back(camera), next_sun(), picture);
     glm::vec3 to_sun = next_sun();
-    times.jump_ms.push_back((*rays)->begin(camera, to_sun, picture).ms);
+    jumps.push_back((*rays)->begin(camera, to_sun, picture));
     if (Status status = of_still.add(tracer, unknown, camera, to_sun, (*rays)->traced()); !status)
       return status;
     (*maps)->begin(camera, to_sun, picture);
     for (int i = 1; i <= pictures_per_view; ++i) {
       to_sun = next_sun();
-      const FrameCost by_rays = (*rays)->begin(ahead(camera, i), to_sun, picture),
-                      by_maps = (*maps)->begin(ahead(camera, i), to_sun, picture),
-                      kept = (*maps)->begin(ahead(camera, i), to_sun, picture);
-      times.rays_ms.push_back(by_rays.ms), times.maps_ms.push_back(by_maps.ms);
-      times.kept_ms.push_back(kept.ms), times.beyond_maps_ms.push_back(by_rays.ms - by_maps.ms);
-      times.rays_cpu_ms += by_rays.cpu_ms, times.maps_cpu_ms += by_maps.cpu_ms;
+      add(**rays, **maps, ahead(camera, i), to_sun, picture, costs);
     }
     if (Status status =
             of_moving.add(tracer, unknown, ahead(camera, pictures_per_view), to_sun, (*rays)->traced());
         !status)
       return status;
-    // The control traces four times as many pixels; the first frame of another size is a jump.
-    (*rays)->begin(camera, next_sun(), 2 * picture);
-    times.control_ms.push_back((*rays)->begin(ahead(camera, 1), next_sun(), 2 * picture).ms);
+    // The control has four times as many pixels; the first frame of another size is a jump.
+    for (BegunFrames* frames : {rays->get(), maps->get()}) frames->begin(camera, next_sun(), 2 * picture);
+    add(**rays, **maps, ahead(camera, 1), next_sun(), 2 * picture, of_more_pixels);
   }
-  report_times(times, report);
-  return report_judgements(of_moving, of_still, report);
+  if (Status status = report_judgements(of_moving, of_still, report); !status) return status;
+  report_times(costs, of_more_pixels, jumps, report);
+  return Done{};
 }
 
 }  // namespace parvis::bench
