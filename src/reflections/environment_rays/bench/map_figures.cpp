@@ -20,13 +20,31 @@ constexpr std::size_t judged_points = 50000;
 constexpr std::uint64_t judging_seed = 97;
 constexpr int max_maps = 400;
 
-/// The first maps of a list that show enough; one more than there are where all are too few.
-std::size_t maps_enough(const HeightPyramid& heights, const std::vector<glm::vec3>& places,
-                        const std::vector<MirroredPoint>& points, float sharpness) {
-  const std::vector<float> shown = coverage(heights, places, points, sharpness);
+/// The first maps of a list that show enough, by what the first n of them show; one more than there are where
+/// all are too few.
+std::size_t maps_enough(const std::vector<float>& shown) {
   return std::size_t(std::ranges::find_if(shown, [](float share) { return share >= wanted_share; }) -
                      shown.begin()) +
          1;
+}
+
+/// How many fewer maps than an even spread takes show enough.
+struct Saving {
+  std::size_t maps, even_maps;
+  double share;  ///< of the points, that the maps show
+
+  /// No number where the maps show too little: they save nothing.
+  double percent() const {
+    return share < double(wanted_share) ? std::nan("") : 100.0 * (1.0 - double(maps) / double(even_maps));
+  }
+};
+
+/// Of the first of `places` that show enough to the points that judge, not to those that place.
+Saving saving_of(const std::vector<glm::vec3>& places, const std::vector<glm::vec3>& even,
+                 const HeightPyramid& heights, const std::vector<MirroredPoint>& points, float sharpness) {
+  const std::vector<float> shown = coverage(heights, places, points, sharpness);
+  const std::size_t maps = std::min(maps_enough(shown), places.size());
+  return {maps, maps_enough(coverage(heights, even, points, sharpness)), double(shown[maps - 1])};
 }
 
 }  // namespace
@@ -35,37 +53,33 @@ void measure_placement(const scene::Scene& scene, Report& report) {
   const HeightPyramid heights(heights_of(scene));
   const std::vector<MirroredPoint> points = mirrored_points(scene, heights, judged_points, judging_seed);
   const std::vector<glm::vec3> even = spread_places(scene, heights, max_maps);
-  const auto enough = [&](float sharpness) {  // as the points that judge have it, not those that place
-    PlacementGoal goal;
-    goal.max_maps = max_maps;
-    goal.share_shown = 0.5f * (1.0f + wanted_share);
-    goal.sharpness = {sharpness};
-    std::vector<glm::vec3> places = place_by_coverage(scene, heights, goal).places;
-    places.resize(std::min(places.size(), maps_enough(heights, places, points, sharpness)));
-    return places;
-  };
-  const std::vector<glm::vec3> plain = enough(any_sharpness), sharply = enough(sharp);
-  const std::size_t spread = maps_enough(heights, even, points, any_sharpness);
-  report.add("placement_maps", double(plain.size()));
-  const double valid_share = double(coverage(heights, plain, points).back());
-  report.add("placement_valid_percent", 100.0 * valid_share, {100.0 * double(wanted_share), true});
-  report.add("placement_maps_sharp", double(sharply.size()));
-  // Maps that show too little save nothing.
-  const auto saving_percent = [&](std::size_t maps) { return 100.0 * (1.0 - double(maps) / double(spread)); };
-  constexpr Target saving{30.0, true};
-  report.add("placement_saving_percent",
-             valid_share < double(wanted_share) ? std::nan("") : saving_percent(plain.size()), saving);
   std::vector<glm::vec3> by_chance = even;
   Random random(judging_seed);
   for (std::size_t i = by_chance.size(); i > 1; --i)
     std::swap(by_chance[i - 1], by_chance[std::size_t(random.index(int(i)))]);
+  PlacementGoal visible;
+  visible.max_maps = max_maps;
+  visible.share_shown = 0.5f * (1.0f + wanted_share);
+
+  const Saving plain =
+      saving_of(place_by_coverage(scene, heights, visible).places, even, heights, points, any_sharpness);
+  constexpr Target wanted{30.0, true};
+  report.add("placement_maps", double(plain.maps));
+  report.add("placement_valid_percent", 100.0 * plain.share, {100.0 * double(wanted_share), true});
+  report.add("placement_saving_percent_of_visibility", plain.percent(), wanted);
+  report.add_control("placement_saving_percent_of_visibility_by_chance",
+                     saving_of(by_chance, even, heights, points, any_sharpness).percent(), wanted);
+
+  const Saving shipped =
+      saving_of(place_for_pictures(scene, heights, max_maps).places, even, heights, points, sharp);
+  report.add("placement_maps_sharp", double(shipped.maps));
+  report.add("placement_saving_percent", shipped.percent());
   report.add_control("placement_saving_percent_by_chance",
-                     saving_percent(maps_enough(heights, by_chance, points, any_sharpness)), saving);
+                     saving_of(by_chance, even, heights, points, sharp).percent(), {shipped.percent(), true});
   report.note(
-      fmt::format("judged by {} points of another seed; an even spread takes {} maps, sharply {}; sharply "
-                  "placed ones show {:.2f} %",
-                  points.size(), spread, maps_enough(heights, even, points, sharp),
-                  100.0 * double(coverage(heights, sharply, points, sharp).back())));
+      fmt::format("judged by {} points of another seed; an even spread takes {} maps, sharply {}; those that "
+                  "are shipped show {:.2f} % sharply",
+                  points.size(), plain.even_maps, shipped.even_maps, 100.0 * shipped.share));
 }
 
 void measure_memory(int face_resolution, Report& report) {

@@ -7,8 +7,9 @@
 
 namespace parvis::bench {
 
-/// `placement_*`: maps that show 99 % of what vehicles will mirror, plainly and sharply, and how many fewer
-/// these are than an even spread takes. Takes about a minute.
+/// `placement_*`: maps that show 99 % of what vehicles will mirror, and how many fewer these are than an even
+/// spread takes: `placement_saving_percent` of the goal that is shipped, which is to show it sharply. Takes
+/// about a minute.
 void measure_placement(const scene::Scene& scene, Report& report);
 
 /// `maps_mb_54` and the same compressed; needs a current OpenGL context.

@@ -67,6 +67,7 @@ void note_memory(house::Stage& stage, Report& report) {
                             double(reference_maps::ReferenceMaps::bytes_per_map(side, plan.is_compressed)));
 }
 
+/// Of a stage whose traffic drives in the whole city.
 Status measure_quality(house::Stage& stage, const BenchSetup& setup, Report& report) {
   const Result<std::vector<JudgedMethod>> methods = make(stage, {{"mem", shipped()},
                                                                  {"none", usual("none")},
@@ -121,11 +122,15 @@ Status measure_traced(house::Stage& stage, const BenchSetup& setup, Report& repo
   constexpr int samples = 64;
   const std::size_t views = setup.is_quick ? 6 : 20;
   const int repeats = setup.is_quick ? 3 : 20;
-  std::vector<double> mem_ms, traced_ms, rerendered_ms;
+  std::vector<double> mem_ms, traced_ms, rerendered_ms, larger_ms;
   const auto time = [&](const NearView& view) -> Status {
     const Result<std::vector<ReflectionCost>> costs =
         reflection_costs(stage, timed, view.camera, width, height, repeats, Frames::left_out);
     if (!costs) return costs.errors();
+    const Result<std::vector<ReflectionCost>> larger = reflection_costs(
+        stage, {timed[0], timed[2]}, view.camera, 2 * width, 2 * height, 1, Frames::left_out);
+    if (!larger) return larger.errors();
+    larger_ms.push_back((*larger)[1].ms.front());
     mem_ms.push_back(median((*costs)[1].ms).value), traced_ms.push_back(median((*costs)[2].ms).value);
     rerendered_ms.push_back(median((*costs)[3].ms).value);
     return Done{};
@@ -145,6 +150,8 @@ Status measure_traced(house::Stage& stage, const BenchSetup& setup, Report& repo
     report.add("traced_flip", mean_flip(*flips, 0), up_to(max_flip));
     report.add_control("traced_flip_without_reflections", mean_flip(*flips, 1), up_to(max_flip));
     report.add("traced_cost_over_mem", ratio_in_turn(traced_ms, mem_ms).value, up_to(max_cost));
+    report.add_control("traced_cost_over_mem_of_four_times_the_pixels",
+                       ratio_in_turn(larger_ms, mem_ms).value, up_to(max_cost));
     report.add("traced_cost_over_rerendered", ratio_in_turn(traced_ms, rerendered_ms).value);
     report.note(fmt::format("traced {:.2f} ms, mem {:.2f} ms, re-rendered {:.2f} ms in these views",
                             median(traced_ms).value, median(mem_ms).value, median(rerendered_ms).value));
@@ -238,13 +245,17 @@ Status measure_cost(const BenchSetup& setup, const scene::Scene& city, Report& r
   report.add_control("local_cost_ratio_30", ratio(rerendered, median((*rerendered_costs)[3].ms)).value,
                      wanted);
   report.add("frame_ratio_mem_over_none_30", ratio_in_turn((*cheap)[2].frame_ms, (*cheap)[0].frame_ms));
-  const Result<std::vector<JudgedMethod>> shown =
-      make(**stage, {{"none", usual("none")}, {"mem_lod", shipped()}, {"traced", usual("traced")}});
+  const Result<std::vector<JudgedMethod>> shown = make(**stage, {{"none", usual("none")},
+                                                                 {"traced", usual("traced")},
+                                                                 {"mem", usual("multiple_environment_maps")},
+                                                                 {"mem_lod", shipped()}});
   if (!shown) return shown.errors();
-  const Result<double> flip = flip_over_none(**stage, {(*shown)[1], (*shown)[0], (*shown)[2]}, *camera, width,
-                                             height, {0, 0, width, height});
-  if (!flip) return flip.errors();
-  report.add("cost_30_flip_mem_over_none", *flip, shows_reflections);
+  for (std::size_t m = 2; m < shown->size(); ++m) {
+    const Result<double> flip = flip_over_none(**stage, {(*shown)[m], (*shown)[0], (*shown)[1]}, *camera,
+                                               width, height, {0, 0, width, height});
+    if (!flip) return flip.errors();
+    report.add(fmt::format("cost_30_flip_{}_over_none", (*shown)[m].name), *flip, shows_reflections);
+  }
   return Done{};
 }
 
@@ -297,7 +308,14 @@ Status measure(const BenchSetup& setup, Report& report) {
           return measure_city_size(setup.house, city->scene, shipped(), repeats, report);
         });
       },
-      [&] { return on_stage([&](house::Stage& at) { return measure_quality(at, setup, report); }); },
+      [&]() -> Status {
+        const scene::Scene whole = driven_everywhere(city->scene);
+        if (Status kept = keep_maps(setup.house, whole, shipped()); !kept) return kept;
+        const Result<std::unique_ptr<house::Stage>> everywhere =
+            house::Stage::create(house::make_play(setup.house, whole));
+        if (!everywhere) return everywhere.errors();
+        return measure_quality(**everywhere, setup, report);
+      },
       [&] { return on_stage([&](house::Stage& at) { return measure_traced(at, setup, report); }); },
       [&] { return on_stage([&](house::Stage& at) { return measure_motion(at, setup, report); }); },
       [&] {

@@ -7,6 +7,9 @@
 
 namespace parvis::bench {
 
+/// The city with traffic on all of its roads, where its script keeps it to the streets about a crossing.
+scene::Scene driven_everywhere(const scene::Scene& city);
+
 /// `paper_flip_ratio` and `paper_cost_ratio`: local maps of 128 pixels out of 54 reference maps spread evenly
 /// over all 8 km of road, over re-rendered cube maps, in a city whose traffic drives everywhere, while it
 /// drives. The cost ratio is that of re-rendering over local maps.
