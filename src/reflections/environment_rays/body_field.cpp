@@ -15,6 +15,8 @@ std::size_t index_of(glm::ivec3 size, int x, int y, int z) {
   return std::size_t(x) + std::size_t(size.x) * (std::size_t(y) + std::size_t(size.y) * std::size_t(z));
 }
 
+constexpr float exact_share = 0.5f;  // of the reach: so far cells are compared with every face
+
 /// Gives the shared functions the distances that a shader has in its sampler, filtered as there.
 struct Tracer {
   const BodyField& body;
@@ -118,30 +120,75 @@ Bounds box_of(const std::vector<Face>& faces) {
   return {box.min - margin, box.max + margin};
 }
 
-/// Enters a face into the cells that lie within the field's reach of it.
-void enter(const Face& face, int index, const Bounds& box, float reach_m, std::vector<Nearest>& cells) {
-  const glm::ivec3 size = BodyField::size();
-  const vec3 cell_m = box.size() / vec3(size);
+/// The cells of a field's box, in the model's frame.
+struct Grid {
+  glm::ivec3 size;
+  vec3 low, cell_m;
+
+  explicit Grid(const Bounds& box)
+      : size(BodyField::size()), low(box.min), cell_m(box.size() / vec3(BodyField::size())) {}
+  std::size_t index(glm::ivec3 cell) const { return index_of(size, cell.x, cell.y, cell.z); }
+  vec3 middle(glm::ivec3 cell) const { return low + (vec3(cell) + 0.5f) * cell_m; }
+};
+
+/// Takes a face over into a cell where it is the nearest so far, and within reach.
+void offer(const Face& face, int index, vec3 middle, float reach_m, Nearest& known) {
+  const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
+  const vec3 offset = middle - face.at(shares);
+  const float distance_m = glm::length(offset);
+  constexpr float alike_m = 1e-4f;
+  if (distance_m > known.distance_m + alike_m || distance_m > reach_m) return;
+  const float facing = distance_m > 0.0f ? dot(offset, face.normal) / distance_m : 1.0f;
+  // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
+  const bool is_nearer = distance_m < known.distance_m - alike_m;
+  if (is_nearer || std::abs(facing) > std::abs(known.facing)) known = {distance_m, facing, index, shares};
+}
+
+/// Offers a face to the cells that lie within reach of it.
+void enter(const Face& face, int index, const Grid& grid, float reach_m, std::vector<Nearest>& cells) {
   const vec3 minimum = glm::min(face.corners[0], glm::min(face.corners[1], face.corners[2])) - reach_m;
   const vec3 maximum = glm::max(face.corners[0], glm::max(face.corners[1], face.corners[2])) + reach_m;
-  const glm::ivec3 from = glm::max(glm::ivec3(glm::floor((minimum - box.min) / cell_m)), glm::ivec3(0));
-  const glm::ivec3 to = glm::min(glm::ivec3(glm::floor((maximum - box.min) / cell_m)), size - 1);
+  const glm::ivec3 from = glm::max(glm::ivec3(glm::floor((minimum - grid.low) / grid.cell_m)), glm::ivec3(0));
+  const glm::ivec3 to = glm::min(glm::ivec3(glm::floor((maximum - grid.low) / grid.cell_m)), grid.size - 1);
   for (int z = from.z; z <= to.z; ++z)
     for (int y = from.y; y <= to.y; ++y)
-      for (int x = from.x; x <= to.x; ++x) {
-        const vec3 middle = box.min + (vec3(x, y, z) + 0.5f) * cell_m;
-        const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
-        const vec3 offset = middle - face.at(shares);
-        const float distance_m = glm::length(offset);
-        Nearest& known = cells[index_of(size, x, y, z)];
-        constexpr float alike_m = 1e-4f;
-        if (distance_m > known.distance_m + alike_m || distance_m > reach_m) continue;
-        const float facing = distance_m > 0.0f ? dot(offset, face.normal) / distance_m : 1.0f;
-        // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
-        const bool is_nearer = distance_m < known.distance_m - alike_m;
-        if (is_nearer || std::abs(facing) > std::abs(known.facing))
-          known = {distance_m, facing, index, shares};
-      }
+      for (int x = from.x; x <= to.x; ++x)
+        offer(face, index, grid.middle({x, y, z}), reach_m, cells[grid.index({x, y, z})]);
+}
+
+/// The neighbours of a cell that come before it, row by row.
+std::vector<glm::ivec3> steps_back() {
+  constexpr std::size_t half_of_the_neighbours = 13;
+  std::vector<glm::ivec3> steps;
+  steps.reserve(half_of_the_neighbours);
+  for (int z = -1; z <= 0; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        if (z < 0 || y < 0 || (y == 0 && x < 0)) steps.emplace_back(x, y, z);
+  return steps;
+}
+
+/// Offers cells the faces that are nearest to their neighbours, from the first cell to the last and back:
+/// what is nearest to a cell is so to a neighbour that lies nearer (Danielsson 1980).
+void spread(const std::vector<Face>& faces, const Grid& grid, float reach_m, std::vector<Nearest>& cells) {
+  const glm::ivec3 last = grid.size - 1;
+  const std::vector<glm::ivec3> steps = steps_back();
+  const auto ask_neighbours = [&](glm::ivec3 cell, int side) {
+    Nearest& known = cells[grid.index(cell)];
+    for (const glm::ivec3 step : steps) {
+      const glm::ivec3 beside = cell + side * step;
+      if (beside != glm::clamp(beside, glm::ivec3(0), last)) continue;
+      const int face = cells[grid.index(beside)].face;
+      if (face != scene::no_index && face != known.face)
+        offer(faces[std::size_t(face)], face, grid.middle(cell), reach_m, known);
+    }
+  };
+  for (int z = 0; z <= last.z; ++z)
+    for (int y = 0; y <= last.y; ++y)
+      for (int x = 0; x <= last.x; ++x) ask_neighbours({x, y, z}, 1);
+  for (int z = last.z; z >= 0; --z)
+    for (int y = last.y; y >= 0; --y)
+      for (int x = last.x; x >= 0; --x) ask_neighbours({x, y, z}, -1);
 }
 
 }  // namespace
@@ -151,14 +198,18 @@ glm::ivec3 BodyField::size() {
   return glm::ivec3(Tracer{nothing}.field_cells);
 }
 
+float BodyField::reach_m() const { return Tracer{*this}.field_reach_m(0.5f * box.size()); }
+
 BodyField body_field(const scene::Model& model, const std::vector<scene::Material>& materials) {
   const std::vector<Face> faces = solid_faces(model, materials);
   BodyField field{box_of(faces), {}};
   if (field.box.empty()) return field;
-  const float reach_m = Tracer{field}.field_reach_m(0.5f * field.box.size());
+  const float reach_m = field.reach_m();
   const glm::ivec3 size = BodyField::size();
   std::vector<Nearest> cells(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
-  for (std::size_t i = 0; i < faces.size(); ++i) enter(faces[i], int(i), field.box, reach_m, cells);
+  const Grid grid(field.box);
+  for (std::size_t i = 0; i < faces.size(); ++i) enter(faces[i], int(i), grid, exact_share * reach_m, cells);
+  spread(faces, grid, reach_m, cells);
 
   field.cells.resize(cells.size());
   bool is_inside = false;  // along a row, cells far from the surface lie where the last near one did
@@ -185,6 +236,10 @@ float distance_to_body(const BodyField& field, glm::vec3 origin, glm::vec3 direc
   Tracer tracer{field};
   return tracer.distance_to_body(origin - field.box.centre(), direction, 0.5f * field.box.size(), 0, reach_m,
                                  is_own);
+}
+
+float own_share(const BodyField& field, float distance_m) {
+  return Tracer{field}.own_share(distance_m, 0.5f * field.box.size());
 }
 
 }  // namespace parvis::environment_rays

@@ -3,16 +3,23 @@
 //   float field_distance(vec3 cell, int field)   metres from the surface, below 0 within;
 //                                                `cell` in cells from the box's corner
 
-const vec3 field_cells = vec3(48.0f, 24.0f, 20.0f);
-const float field_reach = 1.75f;  // cells: so far from the surface distances are known, and cut off beyond
+const vec3 field_cells = vec3(96.0f, 48.0f, 40.0f);
+const float field_reach = 3.5f;  // cells: so far from the surface distances are known, and cut off beyond
 const int max_field_steps = 40;
 const float min_field_step_m = 0.01f;
 const float field_clearance =
-    0.25f;  // cells: a ray that starts on the body has left it when it is so far away
+    0.5f;  // cells: a ray that starts on the body has left it when it is so far away
+const float own_from_cells = 1.0f, own_whole_cells = 3.0f;  // own_share
 
 GLSL_FUNCTION float field_reach_m(vec3 half_size_m) {
   vec3 cell_m = 2.0f * half_size_m / field_cells;
   return field_reach * max(cell_m.x, max(cell_m.y, cell_m.z));
+}
+
+// A field is too coarse to say what a body reflects of its own surface close by: there its reflection of
+// itself fades.
+GLSL_FUNCTION float own_share(float distance_m, vec3 half_size_m) {
+  return smoothstep(own_from_cells, own_whole_cells, distance_m * field_reach / field_reach_m(half_size_m));
 }
 
 GLSL_FUNCTION vec3 field_cell(vec3 point_m, vec3 half_size_m) {

@@ -19,6 +19,7 @@ struct BodyField {
   std::vector<Cell> cells;  ///< x, then y, then z
 
   static glm::ivec3 size();  ///< in cells
+  float reach_m() const;     ///< so far from the surface distances are known
 };
 
 /// Of a model's solid parts at rest, in `materials`, the model's or those of an object; what blends is left
@@ -29,5 +30,8 @@ BodyField body_field(const scene::Model& model, const std::vector<scene::Materia
 /// body_field.glsl, in the model's frame.
 float distance_to_body(const BodyField& field, glm::vec3 origin, glm::vec3 direction, float reach_m,
                        bool is_own = false);
+
+/// How much of what a body mirrors of itself at this distance is shown, 0 to 1: own_share of body_field.glsl.
+float own_share(const BodyField& field, float distance_m);
 
 }  // namespace parvis::environment_rays

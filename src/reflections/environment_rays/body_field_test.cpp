@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::environment_rays {
 namespace {
@@ -58,6 +59,39 @@ TEST(BodyField, RaysHitABallWhereItIs) {
     EXPECT_EQ(distance_to_body(field, from, -direction, 100.0f), 100.0f);
     EXPECT_EQ(distance_to_body(field, from, direction, exact_m - cell_m), exact_m - cell_m) << "too far";
   }
+}
+
+/// Cells are compared with every face as far as half of it; beyond, they take over what their neighbours
+/// found.
+TEST(BodyField, CellsKnowDistancesAsFarAsTheReach) {
+  const BodyField field = field_of(ball());
+  const glm::ivec3 size = BodyField::size();
+  const glm::vec3 cell_m = field.box.size() / glm::vec3(size);
+  const float reach_m = field.reach_m(), byte_m = reach_m / 127.5f;
+  // Facets lie within the ball, and the nearest of some that are alike may not be among the neighbours'.
+  const float tolerance_m = byte_m + 0.1f * std::max(cell_m.x, std::max(cell_m.y, cell_m.z));
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const glm::vec3 at = field.box.min + (glm::vec3(x, y, z) + 0.5f) * cell_m;
+        const float exact_m = glm::distance(at, {2, 3, 4}) - 1.0f;
+        if (std::abs(exact_m) > 0.95f * reach_m) continue;
+        const float byte = float(field.cells[std::size_t(x + size.x * (y + size.y * z))].w);
+        ASSERT_NEAR(byte_m * (byte - 127.5f), exact_m, tolerance_m) << x << ' ' << y << ' ' << z;
+      }
+}
+
+/// A door in the mirror on its wing.
+TEST(BodyField, ACarShowsItsOwnPartsFromFifteenCentimetresOn) {
+  scene::Model car;
+  car.materials.resize(1);
+  car.parts.resize(1);
+  append(car.parts[0].mesh, scene::box({-2.2f, -0.9f, 0.0f}, {2.2f, 0.9f, 1.4f}));
+  append(car.parts[0].mesh, scene::box({0.6f, -1.15f, 0.85f}, {0.75f, -1.02f, 1.0f}));
+  const BodyField field = field_of(car);
+  EXPECT_EQ(own_share(field, 0.03f), 0.0f);
+  EXPECT_GT(own_share(field, 0.15f), 0.95f);
+  EXPECT_NEAR(distance_to_body(field, {0.675f, -1.02f, 0.925f}, {0, 1, 0}, 10.0f, true), 0.12f, 0.02f);
 }
 
 TEST(BodyField, RaysThatLeaveTheBodyDoNotMeetWhereTheyStart) {

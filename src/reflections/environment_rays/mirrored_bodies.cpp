@@ -12,18 +12,19 @@ namespace {
 constexpr std::size_t max_fields = 100;  // upon one another in a texture as high as any driver allows
 
 gl::Texture upload(const std::vector<BodyField>& fields) {
+  constexpr int columns = mirrored_bodies_shared::field_columns;
   const glm::ivec3 size = BodyField::size();
+  const int rows = (int(std::max(fields.size(), std::size_t{1})) + columns - 1) / columns;
   gl::Texture texture = gl::Texture::create(GL_TEXTURE_3D);
-  glTextureStorage3D(texture.name(), 1, GL_RGBA8, size.x, size.y,
-                     size.z * int(std::max(fields.size(), std::size_t{1})));
+  glTextureStorage3D(texture.name(), 1, GL_RGBA8, columns * size.x, size.y, rows * size.z);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
   for (std::size_t i = 0; i < fields.size(); ++i)
     if (!fields[i].cells.empty())
-      glTextureSubImage3D(texture.name(), 0, 0, 0, int(i) * size.z, size.x, size.y, size.z, GL_RGBA,
-                          GL_UNSIGNED_BYTE, fields[i].cells.data());
+      glTextureSubImage3D(texture.name(), 0, int(i) % columns * size.x, 0, int(i) / columns * size.z, size.x,
+                          size.y, size.z, GL_RGBA, GL_UNSIGNED_BYTE, fields[i].cells.data());
   return texture;
 }
 

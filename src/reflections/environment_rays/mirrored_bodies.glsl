@@ -1,7 +1,7 @@
 // Dynamic objects that mirror rays may hit: block at binding 3, filled by mirrored_bodies.cpp.
 #include "reflections/environment_rays/mirrored_bodies_block.glsl"
 
-uniform highp sampler3D body_fields;  // stacked along z
+uniform highp sampler3D body_fields;  // field_columns side by side along x, these rows stacked along z
 uniform int reflecting_body;          // index of the body that is drawn; negative: none
 
 vec4 field_texel(vec3 cell, int field);
@@ -12,15 +12,15 @@ float field_distance(vec3 cell, int field);
 float field_reach_now_m;  // of the body that is intersected
 
 vec4 field_texel(vec3 cell, int field) {
-  float z = float(field) * field_cells.z + clamp(cell.z, 0.5f, field_cells.z - 0.5f);
-  return textureLod(body_fields, vec3(cell.xy, z) / vec3(textureSize(body_fields, 0)), 0.0f);
+  int row = field / field_columns, column = field - row * field_columns;
+  vec3 first = vec3(float(column) * field_cells.x, 0.0f, float(row) * field_cells.z);
+  vec3 texel = first + clamp(cell, vec3(0.5f), field_cells - 0.5f);
+  return textureLod(body_fields, texel / vec3(textureSize(body_fields, 0)), 0.0f);
 }
 
 float field_distance(vec3 cell, int field) {
   return (2.0f * field_texel(cell, field).a - 1.0f) * field_reach_now_m;
 }
-
-const float own_from_cells = 1.0f, own_whole_cells = 3.0f;
 
 struct BodyHit {
   float distance;  // the length of the search where no body was hit
@@ -51,12 +51,6 @@ void look_up_surface(inout BodyHit hit, vec3 at, vec3 direction) {
   vec3 normal = slope.x * body.box_from_world[0].xyz + slope.y * body.box_from_world[1].xyz +
                 slope.z * body.box_from_world[2].xyz;
   hit.normal = normalize(normal - 1e-4f * direction);
-}
-
-// A field is too coarse to say what a body reflects of its own surface close by: there its reflection of
-// itself fades.
-float own_share(float distance_m, vec3 half_size_m) {
-  return smoothstep(own_from_cells, own_whole_cells, distance_m * field_reach / field_reach_m(half_size_m));
 }
 
 // First body that a ray from the drawn body hits.

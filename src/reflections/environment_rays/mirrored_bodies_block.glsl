@@ -5,5 +5,6 @@ struct MirroredBody {
   uvec4 near;              // one byte per body near it: index plus 1, nearest first; 0 ends the list
 };
 const int max_mirrored_bodies = 200;
+const int field_columns = 2;  // fields side by side in their texture
 
 UNIFORM_BLOCK(MirroredBodies) { MirroredBody mirrored_bodies[max_mirrored_bodies]; };
