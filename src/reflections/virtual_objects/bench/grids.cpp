@@ -88,9 +88,10 @@ std::vector<VirtualPoint> all_by(const Shows& shows, glm::vec3 viewer, std::span
   return points;
 }
 
-std::vector<VirtualPoint> by_grid(const VirtualGrid& grid, glm::vec3 viewer,
+/// By a grid whose corners are searched for.
+std::vector<VirtualPoint> by_grid(const VirtualGrid& grid, const Shows& shows, glm::vec3 viewer,
                                   std::span<const glm::vec3> vertices) {
-  const std::vector<VirtualPoint> corners = all_by(by_newton, viewer, grid.corners());
+  const std::vector<VirtualPoint> corners = all_by(shows, viewer, grid.corners());
   std::vector<VirtualPoint> points(vertices.size());
   grid.interpolate(vertices, corners, points);
   return points;
@@ -146,39 +147,46 @@ double mean_px(const std::vector<std::vector<glm::dvec2>>& off) {
   return count ? sum / double(count) : 0.0;
 }
 
+/// `flicker_ratio_grid`: both sides by the paper's nine iterations. The same of the grid that is shipped,
+/// whose corners the default search finds, over the paper's vertices.
 void measure_flicker(const Mesh& mesh, const VirtualGrid& grid, const BenchSetup& setup, Report& report) {
   const std::size_t step = setup.is_quick ? quick_stride : stride;
   std::vector<glm::vec3> watched;
+  watched.reserve(mesh.positions.size() / step + 1);
   for (std::size_t i = 0; i < mesh.positions.size(); i += step) watched.push_back(mesh.positions[i]);
-  std::vector<std::vector<glm::dvec2>> grid_off(frames), fixed_off(frames), still_off(frames),
-      turns_off(frames);
+  using Off = std::vector<std::vector<glm::dvec2>>;
+  Off shipped_off(frames), paper_grid_off(frames), fixed_off(frames), still_off(frames), turns_off(frames);
   // Controls: what one frame has shown stays where it is; the truth and nine iterations in turn.
   const std::vector<VirtualPoint> still =
-      by_grid(grid, camera_at(frames / 2).position_in_world(), mesh.positions);
+      by_grid(grid, by_newton, camera_at(frames / 2).position_in_world(), mesh.positions);
   parallel_for(std::size_t(frames), [&](std::size_t f) {
     const Camera camera = camera_at(int(f));
     const glm::vec3 viewer = camera.position_in_world();
-    const std::vector<VirtualPoint> of_grid = by_grid(grid, viewer, mesh.positions),
+    const std::vector<VirtualPoint> shipped = by_grid(grid, by_newton, viewer, mesh.positions),
+                                    paper_grid = by_grid(grid, by_midpoint, viewer, mesh.positions),
                                     fixed = all_by(by_midpoint, viewer, watched),
                                     truth = all_by(exactly, viewer, watched);
     for (std::size_t i = 0; i < watched.size(); ++i) {
       const glm::dvec2 right = truth[i].is_lost ? glm::dvec2(NAN) : pixel_of(camera, truth[i].position);
-      grid_off[f].push_back(pixel_of(camera, of_grid[i * step].position) - right);
+      shipped_off[f].push_back(pixel_of(camera, shipped[i * step].position) - right);
+      paper_grid_off[f].push_back(pixel_of(camera, paper_grid[i * step].position) - right);
       fixed_off[f].push_back(pixel_of(camera, fixed[i].position) - right);
       still_off[f].push_back(pixel_of(camera, still[i * step].position) - right);
       turns_off[f].push_back(f % 2 == 0 ? 0.0 * fixed_off[f].back() : fixed_off[f].back());
     }
   });
-  const double of_grid = flicker_px(grid_off), of_fixed = flicker_px(fixed_off);
+  const double of_shipped = flicker_px(shipped_off), of_paper_grid = flicker_px(paper_grid_off),
+               of_fixed = flicker_px(fixed_off);
   report.note(
-      fmt::format("over {} frames vertices jump by {:.4f} px with a grid of 9.6 %, {:.4f} px with 9 midpoint "
-                  "iterations each",
-                  frames, of_grid, of_fixed));
-  report.add("flicker_ratio_grid_over_fixed_iterations", of_grid / of_fixed, up_to(max_flicker_ratio));
+      fmt::format("over {} frames vertices jump by {:.4f} px with a grid of 9.6 %, {:.4f} px with one by 9 "
+                  "midpoint iterations, {:.4f} px with 9 midpoint iterations each",
+                  frames, of_shipped, of_paper_grid, of_fixed));
+  report.add("flicker_ratio_grid", of_paper_grid / of_fixed);
+  report.add("flicker_ratio_grid_over_fixed_iterations", of_shipped / of_fixed, up_to(max_flicker_ratio));
   report.add_control("flicker_ratio_of_two_searches_in_turn", flicker_px(turns_off) / of_fixed,
-                     up_to(max_flicker_ratio));
+                     up_to(std::max(max_flicker_ratio, of_paper_grid / of_fixed)));
   // Vertices that never move do not flicker, either: they are to be where they should.
-  report.add("flicker_grid_off_px", mean_px(grid_off), up_to(max_off_px));
+  report.add("flicker_grid_off_px", mean_px(shipped_off), up_to(max_off_px));
   report.add_control("flicker_still_off_px", mean_px(still_off), up_to(max_off_px));
 }
 
@@ -190,7 +198,8 @@ Image8 where_different(const Image8& a, const Image8& b) {
   return mask;
 }
 
-/// "All" of the key is the paper's: every vertex by nine iterations.
+/// `grid10_flip_over_all`: both sides by the paper's nine iterations. The same of the grid that is shipped,
+/// whose corners the default search finds, over the paper's vertices.
 Status measure_pictures(const Mesh& mesh, Report& report) {
   const glm::vec3 viewer = camera_at(frames / 2).position_in_world();
   const Image8 truth = picture_of(mesh, all_by(exactly, viewer, mesh.positions));
@@ -201,21 +210,29 @@ Status measure_pictures(const Mesh& mesh, Report& report) {
     if (!difference) return difference.errors();
     return difference->flip;
   };
+  const auto flip_of_grid = [&](float share, const Shows& shows) {
+    return flip_of(by_grid(VirtualGrid(mesh.positions, share), shows, viewer, mesh.positions));
+  };
   const Result<double> all = flip_of(all_by(by_newton, viewer, mesh.positions)),
                        midpoint = flip_of(all_by(by_midpoint, viewer, mesh.positions)),
-                       without = flip_of(nothing);
-  for (const Result<double>* flip : {&all, &midpoint, &without})
+                       paper_grid = flip_of_grid(grid10_share, by_midpoint), without = flip_of(nothing);
+  for (const Result<double>* flip : {&all, &midpoint, &paper_grid, &without})
     if (!*flip) return flip->errors();
-  std::string row =
-      fmt::format("FLIP of the virtual mesh against exact vertices: all {:.5f}, 9 midpoint iterations {:.5f}",
-                  *all, *midpoint);
+  std::string row = fmt::format(
+      "FLIP of the virtual mesh against exact vertices: all {:.5f}, 9 midpoint iterations {:.5f}, a grid of "
+      "9.6 % by these {:.5f}",
+      *all, *midpoint, *paper_grid);
   for (const float share : grid_shares) {
-    const Result<double> flip = flip_of(by_grid(VirtualGrid(mesh.positions, share), viewer, mesh.positions));
+    const Result<double> flip = flip_of_grid(share, by_newton);
     if (!flip) return flip.errors();
     row += fmt::format(", a grid of {:.1f} % {:.5f}", 100.0f * share, *flip);
-    if (share == grid10_share) report.add("grid10_flip_over_all", *flip / *midpoint, up_to(max_flip_ratio));
+    if (share == grid10_share)
+      report.add("grid10_flip_over_fixed_iterations", *flip / *midpoint, up_to(max_flip_ratio));
   }
-  report.add_control("grid10_flip_over_all_without_mesh", *without / *midpoint, up_to(max_flip_ratio));
+  const double paper_ratio = *paper_grid / *midpoint;
+  report.add("grid10_flip_over_all", paper_ratio);
+  report.add_control("grid10_flip_over_all_without_mesh", *without / *midpoint,
+                     up_to(std::max(max_flip_ratio, paper_ratio)));
   report.note(row);
   return Done{};
 }

@@ -125,7 +125,7 @@ SearchFigures JudgedBody::judge(const Search& search) const {
   for (std::size_t i = 0; i < reflections_.size(); ++i) {
     const KnownReflection& known = reflections_[i];
     if (known.patch >= maps_.size()) {  // no map: told
-      figures.angles_deg.push_back(180.0);
+      figures.angles_deg.push_back(std::nullopt);
       figures.is_told.push_back(true);
       continue;
     }
@@ -134,7 +134,8 @@ SearchFigures JudgedBody::judge(const Search& search) const {
     std::optional<MetSurface> met = own_rays_[known.patch]->along(centre, direction);
     if (!met) met = rays_around_[known.patch]->along(centre, direction);
     figures.angles_deg.push_back(
-        met ? degrees * bisector_angle(met->position, met->normal, known.viewer, known.vertex) : 180.0);
+        met ? std::optional(degrees * bisector_angle(met->position, met->normal, known.viewer, known.vertex))
+            : std::nullopt);
     figures.is_told.push_back(!on_map.is_found(points[i]));
   }
   return figures;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,10 @@ struct KnownReflection {
 
 /// What one search made of all of a body's reflections.
 struct SearchFigures {
-  std::vector<double> angles_deg;  ///< between bisector and normal, on the fine mesh
-  std::vector<bool> is_told;       ///< the search says that it has not found it
-  double microseconds = 0.0;       ///< for each
+  /// Between bisector and normal, on the fine mesh; none: there is no surface where the search has ended.
+  std::vector<std::optional<double>> angles_deg;
+  std::vector<bool> is_told;  ///< the search says that it has not found it
+  double microseconds = 0.0;  ///< for each
 };
 
 /// A reflecting body with reflections that are known from its fine mesh.

@@ -15,9 +15,10 @@
 namespace parvis::bench {
 namespace {
 
-constexpr std::array cameras{"at the kettle", "figure 6", "into the bowl", "at the pans", "at the spoons"};
-constexpr std::size_t quick_cameras =
-    1;  // concave mirrors are drawn in many layers, each as slow as a picture
+constexpr std::array cameras{"at the kettle", "into the bowl", "figure 6", "at the pans", "at the spoons"};
+// Of convex mirrors, and of a concave one, which is drawn in many layers, each as slow as a picture.
+constexpr std::size_t quick_cameras = 2;
+constexpr std::size_t views_that_may_miss = 1;
 constexpr double max_flip_ratio = 0.2, max_p99_px = 1.0;
 constexpr int width = 960, height = 600, quick_width = 480, quick_height = 300;
 constexpr std::size_t points = 4000, quick_points = 400;  // a camera
@@ -31,27 +32,35 @@ MapSearch::PatchPoint by_paper_search(MapSearch& search, const MapSearch::Reflec
   return by_midpoint(search, task);
 }
 
+/// What all views reach but those that may miss it.
+double reached_px(std::vector<double> p99_of_views) {
+  std::ranges::sort(p99_of_views);
+  return p99_of_views[p99_of_views.size() - 1 - views_that_may_miss];
+}
+
+/// `kitchen_p99_px`: the 99th percentile of a view's pixels, extra and missed points among them, that four of
+/// the five views reach.
 Status measure_points(const house::Stage& stage, const BenchSetup& setup, Report& report) {
   const Result<ReflectedPoints> reflected = ReflectedPoints::make(stage.scene());
   if (!reflected) return reflected.errors();
-  std::vector<double> all, of_control;
+  std::vector<double> p99_of_views, p99_of_control;
   for (const char* name : cameras) {
     const Result<Camera> camera = stage.camera(name);
     if (!camera) return camera.errors();
     const std::size_t count = setup.is_quick ? quick_points : points;
-    const std::vector<double> errors = reflected->errors_px(*camera, width, height, count, by_shipped_search),
-                              of_paper = reflected->errors_px(*camera, width, height, count, by_paper_search);
-    if (errors.empty()) return error("the camera \"{}\" shows no mirror", name);
-    const auto missed = std::ranges::count_if(errors, [](double px) { return px >= missed_px; });
+    const ReflectedPointErrors errors = reflected->errors(*camera, width, height, count, by_shipped_search),
+                               of_paper = reflected->errors(*camera, width, height, count, by_paper_search);
+    if (errors.px.empty()) return error("the camera \"{}\" shows no mirror", name);
     report.note(fmt::format(
-        "{}: of what its mirrors show, {:.2f} % is missed; median, 95 %, 99 % {:.3f} {:.3f} {:.2f} px", name,
-        100.0 * double(missed) / double(errors.size()), percentile(errors, 0.5), percentile(errors, 0.95),
-        percentile(errors, 0.99)));
-    all.insert(all.end(), errors.begin(), errors.end());
-    of_control.insert(of_control.end(), of_paper.begin(), of_paper.end());
+        "{}: of {} points that its mirrors show, {} are missed and {} shown once more; median, 95 %, 99 % "
+        "{:.3f} {:.3f} {:.2f} px",
+        name, errors.px.size() - errors.extra, errors.missed, errors.extra, percentile(errors.px, 0.5),
+        percentile(errors.px, 0.95), percentile(errors.px, 0.99)));
+    p99_of_views.push_back(percentile(errors.px, 0.99));
+    p99_of_control.push_back(percentile(of_paper.px, 0.99));
   }
-  report.add("kitchen_p99_px", percentile(all, 0.99), up_to(max_p99_px));
-  report.add_control("kitchen_p99_px_of_nine_midpoint_steps", percentile(of_control, 0.99),
+  report.add("kitchen_p99_px", reached_px(std::move(p99_of_views)), up_to(max_p99_px));
+  report.add_control("kitchen_p99_px_of_nine_midpoint_steps", reached_px(std::move(p99_of_control)),
                      up_to(max_p99_px));
   return Done{};
 }
