@@ -6,8 +6,7 @@
 namespace parvis::bench {
 
 /// Adds gltf_validator_errors (Khronos's validator over every file of the paper's city) and fuzz_findings
-/// (inputs at which a reader fails): fuzzers run for some seconds each where script/fuzz has built them; else
-/// the readers take the inputs once found. To be run in the project's folder, whose scripts it calls.
+/// (measure_fuzzers). To be run in the project's folder, whose scripts it calls.
 Status measure_safety(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench
