@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "scene/script/named_file.h"
+
 namespace parvis::scene {
 
 bool is_performer_file(const std::string& name) {
@@ -17,7 +19,7 @@ Result<std::filesystem::path> in_place_of_performer_file(const std::string& name
   constexpr std::array readable{".glb", ".gltf", ".iv", ".wrl"};
   for (const char* extension : readable) {
     const std::filesystem::path other = std::filesystem::path(name).replace_extension(extension);
-    Result<std::filesystem::path> file = roots.find(other.string(), where);
+    Result<std::filesystem::path> file = find_named_file(other.string(), roots, where);
     if (file && std::filesystem::is_regular_file(*file)) return file;
   }
   return error_at(

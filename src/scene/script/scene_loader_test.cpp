@@ -163,6 +163,46 @@ TEST_F(SceneLoader, IncludesStandInTheFrameOfTheirPlace) {
   expect_near(scene.find_camera("lamp")->camera.position_in_world(), {5, 0, 4});
 }
 
+TEST_F(SceneLoader, FilesAreRelativeToTheScriptThatNamesThem) {
+  folder_.write("fleet/cars/red.xp", "include(file=\"lights/low.xp\")\ninclude(file=\"../sky/dusk.xp\")");
+  folder_.write("fleet/cars/lights/low.xp", "camera(name=\"beside the script\")");
+  folder_.write("fleet/sky/dusk.xp", "camera(name=\"in the folder above\")");
+  const Scene scene = scene_of("include(file=\"fleet/cars/red.xp\")");
+  EXPECT_NE(scene.find_camera("beside the script"), nullptr);
+  EXPECT_NE(scene.find_camera("in the folder above"), nullptr);
+
+  // The script's own folder comes before that of the scene, which follows, as in scripts written for it.
+  folder_.write("fleet/cars/near.xp", "exposure(value=2)");
+  folder_.write("near.xp", "exposure(value=3)");
+  folder_.write("fleet/cars/far.xp", "include(file=\"near.xp\")\ninclude(file=\"of_the_scene.xp\")");
+  folder_.write("of_the_scene.xp", "camera(name=\"of the scene\")");
+  const Scene both = scene_of("include(file=\"fleet/cars/far.xp\")");
+  EXPECT_EQ(both.exposure, 2.0f);
+  EXPECT_NE(both.find_camera("of the scene"), nullptr);
+}
+
+TEST_F(SceneLoader, FilesBesideAScriptInADataFolderAreFound) {
+  folder_.write("data/place/place.xp", "include(file=\"light.xp\")");
+  folder_.write("data/place/light.xp", "exposure(value=5)");
+  data_folders_ = {folder_.path() / "data"};
+  const auto scene = folder_.write("inner/scene.xp", "include(file=\"place/place.xp\")");
+  const auto loaded = load_scene(scene, registry_, data_folders_);
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_EQ(loaded->scene.exposure, 5.0f);
+}
+
+TEST_F(SceneLoader, AnIncludedScriptLeadsNowhereElse) {
+  folder_.write("secret.xp", "sun()");
+  folder_.write("inner/parts/lamp.xp", "include(file=\"../../secret.xp\")\ninclude(file=\"absent.xp\")");
+  const auto refused =
+      load_scene(folder_.write("inner/scene.xp", "include(file=\"parts/lamp.xp\")"), registry_);
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.errors().size(), 2u) << to_string(refused.errors());
+  EXPECT_TRUE(holds(refused.errors()[0].message, "leads out"));
+  EXPECT_TRUE(holds(refused.errors()[1].message, "there is no file \"absent.xp\""));
+  EXPECT_TRUE(holds(refused.errors()[1].message, "beside the script, too ("));
+}
+
 TEST_F(SceneLoader, IncludesStandWhereTheirNodesMay) {
   folder_.write("lamp.xp", "camera(name=\"lamp\")");
   EXPECT_TRUE(holds(errors_of("traffic(vehicles=0) { include(file=\"lamp.xp\") }"),

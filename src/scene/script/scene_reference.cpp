@@ -22,8 +22,8 @@ type(attribute=value, attribute="a value with spaces") {
   for themselves. A text ends on its line; texts that follow each other are joined.
 - Metres, x east, y north, z up. Angles are written in degrees (`..._deg`), headings clockwise from above.
 - Colours are `"#RRGGBB"` (sRGB) or three linear numbers. Flags are `1` or `0`.
-- Files lie below the scene's folder or below a folder given by `--data`; paths are relative to that folder, in included
-  scripts too, and may not lead out of it.
+- Files lie below the scene's folder or below a folder given by `--data`, and paths may not lead out of it. A path is
+  relative to the script that names the file, included ones too, or else to one of these folders.
 - Names (`name=`) are unique in a scene. The one node of a type that stands once in a scene is also called `%TYPE`:
   `%sun`.
 - A node takes messages while the scene runs: its section lists them. The last argument takes the rest of the message.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "scene/script/named_file.h"
 #include "scene/script/performer_file.h"
 #include "scene/script/spelling.h"
 
@@ -276,8 +277,9 @@ Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::str
       return AttributeValue(std::move(points));
     }
     case AttributeType::file: {
-      Result<std::filesystem::path> file =
-          is_performer_file(text) ? in_place_of_performer_file(text, roots, where) : roots.find(text, where);
+      Result<std::filesystem::path> file = is_performer_file(text)
+                                               ? in_place_of_performer_file(text, roots, where)
+                                               : find_named_file(text, roots, where);
       if (!file) return file.errors();
       if (!std::filesystem::is_regular_file(*file))
         return error_at(where, "{}=\"{}\" is a folder; expected a file", schema.name, text);

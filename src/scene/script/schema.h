@@ -25,7 +25,7 @@ enum class AttributeType : unsigned char {
   choice,     ///< one of `choices`
   path,       ///< "x y z, x y z, ..." or "x y, x y, ..." (z = 0): at least two points
   points,     ///< the same, at least one point
-  file,       ///< a file below the scene's folder or a --data folder; given as its canonical path
+  file,       ///< a file below the scene's folder or a --data folder, see find_named_file; its canonical path
   reference,  ///< the name of another node, or %TYPE for the one node of a unique type
   child,      ///< the name of a node inside this one that can be hidden
   event  ///< "SOURCE, TARGET, MESSAGE, DELAY": when, to which node, what, after how many seconds (0 if left
@@ -142,7 +142,8 @@ struct Event {
 using AttributeValue = std::variant<std::string, double, long, bool, glm::vec3, std::vector<glm::vec3>,
                                     std::filesystem::path, Event>;
 
-/// Parses a value. Errors at `where` say what the attribute expects.
+/// Parses a value. Errors at `where` say what the attribute expects; files are relative to the script
+/// `where.file`, see find_named_file.
 Result<AttributeValue> parse_value(const AttributeSchema& schema, const std::string& text, const Roots& roots,
                                    const FileLocation& where);
 

@@ -20,7 +20,7 @@ inline constexpr std::size_t max_included_bytes = 512u << 20;  ///< of all files
 
 /// The top-level nodes of `script`. Every error of every file is reported: syntax, unknown types and
 /// attributes, values, files that are missing or lie outside `roots`, repeated names, references to nothing,
-/// cyclic includes.
+/// cyclic includes. Files are relative to the script that names them, see find_named_file.
 Result<std::vector<Node>> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
                                        const Roots& roots);
 
