@@ -6,7 +6,8 @@
 #include <span>
 
 #include "base/random.h"
-#include "places/dressing/cone_normals.h"
+#include "places/dressing/cone_sides.h"
+#include "places/dressing/cone_tiles.h"
 #include "places/dressing/model_triangles.h"
 #include "places/dressing/roof_details.h"
 #include "places/paper_city/ground_texture.h"
@@ -78,18 +79,19 @@ std::size_t add_roofs(scene::Model& model, std::string_view target, bool has_det
   for (const Tint& tint : flat_tints) add_material(model, "flat roof", gravel, tint.colour);
 
   DressedParts parts(model, "RoofSurface");
-  const std::vector<std::optional<std::array<glm::vec3, 3>>> round = cone_normals(roofs);
+  const std::vector<std::optional<ConeSide>> cones = cone_sides(roofs);
   for (std::size_t i = 0; i < roofs.size(); ++i) {
     const ModelTriangle& roof = roofs[i];
     const bool flat = is_flat(roof);
     const float choice = Random(roof.building + 1).uniform();
     const int material =
         flat ? first_flat + chosen(flat_tints, choice) : first_tiled + chosen(tile_tints, choice);
-    const std::array<glm::vec2, 3> uvs = roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m);
-    if (const auto& normals = round[i])
-      parts.add(roof, material, uvs, *normals);
-    else
-      parts.add(roof, material, uvs);
+    if (const std::optional<ConeSide>& cone = cones[i]; cone && !flat) {
+      for (const TiledPiece& piece : cone_tiles(roof, *cone))
+        parts.add(piece.triangle, material, piece.uvs, piece.normals);
+      continue;
+    }
+    parts.add(roof, material, roof_uvs(roof, flat, flat ? gravel_sheet_m : roof_sheet_m));
   }
   if (has_details) add_roof_details(model, roofs);
   return roofs.size();

@@ -141,6 +141,54 @@ scene::Model pyramid(int sides, float radius_m, float rise_m) {
   return model;
 }
 
+/// Calls use(a, b) for the edges of all triangles, by the numbers of their corners.
+template <class Use>
+void each_edge(const Mesh& mesh, const Use& use) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) use(mesh.indices[i + k], mesh.indices[i + (k + 1) % 3]);
+}
+
+TEST(Roofs, TilesGoRoundCones) {
+  constexpr float tiles_per_sheet = 24.0f, courses_per_sheet = 16.0f;
+  scene::Model cone = pyramid(24, 5.0f, 4.0f);
+  EXPECT_EQ(add_roofs(cone, "Roof*", false), 24u);
+  ASSERT_EQ(cone.parts.size(), 1u);
+  const Mesh& mesh = cone.parts[0].mesh;
+  EXPECT_TRUE(check(mesh, "cone").ok());
+  double area_m2 = 0.0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]]; };
+    area_m2 += 0.5 * double(glm::cross(at(1) - at(0), at(2) - at(0)).z);
+  }
+  EXPECT_NEAR(area_m2, 12.0 * 25.0 * std::sin(glm::two_pi<double>() / 24.0), 1e-3) << "in plan: all, once";
+
+  // Edges that lie level: their tiles are about as wide everywhere, and so are courses high.
+  int level = 0;
+  each_edge(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    if (std::abs(mesh.positions[a].z - mesh.positions[b].z) > 1e-3f) return;
+    const float tiles = tiles_per_sheet * std::abs(mesh.uvs[a].x - mesh.uvs[b].x);
+    const float tile_m = glm::distance(mesh.positions[a], mesh.positions[b]) / tiles;
+    EXPECT_GT(tile_m, 0.1f);
+    EXPECT_LT(tile_m, 0.36f);
+    EXPECT_NEAR(mesh.uvs[a].y, mesh.uvs[b].y, 1e-5f);
+    ++level;
+  });
+  EXPECT_GT(level, 24) << "more than the foot";
+  const float slope_m = std::hypot(5.0f, 4.0f);
+  int at_foot = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (mesh.positions[i].z < 8.001f) {
+      EXPECT_NEAR(mesh.uvs[i].y * courses_per_sheet, slope_m / 0.32f, 1e-2f);
+      for (std::size_t k = 0; k < i; ++k) {
+        if (glm::distance(mesh.positions[i], mesh.positions[k]) > 1e-3f) continue;
+        const float apart = tiles_per_sheet * (mesh.uvs[i].x - mesh.uvs[k].x);
+        EXPECT_NEAR(apart, std::round(apart), 1e-3f) << "no tile is cut where two sides meet";
+        ++at_foot;
+      }
+    }
+  EXPECT_GT(at_foot, 23);
+}
+
 TEST(Roofs, ConesAreShadedAsRoundAndPyramidsHaveEdges) {
   scene::Model cone = pyramid(24, 5.0f, 4.0f), octagon = pyramid(8, 5.0f, 1.0f);
   for (scene::Model* model : {&cone, &octagon}) {

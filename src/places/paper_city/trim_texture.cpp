@@ -78,10 +78,10 @@ void paint_dormers(SurfaceCanvas& canvas, const Rect& r, Random& random) {
 
 /// Rows of rounded tiles.
 void paint_tiles(SurfaceCanvas& canvas, glm::vec3 colour, std::uint32_t seed) {
-  const int columns = 24, rows = 16;
   const glm::ivec2 stains(3, 3);
   canvas.paint_all([&](float x, float y, Texel& t) {
-    const float across = x / roof_sheet_m * float(columns), up = y / roof_sheet_m * float(rows);
+    const float across = x / roof_sheet_m * float(roof_tile_columns),
+                up = y / roof_sheet_m * float(roof_tile_rows);
     const int column = int(across), row = int(up);
     const float tx = across - float(column), ty = up - float(row);
     const float arch = std::sin(tx * 3.14159265f);  // a barrel: high in the middle

@@ -29,6 +29,8 @@ glm::vec2 trim_strip(Trim trim);
 SurfacePictures trim_pictures(std::uint32_t seed);
 
 inline constexpr float roof_sheet_m = 5.12f;  // roof sheets cover this square; courses run to the right
+inline constexpr int roof_tile_columns = 24,
+                     roof_tile_rows = 16;  // of tiles on a sheet, straight above another
 /// Clay tiles.
 SurfacePictures roof_tile_pictures(std::uint32_t seed);
 /// Zinc sheets with standing seams.

@@ -1,4 +1,4 @@
-#include "places/dressing/cone_normals.h"
+#include "places/dressing/cone_sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,28 +26,37 @@ std::size_t top_of(const ModelTriangle& triangle) {
 
 }  // namespace
 
-std::vector<std::optional<std::array<glm::vec3, 3>>> cone_normals(const std::vector<ModelTriangle>& roofs) {
+std::vector<std::optional<ConeSide>> cone_sides(const std::vector<ModelTriangle>& roofs) {
   std::map<Point, std::vector<std::size_t>> around;
   for (std::size_t i = 0; i < roofs.size(); ++i)
     around[place_of(roofs[i].corners[top_of(roofs[i])])].push_back(i);
-  std::vector<std::optional<std::array<glm::vec3, 3>>> normals(roofs.size());
+  std::vector<std::optional<ConeSide>> found(roofs.size());
   for (const auto& [top, sides] : around) {
     if (sides.size() < min_sides || sides.size() > max_sides) continue;
     std::map<Point, std::vector<std::size_t>> at_foot;  // the two sides that meet at an edge
     for (const std::size_t i : sides)
       for (const glm::vec3& corner : roofs[i].corners) at_foot[place_of(corner)].push_back(i);
+    ConeSide cone;
+    for (const std::size_t i : sides)
+      for (const glm::vec3& corner : roofs[i].corners) {
+        const glm::vec3 down = corner - roofs[i].corners[top_of(roofs[i])];
+        const float share = 0.5f / float(sides.size());  // two corners of a side lie at the foot
+        cone.radius_m += share * glm::length(glm::vec2(down)), cone.slope_m += share * glm::length(down);
+      }
     for (const std::size_t i : sides) {
-      normals[i] = {roofs[i].normal, roofs[i].normal, roofs[i].normal};
+      cone.top = top_of(roofs[i]);
+      cone.normals = {roofs[i].normal, roofs[i].normal, roofs[i].normal};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::vector<std::size_t>& both = at_foot.at(place_of(roofs[i].corners[k]));
-        if (k == top_of(roofs[i]) || both.size() != 2) continue;
+        if (k == cone.top || both.size() != 2) continue;
         const glm::vec3 other = roofs[both[0] == i ? both[1] : both[0]].normal;
         if (glm::dot(roofs[i].normal, other) >= min_cos)
-          (*normals[i])[k] = glm::normalize(roofs[i].normal + other);
+          cone.normals[k] = glm::normalize(roofs[i].normal + other);
       }
+      found[i] = cone;
     }
   }
-  return normals;
+  return found;
 }
 
 }  // namespace parvis::dressing
