@@ -63,7 +63,10 @@ std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const Ker
           return ground.is_free(p, series.radius_m, is_on_lane ? 0.0f : series.from_lanes_m);
         };
         if (!random.chance(series.share) || !all_along(foot, along, series, is_free)) continue;
-        places.push_back({vec3(foot, ground.height(foot, middle.z)), along, is_left});
+        const float half_m = series.half_length_m;
+        const auto height = [&](float ahead_m) { return ground.height(foot + ahead_m * along, middle.z); };
+        const float rise = half_m > 0.0f ? (height(half_m) - height(-half_m)) / (2.0f * half_m) : 0.0f;
+        places.push_back({vec3(foot, height(0.0f)), along, is_left, rise});
         all_along(foot, along, series, [&](vec2 p) { return ground.take(p, series.radius_m), true; });
       }
     });

@@ -25,6 +25,7 @@ struct KerbPlace {
   glm::vec3 foot{0.0f};
   glm::vec2 along{1.0f, 0.0f};  ///< the direction of the lane, unit length
   bool is_left = false;         ///< of the lane
+  float rise = 0.0f;            ///< of the ground below the thing, along the lane: metres up per metre
 };
 
 /// The places of a series that are free, each of which is taken at once. Ends of lanes, where drivers look

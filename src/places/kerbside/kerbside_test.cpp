@@ -468,6 +468,28 @@ TEST_F(Kerbside, CarsLookAlongTheirLanesAndTakeTheirShareOfPlaces) {
   EXPECT_TRUE(called(load("parkedCars(share=0)\n"), "parked car").empty());
 }
 
+TEST_F(Kerbside, CarsStandOnTheSlopeOfAHillAndLampsUpright) {
+  constexpr float rise = 0.2f;  // eastward
+  folder_.write("hill.obj", "v -120 -40 -24\nv 120 -40 24\nv 120 40 24\nv -120 40 -24\nf 1 2 3 4\n");
+  folder_.write("scene.xp",
+                "model(file=\"hill.obj\", up=\"z\")\nroad(path=\"-100 0 -20, 100 0 20\")\npaving()\n"
+                "streetFurniture(kind=\"lamps\")\nparkedCars(share=1)\n"
+                "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+  const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  const std::vector<scene::Object> cars = called(loaded->scene, "parked car"),
+                                   lamps = called(loaded->scene, "street lamp");
+  ASSERT_GT(cars.size(), 10u);
+  ASSERT_GT(lamps.size(), 3u);
+  for (const scene::Object& car : cars) {
+    const glm::vec3 ahead(car.world_from_model[0]), left(car.world_from_model[1]);
+    EXPECT_NEAR(ahead.z / ahead.x, rise, 0.02f) << "whichever way it looks";
+    EXPECT_NEAR(left.z, 0.0f, 1e-4f);
+    EXPECT_NEAR(car.world_from_model[3].z, rise * place_of(car).x, 0.15f);
+  }
+  for (const scene::Object& lamp : lamps) EXPECT_NEAR(lamp.world_from_model[2].z, 1.0f, 1e-4f);
+}
+
 TEST_F(Kerbside, CarsOfABodyShareItsModelInAllTheirPaints) {
   const auto count = [&](const std::string& share) {
     std::set<const scene::Model*> bodies;

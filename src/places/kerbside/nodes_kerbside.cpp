@@ -226,9 +226,9 @@ void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilde
     scene::Object object;
     object.name = fmt::format("{} {}", planned.object_name, ++number);
     object.model = chosen.look.model, object.paint = chosen.look.paint;
-    object.world_from_model =
-        glm::rotate(glm::translate(glm::mat4(1.0f), place.foot), angle, {0.0f, 0.0f, 1.0f}) *
-        glm::mat4(chosen.turn);
+    glm::mat4 stands = glm::rotate(glm::translate(glm::mat4(1.0f), place.foot), angle, {0.0f, 0.0f, 1.0f});
+    if (planned.is_car) stands = glm::rotate(stands, -std::atan(place.rise), {0.0f, 1.0f, 0.0f});
+    object.world_from_model = stands * glm::mat4(chosen.turn);
     object.is_dynamic = object.takes_reflection = planned.is_car;
     builder.add(std::move(object));
   }
