@@ -1,8 +1,10 @@
 #include "formats/readers/readers.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cctype>
+#include <optional>
 
 #include "base/file_front.h"
 #include "base/utf8.h"
@@ -15,6 +17,28 @@ constexpr std::size_t front_bytes = 4096;
 std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   return text;
+}
+
+/// What files begin with that are packed, as towns publish them, and what unpacks them.
+struct Packing {
+  std::string_view begins;
+  const char* unpack;
+};
+constexpr std::array<Packing, 6> packings{{{"\x1f\x8b", "gunzip -k"},
+                                           {"PK\x03\x04", "unzip"},
+                                           {"BZh", "bunzip2 -k"},
+                                           {"\xfd\x37zXZ", "unxz -k"},
+                                           {"7z\xbc\xaf", "7z x"},
+                                           {"\x28\xb5\x2f\xfd", "unzstd"}}};
+
+/// Says how to get at the model, where the file is packed.
+std::optional<Error> packed(std::string_view front, const std::filesystem::path& file) {
+  const auto found =
+      std::ranges::find_if(packings, [&](const Packing& each) { return front.starts_with(each.begins); });
+  if (found == packings.end()) return std::nullopt;
+  const FileLocation where{file.string(), 0, 0};
+  return error_at(where, "is packed, and models are read unpacked: run {} \"{}\", and give what comes out",
+                  found->unpack, file.filename().string());
 }
 
 /// Names may come from any bytes of the file; they go into messages, panels and exported JSON.
@@ -42,19 +66,23 @@ Result<scene::Model> Readers::read(const std::filesystem::path& file, const Mode
   const FileLocation where{file.string(), 0, 0};
   const std::string extension = lower_case(file.extension().string());
   const auto reader = by_extension_.find(extension);
+  const Result<std::string> front = read_front(file, front_bytes);
   if (reader == by_extension_.end()) {
+    if (front)
+      if (std::optional<Error> error = packed(*front, file)) return *std::move(error);
     std::vector<std::string> known;
     for (const auto& [each, read] : by_extension_) known.push_back(each);
     return error_at(where, "no reader for files of the kind \"{}\"; models are read from {}", extension,
                     fmt::join(known, ", "));
   }
-  const Result<std::string> front = read_front(file, front_bytes);
   if (!front) return front.errors();
-  if (!reader->second.looks_right(*front))
+  if (!reader->second.looks_right(*front)) {
+    if (std::optional<Error> error = packed(*front, file)) return *std::move(error);
     return error_at(where,
                     "is no {} file: its content is of another format; export it again, or give it the "
                     "extension of what it is",
                     extension);
+  }
   Result<scene::Model> model = reader->second.read(file, reading, warnings);
   if (model) repair_names(*model);
   for (Error& warning : warnings) repair_utf8(warning.message);

@@ -41,8 +41,8 @@ class Readers {
   void add(std::initializer_list<const char*> extensions, ReadModel read, LooksRight looks_right);
 
   /// Extensions count in any case. Errors: a file whose extension nobody reads (it names those that are
-  /// read), one whose content is of another format than its name, and what is no regular file. Names in the
-  /// model are valid UTF-8 whatever the file says.
+  /// read), one that is packed (it says what unpacks it), one whose content is of another format than its
+  /// name, and what is no regular file. Names in the model are valid UTF-8 whatever the file says.
   Result<scene::Model> read(const std::filesystem::path& file, const ModelReading& reading,
                             Errors& warnings) const;
 

@@ -52,6 +52,24 @@ TEST(Readers, ContentOfAnotherFormatIsRefused) {
   EXPECT_NE(read_by(readers, folder.path() / "pipe.123").find("regular"), std::string::npos);
 }
 
+TEST(Readers, PackedFilesAreRefusedWithWhatUnpacksThem) {
+  const TestFolder folder;
+  Readers readers;
+  readers.add({".123"}, reader("digits"), has_mark);
+  readers.add({".3mf"}, reader("a format that is an archive itself"), is_any);
+  const std::string by_name = read_by(readers, folder.write("tile.123.gz", "\x1f\x8b rest"));
+  EXPECT_NE(by_name.find("gunzip -k \"tile.123.gz\""), std::string::npos) << by_name;
+  const std::string archive = read_by(readers, folder.write("town.zip", "PK\x03\x04 rest"));
+  EXPECT_NE(archive.find("unzip \"town.zip\""), std::string::npos) << archive;
+  const std::string by_content = read_by(readers, folder.write("tile.123", "\x1f\x8b rest"));
+  EXPECT_NE(by_content.find("is packed"), std::string::npos) << by_content;
+  EXPECT_EQ(read_by(readers, folder.write("part.3mf", "PK\x03\x04 rest")),
+            "a format that is an archive itself");
+  EXPECT_EQ(read_by(readers, folder.write("letters.gz", "no such thing")).find("is packed"),
+            std::string::npos)
+      << "control";
+}
+
 TEST(Readers, NamesBecomeValidUtf8) {
   const TestFolder folder;
   Readers readers;
