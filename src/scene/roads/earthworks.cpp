@@ -47,6 +47,10 @@ struct Blend {
     const float away = distance_m / half_m + weight_offset;
     const float weight = taper / (away * away * away);
     heights_m += weight * height_m, weights += weight;
+    widen(distance_m, half_m);
+  }
+  /// Slopes begin beyond this bed, too, whatever its height.
+  void widen(float distance_m, float half_m) {
     beside_m = std::min(beside_m, std::max(distance_m - half_m, 0.0f));
   }
   float shaped(float bare_m) const {
@@ -68,14 +72,14 @@ void Earthworks::add(const RoadBed& bed, std::uint32_t road) {
     along_m.push_back(along_m.back() + glm::distance(glm::vec2(bed.points[i].position),
                                                      glm::vec2(bed.points[i + 1].position)));
   const auto half_at = [&](std::size_t i) {
-    return bed.half_m + widening_m(std::min(along_m[i], along_m.back() - along_m[i]));
+    return bed.half_m + (bed.is_turn ? 0.0f : widening_m(std::min(along_m[i], along_m.back() - along_m[i])));
   };
   for (std::size_t i = 0; i + 1 < bed.points.size(); ++i) {
     const RoadBed::Point &a = bed.points[i], &b = bed.points[i + 1];
     const Bed kind = std::min(a.kind, b.kind);
     if (kind == Bed::none) continue;
     const auto index = std::uint32_t(pieces_.size());
-    pieces_.push_back({a.position, b.position, half_at(i), half_at(i + 1), road, kind});
+    pieces_.push_back({a.position, b.position, half_at(i), half_at(i + 1), road, kind, bed.is_turn});
     const float around_m = bed.half_m + turning_m + reach_m;
     const glm::ivec2 low = cell_of(glm::vec2(glm::min(a.position, b.position)) - around_m),
                      high = cell_of(glm::vec2(glm::max(a.position, b.position)) + around_m);
@@ -104,13 +108,16 @@ float Earthworks::at(glm::vec2 point, float bare_m) const {
   float highest_m = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < pieces->size();) {
     const std::uint32_t road = pieces_[(*pieces)[i]].road;
+    const bool is_turn = pieces_[(*pieces)[i]].is_turn;
     Nearest nearest{std::numeric_limits<float>::max(), 0.0f, 0.0f, Bed::none};
     for (; i < pieces->size() && pieces_[(*pieces)[i]].road == road; ++i)
       if (const Nearest here = nearest_on(pieces_[(*pieces)[i]], point); here.distance_m < nearest.distance_m)
         nearest = here;
-    if (nearest.kind == Bed::earth)
+    if (nearest.kind == Bed::earth && is_turn)
+      blend.widen(nearest.distance_m, nearest.half_m);
+    else if (nearest.kind == Bed::earth)
       blend.add(nearest.distance_m, nearest.half_m, nearest.height_m);
-    else
+    else if (!is_turn)
       highest_m =
           std::min(highest_m, nearest.height_m + off_m(std::max(nearest.distance_m - nearest.half_m, 0.0f)));
   }

@@ -24,13 +24,14 @@ struct RoadBed {
     Bed kind = Bed::earth;
   };
   std::vector<Point> points;  ///< at most about 10 m from each other, for the bed widens between them
-  float half_m = 0.0f;  ///< half of the bed's width: the carriageway, what is paved beside it and a shoulder
+  float half_m = 0.0f;   ///< half of the bed's width: the carriageway, what is paved beside it and a shoulder
+  bool is_turn = false;  ///< through a crossing: it widens the beds that meet there, and has their height
 };
 
 /// The shape that the ground takes for the roads of a place. Below a road it is level from side to side, at
 /// the height of the road's middle; beside it, slopes of earth rise (cuts) or fall (dams) to the ground that
-/// was there. Where roads meet, their beds are blended by the distance from each. Beds are wider at the ends
-/// of roads, where vehicles turn round.
+/// was there. Where roads meet, their beds are blended by the distance from each, and slopes begin beyond the
+/// turns that round the corners between them. Beds are wider at the ends of roads, where vehicles turn round.
 class Earthworks {
  public:
   /// Rise over run of the slopes of earth: 1 : 1.75.
@@ -53,6 +54,7 @@ class Earthworks {
     float half_at_a_m, half_at_b_m;
     std::uint32_t road;
     Bed kind;
+    bool is_turn;
   };
   /// The nearest point of a road's bed.
   struct Nearest {

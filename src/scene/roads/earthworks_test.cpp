@@ -79,6 +79,19 @@ TEST(Earthworks, BedsThatMeetAreBlendedWithoutAStep) {
     EXPECT_NEAR(works.at({x, 0}, 0.0f), 0.1f * x, 0.12f) << "the slope along a street goes on";
 }
 
+TEST(Earthworks, SlopesBeginBeyondTheTurnsThatRoundACorner) {
+  const RoadBed east = bed({{-100, 0, 0}, {100, 0, 0}}), north = bed({{0, -100, 0}, {0, 100, 0}});
+  RoadBed turn = bed({{16, 2, 5}, {6, 6, 5}, {2, 16, 5}});
+  turn.is_turn = true;
+  const std::vector sharp{east, north}, round{east, north, turn};
+  const glm::vec2 in_corner(8.5f, 8.5f), elsewhere(-8.5f, 8.5f);
+  EXPECT_GT(Earthworks(sharp).at(in_corner, 3.0f), 1.0f) << "control: 2.5 m beside both beds";
+  EXPECT_NEAR(Earthworks(round).at(in_corner, 3.0f), 0.0f, 1e-3f)
+      << "at the height of the roads, not of the turn";
+  EXPECT_FLOAT_EQ(Earthworks(round).at(elsewhere, 3.0f), Earthworks(sharp).at(elsewhere, 3.0f));
+  EXPECT_EQ(Earthworks(std::vector{turn}).at({6, 6}, 3.0f), 3.0f) << "a turn alone shapes nothing";
+}
+
 TEST(Earthworks, ARoadInSeveralPiecesHasOneSlope) {
   const std::vector beds{bed({{-100, 0, -10}, {0, 0, 0}}), bed({{0, 0, 0}, {100, 0, 10}})};
   const Earthworks works(beds);

@@ -25,8 +25,11 @@ constexpr float pavement_lift_m = 0.03f, kerb_lift_m = 0.045f, asphalt_lift_m = 
 constexpr float dash_m = 3.0f, dash_gap_m = 3.0f;
 constexpr float dash_half_width_m = 0.06f, line_half_width_m = 0.2f;
 constexpr int picture_side = 512;
-constexpr float lies_m = 0.03f;    // off the ground, within which a lane lies on it
-constexpr float chord_m = 0.012f;  // of error, for which points of a ribbon are left out
+constexpr float lies_m = 0.03f;  // off the ground, within which a lane lies on it
+// Of error in plan and in height, for which points of a ribbon are left out. Where a lane's pavement runs
+// below the asphalt of another one, across a crossing, both follow the same ground with errors of their own:
+// their sum stays below the 1.5 cm between two layers, or slivers of one show through the other.
+constexpr float chord_m = 0.012f, chord_rise_m = 0.004f;
 constexpr std::size_t max_straight_rows = 1000;
 constexpr float aisle_m_s = 25.0f / 3.6f, fast_m_s = 80.0f / 3.6f;
 
@@ -101,15 +104,15 @@ Model empty_paving() {
 /// Points of a ribbon across its line, from left to right.
 using Row = std::vector<glm::vec3>;
 
-/// How far the row between two others lies off the straight lines between their points.
-float error_m(const Row& row, const Row& before, const Row& after) {
-  float largest = 0.0f;
+/// Whether the row between two others lies on the straight lines between their points.
+bool lies_between(const Row& row, const Row& before, const Row& after) {
   for (std::size_t k = 0; k < row.size(); ++k) {
     const glm::vec3 chord = after[k] - before[k];
     const float share = glm::clamp(glm::dot(row[k] - before[k], chord) / glm::dot(chord, chord), 0.0f, 1.0f);
-    largest = std::max(largest, glm::distance(row[k], before[k] + share * chord));
+    const glm::vec3 off = row[k] - (before[k] + share * chord);
+    if (!(glm::length(glm::vec2(off)) < chord_m && std::abs(off.z) < chord_rise_m)) return false;
   }
-  return largest;
+  return true;
 }
 
 /// Leaves out rows that lie on straight lines between others. The end of each line is sought by doubling its
@@ -118,7 +121,7 @@ float error_m(const Row& row, const Row& before, const Row& after) {
 std::vector<Row> without_needless_rows(const std::vector<Row>& rows) {
   const auto is_straight = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from + 1; i < to; ++i)
-      if (error_m(rows[i], rows[from], rows[to]) >= chord_m) return false;
+      if (!lies_between(rows[i], rows[from], rows[to])) return false;
     return true;
   };
   std::vector<Row> kept{rows.front()};

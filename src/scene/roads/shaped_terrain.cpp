@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/memory_budget.h"
+#include "scene/data/path.h"
 #include "scene/roads/road_beds.h"
 
 namespace parvis::scene {
@@ -22,6 +24,8 @@ constexpr int max_depth = 40;
 constexpr float slope_step_m = 0.5f;         // for normals
 constexpr float steepest_normal = 0.2f;      // z of normals whose slope is not taken for a plane's
 constexpr std::uint64_t bytes_per_m = 4000;  // of road: 40 triangles with their edges while they are divided
+constexpr float turn_step_m = 4.0f;          // between points of a turn: 30 cm off an arc of 6.5 m
+constexpr float min_turn_sine = 0.34f;       // 20 degrees: less stays within the beds
 
 class Shaping {
  public:
@@ -185,6 +189,22 @@ class Shaping {
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< by the ends of an edge
 };
 
+/// The turns to the right through crossings. Their pavements go round the corners between two roads, outside
+/// of both beds where these meet at a slant; other ways through stay inside.
+std::vector<Road> right_turns(const RoadGraph& graph) {
+  std::vector<Road> turns;
+  for (const Lane& lane : graph.lanes) {
+    if (lane.crossing < 0) continue;
+    const MeasuredPath path(lane.points);
+    if (cross_in_plan(path.direction_at(0.0f), path.direction_at(path.length())) > -min_turn_sine) continue;
+    Road& turn = turns.emplace_back();
+    turn.is_one_way = true, turn.lane_width_m = lane.width_m;
+    const int steps = std::max(2, int(std::ceil(path.length() / turn_step_m)));
+    for (int i = 0; i <= steps; ++i) turn.path.push_back(path.at(path.length() * float(i) / float(steps)));
+  }
+  return turns;
+}
+
 /// Metres of beds that change terrain.
 double length_m(std::span<const RoadBed> beds) {
   double sum_m = 0.0;
@@ -220,13 +240,16 @@ Mesh shaped(const Mesh& mesh, const glm::mat4& world_from_mesh, const Earthworks
 }
 
 Status shape_terrain(Scene& scene, std::span<const Road> roads) {
+  std::vector<Road> shaping(roads.begin(), roads.end());
+  std::ranges::move(right_turns(scene.roads), std::back_inserter(shaping));
   for (const Terrain terrain : {Terrain::surveyed, Terrain::generated}) {
     const auto has_terrain = [&](const Object& object) {
       return std::ranges::any_of(object.model->parts,
                                  [&](const Part& part) { return terrain_of(part.object) == terrain; });
     };
     if (std::ranges::none_of(scene.objects, has_terrain)) continue;
-    const std::vector<RoadBed> beds = road_beds(scene, roads, terrain);
+    std::vector<RoadBed> beds = road_beds(scene, shaping, terrain);
+    for (std::size_t i = roads.size(); i < beds.size(); ++i) beds[i].is_turn = true;
     const double shaped_m = length_m(beds);
     if (shaped_m <= 0.0) continue;
     if (Status enough = check_memory(std::uint64_t(shaped_m) * bytes_per_m,

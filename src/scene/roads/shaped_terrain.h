@@ -13,8 +13,9 @@ namespace parvis::scene {
 /// afterwards: whether an edge is divided follows from its ends alone.
 Mesh shaped(const Mesh& mesh, const glm::mat4& world_from_mesh, const Earthworks& works);
 
-/// Shapes the static terrain of the scene for `roads`, which are in the world: the models of its objects are
-/// replaced by changed copies. An error where memory does not suffice: the terrain stays as it is.
+/// Shapes the static terrain of the scene for `roads`, which are in the world, and for the turns between them
+/// that the scene's lanes make: the models of its objects are replaced by changed copies. An error where
+/// memory does not suffice: the terrain stays as it is.
 Status shape_terrain(Scene& scene, std::span<const Road> roads);
 
 }  // namespace parvis::scene

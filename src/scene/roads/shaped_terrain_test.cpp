@@ -124,6 +124,101 @@ TEST(ShapedTerrain, NeverRisesThroughThePaving) {
   EXPECT_GT(paved, 500);
 }
 
+/// The highest surfaces of a mesh at places 20 cm from each other, NaN where there is none.
+class HeightsAround {
+ public:
+  HeightsAround(const Mesh& mesh, glm::vec2 low, int side)
+      : low_(low), side_(side), heights_m_(std::size_t(side) * std::size_t(side), std::nanf("")) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]]; };
+      note(at(0), at(1), at(2));
+    }
+  }
+
+  /// The largest height of this mesh over another one; -1 where they share no place.
+  float highest_over(const HeightsAround& below) const {
+    float highest_m = -1.0f;
+    for (std::size_t i = 0; i < heights_m_.size(); ++i)
+      if (heights_m_[i] - below.heights_m_[i] > highest_m) highest_m = heights_m_[i] - below.heights_m_[i];
+    return highest_m;
+  }
+
+ private:
+  static constexpr float step_m = 0.2f;
+
+  void note(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    if (std::abs(normal.z) < 1e-9f) return;
+    const auto cell_of = [&](glm::vec2 p) { return (p - low_) / step_m; };
+    const glm::ivec2 first(glm::max(
+        glm::ceil(cell_of(glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c))))), glm::vec2(0.0f)));
+    const glm::ivec2 last(
+        glm::min(glm::floor(cell_of(glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c))))),
+                 glm::vec2(side_ - 1)));
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
+        const glm::vec2 p = low_ + step_m * glm::vec2(x, y);
+        const auto side_of = [&](glm::vec3 from, glm::vec3 to) {
+          return ((to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x)) / normal.z;
+        };
+        if (std::min({side_of(a, b), side_of(b, c), side_of(c, a)}) < 0.0f) continue;
+        float& known_m = heights_m_[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
+        const float height_m = a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
+        if (!(known_m >= height_m)) known_m = height_m;
+      }
+  }
+
+  glm::vec2 low_;
+  int side_;
+  std::vector<float> heights_m_;
+};
+
+/// A street across the hillside, and another one that crosses it at this angle, on the terrain shaped for
+/// both.
+void pave_crossing(Scene& scene, float angle_deg) {
+  const glm::vec2 along(std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg)));
+  Road other;
+  for (const float end_m : {-50.0f, 50.0f})
+    other.path.emplace_back(10.0f + end_m * along.x, end_m * along.y, rise * end_m * along.y);
+  std::vector<Road> roads = street(-70, 70);
+  roads.push_back(other);
+  scene.roads = *build_road_graph(roads);
+  ASSERT_TRUE(shape_terrain(scene, roads));
+  pave(scene);
+}
+
+TEST(ShapedTerrain, PavementsStayBelowTheAsphaltOfCrossings) {
+  for (const float angle_deg : {90.0f, 30.0f}) {
+    Scene scene;
+    add_part(scene, hillside(-80, 80, 8), "TINRelief");
+    pave_crossing(scene, angle_deg);
+    const auto heights_of = [&](const char* name) {
+      Mesh layer;
+      for (const Part& part : scene.objects.back().model->parts)
+        if (part.object == name) append(layer, part.mesh);
+      return HeightsAround(layer, {-8.0f, -18.0f}, 180);
+    };
+    const HeightsAround asphalt = heights_of("carriageway");
+    // Layers lie 1.5 cm and 3 cm below the asphalt: of a bent ground, rows a metre apart take nearly all.
+    constexpr float hair_m = 0.003f;
+    EXPECT_LT(heights_of("kerb").highest_over(asphalt), hair_m) << angle_deg;
+    EXPECT_LT(heights_of("pavement").highest_over(asphalt), hair_m) << angle_deg;
+    EXPECT_GT(asphalt.highest_over(heights_of("kerb")), hair_m) << "control: they overlap, " << angle_deg;
+  }
+}
+
+TEST(ShapedTerrain, StaysBelowThePavementsOfObliqueCrossings) {
+  Scene scene;
+  const auto hill = std::size_t(add_part(scene, hillside(-80, 80, 8), "TINRelief"));
+  pave_crossing(scene, 60.0f);
+  Mesh paving;
+  for (const Part& part : scene.objects.back().model->parts) append(paving, part.mesh);
+  const HeightsAround paved(paving, {-8.0f, -18.0f}, 180), ground(mesh_of(scene, hill), {-8.0f, -18.0f}, 180);
+  constexpr float bent_m = 0.02f;  // as on a street of 20 % that is crossed at right angles
+  EXPECT_LT(ground.highest_over(paved), bent_m) << "in the corner that the pavement goes round, too";
+  EXPECT_GT(ground.highest_over(paved), -0.1f) << "control: they overlap";
+}
+
 TEST(ShapedTerrain, LeavesNoGapBetweenTiles) {
   Scene scene;
   const auto west = std::size_t(add_part(scene, hillside(-80, 0, 20), "TINRelief")),
