@@ -109,7 +109,8 @@ class IfcAssembly {
 
   void add(const IfcShape& shape) {
     const IfcLook look = shape.look.value_or(usual_look(shape.kind));
-    const std::string object = shape.name.empty() ? shape.kind : shape.kind + " " + shape.name;
+    std::string object = shape.name.empty() ? shape.kind : shape.kind + " " + shape.name;
+    if (shape.is_below_ground) object += " below ground";  // as is_below_ground of formats/terrain knows it
     const int material = material_for(shape.kind, look, shape.is_closed), node = node_for(shape.storey);
     const auto [part, is_new] = parts_.try_emplace({object, material, node}, model_.parts.size());
     if (is_new) {

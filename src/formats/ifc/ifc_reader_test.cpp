@@ -70,6 +70,21 @@ TEST_F(IfcTest, ABuildingIsReadInMetresWithStoreysAndNames) {
   EXPECT_EQ(model.nodes[std::size_t(roof->node)].name, "Roof");
 }
 
+TEST_F(IfcTest, CellarsAndFoundationsAreNamedAsWhatLiesBelowTheGround) {
+  const std::string ground_floor = ".ELEMENT.,0.);", column = "IfcColumn Column \xc3\xb8 240";
+  const Model with_cellar = read(changed(ground_floor, ".ELEMENT.,-3000.);"));
+  EXPECT_TRUE(part(with_cellar, column + " below ground")) << "millimetres, below the storey \"Roof\"";
+  EXPECT_FALSE(part(with_cellar, column));
+  EXPECT_TRUE(part(with_cellar, "IfcSlab Roof:Zinc"));
+  const Model sunken = read(changed(ground_floor, ".ELEMENT.,-300.);"));
+  EXPECT_TRUE(part(sunken, column)) << "a step down";
+  const Model founded = read(changed(
+      "#73=IFCSLAB('000000000000000000000A',#5,'Step:Stone:184701',$,$,#72,#69,$,.FLOOR.);",
+      "#73=IFCFOOTING('000000000000000000000A',#5,'Step:Stone:184701',$,$,#72,#69,$,.STRIP_FOOTING.);"));
+  EXPECT_TRUE(part(founded, "IfcFooting Step:Stone below ground"));
+  EXPECT_TRUE(part(founded, column));
+}
+
 TEST_F(IfcTest, OpeningsAreCutOutOfWalls) {
   const Part* wall = nullptr;
   const Model model = pavilion();

@@ -5,10 +5,13 @@
 #include <ifcpp/IFC4/include/IfcBuildingStorey.h>
 #include <ifcpp/IFC4/include/IfcColourRgb.h>
 #include <ifcpp/IFC4/include/IfcFeatureElementSubtraction.h>
+#include <ifcpp/IFC4/include/IfcFooting.h>
 #include <ifcpp/IFC4/include/IfcGrid.h>
 #include <ifcpp/IFC4/include/IfcIndexedColourMap.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
+#include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcNormalisedRatioMeasure.h>
+#include <ifcpp/IFC4/include/IfcPile.h>
 #include <ifcpp/IFC4/include/IfcSpace.h>
 #include <ifcpp/IFC4/include/IfcSurfaceStyle.h>
 #include <ifcpp/IFC4/include/IfcSurfaceStyleShading.h>
@@ -31,6 +34,7 @@ namespace {
 
 constexpr std::size_t max_warnings = 20;
 constexpr int max_storey_depth = 64;  // aggregates within aggregates: a file may have cycles
+constexpr double cellar_m = -0.5;  // elevation of a storey: lower ones are no ground floors with a step down
 
 /// IFC++ writes to the program's output, which belongs to the user.
 class SilentOutput {
@@ -59,10 +63,10 @@ std::string without_number(std::string name) {
 
 std::string name_of(const IfcRoot& root) { return root.m_Name ? utf8(root.m_Name->m_value) : std::string(); }
 
-/// The storey that an object belongs to, by itself or as part of what does.
-std::string storey_of(std::shared_ptr<IfcObjectDefinition> object) {
+/// The storey that an object belongs to, by itself or as part of what does; null: none.
+const IfcBuildingStorey* storey_of(std::shared_ptr<IfcObjectDefinition> object) {
   for (int depth = 0; object && depth < max_storey_depth; ++depth) {
-    if (dynamic_cast<const IfcBuildingStorey*>(object.get())) return name_of(*object);
+    if (const auto* storey = dynamic_cast<const IfcBuildingStorey*>(object.get())) return storey;
     std::shared_ptr<IfcObjectDefinition> above;
     if (const IfcElement* element = dynamic_cast<const IfcElement*>(object.get()))
       for (const auto& contained : element->m_ContainedInStructure_inverse)
@@ -71,7 +75,29 @@ std::string storey_of(std::shared_ptr<IfcObjectDefinition> object) {
       if (const auto relation = part.lock(); relation && !above) above = relation->m_RelatingObject;
     object = above;
   }
-  return {};
+  return nullptr;
+}
+
+/// Storeys below the ground: elevations count from the ground floor. None where all would be, as of an
+/// underground station: nothing says where the ground above it lies.
+std::set<const IfcBuildingStorey*> cellars_of(BuildingModel& building) {
+  const double metres = building.getUnitConverter()->getLengthInMeterFactor();
+  std::set<const IfcBuildingStorey*> cellars;
+  bool has_others = false;
+  for (const auto& [id, entity] : building.getMapIfcEntities()) {
+    const auto* storey = dynamic_cast<const IfcBuildingStorey*>(entity.get());
+    if (!storey) continue;
+    if (storey->m_Elevation && storey->m_Elevation->m_value * metres < cellar_m)
+      cellars.insert(storey);
+    else
+      has_others = true;
+  }
+  if (!has_others) cellars.clear();
+  return cellars;
+}
+
+bool is_foundation(const IfcObjectDefinition& object) {
+  return dynamic_cast<const IfcFooting*>(&object) || dynamic_cast<const IfcPile*>(&object);
 }
 
 /// Objects that bound room or stand for others, but are not built.
@@ -178,13 +204,16 @@ void add_bodies(IfcShape shape, std::vector<std::shared_ptr<carve::mesh::MeshSet
 }
 
 void add_product(ProductShapeData& product, const std::shared_ptr<IfcObjectDefinition>& object,
-                 IfcTextures& textures, std::vector<IfcShape>& shapes) {
+                 const std::set<const IfcBuildingStorey*>& cellars, IfcTextures& textures,
+                 std::vector<IfcShape>& shapes) {
   const carve::math::Matrix world_from_product = product.getTransform();
-  IfcShape shape{.storey = storey_of(object),
+  const IfcBuildingStorey* const storey = storey_of(object);
+  IfcShape shape{.storey = storey ? name_of(*storey) : std::string(),
                  .kind = object->className(),
                  .name = without_number(name_of(*object)),
                  .look = {},
                  .is_closed = false,
+                 .is_below_ground = cellars.contains(storey) || is_foundation(*object),
                  .corners = {},
                  .uvs = {}};
   const std::optional<IfcLook> of_material = look_of_material(*object, textures);
@@ -245,10 +274,11 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
     converter.convertGeometry();
     warn_of_coloured_faces(*building, complaints);
     IfcTextures textures(*building, [&](const std::string& message) { complaints.add(message); });
+    const std::set<const IfcBuildingStorey*> cellars = cellars_of(*building);
     for (const auto& [id, product] : converter.getShapeInputData()) {
       const std::shared_ptr<IfcObjectDefinition> object =
           product ? product->m_ifc_object_definition.lock() : nullptr;
-      if (object && is_built(*object)) add_product(*product, object, textures, bodies.shapes);
+      if (object && is_built(*object)) add_product(*product, object, cellars, textures, bodies.shapes);
     }
     bodies.pictures = textures.pictures();
   } catch (const std::exception& failure) {

@@ -26,6 +26,7 @@ struct IfcShape {
   std::string name;                 ///< of the object, without the number that modelling programs add
   std::optional<IfcLook> look;      ///< none: the file has no style for it
   bool is_closed = false;           ///< a solid, whose back is never seen
+  bool is_below_ground = false;     ///< of a cellar, or a foundation
   std::vector<glm::dvec3> corners;  ///< metres in the file's world; three a triangle, counter-clockwise
   std::vector<glm::vec2> uvs;       ///< one per corner where its look has a picture, v down; else empty
 };

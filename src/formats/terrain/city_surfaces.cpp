@@ -86,6 +86,8 @@ bool is_ground(const std::string& name) {
   return look != nullptr && look->is_ground;
 }
 
+bool is_below_ground(const std::string& name) { return name.ends_with(" below ground"); }
+
 bool is_city_surface(const std::string& name) { return find(name.substr(0, name.find(' '))) != nullptr; }
 
 }  // namespace parvis::scene

@@ -22,6 +22,10 @@ Material surface_material(const std::string& name);
 /// winds it.
 bool is_ground(const std::string& name);
 
+/// True for parts of cellars and foundations, whose names end in " below ground": no ground rests on their
+/// feet.
+bool is_below_ground(const std::string& name);
+
 /// True for names that surfaces of city models have ("WallSurface", "Road footpath"): a model with such parts
 /// says itself what is ground.
 bool is_city_surface(const std::string& name);

@@ -7,6 +7,7 @@
 
 #include "base/bounds.h"
 #include "base/cut_polygon.h"
+#include "formats/terrain/city_surfaces.h"
 #include "scene/data/surroundings.h"
 
 namespace parvis::scene {
@@ -33,14 +34,21 @@ Corner mix(const Corner& a, const Corner& b, float share) {
           glm::mix(a.normal, b.normal, share), glm::mix(a.uv, b.uv, share)};
 }
 
-/// A triangle of a floor, counter-clockwise in plan.
-struct Floor {
+/// A triangle of a floor or a ceiling, counter-clockwise in plan.
+struct Level {
   std::array<glm::vec3, 3> corners;
   glm::vec3 normal;
 
   float height_at(glm::vec2 p) const {
     const glm::vec2 away = p - glm::vec2(corners[0]);
     return corners[0].z - (normal.x * away.x + normal.y * away.y) / normal.z;
+  }
+  bool holds(glm::vec2 p) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec2 from(corners[k]), along = glm::vec2(corners[(k + 1) % 3]) - from, away = p - from;
+      if (along.x * away.y < along.y * away.x) return false;
+    }
+    return true;
   }
 };
 
@@ -64,6 +72,12 @@ bool is_part_of_place(const Scene& scene, const Object& object) {
   return !object.is_dynamic && object.is_visible && !surrounds_place(scene, object);
 }
 
+bool is_floor(const std::string& name) {
+  return name.starts_with("FloorSurface") || (name.starts_with("IfcSlab") && is_below_ground(name));
+}
+
+bool is_ceiling(const std::string& name) { return name.starts_with("CeilingSurface"); }
+
 bool is_land(const Part& part) {
   const std::string name = part.object.substr(0, part.object.find(' '));
   return name == "TINRelief" || name == "LandUse";
@@ -78,18 +92,18 @@ std::vector<glm::mat4> world_from_parts(const Object& object) {
   return matrices;
 }
 
-/// The floors of a scene, by cells of the plan.
-class Floors {
+/// The floors, or the ceilings, of a scene, by cells of the plan.
+class Levels {
  public:
-  explicit Floors(const Scene& scene) {
+  Levels(const Scene& scene, bool (*is_level)(const std::string& name)) {
     for (const Object& object : scene.objects)
-      if (is_part_of_place(scene, object)) note(object);
+      if (is_part_of_place(scene, object)) note(object, is_level);
   }
 
-  bool empty() const { return floors_.empty(); }
-  const Floor& operator[](std::uint32_t index) const { return floors_[index]; }
+  bool empty() const { return levels_.empty(); }
+  const Level& operator[](std::uint32_t index) const { return levels_[index]; }
 
-  /// Indices of the floors in the cells that a box touches, in order.
+  /// Indices of those in the cells that a box touches, in order.
   std::vector<std::uint32_t> near(const Bounds& box) const {
     const glm::ivec2 low = cell_of(glm::vec2(box.min)), high = cell_of(glm::vec2(box.max));
     const glm::i64vec2 size = glm::i64vec2(high - low) + std::int64_t(1);
@@ -117,11 +131,11 @@ class Floors {
     return std::uint64_t(std::uint32_t(cell.x)) << 32u | std::uint32_t(cell.y);
   }
 
-  void note(const Object& object) {
+  void note(const Object& object, bool (*is_level)(const std::string& name)) {
     const std::vector<glm::mat4> world_from_part = world_from_parts(object);
     for (std::size_t i = 0; i < object.model->parts.size(); ++i) {
       const Part& part = object.model->parts[i];
-      if (!part.object.starts_with("FloorSurface")) continue;
+      if (!is_level(part.object)) continue;
       const auto corner = [&](std::size_t k) {
         return glm::vec3(world_from_part[i] * glm::vec4(part.mesh.positions[part.mesh.indices[k]], 1.0f));
       };
@@ -139,18 +153,33 @@ class Floors {
     if (!(std::max(box.size().x, box.size().y) < largest_room_m)) return;
     const glm::ivec2 low = cell_of(glm::vec2(box.min)), high = cell_of(glm::vec2(box.max));
     for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) cells_[key({x, y})].push_back(std::uint32_t(floors_.size()));
-    floors_.push_back({corners, normal});
+      for (int x = low.x; x <= high.x; ++x) cells_[key({x, y})].push_back(std::uint32_t(levels_.size()));
+    levels_.push_back({corners, normal});
   }
 
-  std::vector<Floor> floors_;
+  std::vector<Level> levels_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-bool rises_through(const Polygon& land, const Floor& floor) {
+bool rises_through(const Polygon& land, const Level& floor) {
   return std::ranges::any_of(land, [&](const Corner& corner) {
     const float above_m = corner.world.z - floor.height_at(glm::vec2(corner.world));
     return above_m > -lies_on_m && above_m < room_m;
+  });
+}
+
+/// Whether a ceiling lies between the floor and a piece of land above it.
+bool is_above_ceiling(const Polygon& land, const Level& floor, const Levels& ceilings) {
+  glm::vec3 middle(0.0f);
+  for (const Corner& corner : land) middle += corner.world / float(land.size());
+  const glm::vec2 place(middle);
+  Bounds here;
+  here.add(middle);
+  return std::ranges::any_of(ceilings.near(here), [&](std::uint32_t index) {
+    const Level& ceiling = ceilings[index];
+    if (!ceiling.holds(place)) return false;
+    const float height_m = ceiling.height_at(place);
+    return height_m > floor.height_at(place) && height_m < middle.z;
   });
 }
 
@@ -159,7 +188,7 @@ bool are_apart(const Bounds& a, const Bounds& b) {
 }
 
 /// Divides a piece of land into what lies over a floor, which is returned, and what lies beside it.
-Polygon part_over(const Floor& floor, Polygon piece, std::vector<Polygon>& beside) {
+Polygon part_over(const Level& floor, Polygon piece, std::vector<Polygon>& beside) {
   for (std::size_t k = 0; k < 3 && piece.size() >= 3; ++k) {
     const glm::vec2 from(floor.corners[k]), along = glm::vec2(floor.corners[(k + 1) % 3]) - from;
     const auto inward = [&](const Corner& corner) {
@@ -173,7 +202,7 @@ Polygon part_over(const Floor& floor, Polygon piece, std::vector<Polygon>& besid
 }
 
 /// Takes what rises through a floor away from pieces of land; true if that is anything.
-bool take_away(std::vector<Polygon>& pieces, const Floor& floor) {
+bool take_away(std::vector<Polygon>& pieces, const Level& floor, const Levels& ceilings) {
   Bounds around;
   for (const glm::vec3& corner : floor.corners) around.add(corner);
   std::vector<Polygon> kept;
@@ -182,7 +211,8 @@ bool take_away(std::vector<Polygon>& pieces, const Floor& floor) {
     std::vector<Polygon> beside;
     Polygon over;
     if (!are_apart(bounds_of(piece), around)) over = part_over(floor, piece, beside);
-    if (plan_m2(over) < smallest_m2 || !rises_through(over, floor)) {
+    if (plan_m2(over) < smallest_m2 || !rises_through(over, floor) ||
+        is_above_ceiling(over, floor, ceilings)) {
       kept.push_back(std::move(piece));
       continue;
     }
@@ -208,7 +238,8 @@ void append(Mesh& mesh, const Polygon& piece, bool has_normals, bool has_uvs) {
 }
 
 /// The land with the floors cut out; the same mesh where none is below it.
-Mesh without_rooms(const Mesh& land, const glm::mat4& world_from_mesh, const Floors& floors) {
+Mesh without_rooms(const Mesh& land, const glm::mat4& world_from_mesh, const Levels& floors,
+                   const Levels& ceilings) {
   Mesh result = land;
   result.indices.clear();
   const bool has_normals = !land.normals.empty(), has_uvs = !land.uvs.empty();
@@ -224,7 +255,7 @@ Mesh without_rooms(const Mesh& land, const glm::mat4& world_from_mesh, const Flo
     std::vector<Polygon> pieces{std::move(triangle)};
     bool is_changed = false;
     if (below.size() <= max_floors)
-      for (const std::uint32_t floor : below) is_changed |= take_away(pieces, floors[floor]);
+      for (const std::uint32_t floor : below) is_changed |= take_away(pieces, floors[floor], ceilings);
     if (!is_changed) {
       result.indices.insert(result.indices.end(),
                             {land.indices[i], land.indices[i + 1], land.indices[i + 2]});
@@ -238,8 +269,9 @@ Mesh without_rooms(const Mesh& land, const glm::mat4& world_from_mesh, const Flo
 }  // namespace
 
 void open_rooms(Scene& scene) {
-  const Floors floors(scene);
+  const Levels floors(scene, is_floor);
   if (floors.empty()) return;
+  const Levels ceilings(scene, is_ceiling);
   for (Object& object : scene.objects) {
     if (!is_part_of_place(scene, object) || std::ranges::none_of(object.model->parts, is_land)) continue;
     const std::vector<glm::mat4> world_from_part = world_from_parts(object);
@@ -248,7 +280,7 @@ void open_rooms(Scene& scene) {
       const Part& part = object.model->parts[i];
       if (!is_land(part) || floors.near(transformed(world_from_part[i], part.mesh.bounds())).empty())
         continue;
-      Mesh opened = without_rooms(part.mesh, world_from_part[i], floors);
+      Mesh opened = without_rooms(part.mesh, world_from_part[i], floors, ceilings);
       if (opened.indices.empty()) continue;  // all of it in rooms: this is no land
       if (!changed) changed = std::make_shared<Model>(*object.model);
       changed->parts[i].mesh = std::move(opened);

@@ -18,11 +18,14 @@ Mesh floor_at(float z, float side_m = 4.0f) {
   return quad({0, 0, z}, {side_m, 0, z}, {side_m, 4, z}, {0, 4, z});
 }
 
-/// Of land with sides of 40 m, in plan, after rooms with floors at these heights have been opened.
-double land_m2(const std::vector<float>& floors, const char* land = "TINRelief") {
+/// Of land with sides of 40 m, in plan, after rooms with floors, and ceilings, at these heights have been
+/// opened.
+double land_m2(const std::vector<float>& floors, const char* land = "TINRelief",
+               const std::vector<float>& ceilings = {}, const char* floor = "FloorSurface") {
   Scene scene;
   const std::size_t object = add_part(scene, ground(20.0f), land);
-  for (const float z : floors) add_part(scene, floor_at(z), "FloorSurface");
+  for (const float z : floors) add_part(scene, floor_at(z), floor);
+  for (const float z : ceilings) add_part(scene, floor_at(z), "CeilingSurface");
   open_rooms(scene);
   const Model& model = *scene.objects[object].model;
   EXPECT_TRUE(check(model.parts.front().mesh, "land").ok());
@@ -40,6 +43,19 @@ TEST(OpenRooms, LandBelowFloorsAndFarAboveThemStays) {
   EXPECT_NEAR(land_m2({0.2f, 3.0f}), 1600.0, 1e-3) << "a floor above the ground";
   EXPECT_NEAR(land_m2({-12.0f}), 1600.0, 1e-3) << "the ground over an underground hall";
   EXPECT_NEAR(land_m2({-0.2f}, "Road"), 1600.0, 1e-3) << "roads are drawn, not filled in";
+}
+
+TEST(OpenRooms, LandAboveTheCeilingOfACellarStays) {
+  EXPECT_NEAR(land_m2({-2.6f}, "TINRelief", {-0.3f}), 1600.0, 1e-3) << "a courtyard over a garage";
+  EXPECT_NEAR(land_m2({-2.6f}, "TINRelief", {0.3f}), 1600.0 - 16.0, 0.01) << "half above the ground";
+  EXPECT_NEAR(land_m2({-2.6f, -0.1f}, "TINRelief", {-0.3f, 2.8f}), 1600.0 - 16.0, 0.01)
+      << "with a room of the ground floor above it";
+}
+
+TEST(OpenRooms, SlabsOfCellarsAreFloors) {
+  EXPECT_NEAR(land_m2({-2.6f}, "TINRelief", {}, "IfcSlab Concrete below ground"), 1600.0 - 16.0, 0.01);
+  EXPECT_NEAR(land_m2({-0.2f}, "TINRelief", {}, "IfcSlab Concrete"), 1600.0, 1e-3)
+      << "it covers the land itself";
 }
 
 TEST(OpenRooms, OnSlopingLandOnlyTheRoomsInTheHillAreOpened) {

@@ -28,11 +28,12 @@ bool stands_still(const Scene& scene, const Object& object) {
   return !object.is_dynamic && object.is_visible && !surrounds_place(scene, object);
 }
 
-/// Calls use(a, b, c, is_ground) for the triangles of an object, in the world.
+/// Calls use(a, b, c, is_ground) for the triangles of an object but its cellars', in the world.
 template <class Use>
 void each_triangle(const Object& object, const Use& use) {
   const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
   for (const Part& part : object.model->parts) {
+    if (is_below_ground(part.object)) continue;
     const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
     const auto corner = [&](std::size_t i) {
       return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));

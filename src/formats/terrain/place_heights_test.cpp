@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "scene/data/surroundings.h"
 #include "scene/data/test_scene.h"
 
@@ -31,6 +33,20 @@ TEST(PlaceHeights, RisesWithTheFeetOfHouses) {
   EXPECT_NEAR(place.at({-500.0f, 30.0f}), place.at({-margin_m, 30.0f}), 0.5f)
       << "beyond the plan as at its edge";
   for (const float height : place.heights().cells) EXPECT_TRUE(std::isfinite(height));
+}
+
+TEST(PlaceHeights, CellarsAndFoundationsAreNoFeet) {
+  for (const bool is_known : {true, false}) {
+    Scene scene;
+    for (const auto& [low_m, high_m, name] : {std::tuple(0.0f, 9.0f, "IfcWall Render"),
+                                              std::tuple(-3.0f, 0.0f, "IfcWall Concrete below ground")}) {
+      auto storey = model_of(box({0, 0, low_m}, {12, 12, high_m}), matt(glm::vec3(0.5f)));
+      storey->parts.front().object = is_known ? name : "IfcWall";
+      add(scene, storey);
+    }
+    const PlaceHeights place(scene, {}, margin_m);
+    EXPECT_NEAR(place.at({6.0f, 25.0f}), is_known ? 0.0f : -3.0f, 0.05f);
+  }
 }
 
 TEST(PlaceHeights, OwnGroundIsTakenAsItIs) {
