@@ -1,5 +1,7 @@
 #include "formats/city_models/osm_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
@@ -128,7 +130,9 @@ const std::string& tag(const OsmTags& tags, const std::string& key) {
 
 Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
-  const bool is_xml = file.extension() != ".pbf";
+  std::string extension = file.extension().string();  // in any case, as the registry of readers takes it
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const bool is_xml = extension != ".pbf";
   const Result<std::string> bytes = guarded_bytes(file, is_xml);
   if (!bytes) return bytes.errors();
   try {

@@ -66,6 +66,20 @@ Bounds bounds_of(const Model& model, const std::string& name) {
 // Of the footprint 1-2-3-4: 0.0002 by 0.0001 degrees at 52.16 north, on the ellipsoid and in UTM's scale.
 constexpr float wide_m = 13.69f, deep_m = 11.13f;
 
+TEST(Osm, StoreysBelowTheGroundAreNotDrawn) {
+  using Tags = std::vector<std::pair<std::string, std::string>>;
+  const auto roofs_m2 = [](const Tags& tags) {
+    const Read town = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}}) + way(101, "5 6 7 8 5", tags)));
+    EXPECT_TRUE(town.model) << to_string(town.model.errors());
+    return town.model ? area_m2(*town.model, "RoofSurface") : 0.0;
+  };
+  const double alone_m2 = double(wide_m * deep_m);
+  EXPECT_GT(roofs_m2({{"building", "yes"}, {"building:levels:underground", "2"}}), alone_m2 + 10.0);
+  EXPECT_NEAR(roofs_m2({{"building", "yes"}, {"location", "underground"}}), alone_m2, 0.3);
+  EXPECT_NEAR(roofs_m2({{"building", "yes"}, {"building:levels", "0"}, {"building:levels:underground", "2"}}),
+              alone_m2, 0.3);
+}
+
 TEST(Osm, ABuildingStandsOnItsFootprintAsHighAsItsTagsSay) {
   const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9.5 m"}})));
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
@@ -619,6 +633,8 @@ TEST(Osm, PbfSaysTheSameAsXml) {
   EXPECT_EQ(from_pbf->origin, from_xml->origin);
   ASSERT_EQ(from_pbf->roads.size(), 1u);
   EXPECT_EQ(from_pbf->roads[0].path, from_xml->roads[0].path);
+  std::filesystem::rename(folder.path() / "quarter.osm.pbf", folder.path() / "QUARTER.OSM.PBF");
+  EXPECT_TRUE(read_osm(folder.path() / "QUARTER.OSM.PBF", warnings)) << "extensions count in any case";
 }
 
 TEST(Osm, DamagedPbfNeverCrashes) {

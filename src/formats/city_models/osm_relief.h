@@ -15,7 +15,8 @@ namespace parvis::scene {
 bool says_yes(const OsmTags& tags, const std::string& key);
 /// True for bridges: bridge=* other than no.
 bool is_bridge(const OsmTags& tags);
-/// True for what runs below ground. A passage through a building is none.
+/// True for what lies below ground: tunnels, location=underground, and buildings that have storeys there
+/// alone. A passage through a building does not.
 bool is_underground(const OsmTags& tags);
 /// True for railways and tram tracks, by their kind; underground railways (subway) among them.
 bool is_rail(const OsmTags& tags);
