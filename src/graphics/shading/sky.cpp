@@ -68,30 +68,48 @@ ImageF halved(const ImageF& picture) {
   return half;
 }
 
-/// Blurs `source` by the GGX lobe of `roughness` about each direction (Karis 2013, n = v = r).
-ImageF prefiltered(const ImageF& source, float roughness, int samples) {
+/// Where a sample of a lobe falls in the picture: to the right of the lobe's own column, and from the top.
+struct LobeSample {
+  float aside, v;
+  float weight;  ///< all of a lobe sum to 1
+};
+
+/// The GGX lobe of `roughness` about the directions of a row (Karis 2013, n = v = r): they differ by a turn
+/// about the zenith alone.
+std::vector<LobeSample> lobe_of_row(float polar, float roughness, int samples) {
   const float alpha = roughness * roughness;
+  const vec3 n(0.0f, std::sin(polar), std::cos(polar)), t(1.0f, 0.0f, 0.0f), b = cross(n, t);
+  std::vector<LobeSample> lobe;
+  lobe.reserve(std::size_t(samples));
+  float weights = 0.0f;
+  for (int i = 0; i < samples; ++i) {
+    const float u = (float(i) + 0.5f) / float(samples);
+    const float phi = 2.39996323f * float(i);  // golden angle: an even spiral
+    const float cos_h = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
+    const float sin_h = std::sqrt(std::max(0.0f, 1.0f - cos_h * cos_h));
+    const vec3 h = sin_h * std::cos(phi) * t + sin_h * std::sin(phi) * b + cos_h * n;
+    const vec3 l = reflect(-n, h);
+    const float weight = dot(n, l);
+    if (weight <= 0.0f) continue;
+    const vec2 uv = equirect_uv(l, 0.0f);
+    lobe.push_back({uv.x - 0.5f, uv.y, weight}), weights += weight;
+  }
+  for (LobeSample& sample : lobe) sample.weight /= weights;
+  return lobe;
+}
+
+/// Blurs `source` by the lobe of `roughness` about each direction.
+ImageF prefiltered(const ImageF& source, float roughness, int samples) {
   ImageF result(source.width, source.height, 3);
   parallel_for(std::size_t(result.height), [&](std::size_t row) {
+    const std::vector<LobeSample> lobe =
+        lobe_of_row((float(row) + 0.5f) / float(result.height) * pi_f, roughness, samples);
     for (int x = 0; x < result.width; ++x) {
-      const vec3 n = direction_of(result, float(x) + 0.5f, float(row) + 0.5f, 0.0f);
-      const vec3 t = normalize(cross(std::abs(n.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), n)),
-                 b = cross(n, t);
+      const float u = (float(x) + 0.5f) / float(result.width);
       vec3 sum(0.0f);
-      float weights = 0.0f;
-      for (int i = 0; i < samples; ++i) {
-        const float u = (float(i) + 0.5f) / float(samples);
-        const float phi = 2.39996323f * float(i);  // golden angle: an even spiral, the same for every pixel
-        const float cos_h = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
-        const float sin_h = std::sqrt(std::max(0.0f, 1.0f - cos_h * cos_h));
-        const vec3 h = sin_h * std::cos(phi) * t + sin_h * std::sin(phi) * b + cos_h * n;
-        const vec3 l = reflect(-n, h);
-        const float weight = dot(n, l);
-        if (weight <= 0.0f) continue;
-        sum += weight * bilinear(source, equirect_uv(l, 0.0f));
-        weights += weight;
-      }
-      for (int c = 0; c < 3; ++c) result.at(x, int(row))[c] = sum[c] / std::max(weights, 1e-6f);
+      for (const LobeSample& sample : lobe)
+        sum += sample.weight * bilinear(source, {fract(u + sample.aside), sample.v});
+      for (int c = 0; c < 3; ++c) result.at(x, int(row))[c] = sum[c];
     }
   });
   return result;

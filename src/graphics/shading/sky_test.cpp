@@ -53,6 +53,23 @@ TEST(Sky, AConstantSkyOfRadianceOneGivesIrradiancePi) {
   }
 }
 
+/// Also at the poles, about which all columns of a picture lie.
+TEST(Sky, APictureThatIsTurnedIsBlurredAsThePictureBefore) {
+  Random random(3);
+  ImageF picture(128, 64, 3), turned(128, 64, 3);
+  for (float& value : picture.pixels) value = random.uniform(0, 1);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 128; ++x) std::copy_n(picture.at(x, y), 3, turned.at((x + 64) % 128, y));
+  const SkyLight before = make_sky_light(picture, 1.0f, 0.0f), after = make_sky_light(turned, 1.0f, 0.0f);
+  for (std::size_t level = 0; level < before.levels.size(); ++level) {
+    const ImageF &one = before.levels[level], &other = after.levels[level];
+    for (int y = 0; y < one.height; ++y)
+      for (int x = 0; x < one.width; ++x)
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(other.at((x + one.width / 2) % one.width, y)[c], one.at(x, y)[c], 1e-4f);
+  }
+}
+
 /// A picture that is bright in its right quarter: east, at a heading of 0.
 ImageF bright_in_the_east() {
   ImageF picture(128, 64, 3, 0.1f);
