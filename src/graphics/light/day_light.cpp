@@ -5,20 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "base/colour.h"
 #include "base/parallel.h"
 #include "graphics/light/atmosphere.h"
 #include "graphics/light/cloud_cover.h"
 #include "graphics/light/shadow_settings.h"
+#include "graphics/shading/sky.h"
 #include "scene/data/lamp.h"
 
 namespace parvis::light {
 namespace {
 
-/// A clear sky is smooth; clouds keep the resolution of their photograph, within limits.
-int picture_width_px(const DayLight& day) { return day.dome ? std::clamp(day.dome->width, 512, 2048) : 512; }
+/// A clear sky is smooth.
+constexpr int clear_width_px = 512;
+/// Clouds keep the resolution of their photograph, within limits.
+int picture_width_px(const DayLight& day) {
+  return day.dome ? std::clamp(day.dome->width, clear_width_px, 2048) : clear_width_px;
+}
 
 /// Photocells of street lamps switch at some 60 lux.
 constexpr float lamps_on = float(60.0 / lumens_per_watt);
@@ -28,10 +32,29 @@ constexpr float lit_street = float(7.5 / lumens_per_watt);
 
 glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
-glm::vec3 direction_of(int x, int y, int width, int height) {
-  const float azimuth = ((float(x) + 0.5f) / float(width) - 0.5f) * 6.2831853f;
-  const float polar = (float(y) + 0.5f) / float(height) * 3.14159265f;
-  return {std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar)};
+/// A picture of all directions; `colour_at` gets one, and where it lies in the picture.
+template <class ColourAt>
+ImageF equirectangular(int width_px, const ColourAt& colour_at) {
+  ImageF picture(width_px, width_px / 2, 3);
+  parallel_for(
+      std::size_t(picture.height),
+      [&](std::size_t row) {
+        const float v = (float(row) + 0.5f) / float(picture.height), polar = v * 3.14159265f;
+        const float across = std::sin(polar), up = std::cos(polar);
+        for (int x = 0; x < picture.width; ++x) {
+          const float u = (float(x) + 0.5f) / float(picture.width), azimuth = (u - 0.5f) * 6.2831853f;
+          const glm::vec3 colour = colour_at(
+              glm::vec3(across * std::sin(azimuth), across * std::cos(azimuth), up), glm::vec2(u, v));
+          for (int c = 0; c < 3; ++c) picture.at(x, int(row))[c] = colour[c];
+        }
+      },
+      4);
+  return picture;
+}
+
+ImageF clear_sky(const SkyModel& sky, int width_px) {
+  return equirectangular(
+      width_px, [&](glm::vec3 direction, glm::vec2) { return displayable(sky.sky_radiance_xyz(direction)); });
 }
 
 }  // namespace
@@ -55,21 +78,13 @@ float exposure_for(float illuminance) {
 }
 
 ImageF sky_picture(const SkyModel& sky, const DayLight& day, int width_px) {
-  ImageF picture(width_px, width_px / 2, 3);
-  std::optional<CloudLight> clouds;
-  if (day.dome) clouds.emplace(sky, day.air, *day.dome, day.dome_heading);
-  parallel_for(
-      std::size_t(picture.height),
-      [&](std::size_t row) {
-        for (int x = 0; x < picture.width; ++x) {
-          const glm::vec3 direction = direction_of(x, int(row), picture.width, picture.height);
-          glm::vec3 colour = displayable(sky.sky_radiance_xyz(direction));
-          if (clouds) colour = clouds->with_dome(colour, direction);
-          for (int c = 0; c < 3; ++c) picture.at(x, int(row))[c] = colour[c];
-        }
-      },
-      4);
-  return picture;
+  if (!day.dome) return clear_sky(sky, width_px);
+  const CloudLight clouds(sky, day.air, *day.dome, day.dome_heading);
+  shading::SkyLight behind;  // is smooth: clouds alone take all pixels
+  behind.levels.push_back(clear_sky(sky, std::min(width_px, clear_width_px)));
+  return equirectangular(width_px, [&](glm::vec3 direction, glm::vec2 uv) {
+    return clouds.with_dome(shading::sky_picture_at(behind, uv), direction);
+  });
 }
 
 void adapt(scene::Scene& scene) {
