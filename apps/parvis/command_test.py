@@ -983,6 +983,12 @@ class Facades(InAFolder):
         done = run("facade", "export", place, "-o", self.folder / "square.glb")
         self.assertEqual(done.returncode, 1)
         self.assertIn("parvis facade pack", done.stderr)
+        self.assertEqual(run("facade", "model", place, "--scan", self.folder / "none.ply").returncode, 2)
+        self.assertEqual(run("facade", "model", place, "--scan", self.folder / "wall.gltf", "--flat").returncode, 2)
+        done = run("facade", "model", place, "--scan", self.folder / "wall.gltf")  # too few triangles to be trimmed
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("model.glb", done.stdout)
+        self.assertEqual(run("facade", "model", place, "--scan", self.folder / "wall.gltf").returncode, 1)
         done = run("facade", "pack", place, "--model", self.folder / "wall.gltf")
         self.assertEqual(done.returncode, 0, done.stderr)
         done = run("facade", "export", place, "-o", self.folder / "square.glb", "--texture-side", "512")

@@ -1,16 +1,17 @@
-// parvis facade model: proposes a coarse model of the place, corrected by a file of hints.
+// parvis facade model: proposes a coarse model of the place, corrected by a file of hints; or trims a scan.
 #include <filesystem>
 #include <memory>
 
 #include "capture/facades/coarse_model_file.h"
 #include "capture/facades/place_model.h"
+#include "facade_place.h"
 #include "facade_stages.h"
 
 namespace parvis {
 namespace {
 
 struct Arguments {
-  std::filesystem::path folder, output;
+  std::filesystem::path folder, output, scan;
   facades::ModelSettings settings;
   bool overwrites = false;
 };
@@ -24,6 +25,11 @@ Status propose(const Arguments& arguments) {
         "{} is there already, perhaps corrected by hand; give --overwrite to replace it, or another file "
         "with --output",
         file.string());
+  if (!arguments.scan.empty()) {
+    if (Status status = write_trimmed_scan(arguments.folder, arguments.scan, file); !status) return status;
+    fmt::print("written to {}\n", file.string());
+    return Done{};
+  }
   const Result<facades::PlaceModel> model =
       facades::propose_place_model(arguments.folder, arguments.settings);
   if (!model) return model.errors();
@@ -46,13 +52,17 @@ void add_facade_model(CLI::App& stage, Chosen& chosen) {
   stage.add_option("folder", arguments->folder, "Folder of calibrated photographs")
       ->required()
       ->check(CLI::ExistingDirectory);
-  stage
-      .add_option(
-          "--hints", arguments->settings.hints,
-          "Corrections, one per line: remove NAME, rename NAME NEW, top|bottom NAME Z, left|right NAME X Y, "
-          "plane NAME X Y Z X Y Z X Y Z ...")
-      ->check(CLI::ExistingFile);
-  stage.add_flag("!--flat", arguments->settings.finds_relief, "Leave surfaces flat: no relief is searched");
+  CLI::Option* hints = stage.add_option(
+      "--hints", arguments->settings.hints,
+      "Corrections, one per line: remove NAME, rename NAME NEW, top|bottom NAME Z, left|right NAME X Y, "
+      "plane NAME X Y Z X Y Z X Y Z ...");
+  hints->check(CLI::ExistingFile);
+  CLI::Option* flat = stage.add_flag("!--flat", arguments->settings.finds_relief,
+                                     "Leave surfaces flat: no relief is searched");
+  stage.add_option("--scan", arguments->scan, scan_help)
+      ->check(CLI::ExistingFile)
+      ->excludes(hints)
+      ->excludes(flat);
   stage.add_option("-o,--output", arguments->output,
                    "glTF file (.glb) to write; FOLDER/model.glb where it is not given");
   stage.add_flag("--overwrite", arguments->overwrites, "Replace a model that is there");

@@ -1,6 +1,8 @@
 #include "facade_place.h"
 
+#include "capture/facades/coarse_model_file.h"
 #include "capture/facades/place_recipe.h"
+#include "capture/facades/scan_trim.h"
 #include "formats/readers/readers.h"
 #include "house/rooms.h"
 
@@ -11,7 +13,29 @@ void print(const Errors& messages) {
   if (!messages.empty()) fmt::print(stderr, "{}", to_string(messages));
 }
 
+/// The objects of a model in any format.
+Result<std::vector<facades::NamedMesh>> read_meshes(const std::filesystem::path& file) {
+  Errors warnings;
+  const Result<scene::Model> model = house::all_rooms().get<formats::Readers>().read(file, {}, warnings);
+  if (!model) return model.errors();
+  print(warnings);
+  return facades::named_meshes(*model);
+}
+
 }  // namespace
+
+Status write_trimmed_scan(const std::filesystem::path& folder, const std::filesystem::path& scan,
+                          const std::filesystem::path& output) {
+  Result<std::vector<facades::NamedMesh>> meshes = read_meshes(scan);
+  if (!meshes) return meshes.errors();
+  const Result<facades::PlaceSource> source = facades::read_place(folder, *std::move(meshes));
+  if (!source) return source.errors();
+  print(source->notes);
+  const Result<facades::TrimmedScans> trimmed = facades::trimmed_scans(source->meshes, source->photographs);
+  if (!trimmed) return trimmed.errors();
+  print(trimmed->notes);
+  return facades::write_meshes(output, trimmed->meshes);
+}
 
 Result<facades::PlaceSource> open_place(const PlaceArguments& arguments) {
   const std::filesystem::path file =
@@ -20,11 +44,9 @@ Result<facades::PlaceSource> open_place(const PlaceArguments& arguments) {
   if (!std::filesystem::exists(file, code))
     return error("{}: there is no model; run parvis facade model {}, or give one by --model", file.string(),
                  arguments.folder.string());
-  Errors warnings;
-  const Result<scene::Model> model = house::all_rooms().get<formats::Readers>().read(file, {}, warnings);
-  if (!model) return model.errors();
-  print(warnings);
-  return facades::read_place(arguments.folder, facades::named_meshes(*model), arguments.left_out);
+  Result<std::vector<facades::NamedMesh>> meshes = read_meshes(file);
+  if (!meshes) return meshes.errors();
+  return facades::read_place(arguments.folder, *std::move(meshes), arguments.left_out);
 }
 
 Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,

@@ -35,6 +35,15 @@ struct PlaceArguments {
   }
 };
 
+/// What `--scan` of a stage says.
+inline constexpr const char* scan_help =
+    "A scan of the place, in any format that scenes read, instead of a proposed model; what photographs "
+    "contradict each other about at its borders is cut off";
+/// Writes the scan, with its borders trimmed by the folder's photographs, as glTF. Notes are written to
+/// standard error.
+Status write_trimmed_scan(const std::filesystem::path& folder, const std::filesystem::path& scan,
+                          const std::filesystem::path& output);
+
 /// The folder's photographs and model. Notes are written to standard error.
 Result<facades::PlaceSource> open_place(const PlaceArguments& arguments);
 /// Its layers, filled, with choices and edits. Warnings are written to standard error.

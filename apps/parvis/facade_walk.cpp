@@ -13,6 +13,7 @@ namespace {
 struct Arguments {
   CalibrationArguments calibration;
   PlaceArguments place;
+  std::filesystem::path scan;
 };
 
 Status walk(Arguments& arguments) {
@@ -21,7 +22,10 @@ Status walk(Arguments& arguments) {
   const std::filesystem::path file = folder / "model.glb";
   std::error_code code;
   // A model that is there may have been corrected: it is kept.
-  if (arguments.place.model.empty() && !std::filesystem::exists(file, code)) {
+  const bool needs_model = arguments.place.model.empty() && !std::filesystem::exists(file, code);
+  if (needs_model && !arguments.scan.empty()) {
+    if (Status status = write_trimmed_scan(folder, arguments.scan, file); !status) return status;
+  } else if (needs_model) {
     const Result<facades::PlaceModel> model = facades::propose_place_model(folder);
     if (!model) return model.errors();
     fmt::print(stderr, "{}", to_string(model->notes));
@@ -36,6 +40,7 @@ void add_facade_walk(CLI::App& stage, Chosen& chosen) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->calibration.add(stage);
   arguments->place.add_choices(stage);
+  stage.add_option("--scan", arguments->scan, scan_help)->check(CLI::ExistingFile)->excludes("--model");
   stage.footer("Example: parvis facade walk photographs/ -o courtyard && parvis view courtyard/place.xp");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return walk(*arguments); }; });
 }

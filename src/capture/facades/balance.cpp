@@ -8,12 +8,11 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
-#include "capture/facades/blend.h"
+#include "capture/facades/sightings.h"
 
 namespace parvis::facades {
 namespace {
 
-constexpr float depth_tolerance = 0.01f;
 constexpr int balance_rounds = 12;
 /// Differences, in sRGB, that still are the same surface (noise, misregistration, glossiness), and that
 /// surely are not.
@@ -23,67 +22,6 @@ constexpr std::size_t min_witnesses = 3;
 /// Pixels per side of the blocks that occluders are found in: colours are means of 5 x 5 pixels already, and
 /// time grows with the square of the photographs' number.
 constexpr int trust_block = 2;
-
-/// A surface point's colour in the photographs that see it.
-struct Sighting {
-  std::uint32_t photo;
-  glm::vec3 srgb;
-};
-using Sightings = std::vector<Sighting>;
-
-/// The colours of sRGB images behind a point of the world.
-Sightings sightings(std::span<const PreparedPhoto> photos, std::span<const ImageF> srgb, glm::dvec3 point) {
-  Sightings found;
-  for (std::uint32_t i = 0; i < photos.size(); ++i) {
-    const View& view = photos[i].view;
-    const glm::dvec3 p = view.to_camera(point);
-    if (p.z <= 0.0) continue;
-    const glm::dvec2 pixel = view.to_pixel(p);
-    if (pixel.x < 1.0 || pixel.y < 1.0 || pixel.x > view.width - 1.0 || pixel.y > view.height - 1.0) continue;
-    const std::size_t index = std::size_t(pixel.y) * std::size_t(view.width) + std::size_t(pixel.x);
-    if (not_hidden(float(p.z), photos[i].depths[index], depth_tolerance) < 0.5f) continue;
-    if (!photos[i].trust.empty() && photos[i].trust.pixels[index] < 0.5f) continue;  // masked
-    found.push_back({i, sampled_rgb(srgb[i], pixel)});
-  }
-  return found;
-}
-
-ImageF encoded(const ImageF& linear) {
-  ImageF srgb = linear;
-  for (float& value : srgb.pixels) value = srgb_from_linear(std::max(value, 0.0f));
-  return srgb;
-}
-
-/// Mean over (2 radius + 1)^2 pixels.
-ImageF blurred(const ImageF& image, int radius) {
-  ImageF across(image.width, image.height, image.channels), down = across;
-  parallel_for(std::size_t(image.height), [&](std::size_t row) {
-    const int y = int(row);
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) {
-        float sum = 0.0f;
-        for (int d = -radius; d <= radius; ++d) sum += image.at(std::clamp(x + d, 0, image.width - 1), y)[c];
-        across.at(x, y)[c] = sum / float(2 * radius + 1);
-      }
-  });
-  parallel_for(std::size_t(image.height), [&](std::size_t row) {
-    const int y = int(row);
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) {
-        float sum = 0.0f;
-        for (int d = -radius; d <= radius; ++d)
-          sum += across.at(x, std::clamp(y + d, 0, image.height - 1))[c];
-        down.at(x, y)[c] = sum / float(2 * radius + 1);
-      }
-  });
-  return down;
-}
-
-std::vector<ImageF> blurred_srgb(std::span<const PreparedPhoto> photos) {
-  std::vector<ImageF> images;
-  for (const PreparedPhoto& photo : photos) images.push_back(blurred(encoded(photo.colours), 2));
-  return images;
-}
 
 double balanced(const Balance& balance, const Sighting& sighting, std::size_t c) {
   return balance.scale[c] * double(sighting.srgb[int(c)]) + balance.offset[c];

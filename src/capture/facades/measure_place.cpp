@@ -12,6 +12,7 @@
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/packed_facade.h"
 #include "capture/facades/rephotography.h"
+#include "capture/facades/scan_trim.h"
 
 namespace parvis::facades {
 namespace {
@@ -40,9 +41,11 @@ void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.covered_percent += share * judged.covered_percent;
 }
 
-Status judge_held_out(const std::vector<const Photograph*>& held_out, const PlaceLayers& place,
-                      const PackedFacade& facade, const std::vector<PreparedPhoto>& prepared,
-                      bool with_baselines, PlaceFigures& figures) {
+/// `given`: the model before it was trimmed, so that what was cut off lacks in what is covered.
+Status judge_held_out(const std::vector<const Photograph*>& held_out, const LayerModel& given,
+                      const PlaceLayers& place, const PackedFacade& facade,
+                      const std::vector<PreparedPhoto>& prepared, bool with_baselines,
+                      PlaceFigures& figures) {
   const FacadeTexels texels(facade);
   std::vector<Image8> truths;
   for (const Photograph* photo : held_out) {
@@ -59,7 +62,7 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Plac
     const Image8 &truth = truths[i], &another = truths[(i + 1) % truths.size()];
     const Result<View> view = view_of(*held_out[i]);
     if (!view) return view.errors();
-    const Image8 mask = model_mask(place.model, *view);
+    const Image8 mask = model_mask(given, *view);
     const Image8 shown = bytes_of(view_of_facade(facade, texels, *view));
     add(figures.methods[0], rephotography(shown, truth, mask), share);
     if (held_out.size() > 1 && another.width == shown.width && another.height == shown.height)
@@ -188,8 +191,16 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
     return error("of {} photographs to hold out only {} are there", held_out.size(), judges.size());
 
   PlaceFigures figures;
+  const Result<LayerModelResult> given = layer_model(meshes);
+  if (!given) return given.errors();
+  std::vector<NamedMesh> of_place = meshes;
+  if (options.trims_scans) {
+    Result<TrimmedScans> trimmed = trimmed_scans(meshes, used);
+    if (!trimmed) return trimmed.errors();
+    of_place = std::move(trimmed->meshes);
+  }
   const auto begin = std::chrono::steady_clock::now();
-  const Result<PlaceLayers> place = place_layers(used, meshes);
+  const Result<PlaceLayers> place = place_layers(used, of_place);
   if (!place) return place.errors();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   figures.layers_s_per_photo = took.count() / double(place->names.size());
@@ -205,7 +216,8 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
   const double extracted = double(std::max<std::size_t>(extracted_texture_bytes(place->model, prepared), 1));
   figures.texture_over_extracted = double(facade.texture_bytes()) / extracted;
   figures.extracted_share_percent = 100.0 * extracted / double(facade.photograph_bytes());
-  if (Status status = judge_held_out(judges, *place, facade, prepared, options.with_baselines, figures);
+  if (Status status =
+          judge_held_out(judges, given->model, *place, facade, prepared, options.with_baselines, figures);
       !status)
     return status.errors();
   if (Status status = judge_own_viewpoints(used, *place, facade, figures); !status) return status.errors();

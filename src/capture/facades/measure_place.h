@@ -12,7 +12,8 @@ namespace parvis::facades {
 /// Means over the photographs that were held out.
 struct MethodFigures {
   std::string method;  ///< "layers", or a baseline's name
-  double psnr_cc_db = 0.0, rephoto = 0.0, covered_percent = 0.0;
+  double psnr_cc_db = 0.0, rephoto = 0.0;
+  double covered_percent = 0.0;  ///< of the pixels that show the model as it was given
 };
 
 /// Figures of one place for the bench `facades`.
@@ -40,6 +41,7 @@ struct PlaceFigures {
 struct MeasureOptions {
   int random_views = 200;
   bool with_baselines = true;
+  bool trims_scans = false;  ///< before layers are made, by the photographs that are not held out
 };
 
 /// Makes the place without the photographs named in `held_out`, and judges it by them. Fails where one of

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,17 +28,19 @@ inline std::vector<NamedMesh> street() {
           wall("post", 3, 1.5f, 1.8f, -2, 2)};
 }
 
-/// What a view sees of the street, as a PNG file, each with an exposure of its own.
-inline photographs::Photograph photograph(const TestFolder& folder, const std::string& name, const View& view,
-                                          float exposure) {
-  const LayerModel model = model_of(street());
+/// What a view sees of a model whose points have these linear colours, as a PNG file of an exposure.
+inline photographs::Photograph photograph_of(const std::vector<NamedMesh>& meshes,
+                                             const std::function<glm::vec3(glm::dvec3)>& colour,
+                                             const TestFolder& folder, const std::string& name,
+                                             const View& view, float exposure) {
+  const LayerModel model = model_of(meshes);
   const ItemBuffer seen = item_buffer(model, view);
   ImageF picture(view.width, view.height, 4, 1.0f);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
       for (int c = 0; c < 3; ++c)
         picture.at(x, y)[c] =
-            exposure * pattern(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]))[c];
+            exposure * colour(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]))[c];
   photographs::Photograph photo;
   photo.name = name, photo.file = folder.path() / name;
   EXPECT_TRUE(write_image(photo.file, srgb8_from_linear(picture)));
@@ -46,6 +49,12 @@ inline photographs::Photograph photograph(const TestFolder& folder, const std::s
   opencv_from_world[3] = glm::dvec4(-(view.camera_from_world * view.centre), 1.0);
   photo.world_from_camera = photographs::world_from_camera_of_opencv(opencv_from_world);
   return photo;
+}
+
+/// What a view sees of the street, as a PNG file, each with an exposure of its own.
+inline photographs::Photograph photograph(const TestFolder& folder, const std::string& name, const View& view,
+                                          float exposure) {
+  return photograph_of(street(), pattern, folder, name, view, exposure);
 }
 
 /// Four photographs along the street, each with an exposure of its own.

@@ -56,7 +56,8 @@ Result<BenchPlace> sceaux(const fs::path& folder, bool) {
   const Result<scene::Model> model =
       scene::read_with_assimp(folder / "mesh_refined_175k.ply", formats::UpAxis::z, warnings);
   if (!model) return model.errors();
-  return BenchPlace{set->set.photographs, facades::named_meshes(*model), {"00003.jpg", "00007.jpg"}, nullptr};
+  return BenchPlace{
+      set->set.photographs, facades::named_meshes(*model), {"00003.jpg", "00007.jpg"}, nullptr, true};
 }
 
 Result<BenchPlace> courtyard(const fs::path& folder, bool is_quick) {

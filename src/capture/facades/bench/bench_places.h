@@ -18,6 +18,7 @@ struct BenchPlace {
   std::vector<facades::NamedMesh> meshes;
   std::vector<std::string> held_out;
   std::shared_ptr<const ScratchFolder> files;  ///< the photographs', where they are copies
+  bool is_scan = false;                        ///< its model is trimmed (facades/scan_trim.h)
 };
 
 /// The castle with its mesh of 175,000 triangles.
