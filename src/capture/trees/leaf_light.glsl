@@ -22,10 +22,10 @@ LeafLight light_of_leaves(vec3 position, vec3 to_viewer, vec2 shares, float exit
   SceneLight light;
   light.to_sun = to_sun_at(position);
   light.sun_irradiance = frame_sun_irradiance.rgb;
-  for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
   Surface bare = foliage_surface(vec3(0.0f), light.to_sun, to_viewer);
   Surface white = foliage_surface(vec3(1.0f + leaf_highlight), light.to_sun, to_viewer);
   BouncedCell bounced = bounced_cell(position, to_viewer);
+  for (int i = 0; i < 9; ++i) light.sky_sh[i] = bounced.sky * frame_sky_sh[i].rgb;
   light.bounced = bounced_irradiance(bounced, bare.normal);
   light.bounced_behind = bounced_irradiance(bounced, -bare.normal);
   // The crown's own shadow is its cells' share of the sun; the maps have that of all else, seen from a point

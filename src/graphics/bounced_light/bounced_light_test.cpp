@@ -71,6 +71,30 @@ TEST(Transfer, AMirrorShowsWhatStandsBeforeIt) {
   EXPECT_LT(bounced_radiance(cell, {0, 0, 1}).x / ground.x, 0.03);
 }
 
+/// The picture's middle looks north, its right quarter east.
+ImageF glowing_in_the_east() {
+  ImageF picture(128, 64, 3, 0.2f);
+  for (int y = 24; y < 32; ++y)  // up to 22 degrees above the horizon
+    for (int x = 80; x < 112; ++x)
+      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = 8.0f;
+  return picture;
+}
+
+TEST(Transfer, WallsOfAStreetHideTheGlowOfALowSun) {
+  const scene::Scene scene = street();
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, {true, 3.0f, 128});
+  const vec3 up(0, 0, 1), on_the_street(0, 0, 0.5f), above_the_roofs(0, 0, 14);
+  const auto sky_at = [&](const ImageF& picture, vec3 place) {
+    return transfer.light(scene.sun, shading::make_sky_light(picture, 1.0f, 0.0f)).cell(place, up).sky.x;
+  };
+  const ImageF glow = glowing_in_the_east(), even(128, 64, 3, 0.7f);
+  EXPECT_LT(sky_at(glow, on_the_street), 0.5f);
+  EXPECT_NEAR(sky_at(glow, above_the_roofs), 1.0f, 0.25f);
+  EXPECT_NEAR(sky_at(even, on_the_street), 1.0f, 1e-3f);
+  EXPECT_EQ(shading::BouncedLight().cell(on_the_street, up).sky, vec3(1.0f)) << "without any";
+}
+
 TEST(Transfer, IsLinearInSunAndSky) {
   scene::Scene scene = street();
   const reference::RayScene rays(scene);

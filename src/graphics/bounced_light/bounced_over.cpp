@@ -44,11 +44,12 @@ void BouncedOver::upload() {
   if (light_.empty()) return;
   const glm::ivec3 cells = light_.cells;
   std::vector<glm::vec4> texels = light_.lobes;
-  texels.reserve(2 * texels.size());
+  texels.reserve(3 * texels.size());
   for (const glm::vec3 colour : light_.colours) texels.emplace_back(colour, 0.0f);
+  for (const glm::vec3 sky : light_.skies) texels.emplace_back(sky, 0.0f);
   texture_ = gl::Texture::create(GLenum(GL_TEXTURE_3D));
-  glTextureStorage3D(texture_.name(), 1, GL_RGBA16F, cells.x, cells.y, 2 * cells.z);
-  glTextureSubImage3D(texture_.name(), 0, 0, 0, 0, cells.x, cells.y, 2 * cells.z, GL_RGBA, GL_FLOAT,
+  glTextureStorage3D(texture_.name(), 1, GL_RGBA16F, cells.x, cells.y, 3 * cells.z);
+  glTextureSubImage3D(texture_.name(), 0, 0, 0, 0, cells.x, cells.y, 3 * cells.z, GL_RGBA, GL_FLOAT,
                       texels.data());
   glTextureParameteri(texture_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})

@@ -284,6 +284,36 @@ void Transfer::gather(const std::vector<vec4>& radiance, shading::BouncedLight& 
   fill_walls(light);
 }
 
+/// How bright that part of the sky is which each place sees, over the whole of it. A share of the sky alone
+/// does not tell: in a street at evening walls hide the glow about the sun.
+void Transfer::look_at_sky(const shading::SkyLight& sky, shading::BouncedLight& light) const {
+  const auto weight_of = [](vec3 direction) { return 0.5f + direction.z; };  // of ground and walls together
+  const float level = shading::sky_level(0.35f, float(sky.levels.size()));   // as wide as a ray stands for
+  std::vector<vec4> of_rays(std::size_t(ray_sets) * std::size_t(rays_), vec4(0.0f));  // weighted; w: weight
+  vec4 whole(0.0f);
+  for (int set = 0; set < ray_sets; ++set)
+    for (int r = 0; r < rays_; ++r) {
+      const vec3 direction = ray_direction(r, rays_, set);
+      if (direction.z <= 0.0f) continue;
+      vec4& ray = of_rays[std::size_t(set) * std::size_t(rays_) + std::size_t(r)];
+      ray = weight_of(direction) * vec4(shading::sky_radiance(sky, direction, level), 1.0f);
+      whole += ray;
+    }
+  const vec3 mean = glm::max(vec3(whole) / whole.w, vec3(1e-9f));
+  light.skies.assign(is_air_.size(), vec3(1.0f));
+  parallel_for(
+      air_.size(),
+      [&](std::size_t i) {
+        const std::int32_t* seen = seen_.data() + i * std::size_t(rays_);
+        const vec4* rays = of_rays.data() + ray_set(air_[i]) * rays_;
+        vec4 sum(0.0f);
+        for (int r = 0; r < rays_; ++r)
+          if (seen[r] < 0) sum += rays[r];
+        if (sum.w > 0.0f) light.skies[air_[i]] = vec3(sum) / sum.w / mean;
+      },
+      256);
+}
+
 /// Cells inside of things, and the air beside each.
 void Transfer::find_walls() {
   for (std::size_t cell = 0; cell < is_air_.size(); ++cell) {
@@ -309,11 +339,13 @@ void Transfer::fill_walls(shading::BouncedLight& light) const {
       [&](std::size_t i) {
         const Wall& wall = walls_[i];
         vec4 lobe(0.0f);
-        vec3 colour(0.0f);
+        vec3 colour(0.0f), sky(0.0f);
         for (std::size_t k = wall.first; k < wall.first + wall.count; ++k)
-          lobe += light.lobes[beside_walls_[k]], colour += light.colours[beside_walls_[k]];
+          lobe += light.lobes[beside_walls_[k]], colour += light.colours[beside_walls_[k]],
+              sky += light.skies[beside_walls_[k]];
         light.lobes[wall.cell] = lobe / float(wall.count);
         light.colours[wall.cell] = colour / float(wall.count);
+        light.skies[wall.cell] = sky / float(wall.count);
       },
       256);
 }
@@ -325,6 +357,7 @@ shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyL
   light.grid = grid_, light.cells = cells_;
   light.lobes.assign(is_air_.size(), vec4(0.0f));
   light.colours.assign(is_air_.size(), vec3(1.0f));
+  look_at_sky(sky, light);
   const std::vector<vec3> direct = direct_irradiance(sun, sky);
   std::vector<vec4> radiance(1 + patches_.size(), vec4(0.0f));  // the first is the sky's: see gather
   for (int bounce = 0; bounce < bounces; ++bounce) {

@@ -64,6 +64,7 @@ class Transfer {
                const std::vector<std::vector<glm::vec3>>& points);
   std::vector<glm::vec3> direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const;
   void gather(const std::vector<glm::vec4>& radiance, shading::BouncedLight& light) const;
+  void look_at_sky(const shading::SkyLight& sky, shading::BouncedLight& light) const;
   void fill_walls(shading::BouncedLight& light) const;
 
   shading::BouncedGrid grid_{glm::vec3(0.0f), glm::vec3(1.0f), 0.0f, 0.0f};

@@ -147,6 +147,7 @@ vec3 SurfaceLight::radiance(const ShadingPoint& point, const Hit& hit, Surface s
   if (point.kept_in_shadow < 1.0f) s.emission *= kept_of_recorded(point, ray_count);
   shading::SceneLight light = light_;
   light.to_sun = to_sun_at(point.position);
+  for (vec3& coefficient : light.sky_sh) coefficient *= around.bounced.sky;
   light.bounced = bounced_irradiance(around.bounced, s.normal);
   light.bounced_behind = bounced_irradiance(around.bounced, -s.normal);
   const vec3 by_lamps = lamp_radiance_at(point, s, to_viewer, ray_count);

@@ -17,7 +17,7 @@ namespace parvis::reference {
 /// Light about a place, where no ray is traced for it: by default an open sky alone.
 struct Surroundings {
   glm::vec4 sky_cell{0.5f, 0.5f, 0.5f, 1.0f};  ///< shading/sky_visibility.glsl
-  shading::BouncedCell bounced{glm::vec4(0.0f), glm::vec3(0.0f)};
+  shading::BouncedCell bounced{glm::vec4(0.0f), glm::vec3(0.0f), glm::vec3(1.0f)};
 };
 
 /// A ray toward the sun, where one decides whether it is seen.

@@ -4,8 +4,8 @@ SceneLight scene_light(vec3 geometric_normal, vec3 normal) {
   SceneLight light;
   light.to_sun = to_sun_at(position);
   light.sun_irradiance = frame_sun_irradiance.rgb;
-  for (int i = 0; i < 9; ++i) light.sky_sh[i] = frame_sky_sh[i].rgb;
   surface_bounced_cell = bounced_cell(position, geometric_normal);
+  for (int i = 0; i < 9; ++i) light.sky_sh[i] = surface_bounced_cell.sky * frame_sky_sh[i].rgb;
   light.bounced = bounced_irradiance(surface_bounced_cell, normal);
   light.bounced_behind = bounced_irradiance(surface_bounced_cell, -normal);
   light.haze_radiance = frame_haze.rgb;

@@ -14,7 +14,7 @@
 CornerLight corner_light(vec3 normal, vec4 sky_cell, float openness, vec3 to_viewer, float roughness,
                          float translucency) {
   BouncedCell bounced = bounced_cell(position, normal);
-  float share = sky_share_of_normal(sky_cell, normal);
+  vec3 share = sky_share_of_normal(sky_cell, normal) * bounced.sky;
   CornerLight light;
   light.irradiance =
       openness * (share * frame_sky_irradiance(normal) + bounced_irradiance(bounced, normal));

@@ -3,10 +3,10 @@
 namespace parvis::shading {
 
 BouncedCell BouncedLight::cell(vec3 position, vec3 geometric_normal) const {
-  BouncedCell result{vec4(0.0f), vec3(0.0f)};
-  if (empty()) return result;
+  if (empty()) return {vec4(0.0f), vec3(0.0f), vec3(1.0f)};
+  BouncedCell result{vec4(0.0f), vec3(0.0f), vec3(0.0f)};
   const vec3 at = bounced_coordinates(grid, position, geometric_normal);
-  const vec3 p = vec3(at.x, at.y, 2.0f * at.z) * vec3(cells) - vec3(0.5f);
+  const vec3 p = vec3(at.x, at.y, 3.0f * at.z) * vec3(cells) - vec3(0.5f);
   const glm::ivec3 low(floor(p));
   const vec3 share = p - vec3(low);
   for (int corner = 0; corner < 8; ++corner) {
@@ -18,6 +18,7 @@ BouncedCell BouncedLight::cell(vec3 position, vec3 geometric_normal) const {
         (std::size_t(at_corner.z) * std::size_t(cells.y) + std::size_t(at_corner.y)) * std::size_t(cells.x) +
         std::size_t(at_corner.x);
     result.lobe += weight * lobes[i], result.colour += weight * colours[i];
+    result.sky += weight * skies[i];
   }
   return result;
 }

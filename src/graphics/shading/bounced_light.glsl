@@ -1,6 +1,6 @@
 // Light that surfaces reflect onto each other: irradiance in a grid of cells over a place, as its mean and
 // the part that follows the normal (two bands of spherical harmonics convolved with the cosine, Ramamoorthi
-// and Hanrahan 2001), with one colour per cell.
+// and Hanrahan 2001), with one colour per cell; and how bright that part of the sky is which a cell sees.
 
 struct BouncedGrid {
   vec3 origin;  // corner of least coordinates, in the world
@@ -9,17 +9,18 @@ struct BouncedGrid {
   float layers;  // cells in z; 0: there is no bounced light
 };
 
-// Texture coordinates of the cell before a surface, z within the half of the texture that holds the lobes;
-// colours lie 0.5 above.
+// Texture coordinates of the cell before a surface, z within the third of the texture that holds the lobes;
+// colours lie a third above, and skies as much above these.
 GLSL_FUNCTION vec3 bounced_coordinates(BouncedGrid grid, vec3 position, vec3 geometric_normal) {
   vec3 at = (position + grid.lift_m * geometric_normal - grid.origin) / grid.size_m;
   float margin = 0.5f / grid.layers;
-  return vec3(at.x, at.y, 0.5f * clamp(at.z, margin, 1.0f - margin));
+  return vec3(at.x, at.y, clamp(at.z, margin, 1.0f - margin) / 3.0f);
 }
 
 struct BouncedCell {
   vec4 lobe;    // of irradiance: xyz the part that follows the normal, w the mean
   vec3 colour;  // luminance 1
+  vec3 sky;     // mean radiance of the sky that is seen from here, over that of the whole sky
 };
 
 // Irradiance on a surface.

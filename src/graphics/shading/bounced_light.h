@@ -14,10 +14,12 @@ struct BouncedLight {
   glm::ivec3 cells{0};
   std::vector<vec4> lobes;    ///< a cell: see bounced_irradiance
   std::vector<vec3> colours;  ///< a cell
+  std::vector<vec3> skies;    ///< a cell: BouncedCell::sky
 
   /// There is none.
   bool empty() const { return lobes.empty(); }
-  /// Mixed between the eight cells before a surface, as a texture unit does; dark where there are none.
+  /// Mixed between the eight cells before a surface, as a texture unit does; without bounced light, and under
+  /// the whole sky, where there are none.
   BouncedCell cell(vec3 position, vec3 geometric_normal) const;
 };
 
