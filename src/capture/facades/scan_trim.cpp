@@ -49,8 +49,8 @@ std::optional<float> contradiction_at(std::span<const PreparedPhoto> photos, std
   return *middle;
 }
 
-/// Per triangle, smoothed over its neighbours: leaves agree here and there by chance. What no two photographs
-/// see takes what is beside it; 0 where nothing is known far around.
+/// Per triangle, smoothed over its neighbours: leaves agree here and there though nothing is there. What no
+/// two photographs see takes what is beside it; 0 where nothing is known far around.
 std::vector<float> contradictions(const Mesh& mesh, const JoinedTriangles& joined,
                                   std::span<const PreparedPhoto> photos, std::span<const ImageF> srgb) {
   std::vector<std::optional<float>> values(joined.triangles.size());

@@ -54,7 +54,8 @@ void repair_names(scene::Model& model) {
 
 }  // namespace
 
-void Readers::add(std::initializer_list<const char*> extensions, ReadModel read, LooksRight looks_right) {
+void Readers::add(std::initializer_list<const char*> extensions, const ReadModel& read,
+                  LooksRight looks_right) {
   for (const char* extension : extensions) {
     [[maybe_unused]] const bool is_new = by_extension_.emplace(extension, Reader{read, looks_right}).second;
     assert(is_new && "two rooms read files of this extension");
@@ -71,6 +72,7 @@ Result<scene::Model> Readers::read(const std::filesystem::path& file, const Mode
     if (front)
       if (std::optional<Error> error = packed(*front, file)) return *std::move(error);
     std::vector<std::string> known;
+    known.reserve(by_extension_.size());
     for (const auto& [each, read] : by_extension_) known.push_back(each);
     return error_at(where, "no reader for files of the kind \"{}\"; models are read from {}", extension,
                     fmt::join(known, ", "));

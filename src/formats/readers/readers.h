@@ -38,7 +38,7 @@ using LooksRight = bool (*)(std::string_view front);
 class Readers {
  public:
   /// `extensions` with their dots, in lower case; each once. Third-party readers are wrapped by `isolated`.
-  void add(std::initializer_list<const char*> extensions, ReadModel read, LooksRight looks_right);
+  void add(std::initializer_list<const char*> extensions, const ReadModel& read, LooksRight looks_right);
 
   /// Extensions count in any case. Errors: a file whose extension nobody reads (it names those that are
   /// read), one that is packed (it says what unpacks it), one whose content is of another format than its

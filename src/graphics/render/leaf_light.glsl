@@ -9,15 +9,14 @@
 #include "graphics/shading/lighting.glsl"
 
 #ifdef IS_LEAF
-// All but the sun's, by what is open of the sky before the corner, and by what other leaves of the plant leave
-// of it and of all that stands around (`openness`). `normal` is unit and on the viewer's side.
+// All but the sun's, by what is open of the sky before the corner, and by what other leaves of the plant
+// leave of it and of all that stands around (`openness`). `normal` is unit and on the viewer's side.
 CornerLight corner_light(vec3 normal, vec4 sky_cell, float openness, vec3 to_viewer, float roughness,
                          float translucency) {
   BouncedCell bounced = bounced_cell(position, normal);
   vec3 share = sky_share_of_normal(sky_cell, normal) * bounced.sky;
   CornerLight light;
-  light.irradiance =
-      openness * (share * frame_sky_irradiance(normal) + bounced_irradiance(bounced, normal));
+  light.irradiance = openness * (share * frame_sky_irradiance(normal) + bounced_irradiance(bounced, normal));
   light.irradiance_behind =
       openness * (share * frame_sky_irradiance(-normal) + bounced_irradiance(bounced, -normal));
 

@@ -1,7 +1,9 @@
 #include "life/vegetation/plant_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/random.h"
 #include "life/vegetation/conifer.h"
@@ -216,7 +218,7 @@ void add_wood(PlantShape& shape, const std::vector<Branch>& branches, Random& ra
                              random.uniform(1e-4f, 1.0f) / (2.0f * radius_m)});
     }
   }
-  std::ranges::stable_sort(pieces, std::greater<>(), &Piece::radius_m);
+  std::ranges::sort(pieces, {}, [](const Piece& piece) { return std::pair(-piece.radius_m, piece.first); });
   std::vector<std::uint32_t> indices;
   indices.reserve(shape.wood.indices.size());
   for (const Piece& piece : pieces) {
@@ -225,7 +227,9 @@ void add_wood(PlantShape& shape, const std::vector<Branch>& branches, Random& ra
     shape.pieces.push_back({piece.radius_m, std::uint32_t(indices.size())});
   }
   shape.wood.indices = std::move(indices);
-  std::ranges::stable_sort(shape.twigs, {}, &Twig::min_pixels_per_metre);
+  std::ranges::sort(shape.twigs, {}, [](const Twig& twig) {
+    return std::array{twig.min_pixels_per_metre, twig.from.x, twig.from.y, twig.from.z};
+  });
 }
 
 void find_openness(PlantShape& shape) {

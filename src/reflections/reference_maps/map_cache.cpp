@@ -12,7 +12,7 @@ namespace parvis::reference_maps {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int version = 3;  // of how maps are placed and drawn: raise it when old maps no longer serve
+constexpr int version = 4;  // of how maps are placed and drawn: raise it when old maps no longer serve
 constexpr std::string_view extension = ".map";
 constexpr std::size_t name_length = 16;  // of a state's folder
 

@@ -37,15 +37,20 @@ CrownOpenness::CrownOpenness(std::span<const LeafArea> leaves) {
   const float per_volume = 1.0f / (cell_m_ * cell_m_ * cell_m_);
   for (const LeafArea& leaf : leaves) {
     const glm::ivec3 cell = glm::min(glm::ivec3((leaf.place - box_.min) / cell_m_), cells_ - 1);
-    density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)] += leaf.area_m2 * per_volume;
+    density_[index(cell)] += leaf.area_m2 * per_volume;
   }
+}
+
+std::size_t CrownOpenness::index(glm::ivec3 cell) const {
+  return (std::size_t(cell.z) * std::size_t(cells_.y) + std::size_t(cell.y)) * std::size_t(cells_.x) +
+         std::size_t(cell.x);
 }
 
 float CrownOpenness::extinction_per_m(glm::vec3 place) const {
   const glm::ivec3 cell(glm::floor((place - box_.min) / cell_m_));
   if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, cells_)))
     return 0.0f;
-  return 0.5f * density_[std::size_t((cell.z * cells_.y + cell.y) * cells_.x + cell.x)];
+  return 0.5f * density_[index(cell)];
 }
 
 float CrownOpenness::at(glm::vec3 place) const {

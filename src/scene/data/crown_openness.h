@@ -24,6 +24,7 @@ class CrownOpenness {
   float at(glm::vec3 place) const;
 
  private:
+  std::size_t index(glm::ivec3 cell) const;
   float extinction_per_m(glm::vec3 place) const;
 
   Bounds box_;

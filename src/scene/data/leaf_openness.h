@@ -23,6 +23,7 @@ struct LeafOpenness {
   static constexpr std::string_view name = "data.leaf_openness";
   static constexpr DataRole role = DataRole::static_content;
 
+  /// That of one model.
   struct OfModel {
     std::shared_ptr<const Model> model;     ///< which it is of
     std::vector<std::vector<float>> parts;  ///< by part and vertex: CrownOpenness::at; empty: no foliage
