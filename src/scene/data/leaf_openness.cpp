@@ -83,7 +83,7 @@ bool is_foliage(const Material& material) {
 
 std::span<const float> LeafOpenness::of(const Model& model, std::size_t part) const {
   const auto found = models.find(&model);
-  return found == models.end() ? std::span<const float>() : found->second.parts[part];
+  return found == models.end() ? std::span<const float>() : found->second->parts[part];
 }
 
 void find_leaf_openness(Scene& scene) {
@@ -102,7 +102,7 @@ void find_leaf_openness(Scene& scene) {
           is_leafy(part)
               ? openness_of(part.mesh, cover_of(model.materials[std::size_t(part.material)], model))
               : std::vector<float>());
-    found.models.emplace(&model, std::move(of_model));
+    found.models.emplace(&model, std::make_shared<const LeafOpenness::OfModel>(std::move(of_model)));
   }
   if (!found.models.empty()) scene.data<LeafOpenness>() = std::move(found);
 }

@@ -28,7 +28,7 @@ struct LeafOpenness {
     std::shared_ptr<const Model> model;     ///< which it is of
     std::vector<std::vector<float>> parts;  ///< by part and vertex: CrownOpenness::at; empty: no foliage
   };
-  std::unordered_map<const Model*, OfModel> models;
+  std::unordered_map<const Model*, std::shared_ptr<const OfModel>> models;  ///< copies of a scene share them
 
   /// Of a part of a model; empty: it hides nothing of the sky from itself.
   std::span<const float> of(const Model& model, std::size_t part) const;
