@@ -1,6 +1,7 @@
 // How far the sky that the renderer draws is from its C++ build, and from the model itself.
 #pragma once
 
+#include "base/camera.h"
 #include "base/result.h"
 #include "graphics/light/sky_model.h"
 
@@ -13,9 +14,11 @@ struct DrawnSkyError {
   double of_build = 0.0;
   /// To the model in the same directions: the mean over pixels and channels, relative to the mean luminance.
   double of_model = 0.0;
-  /// Of the drawn channels: all, and those that are negative or no numbers.
-  long samples = 0, bad_samples = 0;
+  long samples = 0;  ///< channels that were compared
 };
+
+/// From the origin, 90 degrees wide: `face` 0 to 5 together show all directions.
+Camera view_of_sky(int face);
 
 /// `turned_deg` turns what the drawn sky is compared with: a control. Needs a current OpenGL context.
 Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double sun_elevation_deg,

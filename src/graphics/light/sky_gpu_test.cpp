@@ -37,7 +37,6 @@ TEST_F(SkyOnGpu, TheDrawnSkyIsThatOfTheRayTracer) {
     const Result<DrawnSkyError> error = drawn_sky_error(SkyKind::atmosphere, 3.0, elevation);
     ASSERT_TRUE(error) << to_string(error.errors());
     EXPECT_LE(error->of_build, 1e-3) << elevation;
-    EXPECT_EQ(error->bad_samples, 0) << elevation;
     EXPECT_GT(error->samples, 250'000) << "all channels of six views";
     std::printf("sun at %g degrees: %.1e of the model in the mean\n", elevation, error->of_model);
     EXPECT_LE(error->of_model, 1e-3) << elevation;

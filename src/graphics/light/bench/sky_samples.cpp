@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "graphics/light/day_light.h"
+#include "graphics/light/drawn_sky_check.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/frame_views.h"
 
@@ -62,13 +63,8 @@ Result<SkySamples> DrawnSky::samples(const light::SkyModel& sky) {
   scene_.sky.file = "computed", ++scene_.sky.version;
   SkySamples samples;
   for (int face = 0; face < 6; ++face) {
-    glm::vec3 ahead(0.0f);
-    ahead[face / 2] = face % 2 ? 1.0f : -1.0f;
-    Camera camera;
-    camera.world_from_camera =
-        look_at(glm::vec3(0.0f), ahead, face / 2 == 2 ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
-    camera.vertical_fov = 1.5707963f;
-    if (Status status = render::draw_frame(*renderer_, scene_, {camera, view_px, view_px}); !status)
+    if (Status status = render::draw_frame(*renderer_, scene_, {light::view_of_sky(face), view_px, view_px});
+        !status)
       return status.errors();
     const ImageF seen = renderer_->read_radiance();
     for (std::size_t i = 0; i < seen.pixels.size(); i += std::size_t(seen.channels))
