@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 
 namespace parvis {
@@ -38,13 +37,6 @@ inline bool elements_fit(std::uint64_t offset, std::uint64_t count, std::uint64_
   const std::optional<std::uint64_t> fronts = checked_product({count - 1, stride});
   const std::optional<std::uint64_t> size = fronts ? checked_sum({*fronts, element}) : std::nullopt;
   return size && bytes_fit(offset, *size, available);
-}
-
-/// The number as a smaller type; none where it does not fit there.
-template <class T>
-std::optional<T> checked_cast(std::uint64_t value) {
-  if (value > std::uint64_t(std::numeric_limits<T>::max())) return std::nullopt;
-  return T(value);
 }
 
 }  // namespace parvis

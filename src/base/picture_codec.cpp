@@ -162,18 +162,6 @@ Result<std::string> encode(const BasicImage<T>& image, const std::string& name) 
   return std::string(bytes.buffer().begin(), bytes.buffer().end());
 }
 
-/// The picture as an image of its own.
-template <class T>
-Result<BasicImage<T>> decoded(std::span<const std::uint8_t> bytes, const std::string& name) {
-  BasicImage<T> image;
-  const PixelsFor<T> pixels_for = [&](int width, int height, int channels) -> Result<T*> {
-    image = BasicImage<T>(width, height, channels);
-    return image.pixels.data();
-  };
-  if (Status status = decode_image<T>(bytes, name, pixels_for); !status) return status.errors();
-  return image;
-}
-
 }  // namespace
 
 const PictureFormat* picture_format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
@@ -222,11 +210,14 @@ template Status decode_image(std::span<const std::uint8_t>, const std::string&,
 template Status decode_image(std::span<const std::uint8_t>, const std::string&, const PixelsFor<float>&);
 
 Result<Image8> decode_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return decoded<std::uint8_t>(bytes, name);
-}
-
-Result<ImageF> decode_image_float(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return decoded<float>(bytes, name);
+  Image8 image;
+  const PixelsFor<std::uint8_t> pixels_for = [&](int width, int height,
+                                                 int channels) -> Result<std::uint8_t*> {
+    image = Image8(width, height, channels);
+    return image.pixels.data();
+  };
+  if (Status status = decode_image<std::uint8_t>(bytes, name, pixels_for); !status) return status.errors();
+  return image;
 }
 
 Result<std::string> encode_image(const Image8& image, const std::string& name) { return encode(image, name); }

@@ -29,8 +29,6 @@ const PictureFormat* picture_format_to_write(std::string_view name);
 
 /// 8-bit RGBA, top row first, straight alpha. Errors name `name` and what was expected.
 Result<Image8> decode_image8(std::span<const std::uint8_t> bytes, const std::string& name);
-/// Linear float with 3 channels; 8-bit formats are decoded from sRGB. Values may be infinite or no numbers.
-Result<ImageF> decode_image_float(std::span<const std::uint8_t> bytes, const std::string& name);
 
 /// The file's bytes, in the format of `name`'s extension: 8 bits per channel.
 Result<std::string> encode_image(const Image8& image, const std::string& name);

@@ -16,8 +16,9 @@ namespace parvis {
 template <class T>
 using PixelsFor = std::function<Result<T*>(int width, int height, int channels)>;
 
-/// Decodes into memory that `pixels_for` gives once the picture's size is known and within the budget, in the
-/// layouts of decode_image8 and decode_image_float. T is std::uint8_t or float.
+/// Decodes into memory that `pixels_for` gives once the picture's size is known and within the budget. T is
+/// std::uint8_t, in the layout of decode_image8, or float: linear, 3 channels, from sRGB where the format has
+/// 8 bits; values may be infinite or no numbers.
 template <class T>
 Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
                     const PixelsFor<T>& pixels_for);
