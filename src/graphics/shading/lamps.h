@@ -25,6 +25,13 @@ struct LampTable {
   bool empty() const { return lamps.empty(); }
   /// The entry of `near` for a point; zero outside.
   uvec4 cell(vec3 position) const;
+  /// Calls `visit(number)` for each lamp that reaches the cell of a point, the strongest first.
+  template <class Visit>
+  void for_each_near(vec3 position, const Visit& visit) const {
+    const uvec4 numbers = cell(position);
+    for (int i = 0; i < 4; ++i)
+      for (std::uint32_t word = numbers[i]; word != 0; word >>= 16) visit((word & 65535u) - 1);
+  }
   /// The share of a lamp that its depth map shows to a surface: four comparisons, as a texture unit mixes
   /// them; 1 where it has no map.
   float visible(const Lamp& lamp, vec3 position, vec3 geometric_normal) const;

@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 
 namespace parvis::shading {
 namespace {
 
-glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
-}
-
 TEST(Octahedral, EveryDirectionComesBack) {
   Random random(1);
   for (int i = 0; i < 10000; ++i) {
-    const glm::vec3 d = chance_direction(random);
+    const glm::vec3 d = random_direction(random);
     const glm::vec2 uv = octahedral_uv(d);
     ASSERT_TRUE(glm::all(glm::greaterThanEqual(uv, glm::vec2(0.0f))) &&
                 glm::all(glm::lessThanEqual(uv, glm::vec2(1.0f))));

@@ -53,21 +53,35 @@ float CrownOpenness::extinction_per_m(glm::vec3 place) const {
   return 0.5f * density_[index(cell)];
 }
 
+float CrownOpenness::depth(glm::vec3 place, glm::vec3 direction, float enough) const {
+  float depth = 0.0f;
+  const float steps = float(2 * cells_per_side);
+  for (float i = 0.5f; i < steps && depth < enough; ++i) {
+    const glm::vec3 at = place + i * cell_m_ * direction;
+    if (direction.z > 0.0f ? at.z > box_.max.z : at.z < box_.min.z) break;
+    depth += cell_m_ * extinction_per_m(at);
+  }
+  return std::min(depth, enough);
+}
+
 float CrownOpenness::at(glm::vec3 place) const {
+  constexpr float dark = 4.0f;
   if (density_.empty()) return 1.0f;
   float seen = 0.0f, all = 0.0f;
   for (const glm::vec3 direction : directions()) {
-    float depth = 0.0f;
-    const float steps = float(2 * cells_per_side);
-    for (float i = 0.5f; i < steps && depth < 4.0f; ++i) {
-      const glm::vec3 at = place + i * cell_m_ * direction;
-      if (at.z > box_.max.z) break;
-      depth += cell_m_ * extinction_per_m(at);
-    }
     const float weight = 0.3f + direction.z;
-    seen += weight * std::exp(-depth), all += weight;
+    seen += weight * std::exp(-depth(place, direction, dark)), all += weight;
   }
   return std::max(seen / all, min_openness);
+}
+
+float CrownOpenness::max_seen(glm::vec3 place) const {
+  constexpr float dark = 8.0f;
+  if (density_.empty()) return 1.0f;
+  float lowest = dark;
+  for (const glm::vec3 up : directions())
+    for (const glm::vec3 direction : {up, -up}) lowest = depth(place, direction, lowest);
+  return std::exp(-lowest);
 }
 
 }  // namespace parvis::scene

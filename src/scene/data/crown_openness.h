@@ -22,8 +22,12 @@ class CrownOpenness {
   /// Share of the sky, weighted by its height, that is seen from a place; at least 0.08, for what leaves
   /// scatter reaches everywhere.
   float at(glm::vec3 place) const;
+  /// Share of what lies at a place that is seen past the leaves from outside, from where most of it is.
+  float max_seen(glm::vec3 place) const;
 
  private:
+  /// Optical depth of the leaves between a place and the outside in a direction; no more than `enough`.
+  float depth(glm::vec3 place, glm::vec3 direction, float enough) const;
   std::size_t index(glm::ivec3 cell) const;
   float extinction_per_m(glm::vec3 place) const;
 

@@ -99,7 +99,7 @@ TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   append(mesh, sphere({2, 0, 0}, 0.5f, 8));
   append(mesh, box({0, 0, 0}, {1, 1, 1}));
   Model model = *model_of(mesh, glass());
-  model.parts[0].object = "lamp";
+  model.parts[0].object = "lamp", model.parts[0].is_backdrop = true;
   std::size_t with_area = 0;
   for (const GlassPiece& piece : glass_pieces(model)) with_area += piece.mesh.triangle_count();
   divide_glass(model);
@@ -107,6 +107,7 @@ TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   EXPECT_EQ(model.triangle_count(), with_area);
   for (const Part& part : model.parts) {
     EXPECT_EQ(part.object, "lamp");
+    EXPECT_TRUE(part.is_backdrop);
     EXPECT_LT(part.mesh.bounds().size().x, 1.1f);
   }
   for (const GlassPiece& piece : glass_pieces(model)) EXPECT_EQ(piece.triangles.size(), 1u);

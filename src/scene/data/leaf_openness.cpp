@@ -63,16 +63,25 @@ Squares squares_of(const Mesh& mesh, float cover) {
   return squares;
 }
 
-std::vector<float> openness_of(const Mesh& mesh, float cover) {
-  std::vector<float> openness(mesh.positions.size(), 1.0f);
+struct OfVertices {
+  std::vector<float> openness, max_seen;
+};
+
+OfVertices openness_of(const Mesh& mesh, float cover) {
+  OfVertices found{std::vector<float>(mesh.positions.size(), 1.0f),
+                   std::vector<float>(mesh.positions.size(), 1.0f)};
   for (const auto& [place, square] : squares_of(mesh, cover)) {
     const CrownOpenness crown(square.leaves);
     parallel_for(
         square.vertices.size(),
-        [&](std::size_t i) { openness[square.vertices[i]] = crown.at(mesh.positions[square.vertices[i]]); },
+        [&](std::size_t i) {
+          const std::uint32_t vertex = square.vertices[i];
+          found.openness[vertex] = crown.at(mesh.positions[vertex]);
+          found.max_seen[vertex] = crown.max_seen(mesh.positions[vertex]);
+        },
         256);
   }
-  return openness;
+  return found;
 }
 
 }  // namespace
@@ -86,6 +95,11 @@ std::span<const float> LeafOpenness::of(const Model& model, std::size_t part) co
   return found == models.end() ? std::span<const float>() : found->second->parts[part];
 }
 
+std::span<const float> LeafOpenness::max_seen(const Model& model, std::size_t part) const {
+  const auto found = models.find(&model);
+  return found == models.end() ? std::span<const float>() : found->second->max_seen[part];
+}
+
 void find_leaf_openness(Scene& scene) {
   LeafOpenness found;
   for (const Object& object : scene.objects) {
@@ -95,13 +109,15 @@ void find_leaf_openness(Scene& scene) {
       return is_foliage(model.materials[std::size_t(part.material)]) && !part.deformation;
     };
     if (std::ranges::none_of(model.parts, is_leafy)) continue;
-    LeafOpenness::OfModel of_model{object.model, {}};
-    of_model.parts.reserve(model.parts.size());
-    for (const Part& part : model.parts)
-      of_model.parts.push_back(
-          is_leafy(part)
-              ? openness_of(part.mesh, cover_of(model.materials[std::size_t(part.material)], model))
-              : std::vector<float>());
+    LeafOpenness::OfModel of_model{object.model, {}, {}};
+    of_model.parts.reserve(model.parts.size()), of_model.max_seen.reserve(model.parts.size());
+    for (const Part& part : model.parts) {
+      OfVertices of_part;
+      if (is_leafy(part))
+        of_part = openness_of(part.mesh, cover_of(model.materials[std::size_t(part.material)], model));
+      of_model.parts.push_back(std::move(of_part.openness));
+      of_model.max_seen.push_back(std::move(of_part.max_seen));
+    }
     found.models.emplace(&model, std::make_shared<const LeafOpenness::OfModel>(std::move(of_model)));
   }
   if (!found.models.empty()) scene.data<LeafOpenness>() = std::move(found);

@@ -25,13 +25,16 @@ struct LeafOpenness {
 
   /// That of one model.
   struct OfModel {
-    std::shared_ptr<const Model> model;     ///< which it is of
-    std::vector<std::vector<float>> parts;  ///< by part and vertex: CrownOpenness::at; empty: no foliage
+    std::shared_ptr<const Model> model;        ///< which it is of
+    std::vector<std::vector<float>> parts;     ///< by part and vertex: CrownOpenness::at; empty: no foliage
+    std::vector<std::vector<float>> max_seen;  ///< the same of CrownOpenness::max_seen
   };
   std::unordered_map<const Model*, std::shared_ptr<const OfModel>> models;  ///< copies of a scene share them
 
   /// Of a part of a model; empty: it hides nothing of the sky from itself.
   std::span<const float> of(const Model& model, std::size_t part) const;
+  /// What of each vertex is seen from outside the crown at most; empty: it is hidden nowhere.
+  std::span<const float> max_seen(const Model& model, std::size_t part) const;
   /// Which it is follows from the models.
   void hash(ContentHash& hash) const { hash.add(models.size()); }
 };

@@ -42,6 +42,18 @@ TEST(LeafOpenness, FallsFromTheTopToTheMiddleAndTheBottom) {
   EXPECT_GT(top, 0.5f);
 }
 
+/// The sky is seen from the top alone, a crown from below, too.
+TEST(LeafOpenness, WhatIsSeenFromOutsideIsTheSkinOfACrown) {
+  const Mesh mesh = crown(6000);
+  const Scene scene = with_foliage(mesh, leaf_material({0.1f, 0.2f, 0.05f}, 0.3f));
+  const std::span<const float> seen = scene.data<LeafOpenness>().max_seen(*scene.objects[0].model, 0);
+  ASSERT_EQ(seen.size(), mesh.positions.size());
+  EXPECT_LT(mean_openness(mesh, seen, [](glm::vec3 p) { return glm::length(p) < 0.3f * crown_m; }), 0.1f);
+  for (const float side : {-1.0f, 1.0f})
+    EXPECT_GT(mean_openness(mesh, seen, [&](glm::vec3 p) { return side * p.z > 0.95f * crown_m; }), 0.6f);
+  EXPECT_TRUE(LeafOpenness().max_seen(*scene.objects[0].model, 0).empty());
+}
+
 TEST(LeafOpenness, OfThinFoliageIsLarger) {
   const Material leaf = leaf_material({0.1f, 0.2f, 0.05f}, 0.3f);
   const auto everywhere = [](glm::vec3) { return true; };

@@ -75,6 +75,7 @@ struct Part {
   int material = 0;
   int node = 0;
   bool casts_shadow = true;
+  bool is_backdrop = false;  ///< stands for all that is far away around a place: it is seen, light passes it
   std::shared_ptr<const Deformation> deformation = nullptr;  ///< null: the mesh is rigid
 };
 

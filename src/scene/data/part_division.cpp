@@ -39,7 +39,8 @@ Mesh with_all_vertices(const Mesh& mesh, const std::vector<std::uint32_t>& trian
 }  // namespace
 
 std::vector<Part> divided(const Part& part, std::span<const std::vector<std::uint32_t>> lists) {
-  const Part like{part.object, {}, part.material, part.node, part.casts_shadow, part.deformation};
+  const Part like{part.object,     {}, part.material, part.node, part.casts_shadow, part.is_backdrop,
+                  part.deformation};
   std::vector<std::uint32_t> new_index(part.mesh.positions.size(), unused);
   std::vector<Part> parts;
   parts.reserve(lists.size());

@@ -33,7 +33,8 @@ std::uint64_t model_key(const Model& model) {
     hash.add(part.mesh.normals);
     hash.add(part.mesh.uvs);
     hash.add(part.mesh.indices);
-    for (const int index : {part.material, part.node, int(part.casts_shadow)}) hash.add(index);
+    const int role = int(part.casts_shadow) + 2 * int(part.is_backdrop);
+    for (const int index : {part.material, part.node, role}) hash.add(index);
   }
   return hash.value();
 }

@@ -51,6 +51,18 @@ TEST(SceneKey, KnowsThePaintOfAnObject) {
   EXPECT_EQ(scene_key(painted), scene_key(same)) << "equal paints, wherever they lie in memory";
 }
 
+TEST(SceneKey, KnowsWhatIsABackdrop) {
+  const auto key_of = [](bool casts_shadow, bool is_backdrop) {
+    const std::shared_ptr<Model> model = model_of(ground(5.0f), matt(glm::vec3(0.5f)));
+    model->parts[0].casts_shadow = casts_shadow, model->parts[0].is_backdrop = is_backdrop;
+    Scene scene;
+    add(scene, model);
+    return scene_key(scene);
+  };
+  EXPECT_NE(key_of(false, true), key_of(false, false));
+  EXPECT_NE(key_of(true, false), key_of(false, false));
+}
+
 TEST(SceneKey, OfShapesDoesNotKnowTheLight) {
   Scene noon;
   add(noon, model_of(ground(5.0f), matt(glm::vec3(0.5f))));

@@ -68,6 +68,7 @@ struct TracedPlacing {
   bool is_dynamic = false;  ///< as Object::is_dynamic: it has no part in what is baked of the surroundings
   bool is_visible = true;   ///< hidden static things count for the extent of the place, as hidden objects do
   bool casts_shadow = true;
+  bool is_backdrop = false;  ///< as Part::is_backdrop
 };
 
 /// Receives the geometry of a drawable; ray hierarchies, the height field of sky visibility and occluders are
