@@ -2,40 +2,31 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
-#include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::action {
 namespace {
 
 /// A scene that runs: scripts with a model file "box.glb", half a metre about its origin.
-class ActionsTest : public ::testing::Test {
+class ActionsTest : public scene::ScriptTest<> {
  protected:
-  ActionsTest() {
+  ActionsTest() : ScriptTest(scene::test_house()) {
     const auto box = scene::model_of(scene::box(glm::vec3(-0.5f), glm::vec3(0.5f)), {});
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb", *box));
   }
 
   void load(const std::string& script) {
-    auto loaded = load_scene(folder_.write("scene.xp", script), registry_);
+    auto loaded = ScriptTest::load(script);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     scene_ = std::move(loaded->scene);
     scene::LiveScene live(std::move(loaded->script));
     const Status status = live.prepare_scenarios(scene_);
     ASSERT_TRUE(status) << to_string(status.errors());
     clock_.emplace(house_.get<Processes>(), std::move(live), scene_);
-  }
-  std::string errors_of(const std::string& script) {
-    auto loaded = load_scene(folder_.write("scene.xp", script), registry_);
-    EXPECT_FALSE(loaded) << script;
-    std::string text = loaded ? "" : to_string(loaded.errors());
-    const std::string prefix = (folder_.path() / "").string();
-    for (std::size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
-    return text;
   }
   void advance(double seconds) { clock_->advance(scene_, seconds, {visitor_}); }
   Actions& actions() { return *clock_->find<Actions>(); }
@@ -53,17 +44,10 @@ class ActionsTest : public ::testing::Test {
     return {};
   }
 
-  TestFolder folder_;
-  House house_ = scene::test_house();
-  scene::NodeRegistry& registry_ = house_.get<scene::NodeRegistry>();
   scene::Scene scene_;
   std::optional<SceneClock> clock_;
   std::optional<glm::vec3> visitor_;
 };
-
-bool holds(const std::string& text, const std::string& piece) {
-  return text.find(piece) != std::string::npos;
-}
 
 void expect_near(glm::vec3 a, glm::vec3 b) {
   EXPECT_LT(glm::distance(a, b), 1e-3f) << a.x << " " << a.y << " " << a.z;

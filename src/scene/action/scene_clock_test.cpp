@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
 #include "scene/action/room.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::action {
 namespace {
@@ -60,12 +59,12 @@ void furnish_bells(House& house) {
   house.get<Processes>().add([] { return std::make_unique<Bells>(); });
 }
 
-class SceneClockTest : public testing::Test {
+class SceneClockTest : public scene::ScriptTest<> {
  protected:
   SceneClockTest() { script::furnish(house_), furnish(house_), furnish_bells(house_); }
 
   void load(const std::string& script) {
-    auto loaded = load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    auto loaded = ScriptTest::load(script);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     scene_ = std::move(loaded->scene);
     clock_.emplace(house_.get<Processes>(), scene::LiveScene(std::move(loaded->script)), scene_);
@@ -73,8 +72,6 @@ class SceneClockTest : public testing::Test {
   float height() const { return scene_.objects.at(0).world_from_model[3].z; }
   Process& bells() const { return *clock_->find("bells"); }
 
-  TestFolder folder_;
-  House house_;
   Scene scene_;
   std::optional<SceneClock> clock_;
 };

@@ -5,26 +5,25 @@
 #include <algorithm>
 
 #include "base/image_io.h"
-#include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "life/traffic/demand.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
-#include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::scene {
 namespace {
 
-class LiveSceneTest : public ::testing::Test {
+class LiveSceneTest : public ScriptTest<> {
  protected:
-  LiveSceneTest() {
+  LiveSceneTest() : ScriptTest(test_house()) {
     for (const char* name : {"small.glb", "large.glb"})
       EXPECT_TRUE(write_gltf(folder_.path() / name, *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), {})));
   }
 
   Status prepare(const std::string& script) {
-    auto loaded = load_scene(folder_.write("scene.xp", script), registry_);
+    auto loaded = ScriptTest::load(script);
     if (!loaded) return loaded.errors();
     scene_ = std::move(loaded->scene);
     live_ = LiveScene(std::move(loaded->script));
@@ -37,10 +36,7 @@ class LiveSceneTest : public ::testing::Test {
   std::string errors_of(const std::string& script) {
     const Status status = prepare(script);
     EXPECT_FALSE(status) << script;
-    std::string text = status ? "" : to_string(status.errors());
-    const std::string prefix = (folder_.path() / "").string();
-    for (std::size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
-    return text;
+    return status ? "" : without_folder(to_string(status.errors()));
   }
   void choose(const std::string& name) {
     const Status status = live_.choose(scene_, name);
@@ -60,16 +56,9 @@ class LiveSceneTest : public ::testing::Test {
     return scene_.objects.front();
   }
 
-  TestFolder folder_;
-  House house_ = test_house();
-  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
   Scene scene_;
   LiveScene live_;
 };
-
-bool holds(const std::string& text, const std::string& piece) {
-  return text.find(piece) != std::string::npos;
-}
 
 constexpr const char* square =
     "sun(elevation_deg=50)\n"

@@ -52,13 +52,6 @@ std::vector<glm::vec3> Node::points(const std::string& name) const {
   return all;
 }
 
-std::vector<Event> Node::events(const std::string& name) const {
-  std::vector<Event> all;
-  for (const NodeAttribute& attribute : attributes)
-    if (attribute.schema->name == name) all.push_back(std::get<Event>(attribute.value));
-  return all;
-}
-
 std::filesystem::path Node::file(const std::string& name) const {
   return value<std::filesystem::path>(name).value_or(std::filesystem::path());
 }

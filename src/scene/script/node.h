@@ -46,8 +46,6 @@ struct Node {
   glm::vec3 vec3(const std::string& name) const;    ///< vec3, colour
   /// path, points; those of a repeated attribute follow each other.
   std::vector<glm::vec3> points(const std::string& name) const;
-  /// All values of a repeatable event, in the order written.
-  std::vector<Event> events(const std::string& name) const;
   /// The canonical path; empty where the script does not give it.
   std::filesystem::path file(const std::string& name) const;
 

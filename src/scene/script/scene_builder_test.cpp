@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/placement.h"
 #include "scene/script/room.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::scene {
 namespace {
@@ -104,15 +103,12 @@ void furnish(House& house) {
   registry.add_rebuild_step(pave);
 }
 
-class SceneBuilderTest : public testing::Test {
+class SceneBuilderTest : public ScriptTest<> {
  protected:
   SceneBuilderTest() { script::furnish(house_), furnish(house_); }
 
-  Result<LoadedScene> read(const std::string& script) {
-    return load_scene(folder_.write("scene.xp", script), house_.get<NodeRegistry>());
-  }
   void load(const std::string& script) {
-    Result<LoadedScene> loaded = read(script);
+    Result<LoadedScene> loaded = ScriptTest::load(script);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     scene_ = std::move(loaded->scene);
     live_ = LiveScene(std::move(loaded->script));
@@ -124,8 +120,6 @@ class SceneBuilderTest : public testing::Test {
     return all;
   }
 
-  TestFolder folder_;
-  House house_;
   Scene scene_;
   LiveScene live_;
 };
@@ -212,14 +206,14 @@ TEST_F(SceneBuilderTest, FinishStepsSeeTheWholeSceneOnce) {
   EXPECT_EQ(scene_.data<WaterNeed>().metres_of_jets, 10.0f);
   std::string much = "fountain() {";
   for (int i = 0; i < 12; ++i) much += " jet(height=9)";
-  const Result<LoadedScene> refused = read(much + " }");
+  const Result<LoadedScene> refused = ScriptTest::load(much + " }");
   ASSERT_FALSE(refused);
   EXPECT_NE(to_string(refused.errors()).find("not so much water"), std::string::npos);
 }
 
 TEST_F(SceneBuilderTest, ANodeStandsInAnotherRoomsNodeWhereThatRoomAllowsIt) {
   const std::string inside = "fountain() { camera(name=wet) }";
-  const Result<LoadedScene> refused = read(inside);
+  const Result<LoadedScene> refused = ScriptTest::load(inside);
   ASSERT_FALSE(refused);
   EXPECT_NE(to_string(refused.errors()).find("camera does not stand in fountain, which takes jet"),
             std::string::npos);

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "base/test_folder.h"
 #include "life/traffic/demand.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/script_checker.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 #include "scene/script/thesis_examples.h"
 
 namespace parvis::scene {
@@ -17,31 +16,11 @@ namespace {
 using namespace attribute;
 
 /// Scripts in a folder of their own, and what the loader says of them.
-class SceneLoader : public ::testing::Test {
+class SceneLoader : public ScriptTest<> {
  protected:
-  Result<LoadedScene> load(const std::string& script) {
-    return load_scene(folder_.write("scene.xp", script), registry_, data_folders_);
-  }
+  SceneLoader() : ScriptTest(house_with_print()) {}
 
-  std::string errors_of(const std::string& script) {
-    const auto loaded = load(script);
-    EXPECT_FALSE(loaded) << script;
-    std::string text = loaded ? "" : to_string(loaded.errors());
-    const std::string prefix = (folder_.path() / "").string();  // so that places read "scene.xp:1:2:"
-    for (std::size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
-    return text;
-  }
-
-  Scene scene_of(const std::string& script) {
-    auto loaded = load(script);
-    EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.errors()));
-    return loaded ? std::move(loaded->scene) : Scene();
-  }
-
-  TestFolder folder_;
-  House house_ = house_with_print();
   const NodeRegistry& registry_ = house_.get<NodeRegistry>();
-  std::vector<std::filesystem::path> data_folders_;
 
  private:
   /// Those of a scene, and a node with attributes of further types.
@@ -55,10 +34,6 @@ class SceneLoader : public ::testing::Test {
     return house;
   }
 };
-
-bool holds(const std::string& text, const std::string& piece) {
-  return text.find(piece) != std::string::npos;
-}
 
 void expect_near(glm::vec3 a, glm::vec3 b) {
   EXPECT_LT(glm::length(a - b), 1e-4f) << a.x << " " << a.y << " " << a.z;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/files.h"
 #include "base/random.h"
 #include "scene/script/script_tokens.h"
 #include "scene/script/thesis_examples.h"
@@ -144,6 +145,19 @@ TEST(ScriptReader, RandomEditsNeverCrash) {
     const auto nodes = parse_script(text, "fuzz.xp");
     EXPECT_TRUE(!nodes || nodes->size() <= text.size());
   }
+}
+
+/// script/fuzz_seeds has written them, one for each node.
+TEST(ScriptReader, TheFuzzersSeedsAreScripts) {
+  int seeds = 0;
+  for (const auto& seed :
+       std::filesystem::directory_iterator(PARVIS_SOURCE_DIR "/src/scene/script/fuzz/corpus/script")) {
+    const auto nodes = parse_script(*read_file(seed.path()), seed.path().filename().string());
+    ASSERT_TRUE(nodes) << to_string(nodes.errors());
+    EXPECT_FALSE(nodes->empty());
+    ++seeds;
+  }
+  EXPECT_GE(seeds, 40);
 }
 
 }  // namespace
