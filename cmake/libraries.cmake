@@ -15,6 +15,7 @@ find_package(glfw3 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(Coin REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(BZip2 REQUIRED)
 find_package(Threads REQUIRED)
 
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)

@@ -4,6 +4,7 @@
 #include "formats/meshes/glass_pane.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/meshes/model_node.h"
+#include "formats/readers/packed_file.h"
 #include "formats/readers/readers.h"
 #include "formats/terrain/terrain_heights.h"
 #include "scene/data/object_animation.h"
@@ -76,7 +77,7 @@ std::string reading_key(const Node& node) {
 /// where there is none.
 GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& places_beyond) {
   const std::string name = node.text("ground");
-  const std::filesystem::path extension = node.file("file").extension();
+  const std::string extension = formats::model_extension(node.file("file"));
   if (extension != ".osm" && extension != ".pbf") {
     builder.fail(error_at(node.where_of("ground"),
                           "ground= is for OpenStreetMap (.osm, .pbf); this file has heights of its own"));
@@ -179,7 +180,7 @@ void build_model(const Node& node, SceneBuilder& builder, const formats::Readers
   object.is_dynamic = node.flag("dynamic");
   object.takes_reflection = node.flag("reflective");
   object.is_visible = builder.is_visible() && node.flag("visible");
-  const std::string name = node.gives("name") ? node.text("name") : node.file("file").stem().string();
+  const std::string name = node.gives("name") ? node.text("name") : formats::model_stem(node.file("file"));
   glm::mat4 placed_from_model(1.0f);
   placed_from_model[3] = glm::vec4(offset_in_scene(*object.model, node, builder), 1.0f);
   const PlayedAnimation played = animation_of(*object.model, node, builder);

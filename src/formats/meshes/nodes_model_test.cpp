@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "base/test_data.h"
-#include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "life/traffic/demand.h"
-#include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::scene {
 namespace {
@@ -29,32 +28,14 @@ Model two_squares() {
   return model;
 }
 
-class ModelNodes : public ::testing::Test {
+class ModelNodes : public ScriptTest<> {
  protected:
-  ModelNodes() { EXPECT_TRUE(write_gltf(folder_.path() / "two.glb", two_squares())); }
-
-  Result<LoadedScene> load(const std::string& script, const std::vector<std::filesystem::path>& data = {}) {
-    return load_scene(folder_.write("scene.xp", script), registry_, data);
-  }
-  Scene scene_of(const std::string& script) {
-    auto loaded = load(script);
-    EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.errors()));
-    return loaded ? std::move(loaded->scene) : Scene();
-  }
-  std::string errors_of(const std::string& script) {
-    const auto loaded = load(script);
-    EXPECT_FALSE(loaded) << script;
-    return loaded ? "" : to_string(loaded.errors());
+  ModelNodes() : ScriptTest(test_house()) {
+    EXPECT_TRUE(write_gltf(folder_.path() / "two.glb", two_squares()));
   }
 
-  TestFolder folder_;
-  House house_ = test_house();
   const NodeRegistry& registry_ = house_.get<NodeRegistry>();
 };
-
-bool holds(const std::string& text, const std::string& piece) {
-  return text.find(piece) != std::string::npos;
-}
 
 const Material& material_of(const Model& model, const std::string& object) {
   for (const Part& part : model.parts)

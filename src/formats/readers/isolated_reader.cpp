@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "base/memory_budget.h"
 #include "base/sealed_file.h"
 #include "formats/readers/model_bytes.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::formats {
 namespace {
@@ -36,15 +39,26 @@ void append_text(std::string& bytes, const std::string& text) {
 
 std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
 
+/// A place on the earth as it travels back; not a number where the file says none.
+glm::dvec2 place_to_send(const std::optional<glm::dvec2>& place_deg) {
+  return place_deg.value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+}
+
+std::optional<glm::dvec2> take_place(Taker& taker) {
+  const glm::dvec2 deg = taker.take<glm::dvec2>();
+  const bool is_on_earth = std::abs(deg.x) <= 180.0 && std::abs(deg.y) <= 90.0;
+  return is_on_earth ? std::optional(deg) : std::nullopt;
+}
+
 }  // namespace
 
 IsolationLimits limits_for(const fs::path& file) {
   IsolationLimits limits;
   std::error_code code;
-  const std::uintmax_t size = fs::file_size(file, code);
-  limits.seconds = code ? start_s : std::min(start_s + s_per_mb * 1e-6 * double(size), max_s);
+  const std::uint64_t size = likely_content_bytes(file);
+  limits.seconds = std::min(start_s + s_per_mb * 1e-6 * double(size), max_s);
   constexpr std::uint64_t full_size = (max_bytes - start_bytes) / bytes_per_byte;
-  limits.memory_bytes = start_bytes + bytes_per_byte * (code ? 0 : std::min<std::uint64_t>(size, full_size));
+  limits.memory_bytes = start_bytes + bytes_per_byte * std::min(size, full_size);
   limits.readable.push_back(fs::weakly_canonical(file, code).parent_path());
   limits.readable.insert(limits.readable.end(), system_folders.begin(), system_folders.end());
   return limits;
@@ -80,12 +94,15 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   if (order.has_detail) reading.max_detail = order.max_detail;
   if (order.has_cell) reading.cell_m = order.cell_m;
   const fs::path file = take_text(taker);
+  std::optional<glm::dvec2> place_deg;
+  reading.place_deg = &place_deg;
   Errors warnings;
   const LeftInWorker<const Result<scene::Model>> read_model(
       new Result<scene::Model>(read(file, reading, warnings)));
   const Result<scene::Model>& model = *read_model;
   if (!model) return model.errors();
-  const std::string front = bytes_of_warnings(warnings);
+  std::string front = bytes_of_warnings(warnings);
+  append_value(front, place_to_send(place_deg));
   const std::uint64_t size = byte_count(*model);
   if (Status status = check_memory(size, file.string() + ": its content"); !status) return status;
   const std::span<std::byte> bytes = output.allocate(front.size() + std::size_t(size));
@@ -108,6 +125,8 @@ Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, cons
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
   Taker taker(bytes);
   take_warnings(taker, warnings);
+  const std::optional<glm::dvec2> place_deg = take_place(taker);
+  if (reading.place_deg) *reading.place_deg = place_deg;
   if (Status status = check_memory(taker.rest().size(), subject + ": its content"); !status)
     return status.errors();
   return model_of(taker.rest(), subject);

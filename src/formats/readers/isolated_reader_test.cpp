@@ -33,7 +33,7 @@ scene::Model full_model() {
   part.mesh.normals.assign(3, {0, -1, 0});
   part.mesh.uvs.assign(3, {0.5f, 0.25f});
   part.mesh.indices = {0, 1, 2};
-  part.node = 1;
+  part.node = 1, part.is_backdrop = true;
   auto deformation = std::make_shared<scene::Deformation>();
   deformation->positions = part.mesh.positions, deformation->normals = part.mesh.normals;
   deformation->targets.push_back({part.mesh.positions, {}});
@@ -58,6 +58,7 @@ TEST(ModelBytes, AModelComesBackWhole) {
   ASSERT_TRUE(back.ok()) << to_string(back.errors());
   EXPECT_EQ(bytes_of(*back), bytes);
   EXPECT_EQ(back->roads[0].where.line, 7);
+  EXPECT_TRUE(back->parts[0].is_backdrop);
   EXPECT_EQ(back->parts[0].deformation->targets.size(), 1u);
 }
 

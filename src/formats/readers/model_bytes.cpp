@@ -147,7 +147,7 @@ void transfer_part(Io& io, T& part) {
   io.array(part.object);
   io.array(part.mesh.positions), io.array(part.mesh.normals), io.array(part.mesh.uvs);
   io.array(part.mesh.indices);
-  io.value(part.material), io.value(part.node), io.value(part.casts_shadow);
+  io.value(part.material), io.value(part.node), io.value(part.casts_shadow), io.value(part.is_backdrop);
   bool is_deformed = part.deformation != nullptr;
   io.value(is_deformed);
   if (!is_deformed) return;

@@ -3,28 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <optional>
 
 #include "base/file_front.h"
 #include "base/utf8.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::formats {
 namespace {
 
 constexpr std::size_t front_bytes = 4096;
 
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
 /// What files begin with that are packed, as towns publish them, and what unpacks them.
-struct Packing {
+struct Archive {
   std::string_view begins;
   const char* unpack;
 };
-constexpr std::array<Packing, 6> packings{{{"\x1f\x8b", "gunzip -k"},
+constexpr std::array<Archive, 6> archives{{{"\x1f\x8b", "gunzip -k"},
                                            {"PK\x03\x04", "unzip"},
                                            {"BZh", "bunzip2 -k"},
                                            {"\xfd\x37zXZ", "unxz -k"},
@@ -34,10 +29,10 @@ constexpr std::array<Packing, 6> packings{{{"\x1f\x8b", "gunzip -k"},
 /// Says how to get at the model, where the file is packed.
 std::optional<Error> packed(std::string_view front, const std::filesystem::path& file) {
   const auto found =
-      std::ranges::find_if(packings, [&](const Packing& each) { return front.starts_with(each.begins); });
-  if (found == packings.end()) return std::nullopt;
+      std::ranges::find_if(archives, [&](const Archive& each) { return front.starts_with(each.begins); });
+  if (found == archives.end()) return std::nullopt;
   const FileLocation where{file.string(), 0, 0};
-  return error_at(where, "is packed, and models are read unpacked: run {} \"{}\", and give what comes out",
+  return error_at(where, "is packed in a way that is not read: run {} \"{}\", and give what comes out",
                   found->unpack, file.filename().string());
 }
 
@@ -55,9 +50,10 @@ void repair_names(scene::Model& model) {
 }  // namespace
 
 void Readers::add(std::initializer_list<const char*> extensions, const ReadModel& read,
-                  LooksRight looks_right) {
+                  LooksRight looks_right, TakesPacked takes_packed) {
   for (const char* extension : extensions) {
-    [[maybe_unused]] const bool is_new = by_extension_.emplace(extension, Reader{read, looks_right}).second;
+    [[maybe_unused]] const bool is_new =
+        by_extension_.emplace(extension, Reader{read, looks_right, takes_packed}).second;
     assert(is_new && "two rooms read files of this extension");
   }
 }
@@ -65,9 +61,11 @@ void Readers::add(std::initializer_list<const char*> extensions, const ReadModel
 Result<scene::Model> Readers::read(const std::filesystem::path& file, const ModelReading& reading,
                                    Errors& warnings) const {
   const FileLocation where{file.string(), 0, 0};
-  const std::string extension = lower_case(file.extension().string());
+  const std::string extension = model_extension(file);
   const auto reader = by_extension_.find(extension);
-  const Result<std::string> front = read_front(file, front_bytes);
+  const bool takes_packed = reader != by_extension_.end() && reader->second.takes_packed == TakesPacked::yes;
+  const Result<std::string> front =
+      takes_packed ? unpacked_front(file, front_bytes) : read_front(file, front_bytes);
   if (reader == by_extension_.end()) {
     if (front)
       if (std::optional<Error> error = packed(*front, file)) return *std::move(error);
@@ -78,7 +76,8 @@ Result<scene::Model> Readers::read(const std::filesystem::path& file, const Mode
                     fmt::join(known, ", "));
   }
   if (!front) return front.errors();
-  if (!reader->second.looks_right(*front)) {
+  const bool is_packed = !takes_packed && packing_of(*front) != Packing::none;
+  if (is_packed || !reader->second.looks_right(*front)) {
     if (std::optional<Error> error = packed(*front, file)) return *std::move(error);
     return error_at(where,
                     "is no {} file: its content is of another format; export it again, or give it the "

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -24,6 +25,8 @@ struct ModelReading {
   std::optional<double> max_detail = {};  ///< of city models: the level of detail; the highest there is
   std::optional<double> cell_m = {};      ///< of grids of heights that have no place on the earth
   scene::GroundOnMap ground = {};         ///< on which a file without heights (OpenStreetMap) stands
+  /// Filled with the place on the earth (degrees: east, north) by readers whose file says it; may be null.
+  std::optional<glm::dvec2>* place_deg = nullptr;
 };
 
 /// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to
@@ -31,18 +34,23 @@ struct ModelReading {
 using ReadModel = std::function<Result<scene::Model>(const std::filesystem::path& file,
                                                      const ModelReading& reading, Errors& warnings)>;
 
-/// Whether the first bytes of a file (4096, or all that there are) are those of a format.
+/// Whether the first bytes of a file (4096, or all that there are, unpacked) are those of a format.
 using LooksRight = bool (*)(std::string_view front);
+
+/// Whether a reader takes files that are packed (gzip, bzip2): it asks for their bytes by `read_unpacked`.
+enum class TakesPacked : bool { no, yes };
 
 /// An allow list: readers by the extensions of their files, each with what its files begin with.
 class Readers {
  public:
   /// `extensions` with their dots, in lower case; each once. Third-party readers are wrapped by `isolated`.
-  void add(std::initializer_list<const char*> extensions, const ReadModel& read, LooksRight looks_right);
+  void add(std::initializer_list<const char*> extensions, const ReadModel& read, LooksRight looks_right,
+           TakesPacked takes_packed = TakesPacked::no);
 
-  /// Extensions count in any case. Errors: a file whose extension nobody reads (it names those that are
-  /// read), one that is packed (it says what unpacks it), one whose content is of another format than its
-  /// name, and what is no regular file. Names in the model are valid UTF-8 whatever the file says.
+  /// Extensions count in any case, and below that of a packing (.json.gz). Errors: a file whose extension
+  /// nobody reads (it names those that are read), one that is packed where its reader takes none that are (it
+  /// says what unpacks it), one whose content is of another format than its name, and what is no regular
+  /// file. Names in the model are valid UTF-8 whatever the file says.
   Result<scene::Model> read(const std::filesystem::path& file, const ModelReading& reading,
                             Errors& warnings) const;
 
@@ -50,6 +58,7 @@ class Readers {
   struct Reader {
     ReadModel read;
     LooksRight looks_right;
+    TakesPacked takes_packed;
   };
   std::map<std::string, Reader> by_extension_;
 };

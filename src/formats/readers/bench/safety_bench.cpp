@@ -50,6 +50,9 @@ Status measure_safety(const BenchSetup& setup, Report& report) {
   if (code) return error("{}: {}", folder.path.string(), code.message());
   if (Status status = measure_validator(folder.path, report); !status) return status;
   constexpr int seconds = 20, quick_seconds = 2;  // of each fuzzer
+  if (setup.is_quick)
+    report.note(fmt::format("--quick: fuzz_findings is that of {} s for each reader, not of {} s",
+                            quick_seconds, seconds));
   return measure_fuzzers(folder.path, setup.is_quick ? quick_seconds : seconds, report);
 }
 
