@@ -1,0 +1,120 @@
+#include "formats/terrain/map_system.h"
+
+#include <fmt/format.h>
+#include <proj.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace parvis::scene {
+namespace {
+
+constexpr std::size_t max_digits = 6;  // of EPSG's numbers
+constexpr double radians_per_degree = std::numbers::pi / 180.0;
+
+struct Destroy {
+  void operator()(PJ* object) const { proj_destroy(object); }
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+};
+using Context = std::unique_ptr<PJ_CONTEXT, Destroy>;
+using Object = std::unique_ptr<PJ, Destroy>;
+
+Context quiet_context() {
+  Context context(proj_context_create());
+  proj_log_level(context.get(), PJ_LOG_NONE);  // numbers that nobody knows are for us to report
+  return context;
+}
+
+struct Axis {
+  std::string direction;
+  double unit = 1.0;  ///< in metres or radians
+};
+
+std::optional<Axis> axis_of(PJ_CONTEXT* context, const PJ* system, int index) {
+  const Object axes(proj_crs_get_coordinate_system(context, system));
+  if (!axes || index >= proj_cs_get_axis_count(context, axes.get())) return std::nullopt;
+  const char* direction = nullptr;
+  Axis axis;
+  if (!proj_cs_get_axis_info(context, axes.get(), index, nullptr, nullptr, &direction, &axis.unit, nullptr,
+                             nullptr, nullptr) ||
+      !direction)
+    return std::nullopt;
+  axis.direction = direction;
+  return axis;
+}
+
+/// The system itself, or the first of those that it is made of.
+Object plan_of(PJ_CONTEXT* context, Object system) {
+  if (!system || proj_get_type(system.get()) != PJ_TYPE_COMPOUND_CRS) return system;
+  return Object(proj_crs_get_sub_crs(context, system.get(), 0));
+}
+
+Object system_of(PJ_CONTEXT* context, int epsg) {
+  return Object(proj_create_from_database(context, "EPSG", fmt::format("{}", epsg).c_str(), PJ_CATEGORY_CRS,
+                                          0, nullptr));
+}
+
+std::optional<double> height_unit_m(PJ_CONTEXT* context, const PJ* system, const PJ* plan) {
+  const Object heights(proj_crs_get_sub_crs(context, system, 1));  // of a compound system
+  const std::optional<Axis> axis = heights ? axis_of(context, heights.get(), 0) : axis_of(context, plan, 2);
+  return axis && axis->unit > 0.0 ? std::optional(axis->unit) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> epsg_in(std::string_view name) {
+  std::string lower(name);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::size_t authority = lower.find("epsg");
+  if (authority == std::string::npos) return std::nullopt;
+  const std::size_t begin = authority + 4;
+  const std::string number = lower.substr(begin, lower.find_first_of(",&+ \t\r\n", begin) - begin);
+  const std::size_t last = number.find_last_of("0123456789");
+  if (last == std::string::npos || last + 1 != number.size()) return std::nullopt;
+  const std::size_t before = number.find_last_not_of("0123456789");
+  const std::string digits = number.substr(before == std::string::npos ? 0 : before + 1);
+  return digits.size() <= max_digits ? std::optional(std::stoi(digits)) : std::nullopt;
+}
+
+std::optional<MapSystem> map_system(int epsg) {
+  const Context context = quiet_context();
+  const Object system = system_of(context.get(), epsg);
+  const Object plan = plan_of(context.get(), system_of(context.get(), epsg));
+  if (!system || !plan) return std::nullopt;
+  const std::optional<Axis> first = axis_of(context.get(), plan.get(), 0),
+                            second = axis_of(context.get(), plan.get(), 1);
+  const PJ_TYPE type = proj_get_type(plan.get());
+  const bool is_geographic = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+  if (!first || !second || !(first->unit > 0.0)) return std::nullopt;
+  if (!is_geographic && type != PJ_TYPE_PROJECTED_CRS) return std::nullopt;
+  if (is_geographic && std::abs(first->unit / radians_per_degree - 1.0) > 1e-6) return std::nullopt;
+  MapSystem found;
+  found.name = proj_get_name(system.get());
+  found.is_geographic = is_geographic;
+  found.is_north_first = first->direction == "north";
+  found.plan_unit_m = is_geographic ? 1.0 : first->unit;
+  found.height_unit_m = height_unit_m(context.get(), system.get(), plan.get());
+  return found;
+}
+
+std::optional<glm::dvec2> place_on_earth(int epsg, glm::dvec2 on_map) {
+  const Context context = quiet_context();
+  constexpr int wgs_84 = 4326;
+  const Object map = plan_of(context.get(), system_of(context.get(), epsg));
+  const Object earth = system_of(context.get(), wgs_84);
+  if (!map || !earth) return std::nullopt;
+  const Object as_defined(
+      proj_create_crs_to_crs_from_pj(context.get(), map.get(), earth.get(), nullptr, nullptr));
+  if (!as_defined) return std::nullopt;
+  const Object east_first(proj_normalize_for_visualization(context.get(), as_defined.get()));
+  if (!east_first) return std::nullopt;
+  const PJ_COORD there = proj_trans(east_first.get(), PJ_FWD, proj_coord(on_map.x, on_map.y, 0.0, 0.0));
+  const glm::dvec2 deg(there.xy.x, there.xy.y);
+  const bool is_on_earth = std::abs(deg.x) <= 180.0 && std::abs(deg.y) <= 90.0;
+  return is_on_earth ? std::optional(deg) : std::nullopt;
+}
+
+}  // namespace parvis::scene
