@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "formats/city_models/polygon_crossings.h"
 #include "formats/city_models/polygon_triangles.h"
+#include "formats/readers/packed_file.h"
 #include "formats/terrain/city_surfaces.h"
 #include "scene/data/placeholder.h"
 
@@ -266,7 +267,7 @@ Result<Model> CityAssembly::finish(std::size_t object_count) {
         "longitude and latitude. Convert it to metres, with cjio or citygml-tools, say");
   warn_of_implausible_counts();
   Model model;
-  model.name = file_.stem().string();
+  model.name = formats::model_stem(file_);
   model.origin = origin_;
   model.nodes.front().name = model.name;
   read_pictures(model);

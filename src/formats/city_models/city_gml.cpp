@@ -21,11 +21,13 @@
 #include "base/exception_reason.h"
 #include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
+#include "formats/city_models/city_coordinates.h"
 #include "formats/city_models/city_gml_3.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
 #include "formats/city_models/xml_guard.h"
 #include "formats/terrain/city_surfaces.h"
+#include "formats/terrain/map_system.h"
 
 namespace parvis::scene {
 namespace {
@@ -115,31 +117,38 @@ std::string semantics_of(const citygml::Geometry& geometry, const std::string& o
 glm::dvec3 vec(const TVec3d& v) { return {v.x, v.y, v.z}; }
 glm::vec3 vec(const TVec3f& v) { return {v.x, v.y, v.z}; }
 
+/// Where a geometry's points lie: in the file's coordinates, or, of a template, in metres about a point of
+/// these.
+struct Placement {
+  bool is_template = false;
+  glm::dmat4 metres_from_template{1.0};
+  glm::dvec3 reference{0.0};  ///< of a template, in the file's coordinates
+};
+
 /// A geometry among those of an object and of the surfaces that bound it.
 struct Shown {
   const citygml::Geometry* geometry;
   std::string semantics;
-  glm::dmat4 file_from_geometry{1.0};
+  Placement placement{};
 };
 
-/// Calls use(geometry, matrix) for the object's own geometries and its placed templates.
+/// Calls use(geometry, placement) for the object's own geometries and its placed templates.
 template <class Use>
 void each_geometry(const citygml::CityObject& object, const Use& use) {
-  for (unsigned i = 0; i < object.getGeometriesCount(); ++i) use(object.getGeometry(i), glm::dmat4(1.0));
+  for (unsigned i = 0; i < object.getGeometriesCount(); ++i) use(object.getGeometry(i), Placement{});
   for (unsigned i = 0; i < object.getImplicitGeometryCount(); ++i) {
     const citygml::ImplicitGeometry& placed = object.getImplicitGeometry(i);
-    glm::dmat4 matrix(1.0);
+    Placement placement{.is_template = true, .reference = vec(placed.getReferencePoint())};
     for (int k = 0; k < 16; ++k)  // row after row
-      matrix[k % 4][k / 4] = placed.getTransformMatrix().getMatrix()[k];
-    matrix[3] += glm::dvec4(vec(placed.getReferencePoint()), 0.0);
-    for (unsigned k = 0; k < placed.getGeometriesCount(); ++k) use(placed.getGeometry(k), matrix);
+      placement.metres_from_template[k % 4][k / 4] = placed.getTransformMatrix().getMatrix()[k];
+    for (unsigned k = 0; k < placed.getGeometriesCount(); ++k) use(placed.getGeometry(k), placement);
   }
 }
 
 void gather(const citygml::CityObject& object, std::vector<Shown>& shown) {
   const std::string semantics = is_boundary(object.getType()) ? object.getTypeAsString() : "";
-  each_geometry(object, [&](const citygml::Geometry& geometry, const glm::dmat4& matrix) {
-    shown.push_back({&geometry, semantics_of(geometry, semantics), matrix});
+  each_geometry(object, [&](const citygml::Geometry& geometry, const Placement& placement) {
+    shown.push_back({&geometry, semantics_of(geometry, semantics), placement});
   });
   for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
     if (is_boundary(object.getChildCityObject(i).getType())) gather(object.getChildCityObject(i), shown);
@@ -152,11 +161,63 @@ bool has_polygons(const citygml::Geometry& geometry) {
   return false;
 }
 
+const std::vector<TVec3d>& points_of(const std::shared_ptr<citygml::LinearRing>& ring) {
+  static const std::vector<TVec3d> none;
+  return ring ? ring->getVertices() : none;
+}
+
+/// Area in plan, in the file's own units; negative where the ring runs clockwise about its first two axes.
+double signed_area(const std::vector<TVec3d>& ring) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i)
+    twice += (ring[i].x - ring[0].x) * (ring[i + 1].y - ring[0].y) -
+             (ring[i + 1].x - ring[0].x) * (ring[i].y - ring[0].y);
+  return twice / 2.0;
+}
+
+/// What the coordinates of a file are like.
+class Clues {
+ public:
+  Clues(const citygml::CityModel& model, const std::string& system) {
+    clues_.system = system;
+    for (const citygml::CityObject* object : model.getRootCityObjects()) add(*object);
+  }
+  const CoordinateClues& get() const { return clues_; }
+
+ private:
+  void add(const citygml::CityObject& object) {
+    const bool is_roof = object.getType() == Kind::COT_RoofSurface;
+    each_geometry(object, [&](const citygml::Geometry& geometry, const Placement& placement) {
+      if (placement.is_template)
+        clues_.add(placement.reference);
+      else
+        add(geometry, is_roof);
+    });
+    for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i) add(object.getChildCityObject(i));
+  }
+
+  void add(const citygml::Geometry& geometry, bool is_roof) {
+    is_roof = is_roof || geometry.getType() == citygml::Geometry::GeometryType::GT_Roof;
+    for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i) {
+      const std::vector<TVec3d>& ring = points_of(geometry.getPolygon(i)->exteriorRing());
+      for (const TVec3d& point : ring) clues_.add(vec(point));
+      const double area = is_roof ? signed_area(ring) : 0.0;
+      if (std::isfinite(area)) clues_.roofs_up += area, clues_.roofs += std::abs(area);
+    }
+    for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i) add(geometry.getGeometry(i), is_roof);
+  }
+
+  CoordinateClues clues_;
+};
+
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const citygml::CityModel& model, Errors& warnings,
-         std::optional<double> max_detail)
-      : model_(model), max_detail_(max_detail), city_(file, origin(model), warnings) {
+  Reader(const std::filesystem::path& file, const citygml::CityModel& model, CityCoordinates coordinates,
+         Errors& warnings, std::optional<double> max_detail)
+      : model_(model),
+        coordinates_(std::move(coordinates)),
+        max_detail_(max_detail),
+        city_(file, origin(), warnings) {
     if (const auto themes = model.themes(); !themes.empty()) theme_ = themes.front();
   }
 
@@ -166,31 +227,38 @@ class Reader {
   }
 
  private:
-  static glm::dvec3 origin(const citygml::CityModel& model) {
+  glm::dvec3 origin() const {
     glm::dvec3 low(1e300), high(-1e300);
-    for (const citygml::CityObject* object : model.getRootCityObjects()) widen(*object, low, high);
+    for (const citygml::CityObject* object : model_.getRootCityObjects()) widen(*object, low, high);
     if (low.x > high.x) return glm::dvec3(0.0);
     return {std::round(0.5 * (low.x + high.x)), std::round(0.5 * (low.y + high.y)), 0.0};
   }
 
-  static void widen(const citygml::CityObject& object, glm::dvec3& low, glm::dvec3& high) {
-    each_geometry(object, [&](const citygml::Geometry& geometry, const glm::dmat4& matrix) {
-      widen(geometry, matrix, low, high);
+  /// In metres on the map.
+  glm::dvec3 placed(const glm::dvec3& point, const Placement& placement) const {
+    if (!placement.is_template) return coordinates_(point);
+    return coordinates_(placement.reference) +
+           glm::dvec3(placement.metres_from_template * glm::dvec4(point, 1.0));
+  }
+
+  void widen(const citygml::CityObject& object, glm::dvec3& low, glm::dvec3& high) const {
+    each_geometry(object, [&](const citygml::Geometry& geometry, const Placement& placement) {
+      widen(geometry, placement, low, high);
     });
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
       widen(object.getChildCityObject(i), low, high);
   }
 
-  static void widen(const citygml::Geometry& geometry, const glm::dmat4& matrix, glm::dvec3& low,
-                    glm::dvec3& high) {
+  void widen(const citygml::Geometry& geometry, const Placement& placement, glm::dvec3& low,
+             glm::dvec3& high) const {
     for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i)
       for (const TVec3d& point : points_of(geometry.getPolygon(i)->exteriorRing())) {
-        const glm::dvec3 placed(matrix * glm::dvec4(vec(point), 1.0));
-        if (!std::isfinite(placed.x + placed.y)) continue;
-        low = glm::min(low, placed), high = glm::max(high, placed);
+        const glm::dvec3 there = placed(vec(point), placement);
+        if (!std::isfinite(there.x + there.y)) continue;
+        low = glm::min(low, there), high = glm::max(high, there);
       }
     for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i)
-      widen(geometry.getGeometry(i), matrix, low, high);
+      widen(geometry.getGeometry(i), placement, low, high);
   }
 
   /// `whole`: of the building that the object is a part of.
@@ -210,7 +278,7 @@ class Reader {
     for (const bool is_named : {true, false})
       for (const Shown& shown : all)
         if (shown.semantics.empty() != is_named && double(shown.geometry->getLOD()) == wanted)
-          read_geometry(*shown.geometry, shown.semantics, shown.file_from_geometry);
+          read_geometry(*shown.geometry, shown.semantics, shown.placement);
     add_surfaces();
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
       if (!is_boundary(object.getChildCityObject(i).getType()))
@@ -225,22 +293,23 @@ class Reader {
   }
 
   void read_geometry(const citygml::Geometry& geometry, const std::string& semantics,
-                     const glm::dmat4& matrix) {
+                     const Placement& placement) {
     for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i)
-      read_polygon(*geometry.getPolygon(i), semantics_of(geometry, semantics), matrix);
+      read_polygon(*geometry.getPolygon(i), semantics_of(geometry, semantics), placement);
     for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i)
-      read_geometry(geometry.getGeometry(i), semantics_of(geometry.getGeometry(i), semantics), matrix);
+      read_geometry(geometry.getGeometry(i), semantics_of(geometry.getGeometry(i), semantics), placement);
   }
 
-  void read_polygon(const citygml::Polygon& polygon, const std::string& semantics, const glm::dmat4& matrix) {
+  void read_polygon(const citygml::Polygon& polygon, const std::string& semantics,
+                    const Placement& placement) {
     if (!seen_.insert(&polygon).second) return;
     CitySurface surface;
     surface.semantics = semantics;
     const auto texture = polygon.getTextureFor(theme_);
     if (texture) surface.picture = picture_of(*texture);
     if (const auto material = polygon.getMaterialFor(theme_)) surface.material = material_of(*material);
-    read_ring(polygon, polygon.exteriorRing(), matrix, surface);
-    for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, matrix, surface);
+    read_ring(polygon, polygon.exteriorRing(), placement, surface);
+    for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, placement, surface);
     surfaces_.push_back(std::move(surface));
   }
 
@@ -255,15 +324,15 @@ class Reader {
 
   /// Without the closing point, which repeats the first.
   void read_ring(const citygml::Polygon& polygon, const std::shared_ptr<citygml::LinearRing>& ring,
-                 const glm::dmat4& matrix, CitySurface& surface) const {
+                 const Placement& placement, CitySurface& surface) const {
     const std::vector<TVec3d>& corners = points_of(ring);
     const std::vector<glm::vec2> uvs = coordinates_of(polygon, ring);
-    const bool is_mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
+    const bool is_mirrored = glm::determinant(glm::dmat3(placement.metres_from_template)) < 0.0;
     std::vector<glm::dvec3> points;
     std::vector<glm::vec2> points_uvs;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::size_t i = is_mirrored ? corners.size() - 1 - k : k;
-      const glm::dvec3 point(matrix * glm::dvec4(vec(corners[i]), 1.0));
+      const glm::dvec3 point = placed(vec(corners[i]), placement);
       if (!points.empty() && (point == points.back() || (k + 1 == corners.size() && point == points.front())))
         continue;
       points.push_back(point);
@@ -272,11 +341,6 @@ class Reader {
     if (points.size() < 3) return;
     surface.rings.push_back(std::move(points));
     surface.picture_uv.insert(surface.picture_uv.end(), points_uvs.begin(), points_uvs.end());
-  }
-
-  static const std::vector<TVec3d>& points_of(const std::shared_ptr<citygml::LinearRing>& ring) {
-    static const std::vector<TVec3d> none;
-    return ring ? ring->getVertices() : none;
   }
 
   std::vector<glm::vec2> coordinates_of(const citygml::Polygon& polygon,
@@ -306,6 +370,7 @@ class Reader {
   }
 
   const citygml::CityModel& model_;
+  CityCoordinates coordinates_;
   std::optional<double> max_detail_;
   CityAssembly city_;
   std::string theme_;
@@ -316,34 +381,107 @@ class Reader {
   std::map<std::string, int> pictures_;
 };
 
-/// The text of a file in the elements of CityGML 1 or 2.
-Result<std::string> read_gml_2(const std::filesystem::path& file) {
+/// The different names of coordinate systems in a file, in its order; not more than a few.
+std::vector<std::string> system_names(std::string_view xml) {
+  constexpr std::string_view attribute = "srsName";
+  constexpr std::size_t max_names = 4, longest = 400;
+  std::vector<std::string> names;
+  for (std::size_t at = xml.find(attribute); at != std::string_view::npos && names.size() < max_names;
+       at = xml.find(attribute, at)) {
+    at = xml.find_first_not_of(" =\t\r\n", at + attribute.size());
+    if (at == std::string_view::npos || (xml[at] != '"' && xml[at] != '\'')) continue;
+    const std::size_t end = xml.find(xml[at], at + 1);
+    if (end == std::string_view::npos || end - at > longest) continue;
+    const std::string name(xml.substr(at + 1, end - at - 1));
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// A file in the elements of CityGML 1 or 2.
+struct Gml2 {
+  std::string text;
+  std::string system;  ///< of its coordinates, the first that it names; may be empty
+};
+
+/// A file may name its system in several ways, but only one system.
+std::string system_of(const std::string& xml, const FileLocation& where, Errors& warnings) {
+  const std::vector<std::string> names = system_names(xml);
+  if (names.empty()) return "";
+  for (const std::string& name : names)
+    if (epsg_in(name) && epsg_in(names.front()) && epsg_in(name) != epsg_in(names.front())) {
+      warnings.push_back(error_at(where,
+                                  "it names several coordinate systems, \"{}\" and \"{}\": all of it is read "
+                                  "as of the first. Convert it to one",
+                                  names.front(), name));
+      break;
+    }
+  return names.front();
+}
+
+/// Pictures that lie on a place by its coordinates, and not by those of textures, as aerial ones on terrain.
+void warn_of_georeferenced_textures(std::string_view xml, const FileLocation& where, Errors& warnings) {
+  constexpr std::string_view element = "GeoreferencedTexture", picture = "imageURI>";
+  constexpr std::size_t max_names = 3, longest = 200;
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (std::size_t at = xml.find(element); at != std::string_view::npos; at = xml.find(element, at + 1)) {
+    const std::size_t tag = xml.rfind('<', at);
+    if (tag == std::string_view::npos || tag + 1 >= xml.size() || xml[tag + 1] == '/') continue;  // its end
+    ++count;
+    const std::size_t end = std::min(xml.find(element, at + 1), xml.size());
+    const std::size_t uri = xml.find(picture, at);
+    if (uri >= end || names.size() == max_names) continue;
+    const std::size_t begin = uri + picture.size();
+    names.emplace_back(xml.substr(begin, std::min(xml.find('<', begin) - begin, longest)));
+  }
+  if (count == 0) return;
+  warnings.push_back(
+      error_at(where,
+               "pictures that lie on it by their coordinates are left out ({} GeoreferencedTexture: {}), "
+               "and what they cover is plain: export them as ParameterizedTexture, with texture coordinates",
+               count, fmt::join(names, ", ")));
+}
+
+Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
   Result<XmlText> xml = read_xml(file);
   if (!xml) return xml.errors();
   if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
                     xml->root.substr(0, xml->root.find(' ')));
-  if (is_city_gml_3(xml->root)) return city_gml_2_of(xml->bytes, where);
-  return std::move(xml->bytes);
+  Gml2 read{{}, system_of(xml->bytes, where, warnings)};
+  warn_of_georeferenced_textures(xml->bytes, where, warnings);
+  if (is_city_gml_3(xml->root)) {
+    Result<std::string> text = city_gml_2_of(xml->bytes, where);
+    if (!text) return text.errors();
+    read.text = *std::move(text);
+  } else {
+    read.text = std::move(xml->bytes);
+  }
+  return read;
 }
 
 }  // namespace
 
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
-                            std::optional<double> max_detail) {
+                            std::optional<double> max_detail, std::optional<glm::dvec2>* place_deg) {
   const FileLocation where{file.string(), 0, 0};
-  Result<std::string> text = read_gml_2(file);
-  if (!text) return text.errors();
+  Result<Gml2> gml = read_gml_2(file, warnings);
+  if (!gml) return gml.errors();
   const auto complaints = std::make_shared<Complaints>();
   citygml::ParserParams wanted;
   wanted.tesselate = false;  // rings are kept as they are; the assembly makes triangles
   wanted.keepVertices = true;
   try {
-    std::istringstream stream(*std::move(text));
+    std::istringstream stream(std::move(gml->text));
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
-    return Reader(file, *city, warnings, max_detail).read();
+    Result<CityCoordinates> coordinates =
+        CityCoordinates::find(Clues(*city, gml->system).get(), file, warnings);
+    if (!coordinates) return coordinates.errors();
+    if (place_deg) *place_deg = coordinates->place_deg();
+    return Reader(file, *city, *std::move(coordinates), warnings, max_detail).read();
   } catch (const std::exception& problem) {
     return error_at(where, "libcitygml cannot read it ({})", reason_of(problem));
   } catch (...) {  // Xerces throws what is no std::exception

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/files.h"
 #include "base/random.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "formats/city_models/city_json.h"
+#include "formats/terrain/utm.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
@@ -181,6 +183,107 @@ TEST(CityGml, WallsAndRoofsAreWhatCityJsonMakesThem) {
   ASSERT_EQ(gml->parts.size(), json->parts.size());
   for (const Part& part : json->parts)
     EXPECT_NEAR(area_m2(*gml, part.object), area_m2(*json, part.object), 1e-3) << part.object;
+}
+
+/// The building of `box_building` at a place in degrees, latitude first, in a file that names its system.
+std::string box_in_degrees(glm::dvec2 place_deg) {
+  constexpr double metres_per_degree = 111'320.0;
+  const double east_m_per_degree = metres_per_degree * std::cos(glm::radians(place_deg.y));
+  std::string text = box_building("2.0"), moved;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = text.find("<gml:posList>", at);
+    if (begin == std::string::npos) {
+      moved += text.substr(at);
+      break;
+    }
+    const std::size_t first = begin + std::string("<gml:posList>").size(), end = text.find('<', first);
+    moved += text.substr(at, first - at);
+    std::istringstream numbers(text.substr(first, end - first));
+    for (double x = 0, y = 0, z = 0; numbers >> x >> y >> z;)
+      moved += fmt::format("{:.10f} {:.10f} {} ", place_deg.y + y / metres_per_degree,
+                           place_deg.x + x / east_m_per_degree, z);
+    at = end;
+  }
+  const std::string member = "<cityObjectMember>";
+  return moved.insert(moved.find(member),
+                      "<gml:boundedBy><gml:Envelope srsName=\"http://www.opengis.net/def/crs/EPSG/0/6697\" "
+                      "srsDimension=\"3\"><gml:lowerCorner>35 139 0</gml:lowerCorner><gml:upperCorner>36 140 "
+                      "10</gml:upperCorner></gml:Envelope></gml:boundedBy>");
+}
+
+TEST(CityGml, DegreesBecomeMetresAsInMapsOfOpenStreetMap) {
+  const TestFolder folder;
+  constexpr glm::dvec2 tokyo_deg(139.77, 35.68);
+  Errors warnings;
+  std::optional<glm::dvec2> place_deg;
+  const Result<Model> city =
+      read_city_gml(folder.write("tokyo.gml", box_in_degrees(tokyo_deg)), warnings, {}, &place_deg);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_EQ(to_string(warnings), "");
+  EXPECT_NEAR(area_m2(*city, "RoofSurface"), 80.0, 1.0);
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1.5);
+  for (const Part& part : city->parts)
+    if (part.object == "RoofSurface") {
+      EXPECT_GT(part.mesh.normals.front().z, 0.9f) << "it is no mirror image";
+    }
+  const Utm utm(tokyo_deg);
+  EXPECT_LT(glm::distance(glm::dvec2(city->origin), utm(tokyo_deg)), 20.0);
+  ASSERT_TRUE(place_deg);
+  EXPECT_NEAR(place_deg->x, tokyo_deg.x, 1e-3);
+  EXPECT_NEAR(place_deg->y, tokyo_deg.y, 1e-3);
+}
+
+TEST(CityGml, DegreesInTheOtherOrderThanTheirNameAreKnownByTheRoofs) {
+  // Written as if 52 degrees east and 4 north: latitude first, 4.36 52.01. With roof and ground exchanged its
+  // roof faces down, so that it is a place at 4 degrees east whose axes are in the other order.
+  std::string text = box_in_degrees({52.01, 4.36});
+  for (const auto& [from, to] :
+       {std::pair("RoofSurface", "SomeSurface"), std::pair("GroundSurface", "RoofSurface"),
+        std::pair("SomeSurface", "GroundSurface")})
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+      text.replace(at, std::string(from).size(), to);
+  const TestFolder folder;
+  Errors warnings;
+  std::optional<glm::dvec2> place_deg;
+  ASSERT_TRUE(read_city_gml(folder.write("delft.gml", text), warnings, {}, &place_deg));
+  ASSERT_TRUE(place_deg);
+  EXPECT_NEAR(place_deg->x, 4.36, 1e-3);
+  EXPECT_NE(to_string(warnings).find("by its roofs"), std::string::npos) << to_string(warnings);
+}
+
+TEST(CityGml, SeveralSystemsInOneFileAreNamed) {
+  std::string text = wall();
+  const auto named = [&](const char* ring, const char* system) {
+    const std::string tag = ring;
+    text.insert(text.find(tag) + tag.size(), fmt::format(" srsName=\"{}\"", system));
+  };
+  named("gml:id=\"r\"", "EPSG:28992");
+  named("gml:id=\"h\"", "EPSG:25831");
+  const TestFolder folder;
+  Errors warnings;
+  ASSERT_TRUE(read_city_gml(folder.write("a.gml", text), warnings));
+  EXPECT_NE(to_string(warnings).find("several coordinate systems, \"EPSG:28992\" and \"EPSG:25831\""),
+            std::string::npos)
+      << to_string(warnings);
+}
+
+TEST(CityGml, PicturesThatLieByTheirCoordinatesAreNamed) {
+  std::string text = wall();
+  const std::string member = "<cityObjectMember>";
+  text.insert(text.find(member),
+              R"(<app:appearanceMember xmlns:app="http://www.opengis.net/citygml/appearance/2.0">
+<app:Appearance><app:theme>air</app:theme><app:surfaceDataMember><app:GeoreferencedTexture gml:id="g">
+<app:imageURI>aerial.jpg</app:imageURI><app:target>#p</app:target></app:GeoreferencedTexture>
+</app:surfaceDataMember></app:Appearance></app:appearanceMember>)");
+  const TestFolder folder;
+  Errors warnings;
+  const Result<Model> city = read_city_gml(folder.write("a.gml", text), warnings);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NEAR(area_m2(*city, "WallSurface"), 11.0, 1e-3);
+  EXPECT_NE(to_string(warnings).find("a.gml: pictures that lie on it by their coordinates are left "
+                                     "out (1 GeoreferencedTexture: aerial.jpg)"),
+            std::string::npos)
+      << to_string(warnings);
 }
 
 TEST(CityGml, HostileXmlIsRefusedByItsLine) {

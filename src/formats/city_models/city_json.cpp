@@ -8,15 +8,16 @@
 #include <set>
 
 #include "base/checked.h"
-#include "base/files.h"
 #include "base/isolated_process.h"
 #include "base/json_guard.h"
 #include "base/memory_budget.h"
 #include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
+#include "formats/city_models/city_coordinates.h"
 #include "formats/city_models/city_json_sequence.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_semantics.h"
+#include "formats/readers/packed_file.h"
 #include "formats/terrain/city_surfaces.h"
 
 namespace parvis::scene {
@@ -126,10 +127,21 @@ struct Corners {
   bool is_mirrored() const { return glm::determinant(glm::dmat3(file_from_vertices)) < 0.0; }
 };
 
+/// The name of the system of the coordinates; up to version 0.8 its number alone. May be empty.
+std::string system_of(const Json& city) {
+  const Json& metadata = member(city, "metadata");
+  if (const Json& number = member(member(metadata, "crs"), "epsg"); number.is_number_unsigned())
+    return "EPSG:" + number.dump();
+  return text(member(metadata, "referenceSystem"));
+}
+
 class Reader {
  public:
   Reader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> max_detail)
-      : json_(json), max_detail_(max_detail), city_(file, read_vertices(), warnings) {}
+      : json_(json), max_detail_(max_detail), city_(file, read_vertices(file, warnings), warnings) {}
+
+  /// The middle of the place on the earth (degrees: east, north), where the file says it.
+  const std::optional<glm::dvec2>& place_deg() const { return place_deg_; }
 
   Result<Model> read() {
     read_templates();
@@ -144,8 +156,8 @@ class Reader {
  private:
   // --- vertices and appearance
 
-  /// Fills `vertices_`; gives the middle of the place, in whole metres: heights stay as they are.
-  glm::dvec3 read_vertices() {
+  /// Fills `vertices_`, in metres; gives the middle of the place, in whole metres: heights stay as they are.
+  glm::dvec3 read_vertices(const fs::path& file, Errors& warnings) {
     if (!is_city_json(json_)) fail("this is no CityJSON: its \"type\" is {}", member(json_, "type").dump());
     if (const std::string version = version_of(json_); !is_known(version))
       fail("CityJSON version \"{}\" is not known; versions 0.2 to 2.0 are read", version);
@@ -157,12 +169,22 @@ class Reader {
     }
     if (!member(json_, "vertices").is_array()) fail("there are no \"vertices\"");
     vertices_ = triples(json_["vertices"], "a vertex");
-    glm::dvec3 low(1e300), high(-1e300);
+    CoordinateClues clues;
+    clues.system = system_of(json_);
     for (glm::dvec3& vertex : vertices_) {
       vertex = vertex * scale + translate;
+      clues.add(vertex);
+    }
+    const Result<CityCoordinates> coordinates = CityCoordinates::find(clues, file, warnings);
+    if (!coordinates) fail("{}", coordinates.errors().front().message);
+    place_deg_ = coordinates->place_deg();
+    glm::dvec3 low(1e300), high(-1e300);
+    for (glm::dvec3& vertex : vertices_) {
+      vertex = (*coordinates)(vertex);
+      if (!std::isfinite(vertex.x + vertex.y)) continue;
       low = glm::min(low, vertex), high = glm::max(high, vertex);
     }
-    if (vertices_.empty()) return glm::dvec3(0.0);
+    if (!(low.x <= high.x)) return glm::dvec3(0.0);
     return {std::round(0.5 * (low.x + high.x)), std::round(0.5 * (low.y + high.y)), 0.0};
   }
 
@@ -461,6 +483,7 @@ class Reader {
 
   const Json& json_;
   std::optional<double> max_detail_;
+  std::optional<glm::dvec2> place_deg_;
   std::vector<glm::dvec3> vertices_, template_vertices_;
   std::vector<glm::vec2> texture_vertices_;
   CityAssembly city_;
@@ -476,17 +499,20 @@ class Reader {
 
 }  // namespace
 
-Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> max_detail) {
+Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> max_detail,
+                              std::optional<glm::dvec2>* place_deg) {
   const FileLocation where{file.string(), 0, 0};
-  const Result<std::string> bytes = read_file(file);
+  const Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) return bytes.errors();
-  const bool is_sequence = file.extension().string().size() > 5;  // ".jsonl" in any case, against ".json"
+  const bool is_sequence = formats::model_extension(file) == ".jsonl";
   if (Status depth = check_json_depth(*bytes, file.string()); !depth && !is_sequence) return depth.errors();
   try {
     const LeftInWorker<const Result<Json>> json(
         new Result<Json>(is_sequence ? city_json_of_sequence(file, *bytes) : Json::parse(*bytes)));
     if (!*json) return json->errors();
-    return Reader(file, **json, warnings, max_detail).read();
+    Reader reader(file, **json, warnings, max_detail);
+    if (place_deg) *place_deg = reader.place_deg();
+    return reader.read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};
   } catch (const Json::exception& problem) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <optional>
 
 #include "base/result.h"
@@ -16,8 +17,10 @@ namespace parvis::scene {
 /// Surfaces without semantics are named after their object's type, those of buildings by their slope. Objects
 /// of extensions ("+Pavilion") are taken by their geometry. Objects without polygons and templates that are
 /// not there are named in `warnings`; a file without any polygon, an unknown version and an index out of
-/// range are errors.
+/// range are errors. Coordinates in degrees or feet become metres (city_coordinates.h); `place_deg` is filled
+/// with the place on the earth (degrees: east, north) where the file says it.
 Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
-                              std::optional<double> max_detail = {});
+                              std::optional<double> max_detail = {},
+                              std::optional<glm::dvec2>* place_deg = nullptr);
 
 }  // namespace parvis::scene

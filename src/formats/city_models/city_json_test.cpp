@@ -7,6 +7,7 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "formats/city_models/polygon_triangles.h"
+#include "formats/readers/test_packing.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
@@ -105,6 +106,64 @@ TEST(CityJson, CoordinatesInDegreesAreRefused) {
   const Result<Model> city = read(with(degrees, scale, "\"scale\":[0.00000001,0.00000001,0.001]"));
   ASSERT_FALSE(city);
   EXPECT_NE(to_string(city.errors()).find("seem to be degrees"), std::string::npos);
+}
+
+TEST(CityJson, NamedDegreesAndFeetBecomeMetres) {
+  const auto named = [](const char* scale, const char* translate, const char* system) {
+    const std::string placed =
+        with(with(house(), "\"scale\":[0.001,0.001,0.001]", fmt::format("\"scale\":{}", scale)),
+             "\"translate\":[80000,450000,2]", fmt::format("\"translate\":{}", translate));
+    return with(placed, "\"CityObjects\"",
+                fmt::format("\"metadata\":{{\"referenceSystem\":\"{}\"}},\"CityObjects\"", system));
+  };
+  const TestFolder folder;
+  Errors warnings;
+  std::optional<glm::dvec2> place_deg;
+  const Result<Model> tokyo =
+      read_city_model(folder.write("city.json", named("[1e-8,1e-8,0.001]", "[35.68,139.77,2]",
+                                                      "https://www.opengis.net/def/crs/EPSG/0/6697")),
+                      warnings, {}, &place_deg);
+  ASSERT_TRUE(tokyo) << to_string(tokyo.errors());
+  EXPECT_EQ(to_string(warnings), "");
+  ASSERT_TRUE(place_deg);
+  EXPECT_NEAR(place_deg->x, 139.77, 1e-3);
+  const glm::vec3 size = bounds(*tokyo).size();
+  constexpr double off_north_m = 0.15;  // the map's north is 0.7 degrees off that of the place
+  EXPECT_NEAR(size.y, 1e-4 * 110'950.0, off_north_m) << "a ten thousandth of a degree of latitude";
+  EXPECT_NEAR(size.x, 8e-5 * 90'530.0, off_north_m);
+  EXPECT_NEAR(size.z, 6.0f, 1e-3f);
+  const Result<Model> feet =
+      read(named("[0.001,0.001,0.001]", "[971000,190600,2]", "urn:ogc:def:crs:EPSG::2263"));
+  ASSERT_TRUE(feet) << to_string(feet.errors());
+  EXPECT_NEAR(bounds(*feet).size().x, 3.048f, 1e-3f);
+  EXPECT_NEAR(bounds(*feet).size().z, 6.0f * 0.3048f, 1e-3f);
+}
+
+TEST(CityJson, PackedFilesAndSequencesAreReadAsTheyAre) {
+  const TestFolder folder;
+  Errors warnings;
+  const Result<Model> packed =
+      read_city_model(folder.write("city.json.gz", formats::gzipped(house())), warnings);
+  ASSERT_TRUE(packed) << to_string(packed.errors());
+  EXPECT_EQ(packed->name, "city");
+  const std::string lines =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],"translate":[0,0,0]},
+"CityObjects":{},"vertices":[]})";
+  const std::string feature =
+      R"({"type":"CityJSONFeature","id":"a","CityObjects":{"a":{"type":"Building","geometry":[
+{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]}},"vertices":[[0,0,0],[9000,0,0],[0,9000,0]]})";
+  std::string sequence = lines + "\n" + feature;
+  std::erase(sequence, '\n');
+  sequence.insert(sequence.find("{\"type\":\"CityJSONFeature\""), "\n");
+  const Result<Model> of_lines =
+      read_city_model(folder.write("city.city.JSONL.gz", formats::gzipped(sequence)), warnings);
+  ASSERT_TRUE(of_lines) << to_string(of_lines.errors());
+  EXPECT_EQ(of_lines->triangle_count(), 1u);
+  const Result<Model> cut =
+      read_city_model(folder.write("cut.json.gz", formats::gzipped(house()).substr(0, 200)), warnings);
+  ASSERT_FALSE(cut);
+  EXPECT_NE(to_string(cut.errors()).find("cut.json.gz: its packing (gzip) ends too early"), std::string::npos)
+      << to_string(cut.errors());
 }
 
 TEST(CityJson, Version02AsItWasPublishedIsRead) {

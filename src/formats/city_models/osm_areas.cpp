@@ -88,14 +88,29 @@ std::vector<OsmArea> OsmAreas::find(const std::function<bool(const OsmTags&)>& i
       else if (!what.empty())
         city_.warn(fmt::format("way {}: {} whose outline is not closed is left out", way.id, what));
     }
-  for (const OsmRelation& relation : osm_.relations)
-    if (is_wanted(relation.tags) && tag(relation.tags, "type") == "multipolygon") add(relation, found);
+  for (const OsmRelation& relation : osm_.relations) {
+    if (!is_wanted(relation.tags)) continue;
+    const std::string& type = tag(relation.tags, "type");
+    if (type == "multipolygon") add(relation, "outer", found);
+    if (type == "building" && !has_wanted_outline(relation, is_wanted)) add(relation, "outline", found);
+  }
   return found;
 }
 
-void OsmAreas::add(const OsmRelation& relation, std::vector<OsmArea>& found) const {
+/// Whether an outline of a building says by itself what it is, and is found by that.
+bool OsmAreas::has_wanted_outline(const OsmRelation& relation,
+                                  const std::function<bool(const OsmTags&)>& is_wanted) const {
+  return std::ranges::any_of(relation.members, [&](const OsmRelation::Member& member) {
+    if (member.role != "outline") return false;
+    const auto way = osm_.way_of.find(member.id);
+    return member.type != "way" || (way != osm_.way_of.end() && is_wanted(osm_.ways[way->second].tags));
+  });
+}
+
+void OsmAreas::add(const OsmRelation& relation, const std::string& outline,
+                   std::vector<OsmArea>& found) const {
   const std::string name = fmt::format("relation {}", relation.id);
-  add(rings_of(relation, "outer", name), rings_of(relation, "inner", name), relation.tags, name, found);
+  add(rings_of(relation, outline, name), rings_of(relation, "inner", name), relation.tags, name, found);
 }
 
 /// Ways that follow each other, joined to rings.

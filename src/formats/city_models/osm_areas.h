@@ -52,7 +52,10 @@ class OsmAreas {
  private:
   using NodeRing = std::vector<OsmId>;
 
-  void add(const OsmRelation& relation, std::vector<OsmArea>& found) const;
+  bool has_wanted_outline(const OsmRelation& relation,
+                          const std::function<bool(const OsmTags&)>& is_wanted) const;
+  /// `outline`: the role of the ways round it.
+  void add(const OsmRelation& relation, const std::string& outline, std::vector<OsmArea>& found) const;
   void add(const std::vector<NodeRing>& outer, const std::vector<NodeRing>& inner, const OsmTags& tags,
            const std::string& name, std::vector<OsmArea>& found) const;
   std::vector<NodeRing> rings_of(const OsmRelation& relation, const std::string& role,

@@ -4,8 +4,10 @@
 #include <array>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 #include "formats/city_models/building_attributes.h"
+#include "formats/city_models/osm_building_relations.h"
 #include "formats/city_models/osm_canopies.h"
 #include "formats/city_models/osm_corners.h"
 #include "formats/city_models/osm_curves.h"
@@ -270,27 +272,45 @@ std::size_t add_osm_buildings(const OsmFile& osm, const OsmPlaces& place, const 
   const auto has_key = [](const char* key) {
     return [key](const OsmTags& tags) { return says_yes(tags, key) && !is_underground(tags); };
   };
-  std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building");
+  const OsmBuildingRelations relations(osm);
+  std::vector<OsmArea> drawn = areas.find(has_key("building:part"), "a building"), outlines;
+  std::unordered_map<std::string, std::size_t> part_by_name;
+  for (OsmArea& area : areas.find(has_key("building"), "a building")) {
+    const bool is_part = says_yes(*area.tags, "building:part");  // it is among them
+    if (!is_part && relations.is_part(area.name))
+      drawn.push_back(std::move(area));
+    else
+      outlines.push_back(std::move(area));
+  }
   OsmPoints<std::size_t> parts;     // by the middles of their outlines
   std::vector<BuildingKind> kinds;  // of those that are drawn
-  kinds.reserve(drawn.size());
+  kinds.reserve(drawn.size() + outlines.size());
   for (OsmArea& part : drawn) {
     kinds.push_back(kind_of_osm_building(*part.tags));
     part.ground_m = lowest_m(part.rings[0], ground);
     parts.add(middle(part.rings[0]), kinds.size() - 1);
+    part_by_name.emplace(part.name, kinds.size() - 1);
   }
-  for (OsmArea& outline : areas.find(has_key("building"), "a building")) {
+  const std::size_t part_count = drawn.size();
+  drawn.reserve(part_count + outlines.size());  // parts are pointed to
+  for (OsmArea& outline : outlines) {
     outline.ground_m = lowest_m(outline.rings[0], ground);
     const BuildingKind kind = kind_of_osm_building(*outline.tags);
-    bool has_parts = false;
-    const auto [low, high] = box_of(outline.rings[0]);
-    parts.each_in(low, high, [&](dvec2 point, std::size_t i) {
-      if (drawn[i].tags == outline.tags || !holds(outline.rings[0], point)) return;
-      has_parts = true;
+    std::vector<const OsmArea*> own_parts;
+    const auto take = [&](std::size_t i) {
+      if (drawn[i].tags == outline.tags) return;
       drawn[i].ground_m = outline.ground_m;  // the parts of a building stand level with each other
       kinds[i] = completed(kinds[i], kind);
+      own_parts.push_back(&drawn[i]);
+    };
+    const auto [low, high] = box_of(outline.rings[0]);
+    parts.each_in(low, high, [&](dvec2 point, std::size_t i) {
+      if (holds(outline.rings[0], point)) take(i);
     });
-    if (has_parts) continue;
+    for (const std::string& name : relations.parts_of(outline.name))
+      if (const auto part = part_by_name.find(name); part != part_by_name.end()) take(part->second);
+    const bool is_drawn = says_yes(*outline.tags, "building:part");  // as a part of itself
+    if (is_drawn || (!own_parts.empty() && parts_cover(outline, own_parts))) continue;
     kinds.push_back(kind);
     drawn.push_back(std::move(outline));
   }

@@ -1,7 +1,5 @@
 #include "formats/city_models/osm_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
@@ -9,8 +7,8 @@
 #include <osmium/visitor.hpp>
 
 #include "base/exception_reason.h"
-#include "base/files.h"
 #include "formats/city_models/xml_guard.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::scene {
 namespace {
@@ -110,7 +108,7 @@ class Reader {
 
 /// The bytes of the file, after XML has been looked through.
 Result<std::string> guarded_bytes(const std::filesystem::path& file, bool is_xml) {
-  if (!is_xml) return read_file(file);
+  if (!is_xml) return formats::read_unpacked(file);
   Result<XmlText> xml = read_xml(file);
   if (!xml) return xml.errors();
   if (xml->root != "osm")
@@ -130,9 +128,7 @@ const std::string& tag(const OsmTags& tags, const std::string& key) {
 
 Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
-  std::string extension = file.extension().string();  // in any case, as the registry of readers takes it
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  const bool is_xml = extension != ".pbf";
+  const bool is_xml = formats::model_extension(file) != ".pbf";
   const Result<std::string> bytes = guarded_bytes(file, is_xml);
   if (!bytes) return bytes.errors();
   try {

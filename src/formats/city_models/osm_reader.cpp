@@ -33,7 +33,7 @@ void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, co
 }  // namespace
 
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
-                           const GroundOnMap& ground) {
+                           const GroundOnMap& ground, std::optional<glm::dvec2>* place_deg) {
   const FileLocation where{file.string(), 0, 0};
   const glm::dvec2 middle_deg = (osm.min_deg + osm.max_deg) / 2.0;
   const Utm utm(middle_deg);
@@ -42,6 +42,7 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
     return error_at(where,
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
                     largest_m / 1000.0);
+  if (place_deg) *place_deg = middle_deg;
   const glm::dvec3 origin(glm::floor(utm(middle_deg)), 0.0);
   std::unordered_map<OsmId, glm::dvec2> places;  // projected once: ways are walked many times
   places.reserve(osm.nodes.size());
@@ -74,10 +75,11 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   return model;
 }
 
-Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground) {
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground,
+                       std::optional<glm::dvec2>* place_deg) {
   const Result<OsmFile> osm = read_osm_file(file, warnings);
   if (!osm) return osm.errors();
-  return model_of_osm(*osm, file, warnings, ground);
+  return model_of_osm(*osm, file, warnings, ground, place_deg);
 }
 
 }  // namespace parvis::scene

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 
 #include "base/result.h"
 #include "formats/city_models/osm_file.h"
@@ -13,10 +15,12 @@ namespace parvis::scene {
 
 /// Metres on the map of the file's UTM zone, about the middle of its bounds: `Model::origin` says where that
 /// is. All stands on the ground that is given, else on a level one at z = 0, which is added with what lies on
-/// it. What is incomplete is reported in `warnings` by its id, and the rest is read.
-Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {});
+/// it. What is incomplete is reported in `warnings` by its id, and the rest is read. `place_deg` is filled
+/// with the middle of the bounds (degrees: east, north).
+Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {},
+                       std::optional<glm::dvec2>* place_deg = nullptr);
 /// The same from the content of `file`, which has been read.
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
-                           const GroundOnMap& ground = {});
+                           const GroundOnMap& ground = {}, std::optional<glm::dvec2>* place_deg = nullptr);
 
 }  // namespace parvis::scene

@@ -14,6 +14,7 @@
 #include "base/test_folder.h"
 #include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_woods.h"
+#include "formats/readers/test_packing.h"
 #include "formats/terrain/utm.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/test_scene.h"
@@ -635,6 +636,38 @@ TEST(Osm, PbfSaysTheSameAsXml) {
   EXPECT_EQ(from_pbf->roads[0].path, from_xml->roads[0].path);
   std::filesystem::rename(folder.path() / "quarter.osm.pbf", folder.path() / "QUARTER.OSM.PBF");
   EXPECT_TRUE(read_osm(folder.path() / "QUARTER.OSM.PBF", warnings)) << "extensions count in any case";
+}
+
+/// script/fuzz_seeds has written them.
+TEST(Osm, TheFuzzersPbfSeedsSayTheSameAsTheirMaps) {
+  const std::filesystem::path corpus(PARVIS_SOURCE_DIR "/src/formats/city_models/fuzz/corpus");
+  int seeds = 0;
+  for (const auto& seed : std::filesystem::directory_iterator(corpus / "osm_pbf")) {
+    const std::string file = seed.path().filename().string(), name = file.substr(0, file.find_first_of("_."));
+    Errors warnings;
+    const Result<Model> from_pbf = read_osm(seed.path(), warnings),
+                        from_xml = read_osm(corpus / "osm" / (name + ".osm"), warnings);
+    ASSERT_TRUE(from_xml && from_pbf) << file << to_string(warnings);
+    EXPECT_EQ(from_pbf->triangle_count(), from_xml->triangle_count()) << file;
+    EXPECT_EQ(from_pbf->origin, from_xml->origin) << file;
+    ++seeds;
+  }
+  EXPECT_GE(seeds, 5);
+}
+
+TEST(Osm, PackedMapsAreReadAsTheyAre) {
+  const TestFolder folder;
+  const std::string text = osm(way(100, "1 2 3 4 1", {{"building", "yes"}, {"height", "9"}}));
+  Errors warnings;
+  std::optional<glm::dvec2> place_deg;
+  for (const auto& [name, bytes] : {std::pair("quarter.osm.gz", formats::gzipped(text)),
+                                    std::pair("quarter.OSM.BZ2", formats::bzipped(text))}) {
+    const Result<Model> map = read_osm(folder.write(name, bytes), warnings, {}, &place_deg);
+    ASSERT_TRUE(map) << to_string(map.errors());
+    EXPECT_EQ(map->triangle_count(), read(text).model->triangle_count());
+    ASSERT_TRUE(place_deg);
+    EXPECT_NEAR(place_deg->y, 52.16, 0.01);
+  }
 }
 
 TEST(Osm, DamagedPbfNeverCrashes) {

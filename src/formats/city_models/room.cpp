@@ -14,15 +14,15 @@ using scene::Model;
 namespace fs = std::filesystem;
 
 Result<Model> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_city_model(file, warnings, reading.max_detail);
+  return scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg);
 }
 
 Result<Model> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_city_gml(file, warnings, reading.max_detail);
+  return scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg);
 }
 
 Result<Model> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_osm(file, warnings, reading.ground);
+  return scene::read_osm(file, warnings, reading.ground, reading.place_deg);
 }
 
 /// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
@@ -31,17 +31,20 @@ Result<Model> read_map_on_ground(const fs::path& file, const ModelReading& readi
   if (!reading.ground) return alone(file, reading, warnings);
   const Result<scene::OsmFile> osm = scene::read_osm_file_isolated(file, warnings);
   if (!osm) return osm.errors();
-  return scene::model_of_osm(*osm, file, warnings, reading.ground);
+  return scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg);
 }
 
 }  // namespace
 
 void furnish(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
-  readers.add({".json", ".jsonl"}, formats::isolated<read_json>(), formats::looks_like_json);
-  readers.add({".gml", ".citygml", ".xml"}, formats::isolated<read_gml>(), formats::looks_like_xml);
-  readers.add({".osm"}, read_map_on_ground, formats::looks_like_xml);
-  readers.add({".pbf"}, read_map_on_ground, formats::looks_like_osm_pbf);
+  constexpr formats::TakesPacked takes_packed = formats::TakesPacked::yes;
+  readers.add({".json", ".jsonl", ".cityjson"}, formats::isolated<read_json>(), formats::looks_like_json,
+              takes_packed);
+  readers.add({".gml", ".citygml", ".xml"}, formats::isolated<read_gml>(), formats::looks_like_xml,
+              takes_packed);
+  readers.add({".osm"}, read_map_on_ground, formats::looks_like_xml, takes_packed);
+  readers.add({".pbf"}, read_map_on_ground, formats::looks_like_osm_pbf, takes_packed);
 }
 
 }  // namespace parvis::city_models

@@ -32,6 +32,15 @@ class TestMap {
     relation_texts_ += fmt::format(R"(<relation id="{}">{}<tag k="type" v="multipolygon"/>{}</relation>)",
                                    ways_, members, text_of(tags));
   }
+  /// A relation of ways, each with its role.
+  void add_relation(const std::vector<std::pair<int, std::string>>& ways, const TestTags& tags) {
+    constexpr int first_id = 1000;  // beyond those of areas with holes
+    std::string members;
+    for (const auto& [way, role] : ways)
+      members += fmt::format(R"(<member type="way" ref="{}" role="{}"/>)", way, role);
+    relation_texts_ +=
+        fmt::format(R"(<relation id="{}">{}{}</relation>)", first_id + ++relations_, members, text_of(tags));
+  }
   /// The file of it.
   std::string text() const {
     return R"(<osm version="0.6">)" + node_texts_ + way_texts_ + relation_texts_ + "</osm>";
@@ -58,7 +67,7 @@ class TestMap {
   }
 
   std::string node_texts_, way_texts_, relation_texts_;
-  int nodes_ = 0, ways_ = 0;
+  int nodes_ = 0, ways_ = 0, relations_ = 0;
 };
 
 /// A model and the warnings of its file, one per line.

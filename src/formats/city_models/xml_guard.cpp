@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "base/files.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::scene {
 namespace {
@@ -42,7 +42,7 @@ void on_end(void* user, const char*) { --static_cast<Look*>(user)->depth; }
 }  // namespace
 
 Result<XmlText> read_xml(const std::filesystem::path& file) {
-  Result<std::string> bytes = read_file(file);
+  Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) return bytes.errors();
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
       XML_ParserCreate(nullptr), XML_ParserFree);

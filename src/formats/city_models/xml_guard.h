@@ -13,8 +13,8 @@ struct XmlText {
   std::string root;  ///< name of the outermost element and its namespaces, as written
 };
 
-/// The bytes of a file. One that is not well-formed, or declares a DOCTYPE (and so could name external
-/// entities, or entities that grow), is refused with its line.
+/// The bytes of a file, unpacked (formats/readers/packed_file.h). One that is not well-formed, or declares a
+/// DOCTYPE (and so could name external entities, or entities that grow), is refused with its line.
 Result<XmlText> read_xml(const std::filesystem::path& file);
 
 }  // namespace parvis::scene

@@ -1,0 +1,139 @@
+#include "formats/city_models/city_coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/terrain/map_system.h"
+
+namespace parvis::scene {
+namespace {
+
+constexpr double max_latitude_deg = 84.0, max_longitude_deg = 180.0;  // as far as UTM goes
+constexpr double max_region_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
+/// Without a name, degrees are what spans less than a town does and is higher than it is wide.
+constexpr double narrow_deg = 0.2, high_m = 2.0;
+constexpr double majority = 0.5;  // of their area, that face one way rather than the other
+/// From a map's origin: nearer to it coordinates are about an origin of the file's own, whatever it names.
+constexpr double off_origin_m = 1000.0;
+
+/// Whether the coordinates can be degrees in one order of the axes.
+bool can_be_degrees(const CoordinateClues& clues, bool is_north_first) {
+  const glm::dvec2 reach = glm::max(glm::abs(glm::dvec2(clues.low)), glm::abs(glm::dvec2(clues.high)));
+  const glm::dvec2 east_first = is_north_first ? glm::dvec2(reach.y, reach.x) : reach;
+  return east_first.x <= max_longitude_deg && east_first.y <= max_latitude_deg;
+}
+
+/// Whether roofs say that the axes are in the other order than `is_north_first`.
+bool roofs_contradict(const CoordinateClues& clues, bool is_north_first) {
+  const double up = is_north_first ? -clues.roofs_up : clues.roofs_up;
+  return up < -majority * clues.roofs;
+}
+
+const char* order_name(bool is_north_first) { return is_north_first ? "latitude first" : "longitude first"; }
+
+std::string shortened(const std::string& name) {
+  constexpr std::size_t longest = 120;
+  return name.size() <= longest ? name : name.substr(0, longest) + "...";
+}
+
+glm::dvec2 east_first(glm::dvec2 in_file, bool is_north_first) {
+  return is_north_first ? glm::dvec2(in_file.y, in_file.x) : in_file;
+}
+
+bool names_longitude_first(const std::string& system) {
+  return system.find("CRS84") != std::string::npos;  // OGC's own, which EPSG has no number for
+}
+
+}  // namespace
+
+void CoordinateClues::add(const glm::dvec3& point) {
+  if (!std::isfinite(point.x + point.y + point.z)) return;
+  low = glm::min(low, point), high = glm::max(high, point);
+}
+
+Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, const std::filesystem::path& file,
+                                              Errors& warnings) {
+  CityCoordinates found;
+  if (!(clues.low.x <= clues.high.x)) return found;
+  const FileLocation where{file.string(), 0, 0};
+  const std::string name = shortened(clues.system);
+  const glm::dvec2 size = clues.high - clues.low, middle = 0.5 * glm::dvec2(clues.low + clues.high);
+  const std::optional<int> epsg = epsg_in(clues.system);
+  const std::optional<MapSystem> system = epsg ? map_system(*epsg) : std::nullopt;
+  if (epsg && !system)
+    warnings.push_back(
+        error_at(where,
+                 "its coordinates are of a system that is not known, \"{}\" (EPSG:{}): they are "
+                 "read as metres, east first. Name the system that they are of",
+                 name, *epsg));
+  if (system && !system->is_geographic) {
+    found.is_north_first_ = system->is_north_first && roofs_contradict(clues, false);
+    found.plan_unit_m_ = system->plan_unit_m;
+    found.height_unit_m_ = system->height_unit_m.value_or(system->plan_unit_m);
+    if (found.height_unit_m_ != 1.0 && !system->height_unit_m)
+      warnings.push_back(
+          error_at(where,
+                   "\"{}\" ({}) has no heights; they are taken to be in its unit of {:.4f} m, as "
+                   "the plan is. Where they are in metres, name a system that has them, too",
+                   name, system->name, system->plan_unit_m));
+    if (std::max(std::abs(middle.x), std::abs(middle.y)) * system->plan_unit_m > off_origin_m)
+      found.place_deg_ = place_on_earth(*epsg, east_first(middle, found.is_north_first_));
+    return found;
+  }
+  const bool is_named = system || names_longitude_first(clues.system);
+  const bool looks_like_degrees =
+      std::max(size.x, size.y) < narrow_deg && clues.high.z - clues.low.z > high_m;
+  const bool can_be_north_first = can_be_degrees(clues, true),
+             can_be_east_first = can_be_degrees(clues, false);
+  // Without a name the order has to follow from the coordinates, or the assembly refuses them.
+  if (!is_named && (!looks_like_degrees || can_be_north_first == can_be_east_first)) return found;
+  if (!can_be_north_first && !can_be_east_first) {
+    warnings.push_back(
+        error_at(where,
+                 "\"{}\" names coordinates in degrees, but they reach to {:.1f} {:.1f}: they are "
+                 "read as metres, east first. Name the system that they are of",
+                 name, clues.high.x, clues.high.y));
+    return found;
+  }
+  const bool is_named_north_first = system ? system->is_north_first : !is_named;
+  found.is_north_first_ = is_named_north_first;
+  if (can_be_north_first != can_be_east_first)
+    found.is_north_first_ = can_be_north_first;
+  else if (roofs_contradict(clues, is_named_north_first))
+    found.is_north_first_ = !is_named_north_first;
+  if (!is_named)
+    warnings.push_back(
+        error_at(where,
+                 "it names no coordinate system, and its houses are higher than the place is "
+                 "wide: its coordinates are read as degrees, {}. Name their system in the file, "
+                 "EPSG:4979, say",
+                 order_name(found.is_north_first_)));
+  else if (found.is_north_first_ != is_named_north_first)
+    warnings.push_back(
+        error_at(where,
+                 "\"{}\" means {}, but by its {} it has {}: it is read so. Exchange the axes, or "
+                 "name another system, where this is wrong",
+                 name, order_name(is_named_north_first),
+                 can_be_north_first == can_be_east_first ? "roofs" : "coordinates",
+                 order_name(found.is_north_first_)));
+  const glm::dvec2 place_deg = east_first(middle, found.is_north_first_);
+  found.utm_.emplace(place_deg);
+  found.place_deg_ = place_deg;
+  found.height_unit_m_ = system ? system->height_unit_m.value_or(1.0) : 1.0;
+  const glm::dvec3 size_m = found(clues.high) - found(clues.low);
+  if (!(glm::length(glm::dvec2(size_m)) < max_region_m))
+    return error_at(
+        where,
+        "its coordinates reach from {:.3f} {:.3f} to {:.3f} {:.3f} degrees, wider than {:.0f} km: "
+        "are the axes of some objects exchanged, or are they metres? Repair them or the system's "
+        "name, or cut out the part that you need",
+        clues.low.x, clues.low.y, clues.high.x, clues.high.y, max_region_m / 1000.0);
+  return found;
+}
+
+glm::dvec3 CityCoordinates::operator()(const glm::dvec3& in_file) const {
+  const glm::dvec2 plan = east_first(in_file, is_north_first_);
+  return {utm_ ? (*utm_)(plan) : plan_unit_m_ * plan, height_unit_m_ * in_file.z};
+}
+
+}  // namespace parvis::scene

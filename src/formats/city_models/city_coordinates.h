@@ -1,0 +1,53 @@
+// From the coordinates of a city file to metres on a map: degrees, in either order of their axes, and feet.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "formats/terrain/utm.h"
+
+namespace parvis::scene {
+
+/// What a file says of its coordinates, and what they are like.
+struct CoordinateClues {
+  std::string system;  ///< as the file names it, "urn:ogc:def:crs:EPSG::7415"; may be empty
+  glm::dvec3 low{std::numeric_limits<double>::max()};  ///< of the coordinates as they stand in the file
+  glm::dvec3 high{-std::numeric_limits<double>::max()};
+  /// Areas of roofs in plan: of all, and those that face up less those that face down if the first axis
+  /// points east. In a file whose first axis points north its roofs seem to face down.
+  double roofs = 0.0, roofs_up = 0.0;
+
+  void add(const glm::dvec3& point);
+};
+
+/// Turns the coordinates of one file into metres.
+class CityCoordinates {
+ public:
+  /// Of metres, east first, which stay as they are.
+  CityCoordinates() = default;
+
+  /// Degrees become metres on the map of their zone (formats/terrain/utm.h), on which maps of OpenStreetMap
+  /// stand, too; feet become metres. Which of two degrees is the latitude follows from the coordinates where
+  /// one is beyond 90, else from the system's name, unless all roofs would face down. A system that is not
+  /// known and coordinates that are none of the system's are warnings, and read as metres, east first.
+  /// Errors: degrees that reach over more than a region.
+  static Result<CityCoordinates> find(const CoordinateClues& clues, const std::filesystem::path& file,
+                                      Errors& warnings);
+
+  /// Metres: east, north, up. Not finite where a place in degrees lies beyond the map.
+  glm::dvec3 operator()(const glm::dvec3& in_file) const;
+  /// The middle of the place on the earth (degrees: east, north), where the file's system is known.
+  const std::optional<glm::dvec2>& place_deg() const { return place_deg_; }
+
+ private:
+  bool is_north_first_ = false;
+  double plan_unit_m_ = 1.0, height_unit_m_ = 1.0;
+  std::optional<Utm> utm_;  ///< of degrees
+  std::optional<glm::dvec2> place_deg_;
+};
+
+}  // namespace parvis::scene
