@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "formats/ifc/ifc_shapes.h"
+#include "formats/readers/packed_file.h"
 #include "scene/data/placeholder.h"
 
 namespace parvis::scene {
@@ -45,6 +46,12 @@ Material material_of(const std::string& kind, const IfcLook& look, bool is_close
     material.roughness = 0.05f;
   }
   return material;
+}
+
+/// The body with its file's axes turned to those of the map.
+void turn_to_map(const glm::dvec2& x_axis, IfcShape& shape) {
+  for (glm::dvec3& corner : shape.corners)
+    corner = {corner.x * x_axis.x - corner.y * x_axis.y, corner.x * x_axis.y + corner.y * x_axis.x, corner.z};
 }
 
 /// The point that becomes the scene's origin: the file's own, unless the building stands far from it.
@@ -171,19 +178,23 @@ std::vector<Texture> textures_of(const std::vector<IfcPicture>& pictures, const 
 
 }  // namespace
 
-Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings) {
-  Result<std::string> text = read_file(file);
+Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
+                       std::optional<glm::dvec2>* place_deg) {
+  Result<std::string> text = formats::read_unpacked(file);
   if (!text) return text.errors();
-  const Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
+  Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
   if (!bodies) return bodies.errors();
   if (bodies->shapes.empty())
     return error_at(
         FileLocation{file.string(), 0, 0},
         "no object has a body: export the building with its 3D geometry (representation \"Body\")");
-  IfcAssembly assembly(file.stem().string());
+  IfcAssembly assembly(formats::model_stem(file));
+  for (IfcShape& shape : bodies->shapes) turn_to_map(bodies->place.x_axis, shape);
   assembly.set_origin(origin_of(bodies->shapes));
   for (const IfcShape& shape : bodies->shapes) assembly.add(shape);
   Model model = assembly.take();
+  model.origin += bodies->place.origin;
+  if (place_deg) *place_deg = bodies->place.place_deg;
   model.textures = textures_of(bodies->pictures, file, warnings);
   for (const Part& part : model.parts)
     if (const Status status = check(part.mesh, part.object); !status)

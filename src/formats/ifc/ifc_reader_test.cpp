@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/files.h"
 #include "base/image_io.h"
@@ -310,9 +311,49 @@ TEST_F(IfcTest, RoundColumnsAreSmoothAndSlabsFlat) {
 
 TEST_F(IfcTest, AnOlderSchemaIsReadAndAnUnknownOneRefused) {
   EXPECT_EQ(read(changed("'IFC4'", "'IFC2X3'")).nodes.size(), 3u);
-  const Result<Model> unknown = read_ifc(changed("'IFC4'", "'IFC4X3'"), warnings_);
+  const Result<Model> unknown = read_ifc(changed("'IFC4'", "'IFC5'"), warnings_);
   ASSERT_FALSE(unknown);
-  EXPECT_NE(to_string(unknown.errors()).find("IFC4X3"), std::string::npos);
+  EXPECT_NE(to_string(unknown.errors()).find("FILE_SCHEMA(('IFC5'))"), std::string::npos)
+      << to_string(unknown.errors());
+  EXPECT_NE(to_string(unknown.errors()).find("export the building"), std::string::npos);
+}
+
+TEST_F(IfcTest, ABuildingOfTheNewestSchemaIsReadAndWhatItAddsIsNamed) {
+  const Model model = read(changed("'IFC4'", "'IFC4X3_ADD2'"));
+  EXPECT_EQ(to_string(warnings_), "");
+  EXPECT_EQ(model.triangle_count(), pavilion().triangle_count());
+  const std::string project = "#14=IFCPROJECT(";
+  std::string text = *read_file(folder_.path() / "changed.ifc");
+  text.insert(text.find(project), "#9001=IFCROAD('0000000000000000000R01',#5,'Lane',$,$,$,$,$,$,$);\n");
+  ASSERT_TRUE(write_file(folder_.path() / "road.ifc", text));
+  EXPECT_EQ(read(folder_.path() / "road.ifc").triangle_count(), model.triangle_count());
+  EXPECT_NE(to_string(warnings_).find("are left out: 1 IFCROAD"), std::string::npos) << to_string(warnings_);
+}
+
+TEST_F(IfcTest, MapConversionPutsTheBuildingOnItsMapAndTheSiteOnTheEarth) {
+  const std::string site = "'Square',$,$,#17,$,$,.ELEMENT.,$,$,$,$,$);";
+  const auto on_map = [&](const char* unit, const char* east_north) {
+    return changed(site, fmt::format("'Square',$,$,#17,$,$,.ELEMENT.,(52,9,36,0),(4,29,24,0),0.,$,$);\n"
+                                     "#9001=IFCPROJECTEDCRS('EPSG:25831',$,$,$,$,$,{});\n"
+                                     "#9002=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
+                                     "#9003=IFCMAPCONVERSION(#13,#9001,{},12.5,0.,1.,1.);",
+                                     unit, east_north));
+  };
+  const Bounds as_drawn = bounds(pavilion());
+  std::optional<glm::dvec2> place_deg;
+  const Result<Model> placed = read_ifc(on_map("#9002", "566000.,5933000."), warnings_, &place_deg);
+  ASSERT_TRUE(placed) << to_string(placed.errors());
+  EXPECT_EQ(placed->origin, glm::dvec3(566000.0, 5933000.0, 12.5));
+  const Bounds turned = bounds(*placed);
+  EXPECT_NEAR(turned.size().y, as_drawn.size().x, 1e-3f) << "its x axis runs north";
+  EXPECT_NEAR(turned.max.x, -as_drawn.min.y, 1e-3f);
+  EXPECT_NEAR(turned.max.y, as_drawn.max.x, 1e-3f);
+  ASSERT_TRUE(place_deg);
+  EXPECT_NEAR(place_deg->y, 52.16, 1e-6);
+  EXPECT_NEAR(place_deg->x, 4.49, 1e-6);
+  const Model in_metres = read(on_map("$", "566000.,5933000."));
+  EXPECT_EQ(in_metres.origin.x, 566000.0) << "no map unit, and a project in millimetres: no map is so small";
+  EXPECT_NEAR(read(on_map("$", "566000000.,5933000000.")).origin.x, 566000.0, 1e-3);
 }
 
 TEST_F(IfcTest, FilesWithoutBodiesAreErrors) {

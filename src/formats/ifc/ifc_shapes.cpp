@@ -26,6 +26,7 @@
 #include <map>
 #include <set>
 
+#include "formats/ifc/ifc_4x3.h"
 #include "formats/ifc/ifc_styles.h"
 #include "formats/ifc/ifc_text.h"
 
@@ -241,24 +242,32 @@ void warn_of_coloured_faces(const BuildingModel& building, Complaints& complaint
 }
 
 /// IFC++ reads any schema as if it were one that it knows.
-Status check_schema(const std::string& text, const std::string& name) {
-  const std::size_t schema = text.find("FILE_SCHEMA"), end = text.find(';', schema);
-  const std::string named =
-      schema == std::string::npos ? "" : text.substr(schema, std::min(end - schema, std::size_t(200)));
+Result<IfcSchema> check_schema(const std::string& text, const std::string& name) {
+  const std::string named = schema_of_ifc(text);
   for (const char* known : {"'IFC2X3", "'IFC4'", "'IFC4_ADD", "'IFC2X2"})
-    if (named.find(known) != std::string::npos) return Done{};
-  return Error{
-      fmt::format("the schema is {}; Parvis reads IFC2X3 and IFC4: export the building as one of them",
-                  named.empty() ? "not named" : named),
-      {name, 0, 0}};
+    if (named.find(known) != std::string::npos) return IfcSchema::known;
+  if (named.find("'IFC4X3") != std::string::npos) return IfcSchema::ifc_4x3;
+  return Error{fmt::format("the schema is {}; IFC2X3, IFC4 and IFC4X3 are read: export the building as one "
+                           "of them (IFC4 Reference View, say)",
+                           named.empty() ? "not named" : named),
+               {name, 0, 0}};
 }
 
 }  // namespace
 
 Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& warnings) {
-  if (Status status = check_schema(text, name); !status) return status.errors();
+  const Result<IfcSchema> schema = check_schema(text, name);
+  if (!schema) return schema.errors();
   const SilentOutput silent;
   Complaints complaints(name, warnings);
+  if (*schema == IfcSchema::ifc_4x3) {
+    if (const std::string left_out = kinds_beyond_ifc_4(text); !left_out.empty())
+      complaints.add(
+          fmt::format("kinds of IFC4X3 that IFC4 has not are left out: {}; export them as IFC4, in "
+                      "IfcBuildingElementProxy, say",
+                      left_out));
+    text = ifc_4_of_4x3(std::move(text));
+  }
   IfcBodies bodies;
   try {
     auto building = std::make_shared<BuildingModel>();
@@ -281,6 +290,7 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
       if (object && is_built(*object)) add_product(*product, object, cellars, textures, bodies.shapes);
     }
     bodies.pictures = textures.pictures();
+    bodies.place = georeference_of(*building);
   } catch (const std::exception& failure) {
     return Error{fmt::format("IFC++ cannot read it: {}", failure.what()), {name, 0, 0}};
   } catch (const carve::exception& failure) {

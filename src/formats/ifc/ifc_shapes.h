@@ -1,5 +1,5 @@
 // The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in
-// ifc_shapes.cpp, ifc_styles and ifc_textures.
+// ifc_shapes.cpp, ifc_styles, ifc_textures and ifc_georeference.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "formats/ifc/ifc_georeference.h"
 #include "formats/ifc/ifc_textures.h"
 
 namespace parvis::scene {
@@ -35,11 +36,12 @@ struct IfcShape {
 struct IfcBodies {
   std::vector<IfcShape> shapes;
   std::vector<IfcPicture> pictures;
+  IfcGeoreference place;
 };
 
 /// The bodies of `text`, a whole file in the text form of STEP; `name` stands in errors and warnings. Every
-/// triangle is finite. Spaces, openings and grids are left out. Errors: a schema that is neither IFC 2x3 nor
-/// IFC 4; text that IFC++ cannot read.
+/// triangle is finite. Spaces, openings and grids are left out, and, with a warning, what IFC 4X3 has and
+/// IFC 4 has not. Errors: a schema that is none of IFC 2x3, 4 and 4X3; text that IFC++ cannot read.
 Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& warnings);
 
 }  // namespace parvis::scene

@@ -7,8 +7,9 @@
 namespace parvis::ifc {
 namespace {
 
-Result<scene::Model> read(const std::filesystem::path& file, const formats::ModelReading&, Errors& warnings) {
-  return scene::read_ifc(file, warnings);
+Result<scene::Model> read(const std::filesystem::path& file, const formats::ModelReading& reading,
+                          Errors& warnings) {
+  return scene::read_ifc(file, warnings, reading.place_deg);
 }
 
 /// ISO 10303-21, the text form of STEP.
@@ -19,7 +20,8 @@ bool looks_like_step(std::string_view front) {
 }  // namespace
 
 void furnish(House& house) {
-  house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step);
+  house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step,
+                                    formats::TakesPacked::yes);
 }
 
 }  // namespace parvis::ifc

@@ -1,0 +1,23 @@
+// Where on the earth and on a map an IFC file says that its building stands. Knows IFC++, as ifc_shapes.cpp
+// does.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+class BuildingModel;
+
+namespace parvis::scene {
+
+/// The file's own frame on a map, and its place on the earth.
+struct IfcGeoreference {
+  glm::dvec2 x_axis{1.0, 0.0};  ///< of the file, on the map: of length 1
+  glm::dvec3 origin{0.0};       ///< of the file, on the map: metres east, north, up; zero: none is given
+  std::optional<glm::dvec2> place_deg;  ///< of the site: degrees, east and north
+};
+
+/// By IfcMapConversion (whose scale, less than a per mille off 1, is left out) and by the latitude and
+/// longitude of IfcSite. Numbers that are not finite or on no map count as none.
+IfcGeoreference georeference_of(BuildingModel& building);
+
+}  // namespace parvis::scene
