@@ -9,6 +9,7 @@
 #include "base/json_guard.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_values.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
@@ -157,7 +158,7 @@ struct GltfFile::Access {
 };
 
 GltfFile::GltfFile(const fs::path& file) : path_(file) {
-  const Result<std::string> bytes = read_file(file);
+  const Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) gltf_fail("{}", bytes.errors().front().message);
   try {
     read_container(*bytes);
@@ -182,7 +183,7 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
 }
 
 void GltfFile::read_container(const std::string& bytes) {
-  if (path_.extension() != ".glb" && !bytes.starts_with("glTF")) {
+  if (formats::model_extension(path_) != ".glb" && !bytes.starts_with("glTF")) {
     json_ = guarded_json(bytes);
     return;
   }

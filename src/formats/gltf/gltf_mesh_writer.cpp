@@ -74,6 +74,7 @@ Json primitive_json(const Part& part, int first_material, GltfChunk& chunk) {
                  {"material", first_material + part.material},
                  {"extras", {{"object", part.object}}}};
   if (!part.casts_shadow) primitive["extras"]["casts_shadow"] = false;
+  if (part.is_backdrop) primitive["extras"]["backdrop"] = true;
   if (deformation && !deformation->targets.empty()) primitive["targets"] = targets_json(*deformation, chunk);
   return primitive;
 }

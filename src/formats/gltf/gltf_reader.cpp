@@ -11,6 +11,7 @@
 #include "formats/gltf/gltf_meshes.h"
 #include "formats/gltf/gltf_nodes.h"
 #include "formats/gltf/gltf_values.h"
+#include "formats/readers/packed_file.h"
 
 namespace parvis::scene {
 namespace {
@@ -36,7 +37,8 @@ void read_mesh(const GltfFile& file, const GltfNodes& nodes, int node, Model& mo
     part.node = node;
     const int material = file.index(primitive, "material", "materials");
     part.material = material < 0 ? int(model.materials.size()) - 1 : material;  // the last one is plain
-    part.casts_shadow = extras.value("casts_shadow", true);
+    part.is_backdrop = extras.value("backdrop", Json()) == Json(true);  // others may use this word, too
+    part.casts_shadow = !part.is_backdrop && extras.value("casts_shadow", true);
     Deformation deformation = read_deformation(file, nodes, node_source, source, primitive, part.mesh);
     if (!deformation.positions.empty()) {
       deformation.weights_node = node;
@@ -95,7 +97,7 @@ void deform_to_rest(Model& model) {
 
 Model read_model(const GltfFile& file, Errors& warnings) {
   Model model;
-  model.name = file.path().stem().string();
+  model.name = formats::model_stem(file.path());
   model.nodes.front().name = "y_up";
   model.nodes.front().rotation = glm::angleAxis(glm::radians(90.0f), glm::vec3(1, 0, 0));
   read_materials(file, model, warnings);

@@ -1,6 +1,6 @@
 // A model, or what stands in a scene, as glTF 2.0: one .glb with its pictures as files beside it, which any
 // viewer shows; with skins, morph targets, animations and cameras. What glTF cannot say (mirror-like,
-// translucent, casts no shadow) goes into "extras".
+// translucent, casts no shadow, backdrop) goes into "extras".
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,8 @@ bool is_gltf(std::string_view front) { return front.starts_with("glTF") || forma
 }  // namespace
 
 void furnish(House& house) {
-  house.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf);
+  house.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf,
+                                    formats::TakesPacked::yes);
 }
 
 }  // namespace parvis::gltf
