@@ -90,6 +90,9 @@ void transform(PhotographSet& set, const glm::dmat3& rotation, double scale, glm
   }
   for (SparsePoint& point : set.points)
     point.position_in_world = scale * (rotation * point.position_in_world) + translation;
+  glm::dmat4 moved(scale * rotation);
+  moved[3] = glm::dvec4(translation, 1.0);
+  set.world_from_given = moved * set.world_from_given;
 }
 
 double make_z_up(PhotographSet& set, bool is_measured) {

@@ -21,7 +21,8 @@ std::optional<glm::dvec3> up_of_cameras(const PhotographSet& set);
 /// same way leave open. Points whose normals are level to 25 degrees, then fewer, down to 3.
 std::optional<glm::dvec3> up_of_place(const PhotographSet& set, const std::vector<OrientedPoint>& points);
 
-/// Moves cameras and points: position -> scale * rotation * position + translation.
+/// Moves cameras and points: position -> scale * rotation * position + translation. `world_from_given`
+/// follows.
 void transform(PhotographSet& set, const glm::dmat3& rotation, double scale, glm::dvec3 translation);
 
 /// Makes z up (`up_of_place`) by the shortest rotation. Where the frame is measured and one of its axes lies

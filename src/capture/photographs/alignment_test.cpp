@@ -71,6 +71,18 @@ TEST(Alignment, TransformsKeepPixels) {
           1e-3);
 }
 
+TEST(Alignment, WhatWasMeasuredInTheFrameOfTheCamerasFollowsThem) {
+  PhotographSet set = with_points(5);
+  const glm::dvec3 before = set.points[7].position_in_world;
+  transform(set, glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(0.6, 0.0, 0.8))), 3.0,
+            {1.0, 2.0, 3.0});
+  make_z_up(set, false);
+  EXPECT_GT(glm::distance(set.points[7].position_in_world, before), 0.1);
+  EXPECT_LT(glm::distance(glm::dvec3(set.world_from_given * glm::dvec4(before, 1.0)),
+                          set.points[7].position_in_world),
+            1e-9);
+}
+
 TEST(Alignment, DistancesGiveTheScale) {
   const PhotographSet set = with_points(3);
   const double between =

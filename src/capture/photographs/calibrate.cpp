@@ -258,6 +258,20 @@ Status turn_and_scale(const CalibrationJob& job, PhotographSet& set) {
   return Done{};
 }
 
+/// Masks and gains that somebody gave the photographs of an earlier run. What of it cannot be read is in the
+/// problems.
+void keep_masks_and_gains(const fs::path& folder, LoadedSet& loaded) {
+  if (std::error_code code; !fs::exists(folder / "photographs.json", code)) return;
+  const Result<LoadedSet> before = read_photograph_set(folder);
+  if (!before) {
+    loaded.problems.insert(loaded.problems.end(), before.errors().begin(), before.errors().end());
+    return;
+  }
+  for (Photograph& photograph : loaded.set.photographs)
+    if (const Photograph* known = find(before->set, photograph.name))
+      photograph.mask = known->mask, photograph.gain = known->gain;
+}
+
 Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
   LoadedSet given;
   if (!job.cameras.empty()) {
@@ -308,6 +322,7 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
   if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
   const Errors misfits = cameras_that_do_not_fit(loaded->set);
   loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());
+  keep_masks_and_gains(job.folder, *loaded);
   if (Status status = write_photograph_set(job.folder, loaded->set, job.pictures); !status)
     return status.errors();
   return loaded;

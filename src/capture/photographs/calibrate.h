@@ -29,9 +29,9 @@ struct CalibrationJob {
 };
 
 /// Runs the job and writes the set. What an earlier run finished is taken over as long as pictures and
-/// options are the same. The problems name: pictures that cannot be read, photographs without a camera in the
-/// end and why, cameras that do not fit their neighbours. Errors: COLMAP missing or failed, fewer than two
-/// photographs of one place.
+/// options are the same; masks and gains that its photographs have are always kept. The problems name:
+/// pictures that cannot be read, photographs without a camera in the end and why, cameras that do not fit
+/// their neighbours. Errors: COLMAP missing or failed, fewer than two photographs of one place.
 Result<LoadedSet> calibrate(const CalibrationJob& job);
 
 /// A table for people: each photograph's neighbours, points and reprojection error.

@@ -66,13 +66,19 @@ TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
       };
       EXPECT_NEAR(distance(calibrated->set), distance(truth), 0.1) << i << ", " << j;
     }
-  // A second run takes over what is there, and the folder reads back.
+  // A second run takes over what is there, with what somebody has added, and the folder reads back.
+  PhotographSet masked = calibrated->set;
+  masked.photographs[1].mask = job.folder / "masks" / "1.png";
+  masked.photographs[2].gain = {1.25, 1.0, 0.75};
+  ASSERT_TRUE(write_photograph_set(job.folder, masked, job.pictures));
   const auto again = calibrate(job);
   ASSERT_TRUE(again) << to_string(again.errors());
   EXPECT_EQ(again->set.points.size(), calibrated->set.points.size());
   const auto kept = read_photograph_set(job.folder);
   ASSERT_TRUE(kept) << to_string(kept.errors());
   EXPECT_EQ(kept->set.photographs.size(), 5u);
+  EXPECT_EQ(kept->set.photographs[1].mask, job.folder / "masks" / "1.png");
+  EXPECT_EQ(kept->set.photographs[2].gain, glm::dvec3(1.25, 1.0, 0.75));
   EXPECT_GT(calibration_report(kept->set).size(), 200u);
 }
 

@@ -143,6 +143,7 @@ TEST(Picture, ASetIsKeptWithGainsAndMasks) {
   }
   set.photographs[1].gain = {1.25, 0.75, 1.5};
   set.photographs[2].mask = pictures / "masks" / "2.png";
+  set.world_from_given = glm::dmat4(0, 0, 0.3, 0, 0, -0.3, 0, 0, 0.3, 0, 0, 0, 5, 6, 7, 1);
   ASSERT_TRUE(write_photograph_set(folder.path() / "out", set, pictures));
   const auto loaded = read_photograph_set(folder.path() / "out");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
@@ -151,7 +152,15 @@ TEST(Picture, ASetIsKeptWithGainsAndMasks) {
   EXPECT_EQ(loaded->set.photographs[1].gain, glm::dvec3(1.25, 0.75, 1.5));
   EXPECT_EQ(loaded->set.photographs[2].mask, pictures / "masks" / "2.png");
   EXPECT_EQ(loaded->set.photographs[0].file, pictures / "place_0.png");
+  EXPECT_EQ(loaded->set.world_from_given, set.world_from_given);
   EXPECT_TRUE(read_picture(loaded->set.photographs[0]));
+  for (const char* wrong : {"[1, 2]", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, \"one\"]]"}) {
+    folder.write("out/photographs.json",
+                 fmt::format(R"({{"pictures": "../pictures", "world_from_given": {}}})", wrong));
+    const auto unread = read_photograph_set(folder.path() / "out");
+    ASSERT_FALSE(unread) << wrong;
+    EXPECT_NE(to_string(unread.errors()).find("world_from_given"), std::string::npos);
+  }
   std::string deep = R"({"pictures":"..","photographs":)";
   for (int level = 0; level < 80'000; ++level) deep += "[";
   folder.write("out/photographs.json", deep + std::string(80'000, ']') + "}");

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <unordered_map>
 
 #include "base/files.h"
@@ -64,13 +65,38 @@ Status apply_mask(const Json& entry, const fs::path& folder, const fs::path& pic
   return Done{};
 }
 
+/// Four rows of four numbers.
+Json rows_of(const glm::dmat4& matrix) {
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row)
+    rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+  return rows;
+}
+
+/// What `rows_of` made; nothing where it is something else.
+std::optional<glm::dmat4> matrix_of(const Json& rows) {
+  if (!rows.is_array() || rows.size() != 4) return std::nullopt;
+  glm::dmat4 matrix(1.0);
+  for (int row = 0; row < 4; ++row) {
+    const Json& values = rows[std::size_t(row)];
+    if (!values.is_array() || values.size() != 4) return std::nullopt;
+    for (int column = 0; column < 4; ++column) {
+      if (!values[std::size_t(column)].is_number()) return std::nullopt;
+      matrix[column][row] = values[std::size_t(column)].get<double>();
+    }
+  }
+  return matrix;
+}
+
 }  // namespace
 
 Status write_photograph_set(const fs::path& folder, const PhotographSet& set,
                             const fs::path& picture_folder) {
   if (Status status = write_colmap_model(folder, colmap_model_of(set), ColmapFormat::binary); !status)
     return status;
-  Json json{{"pictures", stored(picture_folder, folder)}, {"photographs", Json::array()}};
+  Json json{{"pictures", stored(picture_folder, folder)},
+            {"photographs", Json::array()},
+            {"world_from_given", rows_of(set.world_from_given)}};
   for (const Photograph& photograph : set.photographs) {
     Json entry{{"name", photograph.name},
                {"gain", {photograph.gain.x, photograph.gain.y, photograph.gain.z}},
@@ -104,6 +130,11 @@ Result<LoadedSet> read_photograph_set(const fs::path& folder) {
           error("{}: expected a name and three gains > 0 in {}", file, entry.dump().substr(0, 80)));
     else if (Status status = apply_mask(entry, folder, pictures, photographs); !status)
       return status.errors();
+  if (json.contains("world_from_given")) {
+    const std::optional<glm::dmat4> matrix = matrix_of(json["world_from_given"]);
+    if (!matrix) return error("{}: expected four rows of four numbers in \"world_from_given\"", file);
+    loaded.set.world_from_given = *matrix;
+  }
   fit_to_files(loaded, pictures);
   return loaded;
 }

@@ -1,5 +1,6 @@
 // A photograph set as a folder on disk: a COLMAP model (binary), which every tool reads, and photographs.json
-// beside it with what COLMAP has no place for: where the pictures are, gains, masks.
+// beside it with what COLMAP has no place for: where the pictures are, gains, masks, how the frame was
+// turned.
 #pragma once
 
 #include <filesystem>
