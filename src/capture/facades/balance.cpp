@@ -8,6 +8,7 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "capture/facades/sightings.h"
 
 namespace parvis::facades {
@@ -130,6 +131,7 @@ void apply(const Balance& balance, PreparedPhoto& photo) {
 void find_occluders(std::span<PreparedPhoto> photos) {
   const std::vector<ImageF> srgb = blurred_srgb(photos);
   std::vector<ImageF> found_trust;  // apart, so that every photograph is judged by masks alone
+  Progress progress("finding what is not in the model", photos.size());
   for (std::size_t i = 0; i < photos.size(); ++i) {
     const PreparedPhoto& photo = photos[i];
     ImageF trust(photo.view.width, photo.view.height, 1, 1.0f);
@@ -149,6 +151,7 @@ void find_occluders(std::span<PreparedPhoto> photos) {
     for (std::size_t p = 0; p < photo.trust.pixels.size(); ++p)
       trust.pixels[p] = std::min(trust.pixels[p], photo.trust.pixels[p]);
     found_trust.push_back(std::move(trust));
+    progress.advance();
   }
   for (std::size_t i = 0; i < photos.size(); ++i) photos[i].trust = std::move(found_trust[i]);
 }

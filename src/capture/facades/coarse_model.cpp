@@ -354,6 +354,15 @@ std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
   return hull;
 }
 
+/// Of corners that lie within `tolerance` of each other one: where walls meet, each of them has one there.
+std::vector<glm::dvec2> apart(const std::vector<glm::dvec2>& polygon, double tolerance) {
+  std::vector<glm::dvec2> kept;
+  for (const glm::dvec2 p : polygon)
+    if (kept.empty() || glm::distance(p, kept.back()) > tolerance) kept.push_back(p);
+  while (kept.size() > 1 && glm::distance(kept.front(), kept.back()) <= tolerance) kept.pop_back();
+  return kept;
+}
+
 /// The ground below everything: cameras, feet of walls, its own points.
 CoarseSurface ground_surface(const FoundPlane& ground, const std::vector<Piece>& walls, const Place& place) {
   const glm::dvec3 east = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), ground.normal));
@@ -377,7 +386,7 @@ CoarseSurface ground_surface(const FoundPlane& ground, const std::vector<Piece>&
     for (const double s : {wall.along.low, wall.along.high})
       covered.push_back(in_plane(wall.at(s, wall.across.low)));
   CoarseSurface surface{"ground", SurfaceKind::ground, {}, ground.inliers.size()};
-  for (const glm::dvec2 p : convex_hull(covered))
+  for (const glm::dvec2 p : apart(convex_hull(std::move(covered)), plane_tolerance * place.scale))
     surface.corners.push_back(origin + p.x * east + p.y * north);
   return surface;
 }
@@ -420,7 +429,9 @@ Result<CoarseModel> propose_coarse_model(const PhotographSet& set) {
   CoarseModel model;
   const FoundPlane assumed = assumed_ground(place);
   if (!ground) {
-    model.notes.push_back(error("no ground was found: a level one is assumed below the lowest points"));
+    model.notes.push_back(error(
+        "no ground was found: a level one is assumed below the lowest points; the hint plane ground X Y Z "
+        "X Y Z X Y Z ... gives another"));
     ground = &assumed;
   }
   join_corners(walls, place);

@@ -104,6 +104,19 @@ TEST(CoarseModel, WallsMeetAtTheirCorners) {
   }
 }
 
+TEST(CoarseModel, TheGroundHasOneCornerWhereWallsMeet) {
+  for (const int points : {1100, 1300, 1500}) {
+    const auto model = propose_coarse_model(courtyard(points));
+    ASSERT_TRUE(model) << to_string(model.errors());
+    const CoarseSurface* ground = find(*model, "ground");
+    ASSERT_TRUE(ground);
+    const std::vector<glm::dvec3>& corners = ground->corners;
+    EXPECT_GE(corners.size(), 4u);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      EXPECT_GT(glm::distance(corners[i], corners[(i + 1) % corners.size()]), 0.01) << i;
+  }
+}
+
 TEST(CoarseModel, AGateStaysOpen) {
   const auto model = propose_coarse_model(courtyard(1500, true));
   ASSERT_TRUE(model) << to_string(model.errors());
@@ -170,6 +183,15 @@ TEST(CoarseModel, AWallIsContinuedOnlyWhereNothingIsSeenThroughIt) {
   ASSERT_TRUE(wall);
   EXPECT_NEAR(wall->corners[0].y, 8.0, 0.2);
   EXPECT_NEAR(wall->corners[0].z, 3.0, 0.4) << "the passage below it stays open";
+}
+
+TEST(CoarseModel, WhereNoGroundIsFoundTheHintForItIsNamed) {
+  PhotographSet set = photographs_from({{-6, -8, 1.6f}, {-2, -9, 1.6f}, {2, -8, 1.6f}, {6, -9, 1.6f}});
+  add_patch(set, 1500, {-10, 8, 0}, {20, 0, 0}, {0, 0, 9}, {0, 1, 2, 3});
+  const auto model = propose_coarse_model(set);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_TRUE(find(*model, "ground"));
+  EXPECT_NE(to_string(model->notes).find("plane ground"), std::string::npos) << to_string(model->notes);
 }
 
 TEST(CoarseModel, TooFewPointsAreAnError) {

@@ -9,6 +9,7 @@
 #include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::facades {
 namespace {
@@ -61,6 +62,7 @@ struct ShownFacade {
   float radiance_of_exposed = 1.0f;
   float kept_in_shadow = 1.0f;
   bool is_visible = true;
+  bool casts_shadow = true;
 };
 
 /// The photographs chosen for an eye, in the frame of the facade that is shown.
@@ -108,14 +110,19 @@ class FacadeDrawable final : public render::Drawable {
     // A file that cannot be loaded was an error when the scene was read; a full graphics memory shows
     // nothing.
     if (!load(scene)) return;
-    const std::vector<PlacedFacade>& facades = scene.items<PlacedFacade>();
+    const auto& [facades, makers] = scene.data<scene::ItemsOf<PlacedFacade>>();
+    const auto& shadows = scene.data<scene::SunShadows>();
     things_.begin_update(facades.size());
     chosen_.resize(facades.size()), shown_.resize(facades.size());
     for (std::size_t i = 0; i < facades.size(); ++i) {
       const PlacedFacade& placed = facades[i];
       LoadedFacade& loaded = *loaded_.at(placed.facade);
-      shown_[i] = {&loaded, placed.world_from_facade, placed.brightness / scene.exposure,
-                   placed.kept_in_shadow, placed.is_visible};
+      shown_[i] = {&loaded,
+                   placed.world_from_facade,
+                   placed.brightness / scene.exposure,
+                   placed.kept_in_shadow,
+                   placed.is_visible,
+                   shadows.casts_item_of(makers[i])};
       things_.update(i, {&loaded, placed.world_from_facade, placed.is_visible,
                          transformed(placed.world_from_facade, loaded.bounds),
                          transformed(placed.world_from_facade, loaded.solid_bounds)});
@@ -132,6 +139,7 @@ class FacadeDrawable final : public render::Drawable {
       if (!shown_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}) ||
           !culling.may_see(things_.bounds(i)))
         continue;
+      if (view.kind == ViewKind::shadow && !shown_[i].casts_shadow) continue;
       choose(i, view);
       for (const SurfaceRange& range : shown_[i].loaded->ranges) {
         const Bounds bounds = transformed(shown_[i].world_from_facade, range.bounds);

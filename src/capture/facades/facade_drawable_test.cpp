@@ -14,6 +14,7 @@
 #include "graphics/render/renderer.h"
 #include "graphics/shading/sky.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/data/sun_shadows.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::facades {
@@ -148,6 +149,25 @@ TEST_F(FacadeDrawableTest, WhatIsInsertedCastsItsShadowOnThePhotographs) {
   for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
     moved += (aside.pixels[i] < 0.6f) != (traced.pixels[i] < 0.6f);
   EXPECT_GT(moved, shaded / 4);
+}
+
+TEST_F(FacadeDrawableTest, CastsNoShadowWhereOthersAloneDo) {
+  scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.0f, 1.0f, 0.8f));  // behind the walls
+  scene_.sun.irradiance = glm::vec3(3.0f);
+  scene::add(scene_, scene::model_of(scene::box({-3.0f, 0.6f, -0.9f}, {3.0f, 3.6f, -0.8f}),
+                                     scene::matt(glm::vec3(0.5f))));
+  place(placed_);
+  std::vector<scene::NodeRange>& casters = scene_.data<scene::SunShadows>().caster_nodes;
+  casters = {{0, 0}};
+  const ImageF with_drawn = draw(), with_traced = trace();
+  casters = {{1, 4}};  // it is of node 0
+  const ImageF drawn = ratio(with_drawn, draw()), traced = ratio(with_traced, trace());
+  const int shaded = count_below(traced, 0.7f);
+  ASSERT_GT(shaded, 500) << "the slab before the walls";
+  int wrong = 0;
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+    wrong += (drawn.pixels[i] < 0.7f) != (traced.pixels[i] < 0.7f);
+  EXPECT_LT(wrong, shaded / 8) << "pixels at the slab's edge alone";
 }
 
 TEST_F(FacadeDrawableTest, ItMayStandAnywhereAndBeHidden) {

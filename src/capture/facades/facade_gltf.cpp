@@ -82,7 +82,7 @@ scene::Model model_with(const PackedFacade& facade, BakedTexture baked, const st
     const std::uint32_t surface = facade.surface_of_triangle[first];
     scene::Part part;
     part.object = facade.surfaces[surface], part.node = int(model.nodes.size());
-    part.casts_shadow = part.object != backdrop_name;
+    part.is_backdrop = part.object == backdrop_name, part.casts_shadow = !part.is_backdrop;
     for (; last < facade.triangle_count() && facade.surface_of_triangle[last] == surface; ++last)
       for (std::size_t i = 3 * last; i < 3 * last + 3; ++i) {
         part.mesh.indices.push_back(std::uint32_t(part.mesh.positions.size()));

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "base/files.h"
 #include "capture/facades/baked_texture.h"
 #include "capture/facades/coarse_model_file.h"
 #include "capture/facades/test_street.h"
 #include "formats/gltf/gltf_reader.h"
+#include "formats/gltf/test_validator.h"
 
 namespace parvis::facades {
 namespace {
@@ -83,8 +82,26 @@ TEST(FacadeGltf, OtherProgramsSeeATextureAndWeTheLayers) {
   EXPECT_EQ(back->photos[2].view.fx, facade.photos[2].view.fx);
   EXPECT_EQ(back->photos[3].balance.scale, facade.photos[3].balance.scale);
 
-  const std::string validator = PARVIS_SOURCE_DIR "/script/validate_gltf";
-  EXPECT_EQ(std::system((validator + " " + file.string()).c_str()), 0);
+  scene::expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+}
+
+TEST(FacadeGltf, TheBackdropIsMarkedForThoseWhoSeeTheModel) {
+  PackedFacade facade = packed_street();
+  for (std::string& surface : facade.surfaces)
+    if (surface == "far") surface = backdrop_name;
+  const TestFolder folder;
+  const fs::path file = folder.path() / "street.glb";
+  ASSERT_TRUE(write_facade_gltf(file, facade, 512));
+  Errors warnings;
+  const Result<scene::Model> model = scene::read_gltf(file, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  std::size_t backdrops = 0;
+  for (const scene::Part& part : model->parts) {
+    EXPECT_EQ(part.is_backdrop, part.object == backdrop_name) << part.object;
+    EXPECT_EQ(part.casts_shadow, !part.is_backdrop) << part.object;
+    backdrops += part.is_backdrop ? 1 : 0;
+  }
+  EXPECT_EQ(backdrops, 1u);
 }
 
 TEST(FacadeGltf, WhatIsNoFacadeIsRefused) {

@@ -97,7 +97,11 @@ LayerModel model_of(const PackedFacade& facade) {
 }
 
 ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view) {
-  const ItemBuffer seen = item_buffer(model_of(facade), view);
+  return view_of_facade(facade, texels, view, item_buffer(model_of(facade), view));
+}
+
+ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view,
+                      const ItemBuffer& seen) {
   ImageF picture(view.width, view.height, 4);
   parallel_for(std::size_t(view.height), [&](std::size_t row) {
     FacadeLookup lookup(facade, &texels);

@@ -63,6 +63,9 @@ class FacadeLookup {
 /// What `view` sees of the facade: sRGB (0..1) with alpha 0 where there is nothing. `model` is the one that
 /// was packed.
 ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view);
+/// The same where it is known what the view sees of `model_of(facade)`.
+ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view,
+                      const ItemBuffer& seen);
 
 /// The packed facade's surfaces as a model: its triangles in their order.
 LayerModel model_of(const PackedFacade& facade);

@@ -111,17 +111,18 @@ View random_view(const PlaceLayers& place, Random& random) {
 void judge_random_views(const PlaceLayers& place, const PackedFacade& facade, int count,
                         PlaceFigures& figures) {
   const FacadeTexels texels(facade);
+  const LayerModel model = model_of(facade);
   PackedFacade without = facade;  // without candidates only the fallback is left
   Random random(1);
   std::size_t of_model = 0, filled = 0, differing = 0;
   for (glm::uvec2& list : without.lists) list.y = 0;
   for (int i = 0; i < count; ++i) {
     const View view = random_view(place, random);
-    const Image8 mask = model_mask(place.model, view);
-    const ImageF picture = view_of_facade(facade, texels, view),
-                 fallback = view_of_facade(without, texels, view);
-    for (std::size_t p = 0; p < mask.pixels.size(); ++p) {
-      if (mask.pixels[p] == 0) continue;
+    const ItemBuffer seen = item_buffer(model, view);
+    const ImageF picture = view_of_facade(facade, texels, view, seen),
+                 fallback = view_of_facade(without, texels, view, seen);
+    for (std::size_t p = 0; p < seen.triangles.size(); ++p) {
+      if (seen.triangles[p] == no_triangle_seen) continue;
       ++of_model, filled += picture.pixels[4 * p + 3] > 0.0f;
       differing += !std::equal(picture.pixels.begin() + std::ptrdiff_t(4 * p),
                                picture.pixels.begin() + std::ptrdiff_t(4 * p + 3),

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/files.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/measure_place.h"
 #include "capture/facades/rephotography.h"
@@ -126,6 +127,19 @@ TEST(PackedFacade, WhatDoesNotFitTogetherIsRefused) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   EXPECT_FALSE(read_facade(file));
   EXPECT_FALSE(read_facade(folder.path() / "missing.facade"));
+}
+
+/// script/fuzz_seeds has written them.
+TEST(PackedFacade, TheFuzzersSeedsReachTheEndOfTheReader) {
+  std::size_t slots = 0;
+  for (const auto& seed :
+       std::filesystem::directory_iterator(PARVIS_SOURCE_DIR "/src/capture/facades/fuzz/corpus/facade")) {
+    const Result<PackedFacade> facade = facade_of(*read_file(seed.path()), seed.path());
+    ASSERT_TRUE(facade) << to_string(facade.errors());
+    EXPECT_EQ(facade->triangle_count(), 2u);
+    slots += facade->slot_count();
+  }
+  EXPECT_EQ(slots, 4u);
 }
 
 }  // namespace

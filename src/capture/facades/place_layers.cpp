@@ -44,11 +44,11 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
   PlaceLayers place;
   place.model = std::move(model->model), place.warnings = std::move(model->warnings);
 
-  Progress progress("making layers", 3 * photos.size());
   std::vector<PreparedPhoto> prepared;
+  std::optional<Progress> progress(std::in_place, "making layers", 2 * photos.size());
   for (const photographs::Photograph& photo : photos) {
     Result<PreparedPhoto> one = prepared_photo(photo, place.model);
-    progress.advance();
+    progress->advance();
     if (!one) {
       place.warnings.insert(place.warnings.end(), one.errors().begin(), one.errors().end());
       continue;
@@ -68,8 +68,9 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
     place.warnings.insert(place.warnings.end(), warnings.begin(), warnings.end());
     place.layered.push_back(image_layers(place.model, place.views[i], place.visibility[i]));
     place.originals.push_back(original_pixels(srgb_of(prepared[i].colours), place.layered[i]));
-    progress.advance();
+    progress->advance();
   }
+  progress.reset();  // the next steps have bars of their own
 
   place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
   for (std::size_t i = 0; i < prepared.size(); ++i) apply(place.balances[i], prepared[i]);
@@ -77,10 +78,11 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
   if (settings.finds_occluders) find_occluders(prepared);
   for (std::size_t i = 0; i < prepared.size(); ++i)
     if (!prepared[i].trust.empty()) distrust(prepared[i].trust, place.layered[i]);
+  progress.emplace("filling layers", prepared.size());
   for (std::size_t i = 0; i < prepared.size(); ++i) {
     const FillSettings fill{settings.fills, settings.fills, 1};
     place.filled.push_back(filled_layers(place.layers(i), prepared, i, place.originals[i], fill));
-    progress.advance();
+    progress->advance();
   }
   return place;
 }

@@ -18,36 +18,6 @@ constexpr double ground_edge = 0.15;  ///< longest of the ground's triangles, of
 
 void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
 
-/// A dome around everything, so far away that where it stands makes no difference.
-NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::PhotographSet& set) {
-  constexpr int around = 32, up = 10;
-  constexpr double radius_of_extent = 6.0, lowest_deg = -6.0;
-  Bounds bounds;
-  for (const NamedMesh& named : meshes) bounds.add(named.mesh.bounds());
-  for (const photographs::Photograph& photograph : set.photographs)
-    bounds.add(glm::vec3(photograph.position_in_world()));
-  const glm::dvec3 centre = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
-  const double radius = radius_of_extent * double(bounds.radius());
-  NamedMesh dome{backdrop_name, {}};
-  for (int row = 0; row <= up; ++row)
-    for (int column = 0; column < around; ++column) {
-      const double rise = glm::radians(glm::mix(lowest_deg, 90.0, double(row) / up)),
-                   turn = glm::radians(360.0 * column / around);
-      const glm::dvec3 out(std::cos(rise) * std::cos(turn), std::cos(rise) * std::sin(turn), std::sin(rise));
-      dome.mesh.positions.push_back(glm::vec3(centre + radius * out));
-      dome.mesh.normals.push_back(glm::vec3(-out)), dome.mesh.uvs.push_back(glm::vec2(0.0f));
-    }
-  const auto corner = [&](int row, int column) { return std::uint32_t(row * around + column % around); };
-  for (int row = 0; row < up; ++row)
-    for (int column = 0; column < around; ++column) {
-      const std::uint32_t a = corner(row, column), b = corner(row, column + 1),
-                          c = corner(row + 1, column + 1), d = corner(row + 1, column);
-      dome.mesh.indices.insert(dome.mesh.indices.end(), {a, c, b});
-      if (row + 1 < up) dome.mesh.indices.insert(dome.mesh.indices.end(), {a, d, c});
-    }
-  return dome;
-}
-
 /// Each triangle divided into four until its edges are short: a colour where no photograph says anything
 /// belongs to a corner.
 void divide_triangles(Mesh& mesh, double longest_edge) {
@@ -90,6 +60,35 @@ std::vector<GreyPhoto> grey_photos(const PlaceSource& source, Errors& notes) {
 }
 
 }  // namespace
+
+NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::PhotographSet& set) {
+  constexpr int around = 32, up = 10;
+  constexpr double radius_of_extent = 6.0, lowest_deg = -6.0;
+  Bounds bounds;
+  for (const NamedMesh& named : meshes) bounds.add(named.mesh.bounds());
+  for (const photographs::Photograph& photograph : set.photographs)
+    bounds.add(glm::vec3(photograph.position_in_world()));
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
+  const double radius = radius_of_extent * double(bounds.radius());
+  NamedMesh dome{backdrop_name, {}};
+  for (int row = 0; row <= up; ++row)
+    for (int column = 0; column < around; ++column) {
+      const double rise = glm::radians(glm::mix(lowest_deg, 90.0, double(row) / up)),
+                   turn = glm::radians(360.0 * column / around);
+      const glm::dvec3 out(std::cos(rise) * std::cos(turn), std::cos(rise) * std::sin(turn), std::sin(rise));
+      dome.mesh.positions.push_back(glm::vec3(centre + radius * out));
+      dome.mesh.normals.push_back(glm::vec3(-out)), dome.mesh.uvs.push_back(glm::vec2(0.0f));
+    }
+  const auto corner = [&](int row, int column) { return std::uint32_t(row * around + column % around); };
+  for (int row = 0; row < up; ++row)
+    for (int column = 0; column < around; ++column) {
+      const std::uint32_t a = corner(row, column), b = corner(row, column + 1),
+                          c = corner(row + 1, column + 1), d = corner(row + 1, column);
+      dome.mesh.indices.insert(dome.mesh.indices.end(), {a, c, b});
+      if (row + 1 < up) dome.mesh.indices.insert(dome.mesh.indices.end(), {a, d, c});
+    }
+  return dome;
+}
 
 Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, const ModelSettings& settings) {
   const Result<photographs::LoadedSet> loaded = photographs::read_photograph_set(folder);

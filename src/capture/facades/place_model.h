@@ -24,4 +24,8 @@ struct ModelSettings {
 Result<PlaceModel> propose_place_model(const std::filesystem::path& folder,
                                        const ModelSettings& settings = {});
 
+/// A dome around meshes and cameras, named `backdrop_name`: so far away that where it stands makes no
+/// difference, for what photographs show beyond the model.
+NamedMesh backdrop(const std::vector<NamedMesh>& meshes, const photographs::PhotographSet& set);
+
 }  // namespace parvis::facades

@@ -7,6 +7,7 @@
 #include "graphics/shading/recorded_shadow.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::facades {
 namespace {
@@ -111,8 +112,9 @@ Mesh part_of(const Mesh& mesh, std::size_t first, std::size_t last) {
   return part;
 }
 
-/// Its surfaces, and apart from them the backdrop, which casts no shadow.
-void add_traced(const PlacedFacade& placed, float exposure, int thing, scene::TracedScene& traced) {
+/// Its surfaces, and apart from them the backdrop, which never casts a shadow.
+void add_traced(const PlacedFacade& placed, float exposure, int thing, bool casts_shadow,
+                scene::TracedScene& traced) {
   const PackedFacade& facade = *placed.facade;
   const Mesh mesh = mesh_of(facade);
   const auto surface = [&](std::size_t first) {
@@ -124,7 +126,8 @@ void add_traced(const PlacedFacade& placed, float exposure, int thing, scene::Tr
   for (std::size_t first = 0, last = 0; first < facade.triangle_count(); first = last) {
     for (last = first; last < facade.triangle_count() && is_backdrop(last) == is_backdrop(first);) ++last;
     traced.add(std::make_shared<const Mesh>(part_of(mesh, first, last)), surface(first),
-               placed.world_from_facade, {thing, false, placed.is_visible, !is_backdrop(first)});
+               placed.world_from_facade,
+               {thing, false, placed.is_visible, casts_shadow && !is_backdrop(first), is_backdrop(first)});
   }
 }
 
@@ -136,10 +139,10 @@ scene::TracedKind traced_facades() {
   kind.is_recorded = true;
   kind.count = [](const scene::Scene& scene) { return int(scene.items<PlacedFacade>().size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
-    int thing = 0;
-    for (const PlacedFacade& placed : scene.items<PlacedFacade>()) {
-      add_traced(placed, scene.exposure, thing++, traced);
-    }
+    const auto& [facades, makers] = scene.data<scene::ItemsOf<PlacedFacade>>();
+    const auto& shadows = scene.data<scene::SunShadows>();
+    for (std::size_t i = 0; i < facades.size(); ++i)
+      add_traced(facades[i], scene.exposure, int(i), shadows.casts_item_of(makers[i]), traced);
   };
   return kind;
 }

@@ -50,7 +50,8 @@ Status measure_place(const std::string& name, const std::string& data,
   }
   const Result<BenchPlace> place = load(*folder, is_quick);
   if (!place) return place.errors();
-  const facades::MeasureOptions options{is_quick ? 40 : 200, true, place->is_scan};
+  constexpr int random_views = 200;  // they take seconds
+  const facades::MeasureOptions options{random_views, true, place->is_scan};
   const Result<facades::PlaceFigures> figures =
       facades::measured_place(place->photographs, place->meshes, place->held_out, options);
   if (!figures) return figures.errors();
