@@ -7,6 +7,7 @@
 #include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
@@ -40,11 +41,14 @@ class ObjectDrawable final : public render::Drawable {
 
   void update(const scene::Scene& scene) override {
     if (!load(scene)) return;  // what is new shows nothing where graphics memory is full
-    placed_ = scene.items<PlacedObject>();
+    placed_ = scene.items<PlacedObject>(), casts_shadow_.resize(placed_.size());
     exposure_ = scene.exposure;
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const std::vector<int>& makers = scene.data<scene::ItemsOf<PlacedObject>>().makers;
     things_.begin_update(placed_.size());
     for (std::size_t i = 0; i < placed_.size(); ++i) {
       const PlacedObject& object = placed_[i];
+      casts_shadow_[i] = shadows.casts_item_of(makers[i]);
       const Bounds all = transformed(object.world_from_object, object.model->bounds());
       things_.update(i, {object.model.get(), object.world_from_object, object.is_visible, all, all});
     }
@@ -58,6 +62,7 @@ class ObjectDrawable final : public render::Drawable {
     for (std::size_t i = 0; i < placed_.size(); ++i) {
       if (!placed_[i].is_visible || !culling.shows(first_thing_ + int(i), {false, things_.is_newcomer(i)}))
         continue;
+      if (view.kind == ViewKind::shadow && !casts_shadow_[i]) continue;
       for (const Piece& piece : placed_[i].model->pieces) {
         const Bounds bounds = transformed(placed_[i].world_from_object, piece.bounds);
         if (culling.may_see(bounds) && !culling.is_hidden(bounds)) list.push_back({i, &piece});
@@ -125,6 +130,7 @@ class ObjectDrawable final : public render::Drawable {
   render::ViewPrograms solid_, cutout_;
   Loaded loaded_;
   std::vector<PlacedObject> placed_;  ///< as of the last update
+  std::vector<bool> casts_shadow_;    ///< each of them
   float exposure_ = 1.0f;
   render::StaticThings things_;
   std::vector<Shown> main_list_, other_list_;

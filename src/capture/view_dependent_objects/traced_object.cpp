@@ -5,6 +5,7 @@
 #include "graphics/shading/recorded_shadow.h"
 #include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
@@ -81,14 +82,16 @@ scene::TracedKind traced_objects() {
   kind.is_recorded = true;
   kind.count = [](const scene::Scene& scene) { return int(scene.items<PlacedObject>().size()); };
   kind.trace = [](const scene::Scene& scene, scene::TracedScene& traced) {
-    int thing = 0;
-    for (const PlacedObject& placed : scene.items<PlacedObject>()) {
+    const auto& [objects, makers] = scene.data<scene::ItemsOf<PlacedObject>>();
+    const auto& shadows = scene.data<scene::SunShadows>();
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const PlacedObject& placed = objects[i];
       const auto lookup = std::make_shared<const ViewLookup>(placed.model);
       for (const Piece& piece : placed.model->pieces)
         traced.add(mesh_of(*placed.model, piece),
                    std::make_shared<const ObjectSurface>(lookup, placed, piece, scene.exposure),
-                   placed.world_from_object, {thing, false, placed.is_visible, true});
-      ++thing;
+                   placed.world_from_object,
+                   {int(i), false, placed.is_visible, shadows.casts_item_of(makers[i])});
     }
   };
   return kind;

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "base/image_io.h"
-#include "base/test_folder.h"
 #include "capture/view_dependent_objects/blended_model.h"
 #include "capture/view_dependent_objects/placed_object.h"
 #include "capture/view_dependent_objects/room.h"
@@ -13,6 +12,7 @@
 #include "formats/gltf/room.h"
 #include "formats/inventor/room.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/light/room.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/drawables.h"
@@ -20,7 +20,7 @@
 #include "graphics/render/renderer.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
@@ -178,7 +178,7 @@ DEF body Separator {
 }
 )";
 
-class VdObject : public gl::ContextTest {
+class VdObject : public scene::ScriptTest<gl::ContextTest> {
  protected:
   VdObject() {
     script::furnish(house_), gltf::furnish(house_), inventor::furnish(house_);
@@ -190,17 +190,6 @@ class VdObject : public gl::ContextTest {
     folder_.write("none.wrl", "#VRML V2.0 utf8\nGroup { }\n");
     folder_.write("two.wrl", "#VRML V2.0 utf8\nDEF a Viewpoint { }\nDEF b Viewpoint { }\n");
   }
-  Result<scene::LoadedScene> load(const std::string& script) {
-    return scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
-  }
-  std::string errors_of(const std::string& script) {
-    const auto loaded = load(script);
-    EXPECT_FALSE(loaded) << script;
-    return loaded ? "" : to_string(loaded.errors());
-  }
-
-  TestFolder folder_;
-  House house_;
 };
 
 /// Appendix A.1, as printed: three kinds of cameras; the Performer file is replaced, and the user told.
@@ -306,6 +295,51 @@ TEST_F(VdObject, ReceivesShadowsAsDarkAsThoseOfItsTexturesAndNoneTwice) {
     EXPECT_NEAR(share(found, 48), 1.0f, 0.02f) << "darkened twice";
     EXPECT_NEAR(share(set, 16), 0.5f, 0.02f);
     EXPECT_NEAR(share(none, 16), 1.0f, 1e-3f);
+  }
+}
+
+TEST_F(VdObject, CastsAShadowWhereItIsAmongTheCasters) {
+  light::furnish(house_);
+  constexpr int size = 64;
+  Camera camera;  // the ground before the wall, which stands between it and the sun
+  camera.world_from_camera = look_at({0, -1.2f, 6}, {0, -1.2f, 0}, {0, 1, 0});
+  camera.vertical_fov = 0.25f;
+  const auto mean_of = [](const ImageF& picture) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += std::size_t(picture.channels))
+      sum += double(picture.pixels[i]);
+    return sum;
+  };
+  const auto brightness = [&](const char* casters, bool traces) {
+    const auto object = [](const char* name, int x) {
+      return fmt::format(
+          "vdobject(name=\"{}\", file=\"car.glb\", camera=\"0 -5 1 0 0 0 30 1\", position=\"{} 0 0\")\n",
+          name, x);
+    };
+    auto loaded = load(object("wall", 0) + object("aside", 40) + fmt::format("shadowMap({})\n", casters));
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    scene::Scene& scene = loaded->scene;
+    scene.sky.picture = ImageF(16, 8, 3, 0.1f);
+    scene.sun.direction_to_sun = glm::normalize(vec3(0, 1, 1));
+    scene.sun.irradiance = vec3(3.0f);
+    scene::add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f))));
+    const auto& drawables = house_.get<render::Drawables>();
+    drawables.furnish(scene);
+    if (traces) {
+      const reference::RayScene rays(scene);
+      const shading::SkyLight sky = shading::make_sky_light(scene.sky.picture, 1.0f, 0.0f);
+      return mean_of(reference::trace_picture(rays, scene, sky, camera, size, size, {}).radiance);
+    }
+    auto renderer = render::Renderer::create(scene, drawables, light::sun_and_sky);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    EXPECT_TRUE(render::draw_frame(**renderer, scene, {camera, size, size}));
+    return mean_of((*renderer)->read_radiance());
+  };
+  for (const bool traces : {false, true}) {
+    const double among_all = brightness("", traces), by_name = brightness("casters=wall", traces),
+                 left_out = brightness("casters=aside", traces);
+    EXPECT_NEAR(by_name / among_all, 1.0, 0.02) << traces;
+    EXPECT_GT(left_out, 2.0 * among_all) << traces;
   }
 }
 
