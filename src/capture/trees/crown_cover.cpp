@@ -24,10 +24,12 @@ float opacity_at(glm::vec2 q, glm::vec4 slants, const OpacityMask& mask, glm::ve
 }  // namespace
 
 void CrownCover::begin(const render::View& view, float min_visible) {
-  clip_from_world_ = view.clip_from_world;
+  clip_from_world_ = view.clip_from_world, eye_ = view.position_in_world;
   size_ = glm::ivec2(glm::ceil(glm::vec2(float(view.width), float(view.height)) / square_pixels));
+  touched_low_ = size_, touched_high_ = glm::ivec2(0);
   min_visible_ = min_visible;
   visible_.assign(std::size_t(size_.x) * std::size_t(size_.y), 1.0f);
+  depths_.assign(visible_.size(), 1.0f);
 }
 
 CrownCover::Placed CrownCover::place(const CoveringBillboard& billboard) const {
@@ -74,7 +76,12 @@ std::optional<glm::vec4> CrownCover::visible_part(const CoveringBillboard& billb
 void CrownCover::add(const CoveringBillboard& billboard, const OpacityMask& mask, glm::vec2 mask_scale) {
   if (min_visible_ <= 0.0f) return;
   const Placed placed = place(billboard);
-  if (!placed.is_before_eye) return;
+  if (!placed.is_before_eye) {
+    touched_low_ = glm::ivec2(0), touched_high_ = size_;
+    return;
+  }
+  touched_low_ = glm::min(touched_low_, placed.low), touched_high_ = glm::max(touched_high_, placed.high);
+  const float depth = depth_behind(billboard);
   const float area = std::abs(glm::determinant(placed.squares_from_billboard));
   if (area < 1e-6f) return;
   const glm::mat2 billboard_from_squares = glm::inverse(placed.squares_from_billboard);
@@ -92,9 +99,34 @@ void CrownCover::add(const CoveringBillboard& billboard, const OpacityMask& mask
         opacity = std::min(
             opacity, opacity_at(billboard_from_squares * (at + off), billboard.slants, mask, mask_scale));
       }
-      visible_[std::size_t(placed.low.y + y) * std::size_t(size_.x) + std::size_t(placed.low.x + x)] *=
-          1.0f - share * opacity;
+      const std::size_t square =
+          std::size_t(placed.low.y + y) * std::size_t(size_.x) + std::size_t(placed.low.x + x);
+      if (opacity > 0.0f && visible_[square] >= min_visible_)
+        depths_[square] = std::min(depths_[square], depth);
+      visible_[square] *= 1.0f - share * opacity;
     }
+}
+
+float CrownCover::depth_behind(const CoveringBillboard& billboard) const {
+  const float reach_m = glm::length(billboard.half_right) + glm::length(billboard.half_up);
+  const glm::vec3 place = billboard.centre + reach_m * glm::normalize(billboard.centre - eye_);
+  const glm::vec4 behind = clip_from_world_ * glm::vec4(place, 1.0f);
+  return 0.5f - 0.5f * behind.z / behind.w;
+}
+
+std::vector<float> CrownCover::hiding_depths() const {
+  std::vector<float> hiding(visible_.size(), 1.0f);
+  for (int y = 0; y < size_.y; ++y)
+    for (int x = 0; x < size_.x; ++x) {
+      float& farthest = hiding[std::size_t(y) * std::size_t(size_.x) + std::size_t(x)];
+      for (int row = std::max(y - around_squares, 0); row <= std::min(y + around_squares, size_.y - 1); ++row)
+        for (int column = std::max(x - around_squares, 0);
+             column <= std::min(x + around_squares, size_.x - 1); ++column) {
+          const std::size_t near = std::size_t(row) * std::size_t(size_.x) + std::size_t(column);
+          farthest = std::min(farthest, visible_[near] < min_visible_ ? depths_[near] : 0.0f);
+        }
+    }
+  return hiding;
 }
 
 }  // namespace parvis::trees

@@ -37,6 +37,14 @@ class CrownCover {
   /// Covers what is behind the billboard. `mask_scale`: from the billboard (-1..1) to its texture.
   void add(const CoveringBillboard& billboard, const OpacityMask& mask, glm::vec2 mask_scale);
 
+  /// Squares in each row and column of the picture.
+  glm::ivec2 squares() const { return size_; }
+  /// The squares that billboards which were added may touch: low corner, high corner excluded.
+  glm::ivec4 touched() const { return {touched_low_, touched_high_}; }
+  /// For each square, row by row from below, the depth (1 near, 0 far: as the renderer reverses it) behind
+  /// which less than `min_visible` is seen in it and in its neighbours; 0: nothing is hidden.
+  std::vector<float> hiding_depths() const;
+
  private:
   struct Placed {
     glm::vec2 centre;
@@ -45,11 +53,15 @@ class CrownCover {
     bool is_before_eye;
   };
   Placed place(const CoveringBillboard& billboard) const;
+  /// Behind the billboard and its whole cell, reversed.
+  float depth_behind(const CoveringBillboard& billboard) const;
 
   glm::mat4 clip_from_world_{1.0f};
-  glm::ivec2 size_{0};
+  glm::vec3 eye_{0.0f};
+  glm::ivec2 size_{0}, touched_low_{0}, touched_high_{0};
   float min_visible_ = 0.0f;
   std::vector<float> visible_;
+  std::vector<float> depths_;  // behind all that a square needs to hide the rest
 };
 
 }  // namespace parvis::trees

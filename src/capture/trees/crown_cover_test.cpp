@@ -56,6 +56,34 @@ TEST_F(CrownCoverTest, TheVisiblePartIsWhatIsNotCovered) {
   EXPECT_GE(part->w, 1.0f);
 }
 
+TEST_F(CrownCoverTest, DepthHidesWhatIsBehind) {
+  const auto depth_at = [&](float distance_m) {
+    const glm::vec4 clip = view_.clip_from_world * glm::vec4(0.0f, distance_m, 0.0f, 1.0f);
+    return 0.5f - 0.5f * clip.z / clip.w;
+  };
+  const auto hiding_at = [&](int x, int y) { return cover_.hiding_depths().at(std::size_t(32 * y + x)); };
+  cover_.begin(view_, 0.01f);
+  cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));  // 6.4 squares to each side
+  ASSERT_EQ(cover_.squares(), glm::ivec2(32));
+  EXPECT_EQ(cover_.touched(), glm::ivec4(9, 9, 23, 23));
+  EXPECT_LT(hiding_at(16, 16), depth_at(10)) << "the billboard itself";
+  EXPECT_GT(hiding_at(16, 16), depth_at(20));
+  EXPECT_GT(hiding_at(20, 16), depth_at(20));
+  EXPECT_EQ(hiding_at(21, 16), 0.0f) << "its neighbour is open";
+  EXPECT_EQ(hiding_at(31, 31), 0.0f);
+  // Of several that hide together the farthest counts; what is added behind them does not.
+  cover_.begin(view_, 0.01f);
+  for (int i = 0; i < 6; ++i)
+    cover_.add(square(10 + float(i), 8), mask_of({128, 128, 128, 128}), glm::vec2(1));
+  EXPECT_EQ(hiding_at(16, 16), 0.0f) << "0.5^6 > 0.01";
+  cover_.add(square(20, 8), mask_of({128, 128, 128, 128}), glm::vec2(1));
+  const float hiding = hiding_at(16, 16);
+  EXPECT_LT(hiding, depth_at(20));
+  EXPECT_GT(hiding, depth_at(40));
+  cover_.add(square(60, 30), mask_of({128, 128, 128, 128}), glm::vec2(1));
+  EXPECT_EQ(hiding_at(16, 16), hiding);
+}
+
 TEST_F(CrownCoverTest, NothingIsHiddenWhereAllIsDrawn) {
   cover_.begin(view_, 0.0f);
   cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));

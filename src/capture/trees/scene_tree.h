@@ -63,10 +63,14 @@ struct TreeDetail {
   /// Billboards of a view up to which trees are shown within `finer_limits`: a tree or two, as large as the
   /// picture. 0: never.
   std::size_t affordable_billboards = 60'000;
+  /// Billboards that the main view blends into its own samples; more of them are blended by themselves
+  /// (tree_layer.h), unless `min_visible` is 0.
+  std::size_t direct_billboards = 10'000;
 
   /// Adds the limits.
   void hash(ContentHash& hash) const {
-    limits.hash(hash), finer_limits.hash(hash), hash.add(min_visible), hash.add(affordable_billboards);
+    limits.hash(hash), finer_limits.hash(hash), hash.add(min_visible);
+    hash.add(affordable_billboards), hash.add(direct_billboards);
   }
 };
 

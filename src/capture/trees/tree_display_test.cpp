@@ -400,6 +400,25 @@ TEST_F(TreeDisplayTest, WhatCrownsHideIsNotMissed) {
   EXPECT_GT(flip(drawn_with(0.5f), all), tenth);
 }
 
+TEST_F(TreeDisplayTest, ManyBillboardsAreBlendedByThemselvesAsInTheView) {
+  for (int i = 0; i < 6; ++i) plant({0.3f * float(i % 3), 4.5f * float(i), 0});
+  add(scene_, model_of(ground(1), matt(glm::vec3(0.5f))), false,  // a wall before them
+      glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(-1.2f, -3, 2)), 1.5707963f, glm::vec3(1, 0, 0)));
+  const auto kept = renderer();
+  const auto drawn_with = [&](std::size_t direct_billboards) {
+    scene_.data<TreeDetail>().direct_billboards = direct_billboards;
+    return drawn(*kept);
+  };
+  const Image8 in_view = drawn_with(1'000'000), by_themselves = drawn_with(0);
+  EXPECT_NE(by_themselves.pixels, in_view.pixels) << "the wall's edge has one sample per pixel";
+  const double difference = flip(by_themselves, in_view);
+  EXPECT_LT(difference, 0.01);
+  EXPECT_EQ(drawn_with(1'000'000).pixels, in_view.pixels) << "a layer leaves no traces";
+  // The control: without the trees.
+  scene_.data<SceneTrees>() = {};
+  EXPECT_GT(flip(drawn(*renderer()), in_view), 10.0 * difference);
+}
+
 TEST_F(TreeDisplayTest, FarLevelsCastTheShadowsOfTheFinest) {
   camera_.world_from_camera = look_at({0, 0, 30}, {0, 0, 0}, {0, 1, 0});
   scene_.sun.direction_to_sun = glm::normalize(glm::vec3(1, 0, 0.7f));

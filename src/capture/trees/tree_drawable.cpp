@@ -17,6 +17,7 @@
 #include "capture/trees/level_choice.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
+#include "capture/trees/tree_layer.h"
 #include "graphics/render/bindings.h"
 #include "graphics/render/static_things.h"
 #include "graphics/render/stream_buffer.h"
@@ -77,6 +78,7 @@ glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFra
 struct DrawList {
   std::vector<DrawnBillboard> billboards;
   GLintptr offset = 0;
+  bool is_layered = false;  ///< blended by themselves, tree_layer.h
 };
 
 float scale_of(const glm::mat4& world_from_tree) {
@@ -95,8 +97,10 @@ class TreeDrawable final : public render::Drawable {
     Result<ViewPrograms> by_chance =
         ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}, {"HAS_HOLES", ""}}});
     if (!by_chance) return by_chance.errors();
+    Result<TreeLayer> layer = TreeLayer::create();
+    if (!layer) return layer.errors();
     std::unique_ptr<TreeDrawable> drawable(
-        new TreeDrawable(first_thing, *std::move(blended), *std::move(by_chance)));
+        new TreeDrawable(first_thing, *std::move(blended), *std::move(by_chance), *std::move(layer)));
     if (Status status = drawable->upload(scene); !status) return status.errors();
     drawable->update(scene);
     return std::unique_ptr<render::Drawable>(std::move(drawable));
@@ -154,6 +158,9 @@ class TreeDrawable final : public render::Drawable {
     const std::vector<std::size_t> levels = levels_in_view(in_view, detail);
     for (std::size_t k = 0; k < seen.size(); ++k)
       add(seen[k].second, view, in_view[k].seen, levels[k], list.billboards);
+    list.is_layered = view.kind == ViewKind::main && detail_.min_visible > 0.0f &&
+                      list.billboards.size() > detail_.direct_billboards;
+    if (list.is_layered) layer_.prepare(cover_);
     std::ranges::reverse(list.billboards);
     render::StreamBuffer& stream = view.kind == ViewKind::main ? main_stream_ : other_stream_;
     list.offset = stream.append(std::span<const DrawnBillboard>(list.billboards), 16);
@@ -163,6 +170,7 @@ class TreeDrawable final : public render::Drawable {
     const DrawList& list = list_of(view);
     const bool blends = is_blended(view);
     if (pass != (blends ? Pass::blend : Pass::cutout) || list.billboards.empty()) return;
+    if (list.is_layered) layer_.begin(view);
     const gl::Program* program = (blends ? blended_ : by_chance_).use(view);
     if (!program) return;
     glBindTextureUnit(render::first_drawable_unit, atlas_.texture());
@@ -173,13 +181,15 @@ class TreeDrawable final : public render::Drawable {
     glBindVertexArray(vertex_array_.name());
     glDisable(GL_CULL_FACE);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(list.billboards.size()));
+    if (list.is_layered) layer_.end(view);
   }
 
  private:
-  TreeDrawable(int first_thing, ViewPrograms blended, ViewPrograms by_chance)
+  TreeDrawable(int first_thing, ViewPrograms blended, ViewPrograms by_chance, TreeLayer layer)
       : first_thing_(first_thing),
         blended_(std::move(blended)),
         by_chance_(std::move(by_chance)),
+        layer_(std::move(layer)),
         main_stream_(1 << 22),
         other_stream_(1 << 22) {
     const GLuint array = vertex_array_.name();
@@ -292,6 +302,7 @@ class TreeDrawable final : public render::Drawable {
   TreeDetail detail_;
   CrownCover cover_;
   ViewPrograms blended_, by_chance_;
+  TreeLayer layer_;
   gl::VertexArray vertex_array_ = gl::VertexArray::create();
   TreeAtlas atlas_;
   std::vector<const TreeLevels*> uploaded_;
