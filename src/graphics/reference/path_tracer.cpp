@@ -105,22 +105,20 @@ vec3 PathTracer::light_at(const ShadingPoint& point, const Scatter& scatter, Pat
 /// path could not have found that light at the surface before.
 vec3 PathTracer::lamps_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const {
   vec3 light(0.0f);
-  const glm::uvec4 cell = lamps_.cell(point.position);
-  for (int i = 0; i < 4; ++i)
-    for (std::uint32_t word = cell[i]; word != 0; word >>= 16) {
-      const shading::Lamp& lamp = lamps_.lamps[(word & 65535u) - 1];
-      const vec3 away = vec3(lamp.place) - point.position;
-      const float distance_m = std::max(glm::length(away), 1e-3f);
-      const vec3 to_lamp = away / distance_m;
-      if (path.density == 0.0f) light += shading::lamp_glow(lamp, distance_m);
-      const float side = glm::dot(point.geometric_normal, to_lamp);
-      if (side * glm::dot(point.surface.normal, to_lamp) <= 0.0f) continue;
-      const vec3 brought = scatter.share(to_lamp) * shading::lamp_irradiance(lamp, to_lamp, distance_m);
-      if (!(brought.x + brought.y + brought.z > 0.0f)) continue;
-      ++path.ray_count;
-      const Ray ray = ray_to_lamp(lamp, point.position, std::copysign(1.0f, side) * point.geometric_normal);
-      if (!rays_.is_blocked(ray, path.passage)) light += brought;
-    }
+  lamps_.for_each_near(point.position, [&](std::size_t number) {
+    const shading::Lamp& lamp = lamps_.lamps[number];
+    const vec3 away = vec3(lamp.place) - point.position;
+    const float distance_m = std::max(glm::length(away), 1e-3f);
+    const vec3 to_lamp = away / distance_m;
+    if (path.density == 0.0f) light += shading::lamp_glow(lamp, distance_m);
+    const float side = glm::dot(point.geometric_normal, to_lamp);
+    if (side * glm::dot(point.surface.normal, to_lamp) <= 0.0f) return;
+    const vec3 brought = scatter.share(to_lamp) * shading::lamp_irradiance(lamp, to_lamp, distance_m);
+    if (!(brought.x + brought.y + brought.z > 0.0f)) return;
+    ++path.ray_count;
+    const Ray ray = ray_to_lamp(lamp, point.position, std::copysign(1.0f, side) * point.geometric_normal);
+    if (!rays_.is_blocked(ray, path.passage)) light += brought;
+  });
   return light;
 }
 
@@ -157,6 +155,7 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   path.width_m = width_m;
   path.spread += sample->spread + (is_mirror ? 2.0f * point.curvature_per_m * width_m : 0.0f);
   path.passage.sees_backs = true;
+  path.passage.passes_backdrops = !is_mirror;  // as the rays that chosen lights send: both find the same
   return true;
 }
 
@@ -177,6 +176,7 @@ bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_
   path.density = 0.0f;  // as a mirror's
   path.width_m = width_m;
   path.passage.sees_backs = true;
+  path.passage.passes_backdrops = false;
   return true;
 }
 

@@ -1,7 +1,8 @@
 // Path tracer for reference photographs: sun, sky and emission over any number of bounces. Unbiased: the mean
 // over all samples converges to the incident radiance (Veach 1997, chapters 8 to 10). Shared with the
 // renderer: surfaces and their BRDF, the sky image, haze. Not shared: shadow maps, sky visibility, baked
-// occlusion, painted contact shadows; here the geometry itself casts those.
+// occlusion, painted contact shadows; here the geometry itself casts those. The backdrop of a captured place
+// is seen by the camera, through glass and in smooth mirrors; what lies before it is lit by the sky.
 #pragma once
 
 #include <cstdint>

@@ -246,6 +246,9 @@ TEST(PathTracer, WhatBlendsLetsThroughWhatItsAlphaLeaves) {
   scene::add(scene, scene::model_of(scene::quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}), pane));
   const Ray ray{{0.1f, -3, 0.4f}, {0, 1, 0}};
   expect_agrees(radiance(scene, constant_sky(0.0f), ray, 20000), 0.25 * 2.0 + 0.75 * 8.0, 2e-3);
+  // What is to cast no shadow in pictures is there all the same.
+  scene.data<scene::SunShadows>().casts_none = {false, true};
+  expect_agrees(radiance(scene, constant_sky(0.0f), ray, 20000), 0.25 * 2.0 + 0.75 * 8.0, 2e-3);
   // Painted contact shadows are the renderer's.
   auto painted = std::make_shared<scene::Model>(*scene.objects[1].model);
   painted->parts[0].casts_shadow = false;
@@ -265,6 +268,57 @@ TEST(PathTracer, HazeIsTheRenderers) {
   const Estimate found = radiance(scene, sky, {vec3(0), {0, 1, 0}}, 10, options);
   const vec3 expected = shading::through_haze(vec3(8.0f), 100.0f, scene.haze_per_m, sky.haze_radiance);
   EXPECT_NEAR(found.mean, double(expected.x), 1e-4);
+}
+
+/// A photograph of all that is far away: it shines by itself, five times as brightly as the sky.
+class FarAway final : public scene::TracedSurface {
+ public:
+  static constexpr float radiance = 5.0f;
+  scene::TracedPoint point(const scene::TracedHit& hit) const override {
+    return {.normal = hit.to_viewer,
+            .base_colour = vec3(0.0f),
+            .metallic = 1.0f,
+            .roughness = 1.0f,
+            .emission = vec3(radiance)};
+  }
+};
+
+/// Within a dome that stands for all that is far away things are lit as without it, by either strategy.
+TEST(PathTracer, ABackdropIsSeenAndLightsNothing) {
+  const shading::SkyLight sky = constant_sky(1.0f);
+  const auto dome = std::make_shared<const Mesh>(scene::sphere(vec3(0.0f), 50.0f, 32));
+  const auto within_dome = [&](scene::Scene scene) {
+    scene.traced_kinds = {{.name = "facades",
+                           .count = [](const scene::Scene&) { return 1; },
+                           .trace =
+                               [dome](const scene::Scene&, scene::TracedScene& traced) {
+                                 traced.add(dome, std::make_shared<const FarAway>(), glm::mat4(1.0f),
+                                            {.casts_shadow = false, .is_backdrop = true});
+                               },
+                           .is_recorded = true}};
+    return scene;
+  };
+  const Mesh ball = scene::sphere(vec3(0.0f), 1.0f, 128);
+  PathOptions options;
+  for (const scene::Material& material : materials) {
+    const double expected = reflected(surface_of(material), 0.7, [](double) { return 1.0; });
+    for (const LightStrategy strategy :
+         {LightStrategy::both, LightStrategy::chosen_lights, LightStrategy::scattered_rays}) {
+      options.strategy = strategy;
+      expect_agrees(radiance(within_dome(of(ball, material)), sky, ray_to_top(0.7), 40000, options), expected,
+                    2e-3);  // facets, and the midpoint rule
+    }
+  }
+  options.strategy = LightStrategy::both;
+  options.bounces = 0;
+  EXPECT_NEAR(radiance(within_dome(without_sun()), sky, ray_to_top(0.7), 10, options).mean, FarAway::radiance,
+              1e-3);
+  options.bounces = 1;
+  scene::Material chrome = gloss(1, 0.0f, 0);
+  chrome.base_colour = vec3(1.0f);
+  EXPECT_NEAR(radiance(within_dome(of(ball, chrome)), sky, ray_to_top(0.7), 2000, options).mean,
+              FarAway::radiance, 0.02 * FarAway::radiance)
+      << "what smooth mirrors show";
 }
 
 TEST(PathTracer, AnEmptySceneShowsTheSkyAndTheSunsDisc) {

@@ -58,10 +58,11 @@ float alpha_of(const Candidate& candidate, bool is_shadow) {
 
 bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
   const scene::Material& material = *candidate.place.material;
+  if (candidate.place.is_backdrop && (is_shadow || passage.passes_backdrops)) return false;
   if (!passage.sees_backs && !material.is_double_sided && candidate.is_back) return false;
-  if (material.alpha_mode == scene::Alpha::opaque) return !(is_shadow && is_backdrop(candidate.place));
+  if (material.alpha_mode == scene::Alpha::opaque) return true;
   if (material.alpha_mode == scene::Alpha::cutout) return alpha_of(candidate, is_shadow) >= 0.5f;
-  return candidate.place.casts_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
+  return !candidate.place.is_painted_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
 }
 
 /// A ray to the sun hits from behind what the sun sees from the front; panes and solid glass cast no

@@ -21,13 +21,10 @@ inline std::size_t place_of(unsigned instance, unsigned geometry) {
   return instance == joined_instance ? geometry : instance - 1;
 }
 
-/// True for what stands for all that is far away around a photographed place: light passes it.
-inline bool is_backdrop(const PlacedPart& part) { return part.is_recorded && !part.casts_shadow; }
-
 /// Do some queries of a scene in single precision have to ask about this part's triangles, whatever the rays?
 /// Of opaque parts those alone do that see as the renderer draws.
 inline bool needs_filter(const PlacedPart& part) {
-  return part.material->alpha_mode != scene::Alpha::opaque || is_backdrop(part);
+  return part.material->alpha_mode != scene::Alpha::opaque || part.is_backdrop;
 }
 
 /// Embree's filter function of a geometry, for rays that see.

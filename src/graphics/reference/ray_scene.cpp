@@ -109,6 +109,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     part.object = first_thing_ + placing.thing;
     part.casts_shadow = placing.casts_shadow;
     part.is_recorded = is_recorded_;
+    part.is_backdrop = placing.is_backdrop;
     rays_.place(part, true);
     rays_.kept_.insert(rays_.kept_.end(), {std::move(mesh), std::move(surface), std::move(material)});
   }
@@ -121,6 +122,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
       const scene::Part& part = model->parts[p];
       rays_.place(*model, model->materials, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
                   first_thing_ + placing.thing, false, true, false);
+      rays_.places_.back()->casts_shadow &= placing.casts_shadow;
     }
     rays_.kept_.push_back(std::move(model));
   }
@@ -236,7 +238,7 @@ Bounds RayScene::fixed_bounds(const scene::Scene& scene) const {
   for (const std::unique_ptr<PlacedPart>& place : places_) {
     const auto object = std::size_t(place->object);
     const bool is_dynamic = object < scene.objects.size() && scene.objects[object].is_dynamic;
-    if (place->is_traced && !is_dynamic)
+    if (place->is_traced && !place->is_backdrop && !is_dynamic)
       bounds.add(transformed(place->world_from_mesh, place->mesh->bounds()));
   }
   return bounds;
@@ -293,7 +295,9 @@ void RayScene::place(const scene::Model& model, const std::vector<scene::Materia
   part.world_from_mesh = world_from_mesh;
   part.object = number;
   part.casts_shadow = source.casts_shadow && shadows_.casts(std::size_t(number));
+  part.is_painted_shadow = !source.casts_shadow;
   part.receives_shadow = shadows_.receives(std::size_t(number));
+  part.is_backdrop = source.is_backdrop;
   part.is_mirror = takes_reflection && part.material->is_mirror_like;
   place(part, is_visible, may_join);
 }

@@ -44,9 +44,11 @@ struct PlacedPart {
   glm::mat3 world_from_normal;
   int part = 0;  ///< of the object's model
   int object;    ///< index in the scene; beyond them, of what rooms draw by themselves: for_each_traced_kind
-  bool casts_shadow;
+  bool casts_shadow;               ///< in what the renderer draws: a wish of the scene, too
+  bool is_painted_shadow = false;  ///< if it is blended: its part casts none by itself (see Passage)
   bool receives_shadow = true;
   bool is_recorded = false;  ///< TracedKind::is_recorded
+  bool is_backdrop = false;  ///< scene::Part::is_backdrop
   bool is_mirror;            ///< takes reflections
   bool is_mirrored;          ///< the transform turns right into left, and with it the winding of triangles
   bool is_traced;            ///< else rays pass it: it is hidden, empty, or flattened by its transform
@@ -77,6 +79,8 @@ struct FineHit {
 struct Passage {
   Random random{0};
   bool sees_backs = true;  ///< else the backs of single-sided parts are passed, as the renderer draws them
+  /// Backdrops are passed, as light always does: what they surround is lit by the sky, not by its picture.
+  bool passes_backdrops = false;
 };
 
 /// What decides whether a ray hits a triangle, and which it hits first. A scene answers rays of its precision
@@ -129,7 +133,7 @@ class RayScene {
   void nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const;
   /// is_blocked of each ray of a packet: bit i is that of ray i.
   std::uint32_t are_blocked(std::span<const FineRay> rays) const;
-  /// Of what is traced, without dynamic objects of the scene that this was made of.
+  /// Of what is traced, without backdrops and dynamic objects of the scene that this was made of.
   Bounds fixed_bounds(const scene::Scene& scene) const;
   std::size_t triangle_count() const { return triangle_count_; }  ///< summed over all placements of a mesh
 

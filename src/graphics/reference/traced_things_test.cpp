@@ -200,23 +200,46 @@ TEST(TracedThings, PathsSeeThem) {
 
 /// What a photograph shows of all that is far away is seen, and lets sun and sky through.
 TEST(TracedThings, LightPassesABackdrop) {
-  const auto is_dark_behind = [](bool is_recorded, bool casts_shadow) {
-    scene::Scene scene = scene_with([&](scene::TracedScene& traced) {
-      traced.add(facing_south(), std::make_shared<const Shining>(), glm::mat4(1.0f),
-                 {.casts_shadow = casts_shadow});
-    });
-    scene.traced_kinds.front().is_recorded = is_recorded;
+  for (const scene::Alpha alpha : {scene::Alpha::opaque, scene::Alpha::cutout}) {
+    const auto is_dark_behind = [&](const scene::TracedPlacing& placing) {
+      scene::Scene scene = scene_with([&](scene::TracedScene& traced) {
+        traced.add(facing_south(), std::make_shared<const Shining>(alpha), glm::mat4(1.0f), placing);
+      });
+      scene.traced_kinds.front().is_recorded = true;
+      const RayScene rays(scene);
+      Passage passage, to_light{.passes_backdrops = true};
+      const Ray ray{{-1, -5, 0.2f}, {0, 1, 0}};
+      EXPECT_TRUE(rays.nearest_hit(ray, passage));
+      const bool is_blocked = rays.is_blocked(ray, passage);
+      EXPECT_EQ(rays.nearest_hit(ray, to_light).has_value(), is_blocked);
+      EXPECT_EQ(rays.are_blocked(std::span(&ray, 1), std::span(&passage, 1)) != 0, is_blocked);
+      EXPECT_EQ(rays.fixed_bounds(scene).empty(), !is_blocked) << "nor does it belong to the place";
+      return is_blocked;
+    };
+    EXPECT_FALSE(is_dark_behind({.casts_shadow = false, .is_backdrop = true}));
+    EXPECT_TRUE(is_dark_behind({}));
+    EXPECT_TRUE(is_dark_behind({.casts_shadow = false})) << "a wish about pictures of the renderer";
+  }
+}
+
+/// Of models that a room places, and of parts of models that are backdrops themselves.
+TEST(TracedThings, ModelsAreBackdropsAndCastersAsTheySay) {
+  auto model = scene::model_of(scene::quad({-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}),
+                               scene::matt(glm::vec3(0.5f)));
+  const auto blocks = [&](const scene::TracedPlacing& placing) {
+    const scene::Scene scene =
+        scene_with([&](scene::TracedScene& traced) { traced.add(model, glm::mat4(1.0f), placing); });
     const RayScene rays(scene);
     Passage passage;
-    const Ray ray{{0, -5, 0}, {0, 1, 0}};
-    EXPECT_TRUE(rays.nearest_hit(ray, passage));
-    const bool is_blocked = rays.is_blocked(ray, passage);
-    EXPECT_EQ(rays.are_blocked(std::span(&ray, 1), std::span(&passage, 1)) != 0, is_blocked);
-    return is_blocked;
+    const Ray ray{{-1, 5, 0.2f}, {0, -1, 0}};
+    return std::pair(rays.is_blocked(ray), rays.is_blocked(ray, passage));
   };
-  EXPECT_FALSE(is_dark_behind(true, false));
-  EXPECT_TRUE(is_dark_behind(true, true));
-  EXPECT_TRUE(is_dark_behind(false, false));
+  EXPECT_EQ(blocks({}), std::pair(true, true));
+  EXPECT_EQ(blocks({.casts_shadow = false}), std::pair(false, true));
+  auto far_away = std::make_shared<scene::Model>(*model);
+  far_away->parts[0].is_backdrop = true, far_away->parts[0].casts_shadow = false;
+  model = far_away;
+  EXPECT_EQ(blocks({}), std::pair(false, false));
 }
 
 }  // namespace
