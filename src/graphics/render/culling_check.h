@@ -10,9 +10,6 @@ struct CullingCheck {
   int hidden = 0;         ///< that no pixel shows
   int hidden_culled = 0;  ///< of these, not drawn
   int false_culls = 0;    ///< not drawn, although a pixel shows them
-
-  /// Of the hidden ones; 100 where none is hidden.
-  double culled_percent() const { return hidden > 0 ? 100.0 * hidden_culled / hidden : 100.0; }
 };
 
 /// Draws the picture of objects without culling at width x height, and compares it to what culling leaves.

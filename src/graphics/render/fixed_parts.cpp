@@ -10,14 +10,14 @@ class FixedTracedParts final : public scene::TracedScene {
 
   void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
            const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
-    if (!placing.is_dynamic && placing.casts_shadow && surface->alpha_mode() == scene::Alpha::opaque)
+    if (!placing.is_dynamic && !placing.is_backdrop && surface->alpha_mode() == scene::Alpha::opaque)
       visit_({*mesh, world_from_mesh, first_thing_ + placing.thing, placing.is_visible,
               surface->is_double_sided()});
   }
 
   void add(std::shared_ptr<const scene::Model> model, const glm::mat4& world_from_model,
            const scene::TracedPlacing& placing) override {
-    if (placing.is_dynamic || !placing.casts_shadow) return;
+    if (placing.is_dynamic || placing.is_backdrop) return;
     const std::vector<glm::mat4> pose = scene::rest_pose(*model);
     for (const scene::Part& part : model->parts) {
       const scene::Material& material = model->materials[std::size_t(part.material)];

@@ -19,7 +19,7 @@ struct FixedPart {
 };
 
 /// Calls `visit(part)` for every such mesh of the scene's objects, hidden ones included, except what
-/// surrounds the place.
+/// surrounds the place, and backdrops: they hide no sky.
 template <class Visit>
 void for_each_fixed_object_part(const scene::Scene& scene, Visit&& visit) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
@@ -28,15 +28,14 @@ void for_each_fixed_object_part(const scene::Scene& scene, Visit&& visit) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts) {
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
-      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts())
+      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts() && !part.is_backdrop)
         visit(FixedPart{part.mesh, object.world_from_model * pose[std::size_t(part.node)], int(o),
                         object.is_visible, material.is_double_sided});
     }
   }
 }
 
-/// The same for static opaque meshes that rooms draw themselves; one that casts no shadow, as the backdrop of
-/// a captured place, hides no sky either and is left out.
+/// The same for static opaque meshes that rooms draw themselves.
 void for_each_fixed_traced_part(const scene::Scene& scene,
                                 const std::function<void(const FixedPart&)>& visit);
 

@@ -17,11 +17,16 @@ constexpr std::size_t min_pieces = 256;
 constexpr float kept_share = 2.0f / 3.0f;  // from one level to the next: leaves grow by a fifth
 // With a quarter of a pixel of error that a surface may have, the leaves of a level are 8 pixels or smaller.
 constexpr float error_of_leaf = 1.0f / 32.0f;
+// Of hidden pieces no more is seen from anywhere outside, in the mean of their corners: what lies behind them
+// looks much like them. They are left out where leaves are 32 pixels or smaller.
+constexpr float hidden_share = 0.5f, error_of_hidden = 0.25f;
 
 /// A part of a mesh that shares no vertex with the rest.
 struct Piece {
   Bounds bounds;
   double area_m2 = 0.0;
+  float max_seen = 0.0f;  ///< from outside the crown, mean of its vertices
+  float vertices = 0.0f;
   std::uint32_t order = 0;  ///< those below a limit are kept
 };
 
@@ -31,7 +36,7 @@ struct Pieces {
   std::vector<std::uint32_t> of_vertex;
 };
 
-Pieces pieces_of(const Mesh& mesh) {
+Pieces pieces_of(const Mesh& mesh, std::span<const float> max_seen) {
   std::vector<std::uint32_t> lowest(mesh.positions.size());  // a vertex of the piece that comes earlier
   std::iota(lowest.begin(), lowest.end(), 0u);
   const auto root = [&](std::uint32_t vertex) {
@@ -51,8 +56,12 @@ Pieces pieces_of(const Mesh& mesh) {
       pieces.all.emplace_back();
     }
     pieces.of_vertex[vertex] = pieces.of_vertex[first];
-    pieces.all[pieces.of_vertex[vertex]].bounds.add(mesh.positions[vertex]);
+    Piece& piece = pieces.all[pieces.of_vertex[vertex]];
+    piece.bounds.add(mesh.positions[vertex]);
+    piece.max_seen += max_seen.empty() ? 1.0f : max_seen[vertex];
+    ++piece.vertices;
   }
+  for (Piece& piece : pieces.all) piece.max_seen /= piece.vertices;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const glm::vec3 a = mesh.positions[mesh.indices[i]];
     const glm::vec3 sides =
@@ -62,12 +71,14 @@ Pieces pieces_of(const Mesh& mesh) {
   return pieces;
 }
 
-/// Numbers the pieces so that those below any limit lie evenly among all: the van der Corput sequence.
-/// Returns where the numbers end.
-std::uint32_t order_evenly(std::vector<Piece>& pieces) {
+/// Numbers the pieces that are shown so that those below any limit lie evenly among all: the van der Corput
+/// sequence. Returns where the numbers end; hidden pieces have that one.
+std::uint32_t order_evenly(std::vector<Piece>& pieces, bool leaves_out_hidden) {
   const std::uint32_t end = std::bit_ceil(std::uint32_t(pieces.size()));
   std::uint32_t number = 0;
   for (Piece& piece : pieces) {
+    piece.order = end;
+    if (leaves_out_hidden && piece.max_seen <= hidden_share) continue;
     piece.order = number;
     std::uint32_t bit = end >> 1;  // a step of a counter whose bits stand in reverse
     for (; bit > 0 && (number & bit) != 0; bit >>= 1) number ^= bit;
@@ -122,16 +133,21 @@ std::uint64_t max_level_bytes(const Mesh& mesh) {
   return std::uint64_t(double(mesh_bytes) * kept_share / (1.0 - kept_share));  // the geometric series
 }
 
-std::vector<FoliageLevel> foliage_levels(const Mesh& mesh) {
-  Pieces pieces = pieces_of(mesh);
+std::vector<FoliageLevel> foliage_levels(const Mesh& mesh, std::span<const float> max_seen) {
+  Pieces pieces = pieces_of(mesh, max_seen);
   if (pieces.all.size() < min_pieces) return {};
-  const std::uint32_t end = order_evenly(pieces.all);
+  const auto hidden =
+      std::ranges::count_if(pieces.all, [](const Piece& piece) { return piece.max_seen <= hidden_share; });
+  const bool leaves_out_hidden = float(hidden) >= (1.0f - kept_share) * float(pieces.all.size());
+  const std::uint32_t end = order_evenly(pieces.all, leaves_out_hidden);
   const float leaf_m = mean_size_m(pieces.all);
   const double whole_m2 = area_m2(pieces.all, end);
   std::vector<FoliageLevel> levels;
-  float share = 1.0f;
-  for (int level = 0; level < max_foliage_levels; ++level) {
-    share *= kept_share;
+  if (leaves_out_hidden) {
+    levels.push_back(with_pieces(mesh, pieces, end, 1.0f));
+    levels.back().error_m = error_of_hidden * error_of_leaf * leaf_m;
+  }
+  for (float share = kept_share; levels.size() < max_foliage_levels; share *= kept_share) {
     const std::uint32_t limit = std::uint32_t(share * float(end));
     const double kept_m2 = area_m2(pieces.all, limit);
     if (!(kept_m2 > 0.0)) break;

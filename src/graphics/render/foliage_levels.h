@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/mesh.h"
@@ -20,10 +21,13 @@ struct FoliageLevel {
   float error_m = 0.0f;
 };
 
-/// Levels of detail of a mesh of many small pieces that share no vertices (leaves, sprays). Each keeps two
-/// thirds of the pieces of the level before it, evenly over the order in which the mesh has them, enlarged
-/// about their middles so that all levels have the area of the mesh. Empty where the pieces are few.
-std::vector<FoliageLevel> foliage_levels(const Mesh& mesh);
+/// Levels of detail of a mesh of many small pieces that share no vertices (leaves, sprays). Where a crown
+/// hides a third of its pieces or more (`max_seen` gives, by vertex, what of it is seen from outside at
+/// most: scene::LeafOpenness; empty: all), the first level leaves those out and changes no other. Each
+/// further level keeps two thirds of the pieces of the one before it, evenly over the order in which the mesh
+/// has them, enlarged about their middles so that these levels have the same area. Empty where the pieces are
+/// few.
+std::vector<FoliageLevel> foliage_levels(const Mesh& mesh, std::span<const float> max_seen = {});
 
 /// Bytes that the levels of a mesh take at most.
 std::uint64_t max_level_bytes(const Mesh& mesh);

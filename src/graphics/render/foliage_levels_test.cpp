@@ -8,6 +8,7 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/shading/tone_curve.h"
+#include "scene/data/leaf_openness.h"
 #include "scene/data/test_crown.h"
 
 namespace parvis::render {
@@ -141,6 +142,42 @@ TEST(FoliageLevels, ChangeThePictureLessThanAStepOfTheEye) {
   const Image8 before = picture(whole, near);
   EXPECT_GT(reference::compare(picture(levels.back().mesh, near), before)->flip,
             reference::compare(picture(whole, near, 2.0f / near), before)->flip);
+}
+
+/// What of each vertex is seen from outside at most.
+std::vector<float> max_seen_of(const Mesh& foliage) {
+  scene::Scene place;
+  scene::add(place, scene::model_of(foliage, scene::leaf_material({0.10f, 0.22f, 0.05f}, 0.3f)));
+  scene::find_leaf_openness(place);
+  const std::span<const float> found = place.data<scene::LeafOpenness>().max_seen(*place.objects[0].model, 0);
+  return {found.begin(), found.end()};
+}
+
+std::size_t leaves_of(const Mesh& mesh) { return mesh.positions.size() / 4; }
+
+/// The first level is drawn until leaves are 32 pixels large. As many leaves less that hide others open
+/// holes.
+TEST(FoliageLevels, LeaveOutWhatACrownHides) {
+  const Mesh whole = crown(6000);
+  const std::vector<FoliageLevel> levels = foliage_levels(whole, max_seen_of(whole));
+  ASSERT_EQ(levels.size(), std::size_t(max_foliage_levels));
+  const Mesh& shown = levels.front().mesh;
+  EXPECT_LT(double(leaves_of(shown)), 0.67 * double(leaves_of(whole)));
+  EXPECT_NEAR(double(leaves_of(levels[1].mesh)) / double(leaves_of(shown)), 2.0 / 3.0, 0.05);
+  const float pixels_per_metre = 0.25f / levels.front().error_m;
+  const Image8 truth = picture(whole, pixels_per_metre);
+  const auto flip_of = [&](const Mesh& mesh) {
+    return reference::compare(picture(mesh, pixels_per_metre), truth)->flip;
+  };
+  Mesh fewer;
+  for (std::size_t i = 0; i < whole.indices.size(); i += 6)
+    if ((i / 6 * leaves_of(shown)) % leaves_of(whole) < leaves_of(shown))
+      fewer.indices.insert(fewer.indices.end(), &whole.indices[i], &whole.indices[i] + 6);
+  fewer.positions = whole.positions, fewer.normals = whole.normals, fewer.uvs = whole.uvs;
+  const double hidden_left_out = flip_of(shown), others_left_out = flip_of(fewer);
+  fmt::print("{} leaves, {:.1f} pixels per metre: FLIP {:.4f}, others left out {:.4f}\n", leaves_of(shown),
+             pixels_per_metre, hidden_left_out, others_left_out);
+  EXPECT_LT(hidden_left_out, 0.3 * others_left_out);
 }
 
 }  // namespace

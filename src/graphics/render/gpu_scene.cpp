@@ -127,7 +127,8 @@ void GpuScene::add_models(const scene::Scene& scene) {
       const scene::Part& part = model.parts[p];
       const bool lets_through = model.materials[std::size_t(part.material)].refracts();
       parts_.push_back({geometry_.add(part.mesh, leaves.of(model, p)), first_material + part.material,
-                        part.node, part.mesh.bounds(), part.casts_shadow && !lets_through, 0, 0});
+                        part.node, part.mesh.bounds(), part.casts_shadow && !lets_through, part.is_backdrop,
+                        0, 0});
     }
   }
 }
@@ -164,22 +165,24 @@ void GpuScene::add_surface_levels(const scene::Scene& scene) {
 void GpuScene::add_foliage_levels(const scene::Scene& scene) {
   struct Foliage {
     const Mesh* mesh;
-    std::span<const float> openness;
+    std::span<const float> openness, max_seen;
     PartRange* part;
   };
+  const auto& leaves = scene.data<scene::LeafOpenness>();
   std::vector<Foliage> foliage;
   for (const auto& [model, first_part] : first_part_of_model_)
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       PartRange& part = parts_[std::size_t(first_part) + p];
       const bool is_leaf = (materials_[std::size_t(part.material)].features & surface_is_leaf) != 0;
       if (is_leaf && !model->parts[p].deformation)
-        foliage.push_back({&model->parts[p].mesh, scene.data<scene::LeafOpenness>().of(*model, p), &part});
+        foliage.push_back({&model->parts[p].mesh, leaves.of(*model, p), leaves.max_seen(*model, p), &part});
     }
   std::uint64_t bytes = 0;
   for (const Foliage& each : foliage) bytes += max_level_bytes(*each.mesh);
   if (bytes > memory_left()) return;  // the picture needs none of them
   std::vector<std::vector<FoliageLevel>> levels(foliage.size());
-  parallel_for(foliage.size(), [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].mesh); });
+  parallel_for(foliage.size(),
+               [&](std::size_t i) { levels[i] = foliage_levels(*foliage[i].mesh, foliage[i].max_seen); });
   for (std::size_t i = 0; i < foliage.size(); ++i) {
     PartRange& part = *foliage[i].part;
     part.first_level = int(levels_.size());
@@ -320,7 +323,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
     }
   }
   first_item_.push_back(std::uint32_t(items_.size()));
-  object_bounds_.resize(scene.objects.size());
+  object_bounds_.resize(scene.objects.size()), near_bounds_.resize(scene.objects.size());
   world_from_model_.resize(scene.objects.size());
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     deform(scene.objects[o], o);
@@ -332,7 +335,7 @@ void GpuScene::make_items(const scene::Scene& scene) {
 void GpuScene::place(const scene::Scene& scene, std::size_t o) {
   const scene::Object& object = scene.objects[o];
   const std::vector<glm::mat4>& pose = object.pose.empty() ? rest_poses_[o] : object.pose;
-  Bounds bounds;
+  Bounds bounds, near_bounds;
   for (std::uint32_t i = first_item_[o]; i < first_item_[o + 1]; ++i) {
     Item& item = items_[i];
     const PartRange& part = parts_[std::size_t(item.part)];
@@ -341,8 +344,9 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
     for (int r = 0; r < 3; ++r) item.record.rows[r] = rows[r];
     item.bounds = transformed(world_from_mesh, part.bounds);
     bounds.add(item.bounds);
+    if (!part.is_backdrop) near_bounds.add(item.bounds);
   }
-  object_bounds_[o] = bounds;
+  object_bounds_[o] = bounds, near_bounds_[o] = near_bounds;
   world_from_model_[o] = object.world_from_model;
 }
 
@@ -411,8 +415,8 @@ std::vector<GpuMaterial> GpuScene::mirror_materials() const {
 
 Bounds GpuScene::fixed_bounds() const {
   Bounds bounds;
-  for (std::size_t o = 0; o < object_bounds_.size(); ++o)
-    if (!is_moving_[o] && !surrounds_[o]) bounds.add(object_bounds_[o]);
+  for (std::size_t o = 0; o < near_bounds_.size(); ++o)
+    if (!is_moving_[o] && !surrounds_[o]) bounds.add(near_bounds_[o]);
   return bounds;
 }
 

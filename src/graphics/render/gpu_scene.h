@@ -29,6 +29,7 @@ struct PartRange : MeshRange {
   int node;
   Bounds bounds;  ///< in the node's frame
   bool casts_shadow;
+  bool is_backdrop;              ///< scene::Part::is_backdrop
   int first_level, level_count;  ///< of the scene's `levels`, coarser and coarser
 };
 
@@ -105,7 +106,8 @@ class GpuScene {
   const std::vector<Bounds>& object_bounds() const { return object_bounds_; }
   /// Transform of an object as of the last update.
   const glm::mat4& world_from_model(int object) const { return world_from_model_[std::size_t(object)]; }
-  /// World bounds of all static objects, hidden ones included, without what surrounds the place.
+  /// World bounds of all static objects, hidden ones included, without backdrops and what surrounds the
+  /// place.
   Bounds fixed_bounds() const;
   /// World bounds of every visible dynamic object.
   const std::vector<Bounds>& moving_bounds() const { return moving_bounds_; }
@@ -161,6 +163,7 @@ class GpuScene {
   std::vector<Item> items_;
   std::vector<std::uint32_t> first_item_;  ///< of each object, and the end
   std::vector<Bounds> object_bounds_;
+  std::vector<Bounds> near_bounds_;  ///< the same without backdrops
   std::vector<std::uint8_t> is_moving_, is_visible_, is_newcomer_;
   std::vector<std::uint8_t>
       surrounds_;  ///< of each object: it surrounds the place (scene/data/surroundings.h)

@@ -6,7 +6,7 @@
 namespace parvis::render {
 namespace {
 
-constexpr double min_pixels = 1.0 / 9.0;  // a third as wide, a third as high: what enlarging bears in motion
+constexpr double min_pixels = 1.0 / 16.0;  // a quarter as wide and as high: what enlarging bears in motion
 // Of what a frame is off, taken back in the next: pixels are not all that it takes.
 constexpr double follows = 0.3, follows_far = 0.7, far_off = 1.5;
 constexpr double bears = 0.03;  // share of the budget: less is the clock's own spread

@@ -30,10 +30,10 @@ TEST(PictureScaleTest, DrawsAllPixelsWhereTheyFitAndWithoutABudget) {
   EXPECT_EQ(scale.drawn_size(1000, 500), glm::ivec2(1000, 500));
 }
 
-TEST(PictureScaleTest, IsNeverLessThanAThirdAsWide) {
+TEST(PictureScaleTest, IsNeverLessThanAQuarterAsWide) {
   PictureScale scale;
   for (int frame = 0; frame < 1000; ++frame) scale.frame_took(1e9, 1e-3);
-  EXPECT_EQ(scale.drawn_size(1000, 500), glm::ivec2(333, 167));
+  EXPECT_EQ(scale.drawn_size(1000, 500), glm::ivec2(250, 125));
   EXPECT_EQ(scale.drawn_size(1, 1), glm::ivec2(1, 1));
 }
 

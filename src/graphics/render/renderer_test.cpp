@@ -62,6 +62,20 @@ struct WallView {
   Camera camera;
 };
 
+TEST_F(RendererTest, ABackdropIsNoPartOfThePlaceThatShadowsAreFittedTo) {
+  const std::shared_ptr<scene::Model> model = model_of(ground(30), matt(glm::vec3(0.3f)));
+  model->parts.push_back(
+      {.object = "far away", .mesh = sphere(glm::vec3(0.0f), 900.0f), .casts_shadow = false});
+  const auto fixed = [&](bool is_backdrop) {
+    model->parts[1].is_backdrop = is_backdrop;
+    scene::Scene scene;
+    add(scene, model);
+    return renderer_of(scene)->gpu().fixed_bounds();
+  };
+  EXPECT_EQ(fixed(true).max.x, 30.0f);
+  EXPECT_NEAR(fixed(false).max.x, 900.0f, 10.0f);
+}
+
 TEST_F(RendererTest, ASmallPictureIsTheSameAfterALargeOne) {
   const WallView wall;
   const auto fresh = renderer_of(wall.scene), used = renderer_of(wall.scene);

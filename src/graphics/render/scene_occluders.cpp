@@ -33,10 +33,13 @@ void SceneOccluders::keep_moving_shapes(const scene::Scene& scene, const GpuScen
 void SceneOccluders::draw(const View& view, const GpuScene& gpu) {
   constexpr float farthest_radii = 40.0f;
   const Frustum frustum(view.clip_of_part() * view.clip_from_world);
+  // What a view leaves out hides nothing in it.
+  const bool shows_moving = view.subjects == Subjects::all || view.subjects == Subjects::moving;
   placed_shapes_.clear();
   for (const Item& item : gpu.items()) {
     const int shape = shape_of_part_[std::size_t(item.part)];
     if (shape < 0 || !gpu.is_moving(item.object) || !gpu.is_visible(item.object)) continue;
+    if (!shows_moving || item.object == view.excluded_object || !view.shows(item.object)) continue;
     const Bounds& bounds = gpu.object_bounds()[std::size_t(item.object)];
     const float distance_m = glm::distance(bounds.centre(), view.position_in_world);
     if (distance_m > farthest_radii * bounds.radius() || !frustum.may_see(item.bounds)) continue;

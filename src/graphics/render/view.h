@@ -55,8 +55,10 @@ struct View {
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
   /// For a view of mirrors: programs for GpuScene::mirror_materials().
   const SurfacePrograms* surface_programs = nullptr;
-  bool clears = true;         ///< clears depth first; else it draws over the content
-  bool culls_hidden = false;  ///< occlusion culling pays off for whole pictures, not for a map's small faces
+  bool clears = true;  ///< clears depth first; else it draws over the content
+  /// Occlusion culling, for views of no more than 640 x 360 pixels, or of a camera. Not where the view leaves
+  /// out a static object: static occluders are one list, whichever object they belong to.
+  bool culls_hidden = false;
 
   /// True if `shown_objects` selects this object or thing; all are selected where there is no list.
   bool shows(int object) const {

@@ -27,16 +27,14 @@ const methods::Settings mem{"multiple_environment_maps", 128, false};
 /// Times whole frames of each method in alternating order.
 Status time_methods(house::Stage& stage, const Camera& camera, int cars, int repeats, Report& report,
                     std::vector<Median>& medians) {
-  std::vector<JudgedMethod> methods;
-  for (const auto& [key, reflection] : {std::pair{"none", methods::Settings{"none"}},
-                                        {"rerendered", {"rerendered_cube_map", 128, false}},
-                                        {"rerendered_lod", {"rerendered_cube_map", 128, true}},
-                                        {"mem", mem},
-                                        {"mem_lod", {"multiple_environment_maps", 128, true}}}) {
-    Result<JudgedMethod> method = judged_method(stage, key, reflection);
-    if (!method) return method.errors();
-    methods.push_back(*std::move(method));
-  }
+  const Result<std::vector<JudgedMethod>> judged =
+      judged_methods(stage, {{"none", methods::Settings{"none"}},
+                             {"rerendered", {"rerendered_cube_map", 128, false}},
+                             {"rerendered_lod", {"rerendered_cube_map", 128, true}},
+                             {"mem", mem},
+                             {"mem_lod", {"multiple_environment_maps", 128, true}}});
+  if (!judged) return judged.errors();
+  const std::vector<JudgedMethod>& methods = *judged;
   std::vector<std::vector<double>> samples(methods.size());
   for (int repeat = 0; repeat < repeats; ++repeat)
     for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -92,9 +90,6 @@ void measure_denhaag(Report& report) {
 }
 
 Status measure(const BenchSetup& setup, Report& report) {
-  const Result<gl::Context> context = gl::Context::create_headless();
-  if (!context) return context.errors();
-  report.note("machine: " + gl::driver_name());
   const ScratchFolder folder;
   Status written = Done{};
   const double generated_ms = milliseconds([&] { written = city::write_paper_city(folder.path, 1); });
@@ -140,7 +135,7 @@ void furnish_frame(House& house) {
   house.get<Benches>().add({"frame",
                             "a frame of the paper's city with and without reflections, its culling, mirrors "
                             "against the ray tracer",
-                            measure});
+                            in_context(measure)});
 }
 
 }  // namespace parvis::bench

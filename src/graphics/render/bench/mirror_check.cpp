@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "graphics/reference/metrics.h"
+#include "bench/flip_between.h"
+#include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/settings.h"
@@ -92,13 +93,7 @@ scene::Scene mirror_scene(Mesh mirror, float room_half_m) {
   room->materials = {wall};
   room->parts = {{"room", cube(room_half_m, true), 0, 0, false}};
 
-  scene::Material chrome;
-  chrome.base_colour = glm::vec3(1.0f);
-  chrome.metallic = 1.0f;
-  chrome.roughness = 0.0f;
-  chrome.is_mirror_like = true;
-  auto reflector = std::make_shared<scene::Model>();
-  reflector->materials = {chrome};
+  auto reflector = render::mirror_box(1.0f);  // for its material
   reflector->parts = {{"mirror", std::move(mirror), 0, 0, true}};
 
   scene::Scene scene;
@@ -154,10 +149,7 @@ Result<double> flip_of(const House& house, const scene::Scene& scene, bool swaps
   reference::TraceOptions options;
   options.progress = "tracing mirrors";
   const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, view, options);
-  const Result<reference::Difference> difference = reference::compare(
-      drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
-  if (!difference) return difference.errors();
-  return difference->flip;
+  return flip_between(drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
 }
 
 }  // namespace
