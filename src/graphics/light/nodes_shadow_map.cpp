@@ -42,10 +42,11 @@ scene::NodeSchema shadow_map_schema() {
                   {shadow_technique_names.begin(), shadow_technique_names.end()})
                .by_default(shadow_technique_names[0])
                .live(),
-           reference("casters",
-                     "of models, objects, plants and trees, these and those of these groups alone cast "
-                     "shadows; without it all do. What photographs show always casts them",
-                     {"group", "model", "object", "plant", "tree"})
+           reference(
+               "casters",
+               "these, and what is in these groups, alone cast shadows, beside vehicles of traffic; without "
+               "it all do",
+               {"group", "model", "object", "plant", "tree", "facade", "vdobject"})
                .repeatable()
                .kept(),
            reference("receivers",

@@ -14,7 +14,7 @@ namespace parvis::light {
 /// Rays leave a surface so far above it.
 inline constexpr float lift_m = 1e-3f;
 
-/// Rays that go about the same way, answered together. Everything stops light, from both sides.
+/// Rays that go about the same way, answered together. Everything but backdrops stops light, from both sides.
 class Packet {
  public:
   /// Empty; the scene must outlive it.
@@ -29,7 +29,7 @@ class Packet {
   void add(glm::vec3 from, glm::vec3 direction, Tag tag) {
     rays_[count_] = {from, direction, 1e-4f, 1e30f};
     tags_[count_] = tag;
-    passages_[count_++] = {Random(tag.vertex + tag.ray)};
+    passages_[count_++] = {.random = Random(tag.vertex + tag.ray), .passes_backdrops = true};
   }
   /// True where no other ray fits in.
   bool is_full() const { return count_ == rays_.size(); }

@@ -120,30 +120,45 @@ TEST(SunStudy, PhotographedSurfacesHaveHours) {
   EXPECT_FALSE(study_sun(scene, options)) << "leaves of trees, say";
 }
 
-/// A photographed place ends in a dome over everything.
+/// A photographed place ends in a dome over everything, and so does a model that was made of one.
 TEST(SunStudy, ABackdropHidesNoSun) {
-  scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene plain = box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const auto sky = std::make_shared<Mesh>();
   sky->positions = {{-300, -300, 90}, {-300, 300, 90}, {300, 300, 90}, {300, -300, 90}};
   sky->normals.assign(4, {0, 0, -1}), sky->uvs.assign(4, {0, 0});
   sky->indices = {0, 1, 2, 0, 2, 3};
-  const auto hours = [&](bool casts_shadow) {
+  const auto hours = [&](const scene::Scene& scene, bool is_backdrop) {
+    const Result<SunStudy> study = study_sun(
+        scene, {.period = equinox, .cell_m = 2.0, .area = glm::dvec4(-9, -9, 9, 9), .has_facades = true});
+    EXPECT_TRUE(study) << to_string(study.errors());
+    EXPECT_LT(study->surfaces.bounds().max.z, is_backdrop ? 2.0f : 91.0f);
+    return study->cells.front().position.z < 1.0f ? study->cells.front().hours : 0.0f;
+  };
+  const auto below_photographs = [&](const scene::TracedPlacing& placing) {
+    scene::Scene scene = plain;
     scene.traced_kinds = {{.name = "facades",
                            .count = [](const scene::Scene&) { return 1; },
                            .trace =
                                [=](const scene::Scene&, scene::TracedScene& traced) {
-                                 traced.add(sky, std::make_shared<Plaster>(), glm::mat4(1.0f),
-                                            {.casts_shadow = casts_shadow});
+                                 traced.add(sky, std::make_shared<Plaster>(), glm::mat4(1.0f), placing);
                                },
                            .is_recorded = true}};
-    const Result<SunStudy> study = study_sun(
-        scene, {.period = equinox, .cell_m = 2.0, .area = glm::dvec4(-9, -9, 9, 9), .has_facades = true});
-    EXPECT_TRUE(study) << to_string(study.errors());
-    EXPECT_LT(study->surfaces.bounds().max.z, casts_shadow ? 91.0f : 2.0f);
-    return study->cells.front().position.z < 1.0f ? study->cells.front().hours : 0.0f;
+    return hours(scene, placing.is_backdrop);
   };
-  EXPECT_GT(hours(false), 11.5f);
-  EXPECT_LT(hours(true), 0.1f) << "the control: a roof";
+  const auto below_model = [&](bool is_backdrop) {
+    const auto model = std::make_shared<scene::Model>();
+    model->materials.emplace_back().is_double_sided = true;
+    model->parts.push_back(
+        {.object = "sky", .mesh = *sky, .casts_shadow = !is_backdrop, .is_backdrop = is_backdrop});
+    scene::Scene scene = plain;
+    scene.objects.emplace_back().model = model;
+    return hours(scene, is_backdrop);
+  };
+  EXPECT_GT(below_photographs({.casts_shadow = false, .is_backdrop = true}), 11.5f);
+  EXPECT_GT(below_model(true), 11.5f);
+  EXPECT_LT(below_photographs({}), 0.1f) << "the control: a roof";
+  EXPECT_LT(below_photographs({.casts_shadow = false}), 0.1f) << "whatever pictures are to show of shadows";
+  EXPECT_LT(below_model(false), 0.1f);
 }
 
 TEST(SunStudy, PlanTableAndModel) {

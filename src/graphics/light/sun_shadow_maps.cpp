@@ -171,12 +171,22 @@ void SunShadowMaps::aim_near(const NearMap& near) {
   }
 }
 
-void SunShadowMaps::draw_near_fixed(const render::DrawView& draw) {
+/// Into the map itself, or apart from it for frames in which something moves.
+void SunShadowMaps::draw_near_fixed(const render::DrawView& draw, bool is_apart) {
+  is_apart_ = is_apart;
+  drawn_over_.clear();
+  if (is_apart) drawn_over_.push_back({glm::ivec2(0), glm::ivec2(map_size)});
   for (render::View view : near_views_) {
-    view.framebuffer = near_fixed_framebuffer_.name();
+    if (is_apart) view.framebuffer = near_fixed_framebuffer_.name();
     draw(view);
   }
-  drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
+}
+
+/// Something begins to move over a near map of static geometry.
+void SunShadowMaps::keep_near_fixed() {
+  is_apart_ = true;
+  glCopyImageSubData(depth_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, shading::shadow_near_map,
+                     near_fixed_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, map_size, map_size, 1);
 }
 
 void SunShadowMaps::draw_far(const render::DrawView& draw) {
@@ -246,13 +256,13 @@ void SunShadowMaps::draw_changed(const render::DrawView& draw) {
     near_.reset();  // it is fitted again, and drawn, in this update
   } else if (near_centre_.x < 1e30f) {
     render::View fixed_view = near_views_.front();
-    fixed_view.framebuffer = near_fixed_framebuffer_.name();
+    if (is_apart_) fixed_view.framebuffer = near_fixed_framebuffer_.name();
     redraw(fixed_view, shading::shadow_near_map, change_.gone, render::Subjects::staying, draw);
     draw_newcomers(fixed_view, shading::shadow_near_map, change_.come, draw);
     for (const std::vector<Bounds>* boxes : {&change_.gone, &change_.come})
       for (const Bounds& box : *boxes)
         if (const Square square = square_of(shading::shadow_near_map, box);
-            square.size.x > 0 && square.size.y > 0)
+            is_apart_ && square.size.x > 0 && square.size.y > 0)
           drawn_over_.push_back(square);
   }
   change_ = {};
@@ -293,18 +303,19 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
   if (fit_ && !sun_.spot) {
     if (const NearMap fitted = fit_(camera, sun_, fixed_); near_ != fitted) {
       aim_near(fitted);
-      draw_near_fixed(draw);
+      draw_near_fixed(draw, !moving.empty());
     }
   } else if (const glm::vec3 focus = sun_.spot ? sun_.spot->position : focus_of(camera, fixed_);
              focus != near_centre_) {
     draw_postponed(draw);
     aim_near(focus);
-    draw_near_fixed(draw);
+    draw_near_fixed(draw, !moving.empty());
   }
 
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();
   if (moving.empty()) return;
+  if (!is_apart_) keep_near_fixed();
   for (const Bounds& box : moving)
     if (const Square square = square_of(shading::shadow_near_map, box);
         square.size.x > 2 && square.size.y > 2)

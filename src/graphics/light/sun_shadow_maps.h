@@ -1,7 +1,7 @@
 // Two-cascade sun shadow map (shading/shadow.glsl). The far cascade covers the static scene and is rendered
 // once. The near cascade follows the viewer; its static depth is cached and rendered again only after the
 // viewer has moved far enough. Each frame restores the texels that dynamic casters have dirtied from that
-// cache, then draws the casters.
+// cache, then draws the casters. While nothing moves there is no cache: the map itself is the static depth.
 #pragma once
 
 #include <array>
@@ -70,7 +70,8 @@ class SunShadowMaps final : public render::ShadowMethod {
   render::View shadow_view(int map, const glm::mat4& clip_from_world, float texel_m);
   void aim_near(glm::vec3 position);
   void aim_near(const NearMap& near);
-  void draw_near_fixed(const render::DrawView& draw);
+  void draw_near_fixed(const render::DrawView& draw, bool is_apart);
+  void keep_near_fixed();
   void draw_far(const render::DrawView& draw);
   void draw_changed(const render::DrawView& draw);
   void draw_postponed(const render::DrawView& draw);
@@ -90,7 +91,7 @@ class SunShadowMaps final : public render::ShadowMethod {
   glm::mat3 sun_from_world_;  ///< rows: right, up, toward the sun
   Bounds fixed_in_sun_;
   gl::Texture depth_;       ///< a layer for each map
-  gl::Texture near_fixed_;  ///< the near map without dynamic casters
+  gl::Texture near_fixed_;  ///< the near map without dynamic casters, where that `is_apart_`
   std::array<gl::Framebuffer, shading::shadow_map_count> framebuffers_;
   gl::Framebuffer near_fixed_framebuffer_;
   shading::ShadowMaps maps_{};
@@ -99,6 +100,7 @@ class SunShadowMaps final : public render::ShadowMethod {
   std::optional<NearMap> near_;           ///< as it was fitted last
   std::vector<Square> drawn_over_;        ///< of the near map, by what moved
   bool far_is_drawn_ = false;
+  bool is_apart_ = false;          ///< something moves, or has moved since the near map was drawn
   render::FixedChange change_;     ///< of this frame
   std::vector<Bounds> postponed_;  ///< changed parts of the far map that nobody looks up: the near one serves
   glm::vec3 near_centre_{1e30f};

@@ -30,36 +30,11 @@ constexpr double ground_reach_m = 20.0;
 
 using VisitMesh = std::function<void(const Mesh& mesh, const glm::mat4& world_from_mesh)>;
 
-/// Passes on what casts shadows. The backdrop of a photographed place stands for all that is far away: it
-/// lies around and over the place, and hides no sun.
-class CastingThings final : public scene::TracedScene {
- public:
-  explicit CastingThings(scene::TracedScene& traced) : traced_(traced) {}
-
-  void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
-           const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
-    if (placing.casts_shadow) traced_.add(std::move(mesh), std::move(surface), world_from_mesh, placing);
-  }
-  void add(std::shared_ptr<const scene::Model> model, const glm::mat4& world_from_model,
-           const scene::TracedPlacing& placing) override {
-    if (placing.casts_shadow) traced_.add(std::move(model), world_from_model, placing);
-  }
-
- private:
-  scene::TracedScene& traced_;
-};
-
-/// The scene for rays to the sun: without backdrops, and without dynamic objects, which stand somewhere else
-/// in an hour. All else counts, whatever `shadowMap` says of casters.
+/// The scene for rays to the sun: without dynamic objects, which stand somewhere else in an hour. All else
+/// counts, whatever `shadowMap` says of casters.
 scene::Scene still_scene(const scene::Scene& scene) {
   scene::Scene still = scene;
   for (scene::Object& object : still.objects) object.is_visible = object.is_visible && !object.is_dynamic;
-  for (scene::TracedKind& kind : still.traced_kinds)
-    if (kind.is_recorded)
-      kind.trace = [trace = kind.trace](const scene::Scene& of, scene::TracedScene& traced) {
-        CastingThings casting(traced);
-        trace(of, casting);
-      };
   return still;
 }
 
@@ -70,7 +45,8 @@ class OpaqueThings final : public scene::TracedScene {
 
   void add(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const scene::TracedSurface> surface,
            const glm::mat4& world_from_mesh, const scene::TracedPlacing& placing) override {
-    if (placing.is_visible && !placing.is_dynamic && surface->alpha_mode() == scene::Alpha::opaque)
+    if (placing.is_visible && !placing.is_dynamic && !placing.is_backdrop &&
+        surface->alpha_mode() == scene::Alpha::opaque)
       visit_(*mesh, world_from_mesh);
   }
   void add(std::shared_ptr<const scene::Model> /*model*/, const glm::mat4& /*world_from_model*/,
@@ -80,14 +56,15 @@ class OpaqueThings final : public scene::TracedScene {
   const VisitMesh& visit_;
 };
 
-/// Parts that stand still and are seen, and photographed surfaces: what has hours of sun. Leaves cast
-/// shadows, but have none.
+/// Parts that stand still and are seen, and photographed surfaces, without backdrops: what has hours of sun.
+/// Leaves cast shadows, but have none.
 void for_each_surface(const scene::Scene& scene, const VisitMesh& visit) {
   for (const scene::Object& object : scene.objects) {
     if (object.is_dynamic || !object.is_visible) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts)
-      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque)
+      if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque &&
+          !part.is_backdrop)
         visit(part.mesh, object.world_from_model * pose[std::size_t(part.node)]);
   }
   OpaqueThings photographed(visit);
@@ -110,13 +87,18 @@ struct SurfaceBelow {
   const reference::PlacedPart* place;
 };
 
-/// The first solid surface below a point; leaves are passed through.
+/// A backdrop stands for all that is far away, leaves let light through.
+bool is_solid(const reference::PlacedPart& place) {
+  return place.material->alpha_mode == scene::Alpha::opaque && !place.is_backdrop;
+}
+
+/// The first solid surface below a point.
 std::optional<SurfaceBelow> surface_below(const reference::RayScene& rays, glm::vec3 from) {
   for (int pass = 0; pass < 64; ++pass) {
     const std::optional<reference::Hit> hit = rays.nearest_hit({from, {0, 0, -1}, 1e-4f, 1e30f});
     if (!hit) return std::nullopt;
     from.z -= hit->distance_m + 1e-3f;
-    if (hit->place->material->alpha_mode == scene::Alpha::opaque) return SurfaceBelow{from, hit->place};
+    if (is_solid(*hit->place)) return SurfaceBelow{from, hit->place};
   }
   return std::nullopt;
 }
@@ -125,7 +107,7 @@ std::optional<SurfaceBelow> surface_below(const reference::RayScene& rays, glm::
 /// roof of one side.
 bool is_below_backs(const reference::RayScene& rays, glm::vec3 ground) {
   const auto hit = rays.nearest_hit({ground + glm::vec3(0, 0, lift_m), {0, 0, 1}, 1e-4f, 1e30f});
-  return hit && hit->place->material->alpha_mode == scene::Alpha::opaque;
+  return hit && is_solid(*hit->place);
 }
 
 /// `named`: the surfaces that are judged, and ground whatever their height; null: those that lie low.

@@ -1,7 +1,6 @@
 // Reads the tables of the sun that tests and the bench compare with: rows of NREL's own program.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "base/test_data.h"
 #include "graphics/light/solar_position.h"
+#include "graphics/light/worse.h"
 
 namespace parvis::light {
 
@@ -37,7 +37,8 @@ inline std::vector<SunRow> read_sun_rows(const std::filesystem::path& file) {
   return rows;
 }
 
-/// The largest difference of azimuth or zenith over all rows, each shifted by `late_h` (a control).
+/// The largest difference of azimuth or zenith over all rows, each shifted by `late_h` (a control); NaN where
+/// one is no number.
 inline double max_error_deg(const std::vector<SunRow>& rows, double late_h = 0.0) {
   double maximum = 0.0;
   for (const SunRow& row : rows) {
@@ -46,7 +47,7 @@ inline double max_error_deg(const std::vector<SunRow>& rows, double late_h = 0.0
     const SolarPosition sun =
         solar_position(julian_day(row.year, row.month, row.day, row.hours_ut + late_h), 0.0, observer);
     const double azimuth = std::abs(std::remainder(sun.azimuth_deg - row.azimuth_deg, 360.0));
-    maximum = std::max({maximum, azimuth, std::abs(sun.zenith_deg - row.zenith_deg)});
+    maximum = worse(maximum, worse(azimuth, std::abs(sun.zenith_deg - row.zenith_deg)));
   }
   return maximum;
 }

@@ -50,6 +50,27 @@ TEST(VertexLight, AnOpenSkyOfRadianceOneGivesPi) {
   EXPECT_NEAR(light.irradiance()[1].y, 0.5f * 3.14159f, 0.05f);  // a wall sees half: the plain gives nothing
 }
 
+/// The roof is far above, as wide as the sky.
+TEST(VertexLight, ABackdropGivesNothingBackAndHidesNoSky) {
+  const auto irradiance_below = [](bool is_backdrop) {
+    scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+    Mesh roof;
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})
+      roof.positions.emplace_back(3000.0f * corner, 30.0f);
+    roof.normals.assign(4, {0, 0, -1}), roof.uvs.assign(4, {0, 0});
+    roof.indices = {0, 1, 2, 0, 2, 3};
+    auto model = std::make_shared<scene::Model>(*scene.objects[0].model);
+    model->parts.push_back({.object = "roof", .mesh = roof, .is_backdrop = is_backdrop});
+    scene.objects[0].model = model;
+    const reference::RayScene rays(scene);
+    VertexLight light({{{0, 0, 0.01f}, {0, 0, 1}}});
+    light.refine(rays, SkyTable(EvenSky()), 1024);
+    return light.irradiance()[0].y;
+  };
+  EXPECT_NEAR(irradiance_below(true), 3.14159f, 1e-2f);
+  EXPECT_LT(irradiance_below(false), 2.0f) << "a roof gives back less than it hides";
+}
+
 TEST(VertexLight, TheSunComesWithItsDiscAndItsShadow) {
   const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 5, 10});
   const reference::RayScene rays(scene);

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/test_folder.h"
-#include "graphics/gl/context.h"
+#include "graphics/gl/test_context.h"
 #include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
@@ -17,7 +16,7 @@
 #include "scene/script/live_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::shadows {
 namespace {
@@ -180,13 +179,8 @@ TEST(TracedSun, AMovedThingIsTracedAgainAndTheRestStaysSoft) {
   EXPECT_EQ(traced.pixels(), fresh.pixels());
 }
 
-class ChosenLightTest : public testing::Test {
+class ChosenLightTest : public gl::ContextTest {
  protected:
-  void SetUp() override {
-    auto made = gl::Context::create_headless();
-    if (!made) GTEST_SKIP() << "no OpenGL: " << to_string(made.errors());
-    context_.emplace(*std::move(made));
-  }
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
     auto renderer = render::Renderer::create(scene, {}, ChosenLight::create);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
@@ -216,9 +210,6 @@ class ChosenLightTest : public testing::Test {
       }
     return 100.0 * wrong / (size * size);
   }
-
- private:
-  std::optional<gl::Context> context_;
 };
 
 TEST_F(ChosenLightTest, EveryMethodDrawsTheShadowsThatRaysFind) {
@@ -250,18 +241,12 @@ TEST_F(ChosenLightTest, SpotLightsAndReceiversAgreeWithTheRayTracer) {
   EXPECT_LT(wrong_percent(*renderer, scene), 3.0);
 }
 
-class ShadowMapNode : public testing::Test {
+class ShadowMapNode : public scene::ScriptTest<> {
  protected:
   ShadowMapNode() {
     script::furnish(house_);
     light::furnish(house_);
   }
-  Result<scene::LoadedScene> load(const std::string& script) {
-    folder_.write("scene.xp", script);
-    return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
-  }
-  TestFolder folder_;
-  House house_;
 };
 
 TEST_F(ShadowMapNode, HasTheSpellingsOfTheThesis) {
@@ -340,21 +325,17 @@ TEST_F(ShadowMapNode, IsThereForMessagesAndScenariosThatNameIt) {
 }
 
 TEST_F(ShadowMapNode, SaysWhatIsWrong) {
-  const auto message = [&](const std::string& script) {
-    const auto loaded = load(script);
-    return loaded ? std::string() : to_string(loaded.errors());
-  };
-  EXPECT_NE(message("shadowMap(casters=\"trees\")").find("no node of the scene has this name"),
+  EXPECT_NE(errors_of("shadowMap(casters=\"trees\")").find("no node of the scene has this name"),
             std::string::npos);
-  EXPECT_NE(message("group(name=\"trees\") { }\nshadowMap(casters=\"trees\")").find("holds nothing that"),
+  EXPECT_NE(errors_of("group(name=\"trees\") { }\nshadowMap(casters=\"trees\")").find("holds nothing that"),
             std::string::npos);
-  EXPECT_NE(message("group(name=\"a\") { sun() }\nshadowMap()\nscenario(name=\"s\") { "
-                    "override(of=\"%shadowMap\", casters=\"a\") }")
+  EXPECT_NE(errors_of("group(name=\"a\") { sun() }\nshadowMap()\nscenario(name=\"s\") { "
+                      "override(of=\"%shadowMap\", casters=\"a\") }")
                 .find("keeps, once the scene is loaded, its \"casters\""),
             std::string::npos);
-  EXPECT_NE(message("shadowMap(lightDirection=\"0 0 0\")").find("no length"), std::string::npos);
-  EXPECT_NE(message("shadowMap(lightAngle=180)").find("lightAngle"), std::string::npos);
-  EXPECT_NE(message("shadowMap(method=\"raytraced\")").find("method"), std::string::npos);
+  EXPECT_NE(errors_of("shadowMap(lightDirection=\"0 0 0\")").find("no length"), std::string::npos);
+  EXPECT_NE(errors_of("shadowMap(lightAngle=180)").find("lightAngle"), std::string::npos);
+  EXPECT_NE(errors_of("shadowMap(method=\"raytraced\")").find("method"), std::string::npos);
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include "base/files.h"
 #include "base/random.h"
 #include "formats/gltf/gltf_writer.h"
+#include "graphics/reference/ray_scene.h"
 #include "places/paper_city/paper_city.h"
+#include "places/paper_city/street_plan.h"
 #include "scene/data/vertex_irradiance.h"
 
 namespace parvis::bench {
@@ -70,8 +72,9 @@ Result<CrownCity> CrownCity::open(const BenchSetup& setup, const ScratchFolder& 
   return error("the scene has no object \"{}\"", crown_name);
 }
 
-void CrownCity::move(glm::vec3 to_m) {
-  play_.scene.objects[crown_].world_from_model = glm::translate(glm::mat4(1.0f), to_m);
+void CrownCity::move(glm::vec2 from_crossing_m) {
+  play_.scene.objects[crown_].world_from_model =
+      glm::translate(glm::mat4(1.0f), glm::vec3(city::main_crossing() + from_crossing_m, 0.0f));
 }
 
 void CrownCity::advance() { play_.advance(frame_s); }
@@ -107,6 +110,17 @@ Bounds CrownCity::bounds() const {
   return bounds;
 }
 
+Status CrownCity::stands_beside_facade() const {
+  constexpr float near_m = 5.0f;
+  const glm::vec3 middle = bounds().centre();
+  const scene::Scene others = casters(false);
+  const reference::RayScene around(others);
+  for (const float east : {-1.0f, 1.0f})
+    if (around.is_blocked({middle, {east, 0.0f, 0.0f}, 0.0f, near_m})) return Done{};
+  return error("the crown stands at {:.1f} {:.1f}, where no facade is within {} m", middle.x, middle.y,
+               near_m);
+}
+
 scene::Scene CrownCity::casters(bool with_crown) const {
   scene::Scene casters = play_.scene;
   casters.sky.picture = {};
@@ -121,10 +135,10 @@ scene::Scene CrownCity::casters(bool with_crown) const {
 double light_rmse_percent(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth) {
   double off = 0.0, mean = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double difference = double(light[i].y - truth[i].y);
-    off += difference * difference, mean += double(truth[i].y);
+    const glm::dvec3 difference = glm::dvec3(light[i]) - glm::dvec3(truth[i]);
+    off += glm::dot(difference, difference), mean += glm::dot(glm::dvec3(truth[i]), glm::dvec3(1.0));
   }
-  return 100.0 * std::sqrt(off * double(truth.size())) / mean;
+  return 100.0 * std::sqrt(off * 3.0 * double(truth.size())) / mean;
 }
 
 }  // namespace parvis::bench

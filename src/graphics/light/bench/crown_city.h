@@ -20,8 +20,8 @@ class CrownCity {
   /// `how_lit` is what stands between the parentheses of litVirtualObject: nothing, as it ships.
   static Result<CrownCity> open(const BenchSetup& setup, const ScratchFolder& folder, const char* how_lit);
 
-  /// Moves the crown; `advance` shows it.
-  void move(glm::vec3 to_m);
+  /// Moves the crown to a place east and north of the main crossing; `advance` shows it.
+  void move(glm::vec2 from_crossing_m);
   /// A message to the scene's dayLight. Fails as SceneClock::send.
   Status send_to_sky(const std::string& message) { return play_.clock.send("%dayLight", message); }
   void advance();
@@ -35,6 +35,9 @@ class CrownCity {
   std::vector<light::LitVertex> vertices() const;
   /// Their box.
   Bounds bounds() const;
+  /// Fails where no wall stands within 5 m east or west of the middle of the crown: on a lawn all places have
+  /// one light.
+  Status stands_beside_facade() const;
   /// What casts light and shade on the crown: all that stands still, with the crown itself or without it.
   scene::Scene casters(bool with_crown) const;
 
@@ -45,10 +48,13 @@ class CrownCity {
   std::size_t crown_;  ///< index of the object
 };
 
-/// From the middle of the crossing to under a street's trees and beside a facade.
-inline constexpr glm::vec3 crown_before_m{0.0f, 0.0f, 0.0f}, crown_after_m{6.0f, 20.0f, 0.0f};
+/// East and north of the main crossing: its middle, and beside facades of the street to the north of it. At
+/// the city's hour, 15:30 on a day in June, one side of that street lies in the sun, as the crossing does,
+/// and the other in the shade.
+inline constexpr glm::vec2 crown_on_crossing_m{0.0f}, crown_in_sun_m{5.0f, 20.0f},
+    crown_in_shade_m{-5.0f, 20.0f};
 
-/// Root of the mean square of what is off, as a share of the truth's mean, by luminance's main channel.
+/// Root of the mean square of what is off, over all channels, as a share of the truth's mean.
 double light_rmse_percent(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth);
 
 }  // namespace parvis::bench

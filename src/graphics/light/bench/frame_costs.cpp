@@ -33,4 +33,9 @@ double FrameCosts::rays_over_depth_pass(Cost cost) const {
   return beyond_maps / drawing;
 }
 
+double FrameCosts::walked_over_kept(Cost cost) const {
+  const double by_maps = median_of(kept, cost);
+  return by_maps > 0.0 ? median_of(walked, cost) / by_maps : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace parvis::bench

@@ -15,6 +15,7 @@ FrameCosts some_costs() {
     costs.rays.push_back({slow + 42.0, 84.0});
     costs.maps.push_back({slow + 30.0, 60.0});
     costs.kept.push_back({slow + 10.0, 20.0});
+    costs.walked.push_back({slow + 25.0, 40.0});
   }
   return costs;
 }
@@ -25,6 +26,9 @@ TEST(FrameCosts, CountTheRaysWithoutTheMapsThatTheirMethodDraws) {
   EXPECT_DOUBLE_EQ(costs.rays_over_depth_pass(&FrameCost::ms), 0.6);
   EXPECT_DOUBLE_EQ(costs.rays_over_depth_pass(&FrameCost::cpu_ms), 0.6);
   EXPECT_DOUBLE_EQ(median_of(costs.rays, &FrameCost::ms), 42.0);
+  EXPECT_DOUBLE_EQ(costs.walked_over_kept(&FrameCost::ms), 2.5);
+  EXPECT_DOUBLE_EQ(costs.walked_over_kept(&FrameCost::cpu_ms), 2.0);
+  EXPECT_TRUE(std::isnan(FrameCosts().walked_over_kept(&FrameCost::ms)));
 }
 
 TEST(FrameCosts, AreNoNumberWhereTheClockShowsNoise) {

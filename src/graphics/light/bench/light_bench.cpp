@@ -32,20 +32,33 @@ Status with_context(const std::function<Status()>& measure, Report& report) {
   return measure();
 }
 
+/// Measures each, whatever has become of those before: hours of figures are not lost by one that fails. Fails
+/// with the errors of all.
+Status each_of(const std::vector<std::function<Status()>>& measures) {
+  Errors errors;
+  for (const std::function<Status()>& measure : measures)
+    if (const Status status = measure(); !status)
+      errors.insert(errors.end(), status.errors().begin(), status.errors().end());
+  if (!errors.empty()) return errors;
+  return Done{};
+}
+
 using MeasureCity = std::function<Status(const BenchSetup&, const scene::Scene&, Report&)>;
 
 Status measure_city(const BenchSetup& setup, Report& report, std::initializer_list<MeasureCity> measures) {
   const Result<scene::LoadedScene> loaded = load_city(setup);
   if (!loaded) return loaded.errors();
+  std::vector<std::function<Status()>> of_city;
+  of_city.reserve(measures.size());
   for (const MeasureCity& measure : measures)
-    if (Status status = measure(setup, loaded->scene, report); !status) return status;
-  return Done{};
+    of_city.push_back([&, measure] { return measure(setup, loaded->scene, report); });
+  return each_of(of_city);
 }
 
 /// The keys relight_*.
 Status relight(const BenchSetup& setup, Report& report) {
-  if (Status status = measure_relighting(setup, report); !status) return status;
-  return measure_lit_object(setup, report);
+  return each_of(
+      {[&] { return measure_relighting(setup, report); }, [&] { return measure_lit_object(setup, report); }});
 }
 
 /// One of the parts that measure the city, as a bench by itself.
@@ -57,23 +70,23 @@ Bench part_of_city(std::string name, std::string summary, MeasureCity measure) {
 
 /// The keys sky_*.
 Status sky(const BenchSetup& setup, Report& report) {
-  if (Status status = measure_sky(setup, report); !status) return status;
-  return measure_sky_update(setup, report);
+  return each_of(
+      {[&] { return measure_sky(setup, report); }, [&] { return measure_sky_update(setup, report); }});
 }
 
 Status measure_all(const BenchSetup& setup, Report& report) {
-  if (Status status = sky(setup, report); !status) return status;
-  if (Status status = relight(setup, report); !status) return status;
-  if (Status status = measure_city(
-          setup, report, {measure_bounced_light, measure_night, measure_sun_hours, measure_shadows});
-      !status)
-    return status;
-  return setup.house.get<Benches>().find("vegetation")->run(setup, report);
+  return each_of({[&] { return sky(setup, report); }, [&] { return relight(setup, report); },
+                  [&] {
+                    return measure_city(
+                        setup, report,
+                        {measure_bounced_light, measure_night, measure_sun_hours, measure_shadows});
+                  },
+                  [&] { return setup.house.get<Benches>().find("vegetation")->run(setup, report); }});
 }
 
 Status measure_sun_and_sky(const BenchSetup& setup, Report& report) {
-  if (Status status = sky(setup, report); !status) return status;
-  return measure_city(setup, report, {measure_sun_hours});
+  return each_of(
+      {[&] { return sky(setup, report); }, [&] { return measure_city(setup, report, {measure_sun_hours}); }});
 }
 
 }  // namespace

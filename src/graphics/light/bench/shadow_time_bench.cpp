@@ -18,6 +18,7 @@ constexpr glm::ivec2 picture{1280, 720};
 /// Every eighth pixel each way is judged: the other tracer takes its time.
 constexpr JudgedPixels judged{picture.x, picture.y, 8};
 constexpr std::size_t max_views = 5;
+constexpr std::size_t min_triangles = 500'000;  // as the issue has them
 constexpr int pictures_per_view = 3;
 /// Of a control's sun.
 constexpr float off_deg = 2.0f;
@@ -110,18 +111,27 @@ struct Judgement {
   }
 };
 
-/// One frame more of each, under a sun that both have not had.
+/// The camera, a step further each time.
+Camera ahead(Camera camera, int step) {
+  camera.world_from_camera[3] += glm::vec4(0.0f, 0.01f * float(step), 0.0f, 0.0f);
+  return camera;
+}
+
+/// One frame more of each, under a sun that both have not had; the last of them is by rays, a step ahead.
 void add(BegunFrames& rays, BegunFrames& maps, const Camera& camera, glm::vec3 to_sun, glm::ivec2 size,
          FrameCosts& costs) {
   costs.rays.push_back(rays.begin(camera, to_sun, size));
   costs.maps.push_back(maps.begin(camera, to_sun, size));
   costs.kept.push_back(maps.begin(camera, to_sun, size));
+  costs.walked.push_back(rays.begin(ahead(camera, 1), to_sun, size));
 }
 
-/// The camera, a step further each time.
-Camera ahead(Camera camera, int step) {
-  camera.world_from_camera[3] += glm::vec4(0.0f, 0.01f * float(step), 0.0f, 0.0f);
-  return camera;
+std::size_t triangles_of(const scene::Scene& scene) {
+  std::size_t count = 0;
+  for (const scene::Object& object : scene.objects)
+    if (object.is_visible)
+      for (const scene::Part& part : object.model->parts) count += part.mesh.indices.size() / 3;
+  return count;
 }
 
 /// The same place, looking the other way: from there a view jumps.
@@ -131,7 +141,7 @@ Camera turned_back(Camera camera) {
   return camera;
 }
 
-void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels,
+void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels, const FrameCosts& of_low_suns,
                   const std::vector<FrameCost>& jumps, Report& report) {
   const Target half = up_to(0.5);
   constexpr Cost ms = &FrameCost::ms;
@@ -139,6 +149,8 @@ void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels,
   report.add_control("shadow_rays_over_depth_pass_time_control_of_4_times_the_pixels",
                      of_more_pixels.rays_over_depth_pass(ms), half);
   report.add("shadow_rays_over_depth_pass_cpu_time", costs.rays_over_depth_pass(&FrameCost::cpu_ms));
+  report.add("shadow_rays_over_depth_pass_time_under_a_low_sun", of_low_suns.rays_over_depth_pass(ms));
+  report.add("shadow_rays_over_depth_pass_time_of_a_walk_under_a_still_sun", costs.walked_over_kept(ms));
   const double maps_ms = median_of(costs.maps, ms), rays_ms = median_of(costs.rays, ms),
                jump_ms = median_of(jumps, ms);
   report.add("shadow_rays_over_depth_pass_time_of_the_frame", rays_ms / maps_ms);
@@ -150,7 +162,8 @@ void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels,
   report.note(
       "shadow_rays_over_depth_pass_time: what method rays takes beyond the default's maps, which it draws "
       "for edges, leaves and reflections, over the drawing of these maps; of_the_frame and of_a_jump: all "
-      "that begins its frame, over the same of the default. A view that moves has a ray to the sun for each "
+      "that begins its frame, over the same of the default; of_a_walk_under_a_still_sun: the same where the "
+      "default keeps its maps. A view that moves has a ray to the sun for each "
       "pixel, one that has jumped those to its disc that the settings ask for");
 }
 
@@ -179,17 +192,24 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
   if (city.cameras.empty()) return error("the scene has no cameras to time shadows with");
   scene::Scene still = city;
   std::erase_if(still.objects, [](const scene::Object& object) { return object.is_dynamic; });
+  const std::size_t triangles = triangles_of(still);
+  if (triangles < min_triangles)
+    return error("the scene has {} triangles that stand still, where {} are to be timed", triangles,
+                 min_triangles);
+  report.note(fmt::format("{} triangles stand still", triangles));
   const DoubleTracer tracer(opaque_twin(still)), unknown(rest_of_twin(still));
   auto rays = BegunFrames::create(still, light::ShadowTechnique::rays);
   if (!rays) return rays.errors();
   auto maps = BegunFrames::create(still, light::ShadowSettings().technique);
   if (!maps) return maps.errors();
 
-  FrameCosts costs, of_more_pixels;
+  FrameCosts costs, of_more_pixels, of_low_suns;
   std::vector<FrameCost> jumps;
   Judgement of_moving, of_still;
   int suns = 0;
-  const auto next_sun = [&] { return glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(suns++), 0.7f)); };
+  const auto next_sun = [&](float height = 0.7f) {  // 54 degrees; 0.06: 7
+    return glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(suns++), height));
+  };
   const std::size_t views = std::min(max_views, city.cameras.size());
   for (std::size_t v = 0; v < views; ++v) {
     const Camera& camera = city.cameras[v].camera;
@@ -202,18 +222,19 @@ Status measure_shadow_times(const scene::Scene& city, Report& report) {
     (*maps)->begin(camera, to_sun, picture);
     for (int i = 1; i <= pictures_per_view; ++i) {
       to_sun = next_sun();
-      add(**rays, **maps, ahead(camera, i), to_sun, picture, costs);
+      add(**rays, **maps, ahead(camera, 2 * i), to_sun, picture, costs);
     }
-    if (Status status =
-            of_moving.add(tracer, unknown, ahead(camera, pictures_per_view), to_sun, (*rays)->traced());
+    if (Status status = of_moving.add(tracer, unknown, ahead(camera, 2 * pictures_per_view + 1), to_sun,
+                                      (*rays)->traced());
         !status)
       return status;
+    add(**rays, **maps, ahead(camera, 2 * pictures_per_view + 3), next_sun(0.06f), picture, of_low_suns);
     // The control has four times as many pixels; the first frame of another size is a jump.
     for (BegunFrames* frames : {rays->get(), maps->get()}) frames->begin(camera, next_sun(), 2 * picture);
-    add(**rays, **maps, ahead(camera, 1), next_sun(), 2 * picture, of_more_pixels);
+    add(**rays, **maps, ahead(camera, 2), next_sun(), 2 * picture, of_more_pixels);
   }
   if (Status status = report_judgements(of_moving, of_still, report); !status) return status;
-  report_times(costs, of_more_pixels, jumps, report);
+  report_times(costs, of_more_pixels, of_low_suns, jumps, report);
   return Done{};
 }
 

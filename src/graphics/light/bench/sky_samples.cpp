@@ -1,8 +1,8 @@
 #include "graphics/light/bench/sky_samples.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "graphics/light/day_light.h"
 #include "graphics/light/drawn_sky_check.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/frame_views.h"
@@ -11,10 +11,16 @@ namespace parvis::bench {
 
 using light::SkyKind;
 
-void SkySamples::add(glm::vec3 radiance, bool is_day) {
+bool has_light(double sun_elevation_deg, bool is_above_horizon) {
+  constexpr double last_twilight_deg = -4.0, rounding_deg = 1e-3;
+  return sun_elevation_deg > rounding_deg ||
+         (is_above_horizon && sun_elevation_deg > last_twilight_deg - rounding_deg);
+}
+
+void SkySamples::add(glm::vec3 radiance, bool has_light) {
   const bool is_radiance = radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f &&
                            std::isfinite(radiance.x + radiance.y + radiance.z);
-  const bool is_black = is_day && radiance == glm::vec3(0.0f);
+  const bool is_black = has_light && radiance == glm::vec3(0.0f);
   ++all, bad += !is_radiance || is_black;
 }
 
@@ -35,8 +41,9 @@ Result<ModelSamples> model_samples(int directions) {
     const auto sky = light::make_sky(kind, air, sun_at(elevation));
     if (!sky) return sky.errors();
     for (int i = 0; i < directions; ++i) {
-      const glm::vec3 seen = (*sky)->sky_radiance_xyz(even_direction(i, directions));
-      samples.shipped.add(seen, elevation > 0.0), samples.darker.add(seen - less, false);
+      const glm::vec3 direction = even_direction(i, directions), seen = (*sky)->sky_radiance_xyz(direction);
+      samples.shipped.add(seen, has_light(elevation, direction.z > 0.0f));
+      samples.darker.add(seen - less, false);
     }
     return Done{};
   };
@@ -55,11 +62,11 @@ Result<DrawnSky> DrawnSky::create() {
   return DrawnSky(std::move(scene), *std::move(renderer));
 }
 
-Result<SkySamples> DrawnSky::samples(const light::SkyModel& sky) {
-  constexpr int view_px = 96, picture_px = 512;
-  constexpr float day_from = 1e-3f;  // sine of the sun's elevation
+Result<SkySamples> DrawnSky::samples(const light::SkyModel& sky, const light::DayLight& day) {
+  constexpr int view_px = 96, picture_px = 512, upward_face = 5;
+  const double sun_deg = glm::degrees(std::asin(std::clamp(double(sky.to_sun().z), -1.0, 1.0)));
   scene_.sun = {sky.to_sun(), glm::vec3(1.0f)};
-  scene_.sky.picture = light::sky_picture(sky, {}, picture_px);
+  scene_.sky.picture = light::sky_picture(sky, day, picture_px);
   scene_.sky.file = "computed", ++scene_.sky.version;
   SkySamples samples;
   for (int face = 0; face < 6; ++face) {
@@ -68,7 +75,8 @@ Result<SkySamples> DrawnSky::samples(const light::SkyModel& sky) {
       return status.errors();
     const ImageF seen = renderer_->read_radiance();
     for (std::size_t i = 0; i < seen.pixels.size(); i += std::size_t(seen.channels))
-      samples.add({seen.pixels[i], seen.pixels[i + 1], seen.pixels[i + 2]}, sky.to_sun().z > day_from);
+      samples.add({seen.pixels[i], seen.pixels[i + 1], seen.pixels[i + 2]},
+                  has_light(sun_deg, face == upward_face));
   }
   return samples;
 }

@@ -4,19 +4,23 @@
 #include <memory>
 #include <utility>
 
+#include "graphics/light/day_light.h"
 #include "graphics/light/sky_model.h"
 #include "graphics/render/renderer.h"
 
 namespace parvis::bench {
 
-/// Samples, and those of them that are no radiance: negative or no numbers, or black by day, which is what
-/// clamps leave of negative ones.
+/// Samples, and those of them that are no radiance: negative or no numbers, or black where a sky is not,
+/// which is what clamps leave of negative ones.
 struct SkySamples {
   long all = 0, bad = 0;
 
   /// Counts one, of radiance in any three channels.
-  void add(glm::vec3 radiance, bool is_day);
+  void add(glm::vec3 radiance, bool has_light);
 };
+
+/// Whether there is light: by day everywhere, in twilight down to -4 degrees above the horizon.
+bool has_light(double sun_elevation_deg, bool is_above_horizon);
 
 /// Where a sun stands that the models are asked for, in the south.
 light::SolarPosition sun_at(double elevation_deg);
@@ -45,13 +49,14 @@ class DarkerSky final : public light::SkyModel {
   float less_;
 };
 
-/// Clear skies as the renderer draws them, one after the other.
+/// Skies as the renderer draws them, one after the other.
 class DrawnSky {
  public:
   /// Fails if a shader does. Needs a current OpenGL context.
   static Result<DrawnSky> create();
-  /// The pixels of six views that together show all directions. Fails as render::draw_frame.
-  Result<SkySamples> samples(const light::SkyModel& sky);
+  /// The pixels of six views that together show all directions, with the dome of `day` if it has one. Fails
+  /// as render::draw_frame.
+  Result<SkySamples> samples(const light::SkyModel& sky, const light::DayLight& day = {});
 
  private:
   DrawnSky(scene::Scene scene, std::unique_ptr<render::Renderer> renderer)

@@ -6,8 +6,8 @@
 
 namespace parvis::bench {
 
-/// The keys sun_hours_error_percent*: the study that `parvis sun` makes of the middle of the city, its ground
-/// and its facades. Fails where a study has no points of one of them.
+/// The keys sun_hours_error_percent*: the study that `parvis sun` makes of the city about its main crossing,
+/// of its ground and its facades. Fails where a study has no points of one of them, or none below trees.
 Status measure_sun_hours(const BenchSetup& setup, const scene::Scene& city, Report& report);
 
 }  // namespace parvis::bench

@@ -51,6 +51,7 @@ Result<std::unique_ptr<SunlitCity>> SunlitCity::create(const scene::Scene& twin)
     if (!made) return made.errors();
     *renderer = *std::move(made);
   }
+  city->renderer_->add(&city->map_views_);
   return city;
 }
 
@@ -63,9 +64,20 @@ Status SunlitCity::look(const Camera& camera) {
   return draw(*open_renderer_, open_, unshaded_);
 }
 
-Result<DrawnSun> SunlitCity::sun(light::ShadowTechnique technique) {
+void SunlitCity::set_technique(light::ShadowTechnique technique) {
   light::ShadowSettings& settings = shaded_.data<light::ShadowSettings>();
   settings.technique = technique, settings.sun_samples = 1;
+}
+
+bool SunlitCity::draws_maps(const Camera& camera, light::ShadowTechnique technique) {
+  set_technique(technique);
+  const int before = map_views();
+  renderer_->begin_frame(shaded_, camera);
+  return map_views() > before;
+}
+
+Result<DrawnSun> SunlitCity::sun(light::ShadowTechnique technique) {
+  set_technique(technique);
   Pictures shaded;
   if (Status status = draw(*renderer_, shaded_, shaded); !status) return status.errors();
   return DrawnSun{shares_of(shaded.resolved, unshaded_.resolved), shares_of(shaded.middle, unshaded_.middle)};

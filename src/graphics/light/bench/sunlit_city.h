@@ -33,6 +33,21 @@ class MiddleTarget {
   gl::Framebuffer framebuffer_;
 };
 
+/// Counts the views of shadow maps that a renderer draws. Draws nothing.
+class ShadowViewCounter final : public render::Drawable {
+ public:
+  render::Extents extents() const override { return {}; }
+  void prepare(const render::View& view, const render::Culling& /*culling*/) override {
+    count_ += view.kind == render::ViewKind::shadow ? 1 : 0;
+  }
+  void draw(const render::View& /*view*/, render::Pass /*pass*/) override {}
+  /// Shadow views that were prepared.
+  int count() const { return count_; }
+
+ private:
+  int count_ = 0;
+};
+
 /// With and without shadows: the quotient of both pictures is what shadows leave.
 class SunlitCity {
  public:
@@ -46,6 +61,11 @@ class SunlitCity {
   /// The shares of the sun in the view that was set. Rays go to the middle of the sun, as those of a view
   /// that moves do with any settings. Fails as render::draw_frame.
   Result<DrawnSun> sun(light::ShadowTechnique technique);
+  /// Begins a frame of a view by the technique, and draws nothing of the view itself. True where that has
+  /// drawn shadow maps.
+  bool draws_maps(const Camera& camera, light::ShadowTechnique technique);
+  /// Views of shadow maps that were drawn for all frames so far.
+  int map_views() const { return map_views_.count(); }
 
  private:
   struct Pictures {
@@ -53,7 +73,10 @@ class SunlitCity {
   };
   Status draw(render::Renderer& renderer, const scene::Scene& scene, Pictures& pictures) const;
 
+  void set_technique(light::ShadowTechnique technique);
+
   scene::Scene shaded_, open_;
+  ShadowViewCounter map_views_;
   std::unique_ptr<render::Renderer> renderer_, open_renderer_;
   MiddleTarget middles_;
   Camera camera_;
