@@ -7,11 +7,14 @@
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/gl/test_context.h"
+#include "graphics/lamps/lamp_light.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
+#include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
+#include "scene/data/lamp.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::bounced_light {
@@ -111,6 +114,73 @@ TEST(Transfer, IsLinearInSunAndSky) {
   EXPECT_NEAR(at(3, 2), 3 * at(1, 0) + 2 * at(0, 1), 0.015f * at(3, 2));
 }
 
+/// Without sun and sky; a lamp hangs 5 m above the ground.
+scene::Scene by_night(scene::Scene scene) {
+  scene.sun.irradiance = vec3(0.0f), scene.sky.intensity = 0.0f;
+  scene::Lamp lamp;
+  lamp.position = {0, 0, 5}, lamp.intensity = vec3(10.0f, 8.0f, 5.0f), lamp.reach_m = 200.0f;
+  lamp.burns = scene::LampSwitch::always;
+  scene.data<scene::ItemsOf<scene::Lamp>>().add(lamp, 0);
+  return scene;
+}
+
+std::vector<vec3> irradiance_of(const Transfer& transfer, const scene::Scene& scene,
+                                const reference::RayScene& rays) {
+  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene);
+  std::vector<vec3> irradiance(transfer.patches().size(), vec3(0.0f));
+  for (const LampOnPatch& lit : transfer.lamps_on_patches(lamps, scene, rays))
+    irradiance[lit.patch] += lit.share * vec3(lamps[lit.lamp].power);
+  return irradiance;
+}
+
+TEST(Transfer, GroundGivesBackTheLightOfALampAboveIt) {
+  scene::Scene scene;
+  add(scene, scene::model_of(scene::ground(40), scene::matt(vec3(0.5f))));
+  add(scene,
+      scene::model_of(scene::box({38, 38, 0}, {39, 39, 20}), scene::matt(vec3(0.0f))));  // there is air
+  scene = by_night(scene);
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, {true, 4.0f, 512});
+  const shading::BouncedLight light =
+      transfer.light(scene.sun, sky_of(scene), irradiance_of(transfer, scene, rays), 1);
+  // Irradiance of a ceiling 12 m above the ground, right over the lamp: rings of the ground.
+  const double lamp_m = 5.0, ceiling_m = 12.0, step_m = 0.01;
+  double expected = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const double r = (i + 0.5) * step_m, to_lamp = r * r + lamp_m * lamp_m,
+                 to_ceiling = r * r + ceiling_m * ceiling_m;
+    const double on_ground = 10.0 * lamp_m / (to_lamp * std::sqrt(to_lamp));
+    expected += 0.5 / glm::pi<double>() * on_ground * ceiling_m * ceiling_m / (to_ceiling * to_ceiling) *
+                2.0 * glm::pi<double>() * r * step_m;
+  }
+  const vec3 found = irradiance(light, {0, 0, ceiling_m}, vec3(0.0f), {0, 0, -1});
+  // Patches of 3 m, and two bands, which spread what comes from right below: by up to a quarter.
+  EXPECT_NEAR(double(found.x) / expected, 0.9, 0.3);
+  EXPECT_NEAR(found.y / found.x, 0.8f, 0.01f);
+}
+
+TEST(Transfer, LampsLightNoPatchBehindAWall) {
+  scene::Scene scene = by_night(street());
+  const reference::RayScene rays(scene);
+  const Transfer transfer(scene, rays, {true, 3.0f, 64});
+  const std::vector<vec3> irradiance = irradiance_of(transfer, scene, rays);
+  int lit = 0, behind = 0;
+  for (std::size_t i = 0; i < irradiance.size(); ++i) {
+    const Patch& patch = transfer.patches()[i];
+    const bool is_on_the_street = std::abs(patch.position.x) < 5.0f && std::abs(patch.position.y) < 15.0f;
+    if (is_on_the_street && patch.normal.z > 0.9f) {
+      EXPECT_GT(irradiance[i].x, 0.0f);
+      ++lit;
+    }
+    if (std::abs(patch.position.x) > 14.5f && std::abs(patch.position.y) < 28.0f) {
+      EXPECT_EQ(irradiance[i], vec3(0.0f));
+      ++behind;
+    }
+  }
+  EXPECT_GT(lit, 20);
+  EXPECT_GT(behind, 20);
+}
+
 TEST(Transfer, PlacesInsideOfThingsAreNone) {
   const scene::Scene scene = street();
   const reference::RayScene rays(scene);
@@ -179,6 +249,30 @@ TEST_F(KeptTransfer, BytesWhoseIndicesLieAreNone) {
 }
 
 class BouncedPicture : public gl::ContextTest {};
+
+/// Switched on, made brighter and switched off while the scene runs.
+TEST_F(BouncedPicture, FollowsTheLampsThatStandStill) {
+  scene::Scene scene = by_night(street());
+  scene::Lamp& lamp = scene.data<scene::ItemsOf<scene::Lamp>>().items[0];
+  const auto renderer =
+      render::Renderer::create(scene, {}, with_bounced_light(lamps::with_lamps(light::sun_and_sky)));
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto on_the_wall = [&] {
+    EXPECT_TRUE(render::draw_frame(**renderer, scene, {Camera{}, 16, 16}));
+    return irradiance(*(*renderer)->drawn_light().bounced, {-5.9f, 0, 9}, {1, 0, 0}, {1, 0, 0}).x;
+  };
+  const float once = on_the_wall();
+  EXPECT_GT(once, 1e-3f);
+  lamp.intensity *= 2.0f;
+  EXPECT_NEAR(on_the_wall(), 2.0f * once, 1e-3f * once);
+  lamp.burns = scene::LampSwitch::never;
+  EXPECT_EQ(on_the_wall(), 0.0f);
+  lamp.burns = scene::LampSwitch::always;
+  lamp.position.z = 0.5f;
+  const float from_below = on_the_wall();
+  EXPECT_GT(from_below, 1e-3f);
+  EXPECT_GT(std::abs(from_below - 2.0f * once), 0.05f * once) << "it stands somewhere else";
+}
 
 /// What path-traced photographs of the shaded wall show that sun and sky alone do not.
 TEST_F(BouncedPicture, IsNearerToThePhotographThanTheConstant) {

@@ -1,5 +1,5 @@
-// Bounced light over another light: follows sun and sky; read from beside the scene, or traced, when static
-// things change.
+// Bounced light over another light: follows sun, sky and the lamps of that light; read from beside the scene,
+// or traced, when static things change.
 #pragma once
 
 #include <memory>
@@ -30,11 +30,14 @@ class BouncedOver final : public render::LightOver {
     bool operator==(const Standing&) const = default;
   };
   static std::vector<Standing> standing_in(const scene::Scene& scene);
+  std::vector<glm::vec3> irradiance_by_lamps(const scene::Scene& scene);
   void upload();
 
   std::vector<Standing> standing_;  ///< of which `transfer_` is made
   bool is_traced_ = false;
   Transfer transfer_;
+  std::vector<shading::Lamp> lamps_;  ///< that `lamps_on_patches_` was traced for; empty: none
+  std::vector<LampOnPatch> lamps_on_patches_;
   scene::Sun sun_;
   shading::BouncedLight light_;
   gl::Texture texture_;

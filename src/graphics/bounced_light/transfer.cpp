@@ -9,6 +9,7 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
+#include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/shading_point.h"
 
 namespace parvis::bounced_light {
@@ -23,7 +24,8 @@ constexpr float patch_share = 0.75f;        // of the spacing: side of a patch
 constexpr float inside_share = 0.25f;       // of rays that hit backs: the place is inside of something
 constexpr std::size_t places_at_once = 4096;
 constexpr std::size_t points_per_patch = 16;  // where rays to the sky begin
-constexpr int ray_sets = 8;                   // neighbouring places look in other directions
+constexpr float housing_m = 1.0f;  // so near to a lamp is what carries it: no share of a wall's light
+constexpr int ray_sets = 8;        // neighbouring places look in other directions
 constexpr float golden_turn = 2.39996323f;
 
 /// Evenly over the sphere, turned about the zenith.
@@ -55,7 +57,7 @@ bool is_single_sided(const reference::PlacedPart& part) {
 /// The nearest static surface, its back, too; `width_m` of it is seen at once.
 std::optional<Seen> seen_along(const scene::Scene& scene, const reference::RayScene& rays, reference::Ray ray,
                                float width_m, std::uint64_t chance) {
-  reference::Passage passage{Random(chance)};
+  reference::Passage passage{.random = Random(chance), .passes_backdrops = true};
   while (const std::optional<reference::Hit> hit = rays.nearest_hit(ray, passage)) {
     if (!is_dynamic(scene, hit->place->object)) {
       const reference::ShadingPoint point = reference::shading_point(*hit, ray.direction, width_m);
@@ -68,9 +70,10 @@ std::optional<Seen> seen_along(const scene::Scene& scene, const reference::RaySc
   return std::nullopt;
 }
 
-bool sees_sky(const scene::Scene& scene, const reference::RayScene& rays, reference::Ray ray,
-              std::uint64_t chance) {
-  reference::Passage passage{Random(chance)};
+/// Nothing static lies along the ray.
+bool is_open(const scene::Scene& scene, const reference::RayScene& rays, reference::Ray ray,
+             std::uint64_t chance) {
+  reference::Passage passage{.random = Random(chance), .passes_backdrops = true};
   if (!rays.is_blocked(ray, passage)) return true;
   while (const std::optional<reference::Hit> hit = rays.nearest_hit(ray, passage)) {
     if (!is_dynamic(scene, hit->place->object)) return false;
@@ -200,6 +203,15 @@ Transfer::Transfer(const scene::Scene& scene, const reference::RayScene& rays,
   find_walls();
   patches_ = sums.means();
   see_sky(scene, rays, sums.points);
+  choose_lit_points(sums.points);
+}
+
+/// Spread over those that were found, which are in the order of the places that saw them.
+void Transfer::choose_lit_points(const std::vector<std::vector<vec3>>& points) {
+  lit_points_.reserve(points.size() * lit_points_per_patch);
+  for (const std::vector<vec3>& of_patch : points)
+    for (std::size_t k = 0; k < lit_points_per_patch; ++k)
+      lit_points_.push_back(of_patch[k * of_patch.size() / lit_points_per_patch]);
 }
 
 /// Each direction from another point of the patch, so that a patch half in shadow sees half of the sun.
@@ -212,11 +224,50 @@ void Transfer::see_sky(const scene::Scene& scene, const reference::RayScene& ray
           const vec3 direction = directions_of_sky()[d];
           if (glm::dot(direction, patches_[i].normal) <= 0.0f) continue;
           const vec3 from = points[i][(7 * d + i) % points[i].size()];
-          if (sees_sky(scene, rays, {from, direction}, std::uint64_t(sky_directions) * i + d))
+          if (is_open(scene, rays, {from, direction}, std::uint64_t(sky_directions) * i + d))
             patches_[i].sees_sky[d / 64] |= std::uint64_t(1) << (d % 64);
         }
       },
       64);
+}
+
+std::vector<LampOnPatch> Transfer::lamps_on_patches(const std::vector<shading::Lamp>& lamps,
+                                                    const scene::Scene& scene,
+                                                    const reference::RayScene& rays) const {
+  const shading::LampTable table = shading::make_lamp_table(lamps);
+  const auto share_at = [&](const shading::Lamp& lamp, vec3 point, vec3 normal, std::uint64_t chance) {
+    const vec3 away = vec3(lamp.place) - point;
+    const float distance_m = glm::length(away);
+    const float facing = glm::dot(normal, away);
+    if (facing <= 0.0f || distance_m < housing_m) return 0.0f;
+    shading::Lamp of_one_watt = lamp;
+    of_one_watt.power = vec4(1.0f);
+    const float share =
+        facing / distance_m * shading::lamp_irradiance(of_one_watt, away / distance_m, distance_m).x;
+    if (!(share > 0.0f) || !is_open(scene, rays, reference::ray_to_lamp(lamp, point, normal), chance))
+      return 0.0f;
+    return share / float(lit_points_per_patch);
+  };
+  std::vector<std::vector<LampOnPatch>> of_patches(patches_.size());
+  parallel_for(
+      patches_.size(),
+      [&](std::size_t i) {
+        for (std::size_t p = i * lit_points_per_patch; p < (i + 1) * lit_points_per_patch; ++p)
+          table.for_each_near(lit_points_[p], [&](std::uint32_t number) {
+            const float share = share_at(table.lamps[number], lit_points_[p], patches_[i].normal, p);
+            if (share == 0.0f) return;
+            const auto known = std::ranges::find(of_patches[i], number, &LampOnPatch::lamp);
+            if (known == of_patches[i].end())
+              of_patches[i].push_back({std::uint32_t(i), number, share});
+            else
+              known->share += share;
+          });
+      },
+      64);
+  std::vector<LampOnPatch> all;
+  for (const std::vector<LampOnPatch>& of_patch : of_patches)
+    all.insert(all.end(), of_patch.begin(), of_patch.end());
+  return all;
 }
 
 /// Of each patch by sun and sky.
@@ -351,14 +402,15 @@ void Transfer::fill_walls(shading::BouncedLight& light) const {
 }
 
 shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyLight& sky,
-                                      int bounces) const {
+                                      std::span<const vec3> by_lamps, int bounces) const {
   shading::BouncedLight light;
   if (patches_.empty()) return light;
   light.grid = grid_, light.cells = cells_;
   light.lobes.assign(is_air_.size(), vec4(0.0f));
   light.colours.assign(is_air_.size(), vec3(1.0f));
   look_at_sky(sky, light);
-  const std::vector<vec3> direct = direct_irradiance(sun, sky);
+  std::vector<vec3> direct = direct_irradiance(sun, sky);
+  for (std::size_t i = 0; i < by_lamps.size(); ++i) direct[i] += by_lamps[i];
   std::vector<vec4> radiance(1 + patches_.size(), vec4(0.0f));  // the first is the sky's: see gather
   for (int bounce = 0; bounce < bounces; ++bounce) {
     parallel_for(

@@ -1,18 +1,20 @@
-// Precomputed transfer of light from sun and sky by way of surfaces to a grid of places: rays are traced
-// once; then another sun or sky costs two products of sparse matrices with vectors. After Sloan, Kautz and
-// Snyder 2002 (precomputed radiance transfer), with patches of surface between light and places as in
-// Silvennoinen and Timonen 2015 (multi-scale global illumination in Quantum Break).
+// Precomputed transfer of light from sun, sky and still lamps by way of surfaces to a grid of places: rays
+// are traced once; then another sun or sky costs two products of sparse matrices with vectors. After Sloan,
+// Kautz and Snyder 2002 (precomputed radiance transfer), with patches of surface between light and places as
+// in Silvennoinen and Timonen 2015 (multi-scale global illumination in Quantum Break).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "graphics/reference/ray_scene.h"
 #include "graphics/shading/bounced_light.h"
+#include "graphics/shading/lamps.h"
 #include "graphics/shading/sky.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/data/scene.h"
@@ -31,6 +33,15 @@ struct Patch {
   std::array<std::uint64_t, sky_directions / 64> sees_sky{};  ///< a bit for each direction
 };
 
+/// Points of each patch at which lamps are looked for: their light changes within metres.
+inline constexpr std::size_t lit_points_per_patch = 4;
+
+/// What a lamp that stands still does to a patch, past static things.
+struct LampOnPatch {
+  std::uint32_t patch, lamp;
+  float share;  ///< irradiance over the lamp's power in W/sr, per square metre
+};
+
 /// The transfer of a scene's static geometry.
 class Transfer {
  public:
@@ -46,8 +57,15 @@ class Transfer {
   /// What `to_bytes` wrote; nothing where bytes are missing, or counts and indices do not fit each other.
   static std::optional<Transfer> from_bytes(std::string_view bytes);
 
-  /// The light that arrives at every place after `bounces` surfaces or fewer.
-  shading::BouncedLight light(const scene::Sun& sun, const shading::SkyLight& sky, int bounces = 3) const;
+  /// Which of these lamps light which patches, of those near a patch the strongest (shading::LampTable); for
+  /// the scene that this was made of. Traces rays.
+  std::vector<LampOnPatch> lamps_on_patches(const std::vector<shading::Lamp>& lamps,
+                                            const scene::Scene& scene, const reference::RayScene& rays) const;
+
+  /// The light that arrives at every place after `bounces` surfaces or fewer. `by_lamps`: irradiance of each
+  /// patch beside that by sun and sky; empty: there is none.
+  shading::BouncedLight light(const scene::Sun& sun, const shading::SkyLight& sky,
+                              std::span<const glm::vec3> by_lamps = {}, int bounces = 3) const;
 
   /// How many places have light.
   std::size_t place_count() const { return air_.size(); }
@@ -62,6 +80,7 @@ class Transfer {
   void find_walls();
   void see_sky(const scene::Scene& scene, const reference::RayScene& rays,
                const std::vector<std::vector<glm::vec3>>& points);
+  void choose_lit_points(const std::vector<std::vector<glm::vec3>>& points);
   std::vector<glm::vec3> direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const;
   void gather(const std::vector<glm::vec4>& radiance, shading::BouncedLight& light) const;
   void look_at_sky(const shading::SkyLight& sky, shading::BouncedLight& light) const;
@@ -74,6 +93,7 @@ class Transfer {
   std::vector<std::int32_t> seen_;    ///< `rays_` for each of them: a patch, or -1: the sky
   std::vector<std::uint8_t> is_air_;  ///< by cell
   std::vector<Patch> patches_;
+  std::vector<glm::vec3> lit_points_;  ///< `lit_points_per_patch` for each of them, a little above it
 
   /// A cell inside of something, beside air.
   struct Wall {

@@ -40,6 +40,7 @@ std::string Transfer::to_bytes() const {
   append_values(bytes, is_air_);
   append_value(bytes, std::uint32_t(patches_.size()));
   for (const Patch& patch : patches_) append(bytes, patch);
+  append_values(bytes, lit_points_);
   return bytes;
 }
 
@@ -54,6 +55,7 @@ std::optional<Transfer> Transfer::from_bytes(std::string_view bytes) {
   result.is_air_ = taker.take_values<std::uint8_t>();
   for (auto left = taker.take<std::uint32_t>(); left > 0 && !taker.has_ended_early(); --left)
     result.patches_.push_back(take_patch(taker));
+  result.lit_points_ = taker.take_values<glm::vec3>();
   if (!taker.is_at_end() || !result.is_consistent()) return std::nullopt;
   result.find_walls();
   return result;
@@ -73,7 +75,9 @@ bool Transfer::is_consistent() const {
          std::isfinite(grid_.lift_m) && grid_.layers == float(cells_.z) &&
          seen_.size() == air_.size() * std::size_t(rays_) && std::ranges::all_of(air_, is_place) &&
          std::ranges::all_of(seen_, is_patch) &&
-         std::ranges::all_of(patches_, [](const Patch& patch) { return is_finite(patch); });
+         std::ranges::all_of(patches_, [](const Patch& patch) { return is_finite(patch); }) &&
+         lit_points_.size() == lit_points_per_patch * patches_.size() &&
+         std::ranges::all_of(lit_points_, [](glm::vec3 point) { return is_finite(point); });
 }
 
 }  // namespace parvis::bounced_light

@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr SealedKind kind{"PARVISB1", "file of bounced light"};
-constexpr int version = 1;  // of how transfers are traced: raise it when old ones no longer serve
+constexpr int version = 2;  // of how transfers are traced: raise it when old ones no longer serve
 
 std::uint64_t key_of(const scene::Scene& scene) {
   ContentHash hash;

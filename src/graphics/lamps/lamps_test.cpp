@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/random.h"
-#include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/lamps/lamp_process.h"
@@ -20,7 +19,7 @@
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::lamps {
 namespace {
@@ -260,23 +259,13 @@ TEST_F(LampPicture, LampsOfMovingObjectsFollowThemAndArePartOfNoStillPicture) {
   EXPECT_EQ(renderer->drawn_light().lamps, nullptr);
 }
 
-class LampNode : public testing::Test {
+class LampNode : public scene::ScriptTest<> {
  protected:
   LampNode() {
     script::furnish(house_);
     light::furnish(house_);
     add_lamp_node(house_.get<scene::NodeRegistry>());
   }
-  Result<scene::LoadedScene> load(const std::string& script) {
-    folder_.write("scene.xp", script);
-    return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
-  }
-  std::string message(const std::string& script) {
-    const auto loaded = load(script);
-    return loaded ? std::string() : to_string(loaded.errors());
-  }
-  TestFolder folder_;
-  House house_;
 };
 
 TEST_F(LampNode, HasTheFluxThatItIsGiven) {
@@ -356,12 +345,12 @@ TEST_F(LampNode, WarnsOfNamesThatNothingHasWhenAScenarioShowsTheLamp) {
 }
 
 TEST_F(LampNode, SaysWhatIsWrong) {
-  EXPECT_NE(message("lamp(part=\"lamp\")").find("give of="), std::string::npos);
-  EXPECT_NE(message("lamp(direction=\"0 0 0\")").find("no length"), std::string::npos);
-  EXPECT_NE(message("lamp(colour=\"0 0 0\")").find("black"), std::string::npos);
-  EXPECT_NE(message("lamp(flux_lm=-1)").find("flux_lm"), std::string::npos);
-  EXPECT_NE(message("lamp(burns=noon)").find("burns"), std::string::npos);
-  EXPECT_NE(message("lamp(angle_deg=400)").find("angle_deg"), std::string::npos);
+  EXPECT_NE(errors_of("lamp(part=\"lamp\")").find("give of="), std::string::npos);
+  EXPECT_NE(errors_of("lamp(direction=\"0 0 0\")").find("no length"), std::string::npos);
+  EXPECT_NE(errors_of("lamp(colour=\"0 0 0\")").find("black"), std::string::npos);
+  EXPECT_NE(errors_of("lamp(flux_lm=-1)").find("flux_lm"), std::string::npos);
+  EXPECT_NE(errors_of("lamp(burns=noon)").find("burns"), std::string::npos);
+  EXPECT_NE(errors_of("lamp(angle_deg=400)").find("angle_deg"), std::string::npos);
 }
 
 }  // namespace

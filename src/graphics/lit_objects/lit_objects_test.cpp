@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/random.h"
-#include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/gltf/room.h"
 #include "formats/meshes/room.h"
@@ -22,7 +21,7 @@
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::lit_objects {
 namespace {
@@ -54,7 +53,7 @@ struct Running {
   int rays() { return clock->find<LightingProcess>()->rays(); }
 };
 
-class LitObjects : public gl::ContextTest {
+class LitObjects : public scene::ScriptTest<gl::ContextTest> {
  protected:
   LitObjects() {
     for (const auto furnish : {script::furnish, gltf::furnish, meshes::furnish, light::furnish,
@@ -73,7 +72,7 @@ class LitObjects : public gl::ContextTest {
 
   Running run(const std::string& script) {
     Running running;
-    auto loaded = scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    auto loaded = load(script);
     EXPECT_TRUE(loaded) << to_string(loaded.errors());
     if (!loaded) return running;
     running.scene = std::move(loaded->scene);
@@ -83,20 +82,11 @@ class LitObjects : public gl::ContextTest {
     return running;
   }
 
-  std::string errors_of(const std::string& script) {
-    const auto loaded =
-        scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
-    return loaded ? "" : to_string(loaded.errors());
-  }
-
   static std::string street(const std::string& lit) {
     return "dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\n"
            "model(file=\"ground.glb\")\nmodel(file=\"wall.glb\")\nlitVirtualObject(" +
            lit + ") { object(file=\"ball.glb\", grab=1) }\n";
   }
-
-  TestFolder folder_;
-  House house_;
 };
 
 /// Irradiance by independent random rays over the sphere about a point, with one bounce as documented: the
@@ -398,8 +388,7 @@ TEST_F(LitObjects, SayWhatIsWrong) {
 TEST_F(LitObjects, WhatOtherRoomsDrawIsNamed) {
   house_.get<scene::NodeRegistry>().add({.type = "plant"}, [](const scene::Node&, scene::SceneBuilder&) {});
   const auto warnings_of = [&](const std::string& script) {
-    const auto loaded =
-        scene::load_scene(folder_.write("scene.xp", script), house_.get<scene::NodeRegistry>());
+    const auto loaded = load(script);
     EXPECT_TRUE(loaded) << to_string(loaded.errors());
     return loaded ? to_string(loaded->warnings) : "";
   };
@@ -427,7 +416,7 @@ TEST_F(LitObjects, TheExampleOfTheThesisRuns) {
     EXPECT_TRUE(scene.object(name).is_dynamic);
     EXPECT_GT(scene.mean(name).y, 1.0f);
   }
-  const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+  const auto loaded = load("dayLight()\n" + example);
   EXPECT_NE(to_string(loaded->warnings).find("\"duck.glb\" is used"), std::string::npos)
       << to_string(loaded->warnings);
 }

@@ -1,0 +1,46 @@
+// The node bouncedLight: its ranges, and what is wrong with others.
+#include <gtest/gtest.h>
+
+#include "graphics/bounced_light/room.h"
+#include "scene/data/bounced_settings.h"
+#include "scene/script/room.h"
+#include "scene/script/test_script.h"
+
+namespace parvis::bounced_light {
+namespace {
+
+class BouncedNode : public scene::ScriptTest<> {
+ protected:
+  BouncedNode() {
+    script::furnish(house_);
+    bounced_light::furnish(house_);
+  }
+  scene::BouncedSettings settings_of(const std::string& script) const {
+    return scene_of(script).data<scene::BouncedSettings>();
+  }
+};
+
+TEST_F(BouncedNode, IsOffWithoutTheNodeAndTakesItsAttributes) {
+  EXPECT_FALSE(settings_of("// nothing\n").is_on);
+  const scene::BouncedSettings by_default = settings_of("bouncedLight()\n");
+  EXPECT_TRUE(by_default.is_on);
+  EXPECT_FLOAT_EQ(by_default.spacing_m, 8.0f);
+  EXPECT_EQ(by_default.rays, 64);
+  const scene::BouncedSettings chosen = settings_of("bouncedLight(spacing=0.5, rays=1024)\n");
+  EXPECT_FLOAT_EQ(chosen.spacing_m, 0.5f);
+  EXPECT_EQ(chosen.rays, 1024);
+}
+
+TEST_F(BouncedNode, SaysWhatIsWrong) {
+  for (const auto& [script, word] : {std::pair{"bouncedLight(spacing=0.4)\n", "spacing"},
+                                     {"bouncedLight(spacing=51)\n", "spacing"},
+                                     {"bouncedLight(rays=15)\n", "rays"},
+                                     {"bouncedLight(rays=1025)\n", "rays"},
+                                     {"bouncedLight(rays=64.5)\n", "rays"},
+                                     {"bouncedLight(bounces=2)\n", "bounces"},
+                                     {"bouncedLight()\nbouncedLight()\n", "bouncedLight"}})
+    EXPECT_TRUE(holds(errors_of(script), word)) << script;
+}
+
+}  // namespace
+}  // namespace parvis::bounced_light
