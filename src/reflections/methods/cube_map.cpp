@@ -18,6 +18,8 @@ constexpr std::array<FaceFrame, 6> face_frames{{{{1, 0, 0}, {0, -1, 0}},
                                                 {{0, 0, 1}, {0, -1, 0}},
                                                 {{0, 0, -1}, {0, -1, 0}}}};
 
+constexpr int max_culled = 256;  // texels per side: the renderer's picture of occluders has 360 rows
+
 }  // namespace
 
 render::View face_view(int face, glm::vec3 centre, int resolution, GLuint framebuffer) {
@@ -50,6 +52,8 @@ void CubeMap::draw_face(render::Renderer& renderer, int face, glm::vec3 centre, 
   view.excluded_object = excluded;
   view.subjects = subjects;
   view.shown_objects = shown;
+  // Static occluders are one list: a static reflector would be among those of its own faces.
+  view.culls_hidden = excluded >= 0 && renderer.gpu().is_moving(excluded) && resolution_ <= max_culled;
   renderer.draw_view(view);
 }
 
@@ -71,5 +75,10 @@ void CubeMap::read_points(int face, glm::vec3 centre, std::vector<glm::vec3>& po
 }
 
 void CubeMap::update_levels() { glGenerateTextureMipmap(texture_.name()); }
+
+void CubeMap::update_levels(const LobeFilter& filter) {
+  update_levels();
+  filter.blur(texture_.name(), resolution_);
+}
 
 }  // namespace parvis::methods

@@ -3,6 +3,7 @@
 
 #include "graphics/gl/objects.h"
 #include "graphics/render/renderer.h"
+#include "reflections/methods/lobe_filter.h"
 
 namespace parvis::methods {
 
@@ -21,6 +22,8 @@ class CubeMap {
                  const std::vector<std::uint8_t>* shown = nullptr);
   /// Computes the mipmaps; call it after faces have changed.
   void update_levels();
+  /// The same, blurred for the lobes of rough mirrors: for cube_map_lookup.glsl.
+  void update_levels(const LobeFilter& filter);
 
   /// Replaces `points` by the world positions visible in the face drawn last, without the sky. Reads back
   /// from the GPU: for baking, not for frames.

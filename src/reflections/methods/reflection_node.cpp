@@ -11,8 +11,15 @@ using namespace scene::attribute;
 using scene::AttributeSchema, scene::AttributeType;
 
 std::vector<AttributeSchema> common_attributes(const Registry& registry) {
+  std::vector<std::string> methods = registry.names();
+  methods.insert(methods.begin(), automatic);
   return {
-      choice("method", "how reflections are made", registry.names()).by_default(registry.name_of({})).live(),
+      choice("method",
+             "how reflections are made; automatic: multiple_environment_maps where there are streets and "
+             "something that mirrors, rerendered_cube_map elsewhere",
+             std::move(methods))
+          .by_default(automatic)
+          .live(),
       integer("resolution", "edge of one face of a cube map")
           .in("pixels")
           .between(8, 4096)
@@ -39,12 +46,11 @@ std::vector<AttributeSchema> common_attributes(const Registry& registry) {
 }
 
 scene::NodeSchema schema_of(const Registry& registry) {
-  scene::NodeSchema schema{
-      .type = "reflection",
-      .help = "How the mirror-like parts of moving things see their surroundings.",
-      .attributes = common_attributes(registry),
-      .example = fmt::format("reflection(method=\"{}\", resolution=128)", registry.name_of({})),
-      .is_unique = true};
+  scene::NodeSchema schema{.type = "reflection",
+                           .help = "How the mirror-like parts of moving things see their surroundings.",
+                           .attributes = common_attributes(registry),
+                           .example = "reflection(method=\"automatic\", resolution=128)",
+                           .is_unique = true};
   std::ranges::move(registry.attributes(), std::back_inserter(schema.attributes));
   return schema;
 }

@@ -19,10 +19,13 @@ std::vector<std::string> Registry::names() const {
   return names;
 }
 
-const std::string& Registry::name_of(const Settings& settings) const {
-  if (!settings.method.empty()) return settings.method;
-  const auto standard = std::ranges::find_if(methods_, &Method::is_default);
-  return standard == methods_.end() ? settings.method : standard->name;
+std::string Registry::name_of(const scene::Scene& scene) const {
+  const std::string& named = settings(scene).method;
+  if (!named.empty() && named != automatic) return named;
+  const auto suited = std::ranges::find_if(
+      methods_, [&](const Method& method) { return method.suits && method.suits(scene); });
+  const auto chosen = suited != methods_.end() ? suited : std::ranges::find_if(methods_, &Method::is_default);
+  return chosen == methods_.end() ? std::string() : chosen->name;
 }
 
 std::vector<scene::AttributeSchema> Registry::attributes() const {

@@ -23,7 +23,9 @@ struct Method {
   std::string help;  ///< one line: what it draws
   Make make = nullptr;
   bool is_overlay = false;
-  bool is_default = false;     ///< of the methods, one is
+  bool is_default = false;  ///< of the methods, one is
+  /// Scenes that leave the choice have this method in place of the default where it is true; null: none.
+  bool (*suits)(const scene::Scene& scene) = nullptr;
   std::string lies_over = {};  ///< the name of the method that is made below it; empty: none
   bool (*is_wanted)(const scene::Scene& scene) = nullptr;  ///< of an overlay
   /// Attributes of the node `reflection`; several methods may share one, described alike.
@@ -38,6 +40,9 @@ struct Method {
   bool needs_earlier_frames = false;
 };
 
+/// What scripts write to leave the choice of the method: the first that suits the scene, or the default.
+inline constexpr const char* automatic = "automatic";
+
 /// All methods and overlays that rooms have added.
 class Registry {
  public:
@@ -48,15 +53,15 @@ class Registry {
   std::vector<std::string> names() const;
   /// Methods and overlays, in the order in which they were added.
   const std::vector<Method>& all() const { return methods_; }
-  /// The name of the method that settings mean.
-  const std::string& name_of(const Settings& settings) const;
+  /// The name of the method that a scene means; empty where it leaves the choice and there is no default.
+  std::string name_of(const scene::Scene& scene) const;
   /// The attributes of all methods, each once.
   std::vector<scene::AttributeSchema> attributes() const;
   /// Takes over what the node says for any method.
   void read(const scene::Node& node, Settings& settings) const;
 
   /// The method of a scene; an error that lists the names where it names none of these.
-  Result<const Method*> method_of(const scene::Scene& scene) const { return find(name_of(settings(scene))); }
+  Result<const Method*> method_of(const scene::Scene& scene) const { return find(name_of(scene)); }
   /// Whether pictures of the scene may read what the bake step of that name keeps.
   bool reads_baked(const scene::Scene& scene, const std::string& bake_step) const;
   /// Errors of a scene that names no method of these; the message lists those that there are.

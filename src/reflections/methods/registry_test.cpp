@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "base/house.h"
-#include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/methods/frame.h"
 #include "scene/script/attribute.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::methods {
 namespace {
@@ -86,6 +85,7 @@ void furnish(House& house) {
                   if (!below) return error("lies over nothing");
                   return below;
                 },
+                .suits = [](const scene::Scene& scene) { return own_settings<Paint>(scene).red > 0.9f; },
                 .lies_over = "green",
                 .attributes = {radiance("green", "0.25")}});
   registry.add(
@@ -104,16 +104,14 @@ void furnish(House& house) {
   add_reflection_node(house.get<scene::NodeRegistry>(), registry);
 }
 
-class RegistryTest : public gl::ContextTest {
+class RegistryTest : public scene::ScriptTest<gl::ContextTest> {
  protected:
   RegistryTest() { furnish(house_); }
   const Registry& registry() const { return house_.get<Registry>(); }
 
   /// The settings of a script.
   Result<Settings> settings_of(const std::string& script) {
-    folder_.write("scene.xp", script);
-    Result<scene::LoadedScene> loaded =
-        scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>());
+    const Result<scene::LoadedScene> loaded = load(script);
     if (!loaded) return loaded.errors();
     return settings(loaded->scene);
   }
@@ -137,9 +135,6 @@ class RegistryTest : public gl::ContextTest {
     const float* pixel = radiance.at(16, 16);
     return {pixel[0], pixel[1], pixel[2]};
   }
-
-  House house_;
-  TestFolder folder_;
 };
 
 TEST_F(RegistryTest, AMethodOfATestRoomIsNamedByAScriptAndDrawn) {
@@ -172,6 +167,21 @@ TEST_F(RegistryTest, AnUnknownMethodIsAnErrorThatNamesThoseThereAre) {
   ASSERT_FALSE(status);
   EXPECT_NE(to_string(status.errors()).find("expected one of green, green twice"), std::string::npos)
       << to_string(status.errors());
+}
+
+TEST_F(RegistryTest, AMethodThatSuitsTheSceneStandsInForTheDefault) {
+  for (const char* left_open : {"", automatic}) {
+    scene::Scene scene;
+    settings(scene).method = left_open;
+    EXPECT_EQ(registry().name_of(scene), "green");
+    own_settings<Paint>(scene).red = 1.0f;
+    EXPECT_EQ(registry().name_of(scene), "green twice");
+    settings(scene).method = "green";
+    EXPECT_EQ(registry().name_of(scene), "green") << "the script names it";
+  }
+  const Result<Settings> by_script = settings_of("reflection(green=0.5)");
+  ASSERT_TRUE(by_script) << to_string(by_script.errors());
+  EXPECT_EQ(by_script->method, automatic);
 }
 
 TEST_F(RegistryTest, AttributesThatMethodsShareStandOnceInTheNode) {

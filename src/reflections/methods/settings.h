@@ -12,7 +12,7 @@ struct Settings {
   static constexpr std::string_view name = "methods.settings";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
-  std::string method = {};           ///< as scripts name it; empty: the registry's default
+  std::string method = {};           ///< as scripts name it; empty: automatic
   int resolution = 128;              ///< pixels along the edge of a cube map's face
   bool uses_level_of_detail = true;  ///< resolution by size on screen; far objects share one map
   float budget_ms = 0.0f;            ///< of a frame, held by choosing levels of detail; 0: none
