@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <limits>
 
+#include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
+#include "reflections/probes/probe_blend.h"
 
 namespace parvis::probes {
 namespace {
@@ -38,8 +39,8 @@ float median(std::vector<float>& values, float otherwise) {
 
 }  // namespace
 
-BoxProjectedProbe::BoxProjectedProbe(const scene::Scene& scene)
-    : resolution_(methods::settings(scene).resolution) {
+BoxProjectedProbe::BoxProjectedProbe(const scene::Scene& scene, methods::LobeFilter filter)
+    : CubeMapReflections(std::move(filter)), resolution_(methods::settings(scene).resolution) {
   for (const scene::Lane& lane : scene.roads.lanes)
     walk(lane, [&](glm::vec3 position, glm::vec3 direction) {
       const glm::vec3 at = position + glm::vec3(0, 0, height_m);
@@ -69,7 +70,7 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
       distances[side].push_back(is_along ? std::abs(ahead) : std::abs(left));
     }
   }
-  probe.map->update_levels();
+  update_levels(*probe.map);
   faces_drawn_ += 6;
 
   std::array<float, 4> reach{};
@@ -82,23 +83,34 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
       probe.position + glm::vec3(shift.x * probe.heading + shift.y * left, open_half_size_m - height_m);
 }
 
+/// A scene without roads has one probe, where the first reflector stands.
+BoxProjectedProbe::ProbePair BoxProjectedProbe::probes_about(glm::vec3 place) {
+  if (probes_.empty()) probes_.push_back({place, {1.0f, 0.0f}, {}});
+  std::vector<std::pair<float, Probe*>> by_distance;
+  by_distance.reserve(probes_.size());
+  for (Probe& probe : probes_) by_distance.emplace_back(glm::distance(probe.position, place), &probe);
+  const std::size_t near_count = std::min(by_distance.size(), std::size_t{3});
+  std::ranges::partial_sort(by_distance, by_distance.begin() + std::ptrdiff_t(near_count), {},
+                            &std::pair<float, Probe*>::first);
+  Probe* nearest = by_distance.front().second;
+  if (near_count < 2) return {nearest, nearest, 0.0f};
+  const std::optional<float> third_m =
+      near_count > 2 ? std::optional(by_distance[2].first) : std::optional<float>();
+  return {nearest, by_distance[1].second,
+          share_of_second(by_distance[0].first, by_distance[1].first, third_m)};
+}
+
 void BoxProjectedProbe::update_maps(render::Renderer& renderer, const scene::Scene&,
                                     const std::vector<methods::VisibleReflector>& reflectors) {
   for (Probe& probe : probes_) ++probe.idle_frames;
-  probe_of_object_.clear();
+  probes_of_object_.clear();
   for (const methods::VisibleReflector& reflector : reflectors) {
-    Probe* nearest = nullptr;
-    float minimum = std::numeric_limits<float>::max();
-    for (Probe& probe : probes_)
-      if (const float distance = glm::distance(probe.position, reflector.centre); distance < minimum)
-        nearest = &probe, minimum = distance;
-    if (!nearest) {  // a scene without roads: one probe where the first reflector stands
-      probes_.push_back({reflector.centre, {1.0f, 0.0f}, {}});
-      nearest = &probes_.back();
+    const ProbePair pair = probes_about(reflector.centre);
+    for (Probe* probe : {pair.nearest, pair.second}) {
+      if (!probe->map) bake(*probe, renderer);
+      probe->idle_frames = 0;
     }
-    if (!nearest->map) bake(*nearest, renderer);
-    nearest->idle_frames = 0;
-    probe_of_object_[reflector.object] = nearest;
+    probes_of_object_.emplace(reflector.object, pair);
   }
   for (Probe& probe : probes_)
     if (probe.idle_frames > forgotten_after) probe.map.reset();
@@ -108,14 +120,26 @@ void BoxProjectedProbe::forget_surroundings() {
   for (Probe& probe : probes_) probe.map.reset();
 }
 
+void BoxProjectedProbe::set_box(const gl::Program& program, int i, const Probe& probe) {
+  const auto set = [&](const char* field, const auto& value) {
+    program.set(fmt::format("{}[{}]", field, i).c_str(), value);
+  };
+  set("map_centre", probe.position);
+  set("box_centre", probe.box_centre);
+  set("box_half_size", probe.box_half_size);
+  set("box_heading", probe.heading);
+}
+
 void BoxProjectedProbe::bind(const gl::Program& program, int object) {
-  const Probe& probe = *probe_of_object_.at(object);
-  if (probe.map) bind_map(program, *probe.map);
-  program.set("box_is_used", 1.0f);
-  program.set("map_centre", probe.position);
-  program.set("box_centre", probe.box_centre);
-  program.set("box_half_size", probe.box_half_size);
-  program.set("box_heading", probe.heading);
+  const ProbePair& pair = probes_of_object_.at(object);
+  const Probe &nearest = *pair.nearest, &second = *pair.second;
+  if (!nearest.map || !second.map) return;  // forgotten, and no frame has drawn them since
+  bind_map(program, *nearest.map);
+  glBindTextureUnit(methods::first_method_unit + 1, second.map->texture());
+  program.set("second_map", int(methods::first_method_unit) + 1);
+  program.set("second_share", pair.second_share);
+  set_box(program, 0, nearest);
+  set_box(program, 1, second);
 }
 
 }  // namespace parvis::probes

@@ -1,5 +1,5 @@
 // Mirror-like surfaces that look their surroundings up in a cube map, as if it were infinitely far or the
-// inside of a box.
+// inside of a box; then two maps are blended (BLENDS_BOXES).
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/probes/box_projection.glsl"
 #include "graphics/render/surface_body.glsl"
@@ -7,21 +7,32 @@
 
 uniform samplerCube reflection_map;
 uniform float reflection_levels;
-uniform float box_is_used;
-uniform vec3 map_centre;
-uniform vec3 box_centre;
-uniform vec3 box_half_size;
-uniform vec2 box_heading;  // cosine and sine
 
-vec3 looked_up_direction;
+#ifdef BLENDS_BOXES
+uniform samplerCube second_map;
+uniform float second_share;
+uniform vec3 map_centre[2];
+uniform vec3 box_centre[2];
+uniform vec3 box_half_size[2];
+uniform vec2 box_heading[2];  // cosine and sine
+
+vec3 looked_up_direction[2];
 
 void look_along(vec3 at, vec3 direction) {
-  looked_up_direction = direction;
-  if (box_is_used > 0.5f)
-    looked_up_direction =
-        box_projected_direction(at, direction, map_centre, box_centre, box_half_size, box_heading);
+  for (int i = 0; i < 2; ++i)
+    looked_up_direction[i] = box_projected_direction(at, direction, map_centre[i], box_centre[i],
+                                                     box_half_size[i], box_heading[i]);
 }
 
 vec3 reflected_radiance(float roughness, int layer) {
-  return cube_map_radiance(reflection_map, reflection_levels, looked_up_direction, roughness);
+  return mix(cube_map_radiance(reflection_map, reflection_levels, looked_up_direction[0], roughness),
+             cube_map_radiance(second_map, reflection_levels, looked_up_direction[1], roughness),
+             second_share);
 }
+#else
+#include "graphics/render/mirrored_direction.glsl"
+
+vec3 reflected_radiance(float roughness, int layer) {
+  return cube_map_radiance(reflection_map, reflection_levels, mirrored_direction, roughness);
+}
+#endif

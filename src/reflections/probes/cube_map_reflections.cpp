@@ -8,8 +8,15 @@ void CubeMapReflections::draw_whole(methods::CubeMap& map, render::Renderer& ren
                                     const methods::VisibleReflector& reflector) {
   for (int face = 0; face < 6; ++face)
     map.draw_face(renderer, face, reflector.centre, reflector.object, render::Subjects::all, reflector.shown);
-  map.update_levels();
+  update_levels(map);
   faces_drawn_ += 6;
+}
+
+void CubeMapReflections::update_levels(methods::CubeMap& map) const {
+  if (filter_)
+    map.update_levels(*filter_);
+  else
+    map.update_levels();
 }
 
 void CubeMapReflections::bind_map(const gl::Program& program, const methods::CubeMap& map) {

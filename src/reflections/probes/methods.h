@@ -41,7 +41,9 @@ class NoReflection final : public methods::Reflections {
 class RerenderedCubeMap final : public CubeMapReflections {
  public:
   /// Reads the common settings of reflection methods.
-  explicit RerenderedCubeMap(const scene::Scene& scene) : settings_(methods::settings(scene)) {}
+  /// Without a filter: for mirrors that are all smooth.
+  explicit RerenderedCubeMap(const scene::Scene& scene, std::optional<methods::LobeFilter> filter = {})
+      : CubeMapReflections(std::move(filter)), settings_(methods::settings(scene)) {}
   void bind(const gl::Program& program, int object) override;
   const methods::CubeMap* surroundings_of(int object) const override { return map_of_object_.at(object); }
 
@@ -59,8 +61,9 @@ class RerenderedCubeMap final : public CubeMapReflections {
 /// as the script sets, the oldest first.
 class TimeSlicedCubeMap final : public CubeMapReflections {
  public:
-  explicit TimeSlicedCubeMap(const scene::Scene& scene)
-      : resolution_(methods::settings(scene).resolution),
+  TimeSlicedCubeMap(const scene::Scene& scene, methods::LobeFilter filter)
+      : CubeMapReflections(std::move(filter)),
+        resolution_(methods::settings(scene).resolution),
         slicing_(methods::own_settings<TimeSlicing>(scene)) {}
   void bind(const gl::Program& program, int object) override;
   const methods::CubeMap* surroundings_of(int object) const override { return &maps_.at(object).map; }
@@ -87,7 +90,8 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
 class SharedCubeMap final : public CubeMapReflections {
  public:
   /// Allocates a map of the resolution that the scene sets.
-  explicit SharedCubeMap(const scene::Scene& scene) : map_(methods::settings(scene).resolution) {}
+  SharedCubeMap(const scene::Scene& scene, methods::LobeFilter filter)
+      : CubeMapReflections(std::move(filter)), map_(methods::settings(scene).resolution) {}
   void bind(const gl::Program& program, int) override { bind_map(program, map_); }
   const methods::CubeMap* surroundings_of(int) const override { return &map_; }
 
@@ -99,13 +103,18 @@ class SharedCubeMap final : public CubeMapReflections {
 };
 
 /// Cube maps at fixed places along the roads, rendered once without dynamic objects; lookups are corrected by
-/// a box fitted to the street around each.
+/// a box fitted to the street around each. A body shows the two nearest, blended by distance.
 class BoxProjectedProbe final : public CubeMapReflections {
  public:
-  explicit BoxProjectedProbe(const scene::Scene& scene);
+  BoxProjectedProbe(const scene::Scene& scene, methods::LobeFilter filter);
+  render::SurfaceSource source() const override {
+    render::SurfaceSource surface = CubeMapReflections::source();
+    surface.defines.emplace_back("BLENDS_BOXES", "1");
+    return surface;
+  }
   void bind(const gl::Program& program, int object) override;
   const methods::CubeMap* surroundings_of(int object) const override {
-    const Probe& probe = *probe_of_object_.at(object);
+    const Probe& probe = *probes_of_object_.at(object).nearest;
     return probe.map ? &*probe.map : nullptr;
   }
 
@@ -117,14 +126,21 @@ class BoxProjectedProbe final : public CubeMapReflections {
     glm::vec3 box_centre{0.0f}, box_half_size{0.0f};
     int idle_frames = 0;
   };
+  /// The probes that a body shows.
+  struct ProbePair {
+    Probe *nearest, *second;  ///< the same where there is only one
+    float second_share;       ///< of the second
+  };
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void forget_surroundings() override;
+  ProbePair probes_about(glm::vec3 place);
+  static void set_box(const gl::Program& program, int i, const Probe& probe);
   void bake(Probe& probe, render::Renderer& renderer);
 
   int resolution_;
   std::deque<Probe> probes_;  ///< places stay when one is added
-  std::map<int, const Probe*> probe_of_object_;
+  std::map<int, ProbePair> probes_of_object_;
 };
 
 }  // namespace parvis::probes

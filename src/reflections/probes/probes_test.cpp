@@ -4,6 +4,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
 #include "reflections/methods/frame.h"
+#include "reflections/methods/lobe_levels.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
@@ -85,6 +86,13 @@ bool meets_mirror(glm::vec3 from, glm::vec3 direction, glm::vec3& point, glm::ve
   return false;
 }
 
+/// Unit direction from an eye through the middle of a pixel.
+glm::vec3 direction_of_pixel(const glm::mat4& world_from_clip, glm::vec3 eye, int x, int y) {
+  const glm::vec2 clip{2.0f * (float(x) + 0.5f) / width - 1.0f, 1.0f - 2.0f * (float(y) + 0.5f) / height};
+  const glm::vec4 ahead = world_from_clip * glm::vec4(clip, 0.5f, 1.0f);
+  return glm::normalize(glm::vec3(ahead) / ahead.w - eye);
+}
+
 /// The share of the mirror's pixels that show the wall which a mirror shows there.
 float share_right(const std::string& method, glm::vec3 eye) {
   Show show(room_with_mirror(method), eye, glm::vec3(0.0f));
@@ -96,9 +104,7 @@ float share_right(const std::string& method, glm::vec3 eye) {
   int mirrored = 0, right = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const glm::vec2 clip{2.0f * (float(x) + 0.5f) / width - 1.0f, 1.0f - 2.0f * (float(y) + 0.5f) / height};
-      const glm::vec4 ahead = world_from_clip * glm::vec4(clip, 0.5f, 1.0f);
-      const glm::vec3 direction = glm::normalize(glm::vec3(ahead) / ahead.w - eye);
+      const glm::vec3 direction = direction_of_pixel(world_from_clip, eye, x, y);
       glm::vec3 point, normal;
       if (!meets_mirror(eye, direction, point, normal)) continue;
       const int wall = wall_met(room_half_m, point, glm::reflect(direction, normal)).wall;
@@ -195,6 +201,86 @@ TEST_F(ReflectionsTest, ProbesAreDrawnOnceUntilTheFixedSurroundingsChange) {
   show.scene().objects.front().world_from_model[3].x = 1.0f;
   EXPECT_EQ(show.draw(), 6);
   EXPECT_EQ(show.draw(), 0);
+}
+
+/// A mirror in a room with a lamp, and a lane along which probes stand.
+Show mirror_on_lane(float west_m, float east_m) {
+  constexpr float middle_m = -0.5f;
+  scene::Scene scene = room_scene(30.0f);
+  add_mirror(scene, {middle_m, 0, 0}, 2.0f);
+  scene::Material lamp = scene::matt(glm::vec3(0.0f));
+  lamp.emission = glm::vec3(1.0f);
+  scene::add(scene, scene::model_of(scene::box({-10, -23, -6}, {-4, -17, 0}), lamp));
+  scene::Lane lane;
+  lane.points = {{west_m, -3, -1.5f}, {east_m, -3, -1.5f}};
+  scene.roads.lanes.push_back(lane);
+  methods::settings(scene) = {"box_projected_probe", 64, false};
+  Show show(std::move(scene), {4.5f, -14, 2}, {middle_m, 0, 0});
+  show.camera().vertical_fov = 0.4f;
+  return show;
+}
+
+/// How many pixels of two pictures differ in blue, which the lamp has and the wall behind it lacks, by more
+/// than `apart`.
+int pixels_apart(const ImageF& a, const ImageF& b, float apart) {
+  int count = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) count += std::abs(a.at(x, y)[2] - b.at(x, y)[2]) > apart;
+  return count;
+}
+
+TEST_F(ReflectionsTest, MidwayBetweenTwoProbesBothAreShownByHalf) {
+  Show west = mirror_on_lane(-15.5f, -14.5f), east = mirror_on_lane(14.5f, 15.5f),
+       both = mirror_on_lane(-15.5f, 15.5f);
+  EXPECT_EQ(west.draw(), 6);
+  EXPECT_EQ(east.draw(), 6);
+  EXPECT_EQ(both.draw(), 12);
+  EXPECT_EQ(both.draw(), 0) << "they are kept";
+  ImageF half = west.radiance();
+  const ImageF other = east.radiance();
+  const int between_probes = pixels_apart(half, other, 0.2f);
+  EXPECT_GT(between_probes, 50) << "the lamp stands nearer than the walls";
+  for (std::size_t i = 0; i < half.pixels.size(); ++i)
+    half.pixels[i] = 0.5f * (half.pixels[i] + other.pixels[i]);
+  EXPECT_LT(pixels_apart(both.radiance(), half, 0.1f), between_probes / 4) << "outlines alone differ";
+}
+
+/// What a rough mirror shows is as wide as its lobe, not as a texel.
+TEST_F(ReflectionsTest, RoughMirrorsShowTheMeanOverTheirLobe) {
+  constexpr float roughness = 0.5f;
+  scene::Scene scene = room_with_mirror("rerendered_cube_map");
+  auto rough = std::make_shared<scene::Model>(*scene.objects.back().model);
+  rough->materials.front().roughness = roughness;
+  scene.objects.back().model = rough;
+  Show show(std::move(scene), from_above, glm::vec3(0.0f));
+  show.camera().vertical_fov = 0.4f;
+  show.draw();
+  const ImageF radiance = show.radiance();
+  const glm::mat4 world_from_clip = glm::inverse(
+      show.camera().clip_from_camera(float(width) / float(height)) * show.camera().camera_from_world());
+  const auto hue = [](glm::vec3 colour) { return colour / (colour.x + colour.y + colour.z); };
+  float error = 0.0f, error_of_smooth = 0.0f;
+  for (int y = 0; y < height; y += 4)
+    for (int x = 0; x < width; x += 4) {
+      glm::vec3 point, normal;
+      const glm::vec3 direction = direction_of_pixel(world_from_clip, from_above, x, y);
+      if (!meets_mirror(from_above, direction, point, normal)) continue;
+      const glm::vec3 mirrored = glm::reflect(direction, normal);
+      const auto wall = [&](glm::vec3 way) {
+        return wall_colours[std::size_t(wall_met(room_half_m, glm::vec3(0.0f), way).wall)];
+      };
+      glm::vec3 sum(0.0f);
+      constexpr int directions = 512;
+      for (int i = 0; i < directions; ++i) {
+        const glm::vec3 way(methods::lobe_sample(mirrored, roughness, i, directions));
+        if (glm::dot(way, mirrored) > 0.0f) sum += wall(way);
+      }
+      const float* pixel = radiance.at(x, y);
+      error += glm::distance(hue({pixel[0], pixel[1], pixel[2]}), hue(sum));
+      error_of_smooth += glm::distance(hue(wall(mirrored)), hue(sum));
+    }
+  EXPECT_GT(error_of_smooth, 0.0f) << "the mirror is in the picture";
+  EXPECT_LT(error, 0.5f * error_of_smooth);
 }
 
 TEST_F(ReflectionsTest, WhatIsNotSeenCostsNoFace) {

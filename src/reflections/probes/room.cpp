@@ -12,19 +12,24 @@ using namespace scene::attribute;
 
 using Made = Result<std::unique_ptr<methods::Reflections>>;
 
-/// Makes a method that needs nothing but the scene.
+Made make_none(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods::Reflections>) {
+  return std::unique_ptr<methods::Reflections>(std::make_unique<NoReflection>(scene));
+}
+
+/// Makes a method of cube maps.
 template <class Method>
 Made make(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods::Reflections>) {
-  return std::unique_ptr<methods::Reflections>(std::make_unique<Method>(scene));
+  Result<methods::LobeFilter> filter = methods::LobeFilter::create();
+  if (!filter) return filter.errors();
+  return std::unique_ptr<methods::Reflections>(std::make_unique<Method>(scene, *std::move(filter)));
 }
 
 }  // namespace
 
 void furnish(House& house) {
   methods::Registry& registry = house.get<methods::Registry>();
-  registry.add({.name = "none",
-                .help = "lights alone: mirrors show the mean light of the sky",
-                .make = make<NoReflection>});
+  registry.add(
+      {.name = "none", .help = "lights alone: mirrors show the mean light of the sky", .make = make_none});
   registry.add({.name = "rerendered_cube_map",
                 .help = "a cube map for each reflector, re-rendered every frame",
                 .make = make<RerenderedCubeMap>,
@@ -47,7 +52,8 @@ void furnish(House& house) {
                 .help = "one cube map for all reflectors, drawn about the largest on the screen",
                 .make = make<SharedCubeMap>});
   registry.add({.name = "box_projected_probe",
-                .help = "cube maps along the roads, looked up as the inside of a box fitted to the street",
+                .help = "cube maps along the roads, looked up as the inside of a box fitted to the street; "
+                        "the two nearest are blended",
                 .make = make<BoxProjectedProbe>});
 }
 

@@ -15,7 +15,6 @@ void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer,
   Sliced& sliced = maps_.at(reflector.object);
   sliced.map.draw_face(renderer, sliced.next_face, reflector.centre, reflector.object, render::Subjects::all,
                        reflector.shown);
-  sliced.map.update_levels();
   sliced.next_face = (sliced.next_face + 1) % 6;
   sliced.drawn_at = ++faces_so_far_;
   ++faces_drawn_;
@@ -41,6 +40,8 @@ void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Sce
                                   ? std::min(std::size_t(slicing_.faces_per_frame), 6 * waiting_.size())
                                   : waiting_.size();
     for (std::size_t i = 0; i < faces; ++i) draw_next_face(renderer, waiting_[i % waiting_.size()]);
+    for (std::size_t i = 0; i < std::min(faces, waiting_.size()); ++i)
+      update_levels(maps_.at(waiting_[i].object).map);
   }
   std::erase_if(maps_, [](const auto& entry) { return entry.second.idle_frames > forgotten_after; });
 }
