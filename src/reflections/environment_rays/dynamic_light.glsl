@@ -11,31 +11,33 @@ float visible_sun_without_bodies(vec3 point, vec3 normal) {
   return min(visible_fixed_sun(point, normal), visible_fixed_sun(point + vec3(step_m, 0.0f), normal));
 }
 
+// Irradiance by the part of the sky that is seen from a place, without dynamic objects.
+vec3 irradiance_of_sky(vec3 point, vec3 normal, BouncedCell bounced) {
+  vec3 share = sky_share_of_normal(sky_visibility_cell(point, normal), normal) * bounced.sky;
+  return share * frame_sky_irradiance(normal);
+}
+
 // Ratio of the ground's irradiance with and without dynamic objects: no map shows the shadows of cars. Walls
 // are left out, because the height field is too coarse for them.
 vec3 light_left_by_bodies(vec3 point) {
   const vec3 normal = vec3(0.0f, 0.0f, 1.0f);
-  vec3 sh[9];
-  for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
-  vec3 sky = sky_share_of_normal(sky_visibility_cell(point, normal), normal) * sky_irradiance(sh, normal);
+  BouncedCell bounced = bounced_cell(point, normal);
+  vec3 sky = irradiance_of_sky(point, normal, bounced);
   vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
   float fixed_sun = visible_sun_without_bodies(point, normal);
   vec3 above_ground = point + max_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
   float sun_share = min(visible_sun(above_ground, normal), fixed_sun);
   float sky_share = sky_share_beside_bodies(point, normal, -1);
-  vec3 others = bounced_irradiance(bounced_cell(point, normal), normal) + irradiance_of_lamps(point, normal);
+  vec3 others = bounced_irradiance(bounced, normal) + irradiance_of_lamps(point, normal);
   return (sky_share * sky + sun_share * sun + others) / max(sky + fixed_sun * sun + others, vec3(1e-4f));
 }
 
 // Radiance of a dynamic object: diffuse colour below a clear coat, which reflects the map nearest to it.
 vec3 radiance_of_body(BodyHit body, vec3 point, vec3 direction, float map) {
-  vec3 sh[9];
-  for (int i = 0; i < 9; ++i) sh[i] = frame_sky_sh[i].rgb;
-  vec3 sky = sky_share_of_normal(sky_visibility_cell(point, body.normal), body.normal) *
-             sky_irradiance(sh, body.normal);
+  BouncedCell bounced = bounced_cell(point, body.normal);
+  vec3 sky = irradiance_of_sky(point, body.normal, bounced);
   float facing_sun = max(dot(body.normal, frame_to_sun.xyz), 0.0f);
-  vec3 others = bounced_irradiance(bounced_cell(point, body.normal), body.normal) +
-                irradiance_of_lamps(point, body.normal);
+  vec3 others = bounced_irradiance(bounced, body.normal) + irradiance_of_lamps(point, body.normal);
   vec3 light = sky + others + facing_sun * visible_sun(point, body.normal) * frame_sun_irradiance.rgb;
   vec2 uv = layer_uv(reflect(direction, body.normal), gloss_side, gloss_border);
   vec3 mirrored = textureLod(map_glosses, vec3(gloss_uv(uv, 0.0f), map), 0.0f).rgb;

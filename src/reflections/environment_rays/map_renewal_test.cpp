@@ -173,6 +173,31 @@ TEST_F(MissingMapsTest, PicturesAreTheSameWhereNotAllMapsAreHeld) {
   EXPECT_EQ(maps_after_next_frame(), held);
 }
 
+/// The maps of the room are numbered beyond the layers of a texture, 2048 on the software renderer.
+TEST_F(MissingMapsTest, PicturesAreTheSameWhereThereAreMoreMapsThanLayers) {
+  const std::size_t drawn = maps_after_next_frame();
+  const Image8 whole = renderer_->read_picture(1.0f);
+  std::vector<glm::vec3>& all = map_plan(scene_).places;
+  std::vector<glm::vec3> far_away(ReferenceMaps::max_count());
+  for (std::size_t i = 0; i < far_away.size(); ++i) far_away[i] = {1000.0f + float(i), 0.0f, 0.0f};
+  all.insert(all.begin(), far_away.begin(), far_away.end());
+  reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
+  ASSERT_TRUE(renderer_->set_reflection(reflections_.get()));
+  EXPECT_EQ(maps_after_next_frame(), drawn);
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
+}
+
+TEST_F(MissingMapsTest, MoreMapsThanLayersAreRefusedWhereAllAreToBeHeld) {
+  constexpr int side = 16;
+  const std::size_t layers = ReferenceMaps::max_count();
+  EXPECT_TRUE(ReferenceMaps::create(std::vector<glm::vec3>(layers), side));
+  const Result<ReferenceMaps> refused = ReferenceMaps::create(std::vector<glm::vec3>(layers + 1), side);
+  ASSERT_FALSE(refused);
+  const std::string told = to_string(refused.errors());
+  EXPECT_NE(told.find(fmt::format("{} reference maps", layers + 1)), std::string::npos) << told;
+  EXPECT_NE(told.find(fmt::format("at most {}", layers)), std::string::npos) << told;
+}
+
 /// Three maps, of which each part of the ground has all; two layers.
 class MapTableTest : public gl::ContextTest {
  protected:

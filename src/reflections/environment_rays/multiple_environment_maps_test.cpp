@@ -5,9 +5,12 @@
 #include <array>
 
 #include "base/random.h"
+#include "graphics/bounced_light/bounced_over.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
+#include "reflections/environment_rays/room.h"
 #include "reflections/methods/frame.h"
+#include "reflections/methods/registry.h"
 #include "reflections/reference_maps/map_levels.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
@@ -48,6 +51,22 @@ TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
     const float expected_m = (side_m - place[hit.wall / 2]) / direction[hit.wall / 2];
     ASSERT_NEAR(distances[i], expected_m, 0.05f * expected_m);
   }
+}
+
+TEST_F(EnvironmentMapsTest, ScenesWithStreetsAndMirrorsHaveThisMethodUnlessTheyNameAnother) {
+  House house;
+  furnish(house);
+  const methods::Registry& registry = house.get<methods::Registry>();
+  scene::Scene scene = render::room_scene(room_half_m);
+  render::add_mirror(scene, glm::vec3(0.0f), 1.0f);
+  EXPECT_EQ(registry.name_of(scene), "") << "no street";
+  scene.roads.lanes.emplace_back().points = {{0, 0, 0}, {5, 0, 0}};
+  EXPECT_EQ(registry.name_of(scene), "multiple_environment_maps");
+  methods::settings(scene).method = "none";
+  EXPECT_EQ(registry.name_of(scene), "none");
+  methods::settings(scene).method = methods::automatic;
+  for (scene::Object& object : scene.objects) object.takes_reflection = false;
+  EXPECT_EQ(registry.name_of(scene), "") << "nothing mirrors";
 }
 
 TEST_F(EnvironmentMapsTest, AGlossyTileIsTheMeanOverTheLobe) {
@@ -113,6 +132,57 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsDynamicThingsBesideIt) {
   const Mesh van = scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f});
   scene::add(scene, scene::model_of(van, scene::matt({0.85f, 0.1f, 0.05f})), true);
   EXPECT_LT(flip_of(scene, make_multiple_environment_maps, {-2.5f, -3.5f, 2.2f}), 0.08);
+}
+
+/// A red van beside a mirror between high black walls, under a dark sky that glows along the horizon alone.
+scene::Scene van_between_walls() {
+  scene::Scene scene;
+  scene.sun.irradiance = glm::vec3(0.0f);
+  scene.sky.picture = ImageF(64, 32, 3, 0.02f);
+  for (int y = 13; y < 16; ++y)  // up to 17 degrees
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c) scene.sky.picture.at(x, y)[c] = 4.0f;
+  const scene::Material black = lamp(glm::vec3(0.0f));
+  const auto add = [&](const Mesh& mesh) { scene::add(scene, scene::model_of(mesh, black)); };
+  add(scene::ground(10)), add(scene::box({-10, -10, 0}, {-8, 10, 14}));
+  add(scene::box({8, -10, 0}, {10, 10, 14})), add(scene::box({-8, -10, 0}, {8, -8, 14}));
+  add(scene::box({-8, 8, 0}, {8, 10, 14}));
+  scene::add(scene,
+             scene::model_of(scene::box({-2.6f, 0.2f, 0.2f}, {-1.2f, 2.2f, 1.8f}),
+                             scene::matt({0.85f, 0.1f, 0.05f})),
+             true);
+  render::add_mirror(scene, {1.5f, 0.5f, 1.6f}, 1.2f);
+  methods::settings(scene) = {"multiple_environment_maps", 32, false};
+  methods::own_settings<MapSettings>(scene).max_maps = 4;
+  scene.data<scene::BouncedSettings>() = {true, 3.0f, 128};
+  return scene;
+}
+
+TEST_F(EnvironmentMapsTest, DynamicThingsHaveTheLightOfThatPartOfTheSkyWhichTheySee) {
+  const scene::Scene scene = van_between_walls();
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, bounced_light::with_bounced_light(light::sun_and_sky));
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto reflections = make_multiple_environment_maps(scene, **renderer);
+  ASSERT_TRUE(reflections) << to_string(reflections.errors());
+  ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
+  Camera camera;
+  camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});
+  const render::EyeView eye{camera, test_width, test_height};
+  ASSERT_TRUE(methods::draw_frame(**renderer, scene, reflections->get(), eye));
+  const ImageF drawn = (*renderer)->read_radiance();
+  const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, eye);
+  // What is red in the mirror is diffuse light of the van: all else is grey.
+  const auto redness = [&](const ImageF& picture) {
+    double sum = 0.0;
+    for (int y = 0; y < test_height; ++y)
+      for (int x = 0; x < test_width; ++x)
+        if (*truth.mirror_mask.at(x, y) == 255) sum += double(picture.at(x, y)[0] - picture.at(x, y)[2]);
+    return sum;
+  };
+  ASSERT_GT(redness(truth.radiance), 0.0);
+  // The body's field is coarse at its edges. By the whole sky it would be lit many times as brightly.
+  EXPECT_NEAR(redness(drawn) / redness(truth.radiance), 1.0, 0.5);
 }
 
 // Heights have no air under what spans the ground.

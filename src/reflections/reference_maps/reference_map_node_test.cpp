@@ -2,27 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
 #include "reflections/reference_maps/room.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
-#include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::reference_maps {
 namespace {
 
-class ReferenceMapNodeTest : public testing::Test {
+class ReferenceMapNodeTest : public scene::ScriptTest<> {
  protected:
-  ReferenceMapNodeTest() { furnish(house_); }
-
-  Result<scene::LoadedScene> load(const std::string& text) {
-    return scene::load_scene(folder_.write("scene.xp", text), registry_);
-  }
-
-  TestFolder folder_;
-  House house_ = scene::test_house();
-  scene::NodeRegistry& registry_ = house_.get<scene::NodeRegistry>();
+  ReferenceMapNodeTest() : ScriptTest(scene::test_house()) { furnish(house_); }
 };
 
 TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {
@@ -52,16 +43,12 @@ TEST_F(ReferenceMapNodeTest, WithoutItMapsPlaceThemselves) {
 }
 
 TEST_F(ReferenceMapNodeTest, BadInputIsRefusedWithItsLine) {
-  const auto errors = [&](const std::string& text) {
-    const auto loaded = load(text);
-    return loaded ? std::string() : to_string(loaded.errors());
-  };
-  EXPECT_NE(errors("\nreferenceMaps(path=\"0 0, 90000 0\", spacing=1)").find(":2:"), std::string::npos);
-  EXPECT_NE(errors("referenceMaps(path=\"0 0, 90000 0\", spacing=1)").find("wider spacing"),
+  EXPECT_NE(errors_of("\nreferenceMaps(path=\"0 0, 90000 0\", spacing=1)").find(":2:"), std::string::npos);
+  EXPECT_NE(errors_of("referenceMaps(path=\"0 0, 90000 0\", spacing=1)").find("wider spacing"),
             std::string::npos);
-  EXPECT_NE(errors("referenceMaps(postion=\"0 0 1\")").find("position"), std::string::npos);
-  EXPECT_NE(errors("referenceMaps()\nreferenceMaps()").find("referenceMaps"), std::string::npos);
-  EXPECT_NE(errors("referenceMaps(position=\"0 zero 1\")").find(":1:"), std::string::npos);
+  EXPECT_NE(errors_of("referenceMaps(postion=\"0 0 1\")").find("position"), std::string::npos);
+  EXPECT_NE(errors_of("referenceMaps()\nreferenceMaps()").find("referenceMaps"), std::string::npos);
+  EXPECT_NE(errors_of("referenceMaps(position=\"0 zero 1\")").find(":1:"), std::string::npos);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ class SetCover::State {
 
   const Chosen& chosen() const { return chosen_; }
   std::size_t covered() const { return covered_; }
-  std::size_t adds(std::size_t set) const { return adds_[set]; }
 
   void put(std::size_t slot, std::size_t set) {
     chosen_.insert(chosen_.begin() + std::ptrdiff_t(slot), set);

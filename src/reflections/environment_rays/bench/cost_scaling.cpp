@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/flip_between.h"
 #include "bench/reflection_cost.h"
-#include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "life/traffic/demand.h"
 #include "reflections/environment_rays/bench/near_views.h"
@@ -22,7 +22,7 @@ constexpr int width = 1280, height = 720;
 constexpr int control_width = 2 * width, control_height = 2 * height;  // of a picture that costs more
 constexpr int cars_per_side = 10;
 constexpr float ahead_m = 5.5f;
-constexpr int judged_views = 3, judged_width = 640, judged_height = 360, samples_per_pixel = 16;
+constexpr int samples_per_pixel = 16;
 constexpr double max_ratio_100 = 1.5, max_ratio_city = 1.2, max_flip_ratio_city = 1.1;
 constexpr float tile_m = 1000.0f;  // a side of the city
 constexpr int tiles_east = 5, tiles_north = 2, middle_tile = tiles_east / 2;
@@ -75,15 +75,10 @@ struct Timed {
 Result<Timed> timed(const House& house, const scene::Scene& scene, const methods::Settings& reflection) {
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(house::make_play(house, scene));
   if (!stage) return stage.errors();
-  Timed timed{*std::move(stage), {}, {}};
-  methods::Settings none;
-  none.method = "none";
-  for (const auto& [name, wanted] : {std::pair{"none", none}, {"mem", reflection}}) {
-    Result<JudgedMethod> method = judged_method(*timed.stage, name, wanted);
-    if (!method) return method.errors();
-    timed.methods.push_back(*std::move(method));
-  }
-  return timed;
+  Result<std::vector<JudgedMethod>> methods =
+      judged_methods(**stage, {{"none", methods::Settings{"none"}}, {"mem", reflection}});
+  if (!methods) return methods.errors();
+  return Timed{*std::move(stage), *std::move(methods), {}};
 }
 
 /// Adds a sample of a picture's reflections.
@@ -153,35 +148,46 @@ Status copy_maps(const maps::MapCache& of_one, std::size_t count, const scene::S
   return Done{};
 }
 
+/// The views in which both cities are judged.
+struct JudgedViews {
+  int count, width, height;
+};
+
+/// FLIP of some of a stage's methods in a view, against its own ray-traced picture.
+Result<std::vector<double>> flips_in(Timed& timed, const NearView& view, const JudgedViews& views,
+                                     std::initializer_list<std::size_t> methods) {
+  const reference::TracedPicture truth =
+      timed.stage->trace(view.camera, views.width, views.height, samples_per_pixel, view.window);
+  const Image8 expected = shading::tone_mapped_picture(truth.radiance, timed.stage->scene().exposure);
+  std::vector<double> flips;
+  for (const std::size_t method : methods) {
+    const Result<double> flip = flip_between(
+        picture_of(*timed.stage, timed.methods[method], view.camera, views.width, views.height, view.window),
+        expected, truth.mirror_mask);
+    if (!flip) return flip.errors();
+    flips.push_back(*flip);
+  }
+  return flips;
+}
+
 /// `city_10km2_flip_over_1km2`, each city against its own ray-traced pictures; the control has no
 /// reflections.
-Status compare_cities(Timed& here, Timed& there, Report& report) {
-  NearViews views(*here.stage, judged_width, judged_height);
+Status compare_cities(Timed& here, Timed& there, const JudgedViews& judged, Report& report) {
+  NearViews views(*here.stage, judged.width, judged.height);
   double flip_here = 0.0, flip_there = 0.0, flip_none = 0.0;
-  for (int i = 0; i < judged_views; ++i) {
+  for (int i = 0; i < judged.count; ++i) {
     const Result<NearView> view = views.next();
     if (!view) return view.errors();
-    const auto flip = [&](Timed& timed, std::size_t method) -> Result<double> {
-      const reference::TracedPicture truth =
-          timed.stage->trace(view->camera, judged_width, judged_height, samples_per_pixel, view->window);
-      const Result<Image8> picture = picture_of(*timed.stage, timed.methods[method], view->camera,
-                                                judged_width, judged_height, view->window);
-      if (!picture) return picture.errors();
-      const Result<reference::Difference> difference = reference::compare(
-          *picture, shading::tone_mapped_picture(truth.radiance, timed.stage->scene().exposure),
-          truth.mirror_mask);
-      if (!difference) return difference.errors();
-      return difference->flip / judged_views;
-    };
-    for (const auto& [timed, method, sum] : {std::tuple{&here, std::size_t{1}, &flip_here},
-                                             {&there, std::size_t{1}, &flip_there},
-                                             {&there, std::size_t{0}, &flip_none}}) {
-      const Result<double> one = flip(*timed, method);
-      if (!one) return one.errors();
-      *sum += *one;
-    }
+    const Result<std::vector<double>> of_one = flips_in(here, *view, judged, {1}),
+                                      of_ten = flips_in(there, *view, judged, {1, 0});
+    if (!of_one) return of_one.errors();
+    if (!of_ten) return of_ten.errors();
+    flip_here += of_one->front() / judged.count;
+    flip_there += of_ten->front() / judged.count;
+    flip_none += of_ten->back() / judged.count;
   }
-  report.note(fmt::format("FLIP of mem: {:.4f} in 1 km2, {:.4f} in 10 km2", flip_here, flip_there));
+  report.note(fmt::format("FLIP of mem in {} views of {} x {}: {:.4f} in 1 km2, {:.4f} in 10 km2",
+                          judged.count, judged.width, judged.height, flip_here, flip_there));
   report.add("city_10km2_flip_over_1km2", flip_there / flip_here, up_to(max_flip_ratio_city));
   report.add_control("city_10km2_flip_over_1km2_without_reflections", flip_none / flip_here,
                      up_to(max_flip_ratio_city));
@@ -215,19 +221,21 @@ Status measure_body_count(const House& house, const scene::Scene& city, const me
     return samples;
   };
   const std::vector<double> of_one = ns_per_pixel(*one), of_many = ns_per_pixel(*many);
+  report.note(
+      "the hundred: the same car a tenth as large, ten by ten on a board across the view; all detail");
   report.add("cost_ratio_100_over_1", ratio_in_turn(of_many, of_one).value, up_to(max_ratio_100));
   report.add("pixel_ns", median(of_one));
   const Result<JudgedMethod> rays = judged_method(*many->stage, "traced", methods::Settings{"traced"});
   if (!rays) return rays.errors();
-  const Result<double> flip = flip_over_none(*many->stage, {many->methods[1], many->methods[0], *rays},
-                                             *camera, width, height, {0, 0, width, height});
+  const Result<FlipOverNone> flip = flip_over_none(*many->stage, {many->methods[1], many->methods[0], *rays},
+                                                   *camera, width, height, {0, 0, width, height});
   if (!flip) return flip.errors();
-  report.add("cost_100_flip_mem_over_none", *flip, shows_reflections);
+  report_shown(*flip, "cost_100_flip_mem_over_none", report);
   return time_control(house, with_one, with_many, *camera, report);
 }
 
 Status measure_city_size(const House& house, const scene::Scene& city, const methods::Settings& reflection,
-                         int repeats, Report& report) {
+                         bool is_quick, int repeats, Report& report) {
   scene::Scene small = without_traffic(house::make_play(house, city).scene);  // cars stand where it begins
   methods::settings(small) = reflection;
   const maps::MapCache kept(small);
@@ -256,7 +264,9 @@ Status measure_city_size(const House& house, const scene::Scene& city, const met
       return status;
   report.add_control("city_10km2_cost_over_1km2_of_four_times_the_pixels",
                      ratio_in_turn(larger_ms, here->ms).value, up_to(max_ratio_city));
-  return compare_cities(*here, *there, report);
+  return compare_cities(*here, *there,
+                        is_quick ? JudgedViews{3, width / 2, height / 2} : JudgedViews{6, width, height},
+                        report);
 }
 
 }  // namespace parvis::bench

@@ -18,6 +18,6 @@ Status measure_body_count(const House& house, const scene::Scene& city, const me
 /// city goes on over ten times the area with ten times the maps. Those of the city must be kept beside its
 /// file.
 Status measure_city_size(const House& house, const scene::Scene& city, const methods::Settings& reflection,
-                         int repeats, Report& report);
+                         bool is_quick, int repeats, Report& report);
 
 }  // namespace parvis::bench

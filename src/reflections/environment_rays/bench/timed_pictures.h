@@ -13,13 +13,18 @@ struct TimedPictures {
   const JudgedMethod& rays;   ///< mirror rays in every pixel (the method traced)
 };
 
-/// FLIP of the timed method's picture over that of the one without reflections, both against the one by rays,
-/// in the frame of now: 1 where the timed method draws no reflections, either; 0 where it shows what rays do.
-/// An error where rays show nothing that the sky alone does not.
-Result<double> flip_over_none(house::Stage& stage, const TimedPictures& methods, const Camera& camera,
-                              int width, int height, const reference::PixelWindow& window);
+/// Against the picture by rays, FLIP over that of the picture without reflections.
+struct FlipOverNone {
+  double timed;       ///< of the timed method: 1 where it draws no reflections; 0 where it shows what rays do
+  double none_again;  ///< without reflections, drawn once more: the control
+};
 
-/// What flip_over_none is to be where a cost is taken.
-inline constexpr Target shows_reflections{0.7, false};
+/// Draws the pictures in the frame of now. An error where rays show nothing that the sky alone does not.
+Result<FlipOverNone> flip_over_none(house::Stage& stage, const TimedPictures& methods, const Camera& camera,
+                                    int width, int height, const reference::PixelWindow& window);
+
+/// Reports the timed method's as `key`, which is to be less than half of what is wrong without reflections,
+/// and the control beside it.
+void report_shown(const FlipOverNone& flip, const std::string& key, Report& report);
 
 }  // namespace parvis::bench

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "graphics/reference/metrics.h"
+#include "bench/flip_between.h"
 #include "graphics/shading/tone_curve.h"
 #include "reflections/methods/settings.h"
 
@@ -20,21 +20,33 @@ bool is_at_crossing(const scene::Scene& scene, glm::vec3 at) {
   });
 }
 
-reference::TracedPicture traced(house::Stage& stage, const NearView& view, int width, int height,
-                                const Truth& truth) {
-  if (!truth.has_exact_shadows)
-    return stage.trace(view.camera, width, height, truth.samples_per_pixel, view.window);
+reference::TracedPicture traced_with_exact_shadows(house::Stage& stage, const NearView& view, int width,
+                                                   int height, int samples_per_pixel) {
   render::Renderer& renderer = stage.renderer();
   renderer.begin_frame(stage.scene(), view.camera);
   shading::DrawnLight light = renderer.drawn_light();
   light.has_exact_shadows = true;
   reference::TraceOptions options;
-  options.samples_per_pixel = truth.samples_per_pixel;
+  options.samples_per_pixel = samples_per_pixel;
   options.window = view.window;
   options.drawn_light = &light;
   options.mirror_bounces = methods::settings(stage.scene()).bounces;
   const reference::RayScene rays(stage.scene());
   return reference::trace_picture(rays, stage.scene(), renderer.sky(), view.camera, width, height, options);
+}
+
+/// FLIP of each picture inside the reflective pixels.
+Result<std::vector<double>> flips_of(const std::vector<Image8>& pictures,
+                                     const reference::TracedPicture& truth, float exposure) {
+  const Image8 expected = shading::tone_mapped_picture(truth.radiance, exposure);
+  std::vector<double> flips;
+  flips.reserve(pictures.size());
+  for (const Image8& picture : pictures) {
+    const Result<double> flip = flip_between(picture, expected, truth.mirror_mask);
+    if (!flip) return flip.errors();
+    flips.push_back(*flip);
+  }
+  return flips;
 }
 
 }  // namespace
@@ -45,22 +57,32 @@ Result<std::vector<ViewFlips>> flips_of_methods(house::Stage& stage, const std::
                                                 const std::function<Status(const NearView&)>& also) {
   NearViews near_views(stage, width, height, wish);
   std::vector<ViewFlips> flips;
+  flips.reserve(views);
+  std::vector<Image8> pictures;
+  pictures.reserve(methods.size());
   for (std::size_t i = 0; i < views; ++i) {
     const Result<NearView> view = near_views.next();
     if (!view) return view.errors();
+    pictures.clear();
+    for (const JudgedMethod& method : methods) {
+      Result<Image8> picture = picture_of(stage, method, view->camera, width, height, view->window);
+      if (!picture) return picture.errors();
+      pictures.push_back(*std::move(picture));
+    }
+    const float exposure = stage.scene().exposure;
+    Result<std::vector<double>> of_method = flips_of(
+        pictures, stage.trace(view->camera, width, height, truth.samples_per_pixel, view->window), exposure);
+    if (!of_method) return of_method.errors();
+    flips.push_back({is_at_crossing(stage.scene(), view->car), *std::move(of_method)});
+    if (truth.also_has_exact_shadows) {
+      Result<std::vector<double>> exactly =
+          flips_of(pictures, traced_with_exact_shadows(stage, *view, width, height, truth.samples_per_pixel),
+                   exposure);
+      if (!exactly) return exactly.errors();
+      flips.back().exactly = *std::move(exactly);
+    }
     if (also)
       if (Status status = also(*view); !status) return status.errors();
-    const reference::TracedPicture right = traced(stage, *view, width, height, truth);
-    const Image8 expected = shading::tone_mapped_picture(right.radiance, stage.scene().exposure);
-    flips.push_back({is_at_crossing(stage.scene(), view->car), {}});
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      const Result<Image8> picture = picture_of(stage, methods[m], view->camera, width, height, view->window);
-      if (!picture) return picture.errors();
-      const Result<reference::Difference> difference =
-          reference::compare(*picture, expected, right.mirror_mask);
-      if (!difference) return difference.errors();
-      flips.back().of_method.push_back(difference->flip);
-    }
   }
   return flips;
 }
@@ -69,6 +91,12 @@ double mean_flip(const std::vector<ViewFlips>& views, std::size_t method) {
   return std::accumulate(views.begin(), views.end(), 0.0,
                          [&](double sum, const ViewFlips& view) { return sum + view.of_method[method]; }) /
          double(std::max(views.size(), std::size_t{1}));
+}
+
+double worst_ratio(const std::vector<ViewFlips>& views, std::size_t method, std::size_t over) {
+  double worst = 0.0;
+  for (const ViewFlips& view : views) worst = std::max(worst, view.of_method[method] / view.of_method[over]);
+  return worst;
 }
 
 void note_flips(const std::vector<JudgedMethod>& methods, const std::vector<ViewFlips>& views,
